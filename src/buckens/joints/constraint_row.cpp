@@ -1,0 +1,120 @@
+#include "buckens/joints/constraint_row.h"
+
+#include <cmath>
+#include <utility>
+
+namespace buckens::joints {
+
+using Eigen::Vector3d;
+using spatial::MarkerBias;
+using spatial::MarkerMotion;
+
+ConstraintRow ConstraintRow::point_world(const Vector3d& e) {
+  ConstraintRow row;
+  row.kind_ = Kind::point_world;
+  row.e_ = e;
+  return row;
+}
+
+ConstraintRow ConstraintRow::point_along(const Vector3d& e_F,
+                                         std::optional<base::TimeLaw> displacement) {
+  ConstraintRow row;
+  row.kind_ = Kind::point_along;
+  row.e_ = e_F;
+  row.law_ = std::move(displacement);
+  return row;
+}
+
+ConstraintRow ConstraintRow::direction(const Vector3d& b_F, const Vector3d& c_M) {
+  ConstraintRow row;
+  row.kind_ = Kind::direction;
+  row.e_ = b_F;
+  row.c_ = c_M;
+  return row;
+}
+
+ConstraintRow ConstraintRow::turning(const Vector3d& axis_F, const Vector3d& x_F,
+                                     const Vector3d& c_M, base::TimeLaw angle) {
+  ConstraintRow row;
+  row.kind_ = Kind::direction;
+  row.axis_ = axis_F;
+  row.e_ = axis_F.cross(x_F);
+  row.c_ = c_M;
+  row.law_ = std::move(angle);
+  return row;
+}
+
+ConstraintRow::TurningVector ConstraintRow::turning_vector(double t,
+                                                           bool with_acceleration) const {
+  TurningVector b{e_, Vector3d::Zero(), Vector3d::Zero()};
+  if (!law_) return b;
+  const double angle = law_->value(t);
+  const double rate = law_->rate(t);
+  // e_ is perpendicular to the axis, so b = cos e + sin (axis × e).
+  const Vector3d side = axis_.cross(e_);
+  b.value = std::cos(angle) * e_ + std::sin(angle) * side;
+  const Vector3d ahead = axis_.cross(b.value);
+  b.rate = rate * ahead;
+  if (with_acceleration) b.acceleration = law_->acceleration(t) * ahead - rate * rate * b.value;
+  return b;
+}
+
+RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t) const {
+  RowValue out;
+  const Vector3d r = M.p - F.p;
+  switch (kind_) {
+    case Kind::point_world:
+      out.g = e_.dot(r);
+      out.J.segment<3>(3) = -e_.transpose();
+      out.J.segment<3>(9) = e_.transpose();
+      break;
+    case Kind::point_along: {
+      const Vector3d e = F.R * e_;
+      out.g = e.dot(r) - (law_ ? law_->value(t) : 0.0);
+      out.g_t = law_ ? -law_->rate(t) : 0.0;
+      out.J.segment<3>(0) = e.cross(r).transpose();
+      out.J.segment<3>(3) = -e.transpose();
+      out.J.segment<3>(9) = e.transpose();
+      break;
+    }
+    case Kind::direction: {
+      const TurningVector b_F = turning_vector(t, false);
+      const Vector3d b = F.R * b_F.value;
+      const Vector3d c = M.R * c_;
+      out.g = b.dot(c);
+      out.g_t = (F.R * b_F.rate).dot(c);
+      const Vector3d b_x_c = b.cross(c);
+      out.J.segment<3>(0) = b_x_c.transpose();
+      out.J.segment<3>(6) = -b_x_c.transpose();
+      break;
+    }
+  }
+  return out;
+}
+
+double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
+                           const MarkerBias& bias_M, double t) const {
+  const Vector3d r = M.p - F.p;
+  const Vector3d r_dot = M.v - F.v;
+  const Vector3d a = bias_M.a - bias_F.a;
+  if (kind_ == Kind::point_world) return e_.dot(a);
+  if (kind_ == Kind::point_along) {
+    const Vector3d e = F.R * e_;
+    const Vector3d e_dot = F.w.cross(e);
+    const Vector3d e_bias = bias_F.alpha.cross(e) + F.w.cross(e_dot);
+    const double drive = law_ ? law_->acceleration(t) : 0.0;
+    return e_bias.dot(r) + 2.0 * e_dot.dot(r_dot) + e.dot(a) - drive;
+  }
+  const TurningVector b_F = turning_vector(t, true);
+  const Vector3d b = F.R * b_F.value;
+  const Vector3d rel = F.R * b_F.rate;
+  const Vector3d c = M.R * c_;
+  const Vector3d b_dot = F.w.cross(b) + rel;
+  const Vector3d c_dot = M.w.cross(c);
+  const Vector3d b_bias = bias_F.alpha.cross(b) + F.w.cross(F.w.cross(b)) + 2.0 * F.w.cross(rel) +
+                          F.R * b_F.acceleration;
+  const Vector3d c_bias = bias_M.alpha.cross(c) + M.w.cross(c_dot);
+  return b_bias.dot(c) + 2.0 * b_dot.dot(c_dot) + b.dot(c_bias);
+}
+
+}  // namespace buckens::joints

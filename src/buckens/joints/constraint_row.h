@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+
+#include "buckens/base/time_law.h"
+#include "buckens/spatial/marker_motion.h"
+
+namespace buckens::joints {
+
+/// Everything one scalar constraint g(X_F, X_M, t) = 0 says at one configuration.
+///
+///     ġ = J V + g_t,      g̈ = J V̇ + bias                                   FM (20), (34)
+///
+/// V holds the twists of both markers (see PairRow). The multiplier λ of the row acts on the markers
+/// with the wrench Jᵀλ.
+struct RowValue {
+  double g = 0;              ///< residual: [m] for point rows, [-] for direction rows
+  double g_t = 0;            ///< partial time derivative of g
+  spatial::PairRow J = spatial::PairRow::Zero();
+};
+
+/// One scalar constraint between marker frames F (first) and M (second).
+///
+/// Every joint is made of three kinds of rows:
+///   - `point_world`: e·(p_M − p_F) = 0 with e fixed in the world;
+///   - `point_along`: (R_F e)·(p_M − p_F) − s(t) = 0 with e fixed in F;
+///   - `direction`:   (R_F b(t))·(R_M c) = 0, b turning about the axis a of F by the law of time
+///                    where there is one.
+class ConstraintRow {
+ public:
+  enum class Kind { point_world, point_along, direction };
+
+  static ConstraintRow point_world(const Eigen::Vector3d& e);
+  /// @param displacement s(t) [m], zero if absent
+  static ConstraintRow point_along(const Eigen::Vector3d& e_F,
+                                   std::optional<base::TimeLaw> displacement = std::nullopt);
+  static ConstraintRow direction(const Eigen::Vector3d& b_F, const Eigen::Vector3d& c_M);
+  /// M's direction c, which coincides with x_F when the angle is zero, turned about `axis_F` by
+  /// angle(t) [rad]. The residual is the sine of the angle error.
+  static ConstraintRow turning(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
+                               const Eigen::Vector3d& c_M, base::TimeLaw angle);
+
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                    double t) const;
+
+  /// Part of g̈ that does not come from the accelerations of the bodies' coordinates.
+  double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              double t) const;
+
+  Kind kind() const { return kind_; }
+  /// True for rows whose residual is a length, false for dimensionless ones.
+  bool is_length() const { return kind_ != Kind::direction; }
+  bool depends_on_time() const { return law_.has_value(); }
+
+ private:
+  /// A vector b(t) fixed in F with its time derivatives there.
+  struct TurningVector {
+    Eigen::Vector3d value, rate, acceleration;
+  };
+  TurningVector turning_vector(double t, bool with_acceleration) const;
+
+  Kind kind_ = Kind::point_world;
+  Eigen::Vector3d e_ = Eigen::Vector3d::Zero();  // world axis, axis in F, or b at angle zero
+  Eigen::Vector3d axis_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d c_ = Eigen::Vector3d::Zero();
+  std::optional<base::TimeLaw> law_;
+};
+
+}  // namespace buckens::joints

@@ -1,0 +1,154 @@
+#include "buckens/joints/joint.h"
+
+#include <array>
+#include <cmath>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::joints {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Below this sine an axis counts as lying in (or normal to) the plane: about 0.01 degrees.
+constexpr double kAlignment = 2e-4;
+
+struct Triad {
+  Vector3d x, y, z;  // in F; z along the joint axis
+};
+
+Triad triad_about(const Vector3d& z, const Placement& placement) {
+  // In a planar model x is chosen normal to the plane or in it, never across.
+  Vector3d hint = Vector3d::UnitX();
+  if (placement.planar) {
+    hint = placement.R_WF.transpose() * spatial::normal(*placement.planar);
+  }
+  if (hint.cross(z).norm() < 0.5) {
+    Eigen::Index smallest = 0;
+    z.cwiseAbs().minCoeff(&smallest);
+    hint = Vector3d::Unit(smallest);
+  }
+  const Vector3d y = z.cross(hint).normalized();
+  return {y.cross(z), y, z};
+}
+
+class RowCollector {
+ public:
+  explicit RowCollector(const Placement& placement) : placement_(placement) {
+    if (placement.planar) normal_W_ = spatial::normal(*placement.planar);
+  }
+
+  void points_in_world() {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (in_plane(Vector3d::Unit(axis))) {
+        rows_.push_back(ConstraintRow::point_world(Vector3d::Unit(axis)));
+      }
+    }
+  }
+
+  void point_along(const Vector3d& e_F, std::optional<base::TimeLaw> law = std::nullopt) {
+    if (in_plane(placement_.R_WF * e_F)) {
+      rows_.push_back(ConstraintRow::point_along(e_F, std::move(law)));
+    }
+  }
+
+  /// R_F b ⊥ R_M c, with c given by its image in F as placed.
+  void perpendicular(const Vector3d& b_F, const Vector3d& c_in_F) {
+    if (in_plane(placement_.R_WF * b_F) && in_plane(placement_.R_WF * c_in_F)) {
+      rows_.push_back(ConstraintRow::direction(b_F, to_M(c_in_F)));
+    }
+  }
+
+  Vector3d to_M(const Vector3d& in_F) const {
+    return placement_.R_WM.transpose() * (placement_.R_WF * in_F);
+  }
+
+  std::vector<ConstraintRow> take() { return std::move(rows_); }
+  void push(ConstraintRow row) { rows_.push_back(std::move(row)); }
+
+ private:
+  bool in_plane(const Vector3d& direction_W) const {
+    return !normal_W_ || std::abs(direction_W.dot(*normal_W_)) < 0.5;
+  }
+
+  const Placement& placement_;
+  std::optional<Vector3d> normal_W_;
+  std::vector<ConstraintRow> rows_;
+};
+
+void check_axis(JointType type, const Placement& placement, const Vector3d& axis) {
+  if (!placement.planar || type == JointType::spherical || type == JointType::fixed) return;
+  const double along_normal =
+      std::abs((placement.R_WF * axis).dot(spatial::normal(*placement.planar)));
+  const bool turns = type == JointType::revolute || type == JointType::prescribed_rotation;
+  if (turns && along_normal < std::sqrt(1.0 - kAlignment * kAlignment)) {
+    throw ModelError("the axis of a " + to_string(type) +
+                     " joint of a planar model must be normal to the plane; "
+                     "leave `axis` out or turn it");
+  }
+  if (!turns && along_normal > kAlignment) {
+    throw ModelError("the axis of a " + to_string(type) +
+                     " joint of a planar model must lie in the plane; turn `axis` into it");
+  }
+}
+
+}  // namespace
+
+std::string to_string(JointType type) {
+  static const std::array<const char*, 6> names = {"revolute",
+                                                   "spherical",
+                                                   "prismatic",
+                                                   "fixed",
+                                                   "prescribed-rotation",
+                                                   "prescribed-translation"};
+  return names[static_cast<std::size_t>(type)];
+}
+
+Vector3d unit_axis(const Placement& placement) {
+  const double length = placement.axis_F.norm();
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    throw ModelError("the joint's axis has no direction; give three numbers, not all zero");
+  }
+  return placement.axis_F / length;
+}
+
+std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement) {
+  const Vector3d axis = unit_axis(placement);
+  check_axis(type, placement, axis);
+  const Triad f = triad_about(axis, placement);
+  RowCollector rows(placement);
+  switch (type) {
+    case JointType::spherical:
+      rows.points_in_world();
+      break;
+    case JointType::revolute:
+      rows.points_in_world();
+      rows.perpendicular(f.x, f.z);
+      rows.perpendicular(f.y, f.z);
+      break;
+    case JointType::prismatic:
+      rows.point_along(f.x);
+      rows.point_along(f.y);
+      rows.perpendicular(f.x, f.y);
+      rows.perpendicular(f.y, f.z);
+      rows.perpendicular(f.z, f.x);
+      break;
+    case JointType::fixed:
+      rows.points_in_world();
+      rows.perpendicular(f.x, f.y);
+      rows.perpendicular(f.y, f.z);
+      rows.perpendicular(f.z, f.x);
+      break;
+    case JointType::prescribed_rotation:
+      rows.push(ConstraintRow::turning(f.z, f.x, rows.to_M(f.x), placement.law.value()));
+      break;
+    case JointType::prescribed_translation:
+      rows.push(ConstraintRow::point_along(f.z, placement.law.value()));
+      break;
+  }
+  return rows.take();
+}
+
+}  // namespace buckens::joints

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/joints/constraint_row.h"
+#include "buckens/spatial/plane.h"
+
+namespace buckens::joints {
+
+/// Kinds of ideal joints. The names are those of the model file.
+enum class JointType {
+  revolute,
+  spherical,
+  prismatic,
+  fixed,
+  prescribed_rotation,
+  prescribed_translation
+};
+
+/// Name of the kind as the model file spells it.
+std::string to_string(JointType type);
+
+/// Orientation of both marker frames as placed, and what the joint needs beside it.
+///
+/// Joints keep the relative orientation that the placed bodies show: directions of M are the images
+/// of F's directions at that moment, and prescribed angles count from it.
+struct Placement {
+  Eigen::Matrix3d R_WF = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_WM = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();  ///< joint axis in F, any length but zero
+  std::optional<spatial::Plane> planar;               ///< keep in-plane rows only
+  std::optional<base::TimeLaw> law;                   ///< angle [rad] or displacement [m]
+};
+
+/// Rows of a joint of the given kind between two marker frames.
+///
+/// Rows per kind (planar in brackets): revolute 5 (2), spherical 3 (2), prismatic 5 (2), fixed 6 (3),
+/// prescribed rotation 1 (1), prescribed translation 1 (1). Cost O(1).
+/// @throws ModelError if the axis is zero or, in a planar model, neither normal to the plane
+///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation)
+std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);
+
+/// Joint axis in F, normalised.
+Eigen::Vector3d unit_axis(const Placement& placement);
+
+}  // namespace buckens::joints

@@ -1,0 +1,31 @@
+#include "buckens/loads/applied_load.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace buckens::loads {
+
+AppliedLoad::AppliedLoad(Kind kind, Axes axes, std::array<base::TimeLaw, 3> value)
+    : kind_(kind), axes_(axes), value_(std::move(value)) {}
+
+Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
+                             const spatial::MarkerMotion& /*second*/) const {
+  Eigen::Vector3d load(value_[0].value(t), value_[1].value(t), value_[2].value(t));
+  if (axes_ == Axes::following) load = first.R * load;
+  Action action;
+  if (kind_ == Kind::force) {
+    action.on_first.force = load;
+    action.active_power = load.dot(first.v);
+  } else {
+    action.on_first.torque = load;
+    action.active_power = load.dot(first.w);
+  }
+  return action;
+}
+
+bool AppliedLoad::is_constant() const {
+  return std::all_of(value_.begin(), value_.end(),
+                     [](const base::TimeLaw& law) { return law.is_constant(); });
+}
+
+}  // namespace buckens::loads

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "buckens/base/time_law.h"
+#include "buckens/loads/force_element.h"
+
+namespace buckens::loads {
+
+/// Force or torque on the first marker by laws of time, in world axes (`fixed`) or in the axes of
+/// the marker (`following`).
+class AppliedLoad final : public ForceElement {
+ public:
+  enum class Kind { force, torque };
+  enum class Axes { fixed, following };
+
+  /// @param value three laws of time [N] or [N m]
+  AppliedLoad(Kind kind, Axes axes, std::array<base::TimeLaw, 3> value);
+
+  Action evaluate(double t, const spatial::MarkerMotion& first,
+                  const spatial::MarkerMotion& second) const override;
+  bool is_constant() const override;
+
+ private:
+  Kind kind_;
+  Axes axes_;
+  std::array<base::TimeLaw, 3> value_;
+};
+
+}  // namespace buckens::loads

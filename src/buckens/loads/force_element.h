@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "buckens/spatial/marker_motion.h"
+
+namespace buckens::loads {
+
+/// What a force element does at one configuration.
+struct Action {
+  spatial::Wrench on_first;    ///< on the first marker, world components
+  spatial::Wrench on_second;   ///< on the second marker, world components
+  double stored_energy = 0;    ///< of its springs [J]
+  double active_power = 0;     ///< power given to the system beyond −d(stored_energy)/dt [W]
+};
+
+/// A direction in which a force element resists: the generalised displacement x with ẋ = J V meets
+/// the generalised force −k x − c ẋ. Only the tangent of the step's iteration is made of it.
+struct SoftRow {
+  spatial::PairRow J = spatial::PairRow::Zero();
+  double stiffness = 0;  ///< [N/m] or [N m/rad]
+  double damping = 0;    ///< [N s/m] or [N m s/rad]
+};
+
+/// A force law between two marker frames. An applied load has the ground as its second marker.
+class ForceElement {
+ public:
+  virtual ~ForceElement() = default;
+
+  virtual Action evaluate(double t, const spatial::MarkerMotion& first,
+                          const spatial::MarkerMotion& second) const = 0;
+
+  /// Number of soft rows, the same at any time; zero for elements without stiffness and damping.
+  virtual int num_soft_rows() const { return 0; }
+
+  /// Appends num_soft_rows() rows.
+  virtual void append_soft_rows(const spatial::MarkerMotion& /*first*/,
+                                const spatial::MarkerMotion& /*second*/,
+                                std::vector<SoftRow>& /*rows*/) const {}
+
+  /// False if the load changes with time by a law; a static start takes its value at t = 0.
+  virtual bool is_constant() const { return true; }
+};
+
+}  // namespace buckens::loads
