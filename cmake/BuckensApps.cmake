@@ -1,0 +1,24 @@
+# The command line program (apps/cli) and the benchmark programs (bench).
+file(GLOB cli_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/*.cpp")
+if(cli_sources)
+  add_executable(buckens_program ${cli_sources})
+  set_target_properties(buckens_program PROPERTIES OUTPUT_NAME buckens)
+  target_include_directories(buckens_program PRIVATE "${PROJECT_SOURCE_DIR}/apps")
+  target_link_libraries(
+    buckens_program PRIVATE buckens buckens_options CLI11::CLI11 spdlog::spdlog
+                            nlohmann_json::nlohmann_json Threads::Threads)
+endif()
+
+if(BUCKENS_BENCH)
+  find_package(benchmark REQUIRED)
+  file(GLOB bench_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/bench/*.cpp")
+  foreach(source IN LISTS bench_sources)
+    cmake_path(GET source STEM name)
+    add_executable(${name} ${source})
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
+    target_compile_definitions(${name} PRIVATE BUCKENS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_link_libraries(
+      ${name} PRIVATE buckens buckens_common benchmark::benchmark
+                      nlohmann_json::nlohmann_json OpenBLAS::OpenBLAS SuiteSparse::CHOLMOD)
+  endforeach()
+endif()

@@ -1,0 +1,14 @@
+# Third-party packages; all are Debian packages, nothing is downloaded. Keep in step with
+# buckensConfig.cmake.in and tools/setup.sh.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(muparser REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(SuiteSparse REQUIRED COMPONENTS CHOLMOD KLU SPQR)
+find_package(OpenBLAS REQUIRED)
+find_package(Spectra REQUIRED)
+find_package(Threads REQUIRED)

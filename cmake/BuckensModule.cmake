@@ -1,0 +1,93 @@
+# One library per module, and the one library that is delivered.
+#
+# buckens_module(name floor [library...]) makes, from src/buckens/<name>/*.cpp,
+#   buckens_<name>_objects  the compiled sources (absent while there are none),
+#   buckens_<name>          what tests and higher floors link: this module and all lower floors.
+# buckens_library() gathers the objects of all modules into buckens::buckens.
+# Sources are globbed: adding a file needs no change here.
+
+# FindHDF5 offers variables; Debian's are those of the serial C library.
+add_library(buckens_hdf5 INTERFACE)
+target_include_directories(buckens_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
+target_compile_definitions(buckens_hdf5 INTERFACE ${HDF5_C_DEFINITIONS})
+target_link_libraries(buckens_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
+
+set(BUCKENS_GENERATED_DIR "${PROJECT_BINARY_DIR}/generated")
+
+# Settings of everything that is compiled from this project's own sources.
+add_library(buckens_common INTERFACE)
+target_include_directories(buckens_common INTERFACE "${PROJECT_SOURCE_DIR}/src"
+                                                    "${BUCKENS_GENERATED_DIR}")
+target_link_libraries(buckens_common INTERFACE Eigen3::Eigen fmt::fmt buckens_options)
+if(BUCKENS_NATIVE)
+  target_compile_options(buckens_common INTERFACE -march=native)
+endif()
+
+function(buckens_module name floor)
+  # Lower floors in the order in which the linker wants them: highest first.
+  set(lower "")
+  set(third_party ${ARGN})
+  get_property(modules GLOBAL PROPERTY BUCKENS_MODULES)
+  foreach(other IN LISTS modules)
+    get_property(other_floor GLOBAL PROPERTY BUCKENS_FLOOR_${other})
+    if(other_floor LESS floor)
+      list(PREPEND lower buckens_${other})
+      get_property(other_third_party GLOBAL PROPERTY BUCKENS_THIRD_PARTY_${other})
+      list(APPEND third_party ${other_third_party})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES third_party)
+
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${name}/*.cpp")
+  if(sources)
+    add_library(buckens_${name}_objects OBJECT ${sources})
+    target_link_libraries(buckens_${name}_objects PRIVATE buckens_common ${third_party})
+    add_library(buckens_${name} STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:buckens_${name}_objects>)
+    set_target_properties(buckens_${name} PROPERTIES LINKER_LANGUAGE CXX)
+    target_link_libraries(buckens_${name} PUBLIC ${lower} buckens_common ${third_party})
+    set_property(GLOBAL APPEND PROPERTY BUCKENS_OBJECTS buckens_${name}_objects)
+  else()
+    add_library(buckens_${name} INTERFACE)
+    target_link_libraries(buckens_${name} INTERFACE ${lower} buckens_common ${third_party})
+  endif()
+
+  set_property(GLOBAL PROPERTY BUCKENS_FLOOR_${name} ${floor})
+  set_property(GLOBAL PROPERTY BUCKENS_THIRD_PARTY_${name} ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY BUCKENS_MODULES ${name})
+  set_property(GLOBAL APPEND PROPERTY BUCKENS_THIRD_PARTY ${ARGN})
+endfunction()
+
+# The version stands in the file VERSION alone.
+configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
+               "${BUCKENS_GENERATED_DIR}/buckens/base/version.h" @ONLY)
+
+function(buckens_library)
+  get_property(object_libraries GLOBAL PROPERTY BUCKENS_OBJECTS)
+  get_property(third_party GLOBAL PROPERTY BUCKENS_THIRD_PARTY)
+  set(parts "")
+  foreach(objects IN LISTS object_libraries)
+    list(APPEND parts $<TARGET_OBJECTS:${objects}>)
+  endforeach()
+  # An archive needs at least one member.
+  set(stub "${BUCKENS_GENERATED_DIR}/buckens_library.cpp")
+  file(CONFIGURE OUTPUT "${stub}" CONTENT
+       "#include \"buckens/base/version.h\"\nnamespace { [[maybe_unused]] const char* version = buckens::kVersion; }\n")
+  add_library(buckens STATIC ${parts} "${stub}")
+  add_library(buckens::buckens ALIAS buckens)
+  target_compile_features(buckens PUBLIC cxx_std_20)
+  target_include_directories(
+    buckens PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                   $<BUILD_INTERFACE:${BUCKENS_GENERATED_DIR}> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(buckens PUBLIC Eigen3::Eigen fmt::fmt)
+  if(BUCKENS_NATIVE)
+    # Eigen's alignment depends on the processor flags, so users of the library must share them.
+    target_compile_options(buckens PUBLIC -march=native)
+  endif()
+  if(BUCKENS_SANITIZE)
+    target_link_options(buckens PUBLIC -fsanitize=${BUCKENS_SANITIZE})
+  endif()
+  list(REMOVE_DUPLICATES third_party)
+  list(REMOVE_ITEM third_party Eigen3::Eigen fmt::fmt buckens_hdf5)
+  target_link_libraries(buckens PRIVATE ${third_party} $<BUILD_INTERFACE:buckens_hdf5>
+                                        $<BUILD_INTERFACE:buckens_options>)
+endfunction()

@@ -1,0 +1,78 @@
+# Tests, found by globbing:
+#   src/buckens/<module>/test/*_test.cpp  -> <module>_test      label unit
+#   verification/*/*_test.cpp             -> verification_test  label verify
+#   apps/cli/test/*_test.cpp              -> cli_test           label unit
+#   tests/test_*.py                       -> pytest, one entry per file, label cli
+#   tests/kill/*.cpp                      -> programs used by those
+# The install test stands in BuckensInstall.cmake, the viewer's in BuckensViewer.cmake.
+if(NOT BUCKENS_TESTS)
+  return()
+endif()
+
+find_package(GTest REQUIRED)
+include(GoogleTest)
+# Debian's interpreter, whatever else stands on PATH: it has h5py and pytest from packages.
+find_program(BUCKENS_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(NOT BUCKENS_PYTHON)
+  find_program(BUCKENS_PYTHON python3 REQUIRED)
+endif()
+
+# buckens_test(name label library source...)
+function(buckens_test name label library)
+  add_executable(${name} ${ARGN})
+  target_compile_definitions(${name} PRIVATE BUCKENS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                             BUCKENS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${library} buckens_common nlohmann_json::nlohmann_json
+                                        GTest::gmock GTest::gtest GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+  # One entry per program: starting a process per test case costs more than the tests.
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1
+           WORKING_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600)
+endfunction()
+
+get_property(modules GLOBAL PROPERTY BUCKENS_MODULES)
+foreach(module IN LISTS modules)
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${module}/test/*.cpp")
+  if(sources)
+    buckens_test(${module}_test unit buckens_${module} ${sources})
+  endif()
+endforeach()
+
+file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/verification/*/*_test.cpp"
+     "${PROJECT_SOURCE_DIR}/verification/*.cpp")
+if(sources)
+  buckens_test(verification_test verify buckens ${sources})
+endif()
+
+file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/test/*_test.cpp")
+if(sources)
+  file(GLOB program CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/*.cpp")
+  list(FILTER program EXCLUDE REGEX "/main\\.cpp$")
+  buckens_test(cli_test unit buckens ${sources} ${program})
+  target_include_directories(cli_test PRIVATE "${PROJECT_SOURCE_DIR}/apps")
+  target_link_libraries(cli_test PRIVATE CLI11::CLI11 spdlog::spdlog Threads::Threads)
+endif()
+
+file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")
+foreach(source IN LISTS kill_sources)
+  cmake_path(GET source STEM name)
+  add_executable(${name} ${source})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+  target_link_libraries(${name} PRIVATE buckens buckens_common)
+endforeach()
+
+file(GLOB python_tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/test_*.py"
+     "${PROJECT_SOURCE_DIR}/tests/*/test_*.py")
+foreach(source IN LISTS python_tests)
+  cmake_path(GET source STEM name)
+  string(REGEX REPLACE "^test_" "" name "${name}")
+  add_test(NAME cli.${name} COMMAND ${BUCKENS_PYTHON} -m pytest -q -p no:cacheprovider ${source})
+  set_tests_properties(
+    cli.${name}
+    PROPERTIES
+      LABELS cli TIMEOUT 900
+      ENVIRONMENT
+      "BUCKENS_PROGRAM=${PROJECT_BINARY_DIR}/bin/buckens;BUCKENS_SOURCE_DIR=${PROJECT_SOURCE_DIR};BUCKENS_BINARY_DIR=${PROJECT_BINARY_DIR};PYTHONDONTWRITEBYTECODE=1")
+endforeach()
