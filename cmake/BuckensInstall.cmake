@@ -1,0 +1,49 @@
+# Installation: program, library, headers, CMake package, and the files the program reads.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/buckens")
+
+install(TARGETS buckens EXPORT buckensTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(
+  DIRECTORY "${PROJECT_SOURCE_DIR}/src/buckens" "${BUCKENS_GENERATED_DIR}/buckens"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  FILES_MATCHING
+  PATTERN "*.h"
+  PATTERN "test" EXCLUDE)
+install(EXPORT buckensTargets NAMESPACE buckens:: DESTINATION "${package_dir}")
+configure_package_config_file(cmake/buckensConfig.cmake.in
+                              "${PROJECT_BINARY_DIR}/buckensConfig.cmake"
+                              INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/buckensConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(
+  FILES "${PROJECT_BINARY_DIR}/buckensConfig.cmake" "${PROJECT_BINARY_DIR}/buckensConfigVersion.cmake"
+        cmake/FindSuiteSparse.cmake cmake/FindOpenBLAS.cmake cmake/FindHDF5Serial.cmake
+  DESTINATION "${package_dir}")
+install(FILES LICENSE NOTICE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+if(TARGET buckens_program)
+  install(TARGETS buckens_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+if(TARGET buckens_viewer)
+  install(FILES "${BUCKENS_VIEWER_PAGE}" DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens")
+endif()
+if(EXISTS "${PROJECT_SOURCE_DIR}/schema")
+  install(DIRECTORY schema DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens")
+endif()
+if(EXISTS "${PROJECT_SOURCE_DIR}/examples")
+  install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens")
+endif()
+
+if(BUCKENS_TESTS)
+  # An outside project is configured, built and run against an installation of this build.
+  add_test(
+    NAME install
+    COMMAND
+      "${CMAKE_COMMAND}" -D "BUILD_DIR=${PROJECT_BINARY_DIR}"
+      -D "SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/install" -D "GENERATOR=${CMAKE_GENERATOR}" -D
+      "CXX_COMPILER=${CMAKE_CXX_COMPILER}" -D "CXX_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}" -D
+      "VERSION=${PROJECT_VERSION}" -P "${PROJECT_SOURCE_DIR}/tests/install/run.cmake")
+  set_tests_properties(install PROPERTIES LABELS install TIMEOUT 600)
+endif()

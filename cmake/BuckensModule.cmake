@@ -6,12 +6,6 @@
 # buckens_library() gathers the objects of all modules into buckens::buckens.
 # Sources are globbed: adding a file needs no change here.
 
-# FindHDF5 offers variables; Debian's are those of the serial C library.
-add_library(buckens_hdf5 INTERFACE)
-target_include_directories(buckens_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
-target_compile_definitions(buckens_hdf5 INTERFACE ${HDF5_C_DEFINITIONS})
-target_link_libraries(buckens_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
-
 set(BUCKENS_GENERATED_DIR "${PROJECT_BINARY_DIR}/generated")
 
 # Settings of everything that is compiled from this project's own sources.
@@ -87,7 +81,6 @@ function(buckens_library)
     target_link_options(buckens PUBLIC -fsanitize=${BUCKENS_SANITIZE})
   endif()
   list(REMOVE_DUPLICATES third_party)
-  list(REMOVE_ITEM third_party Eigen3::Eigen fmt::fmt buckens_hdf5)
-  target_link_libraries(buckens PRIVATE ${third_party} $<BUILD_INTERFACE:buckens_hdf5>
-                                        $<BUILD_INTERFACE:buckens_options>)
+  list(REMOVE_ITEM third_party Eigen3::Eigen fmt::fmt)
+  target_link_libraries(buckens PRIVATE ${third_party} $<BUILD_INTERFACE:buckens_options>)
 endfunction()
