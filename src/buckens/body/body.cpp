@@ -1,0 +1,99 @@
+#include "buckens/body/body.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "buckens/base/errors.h"
+#include "buckens/body/rigid_modes.h"
+
+namespace buckens::body {
+
+using Eigen::Vector3d;
+
+namespace {
+
+// Principal moments below this share of the largest are taken as missing.
+constexpr double kNoInertia = 1e-10;
+
+Sieve make_sieve(const std::string& body, const fem::FeModel& fe) {
+  std::vector<Vector3d> positions;
+  positions.reserve(fe.nodes.size());
+  for (const auto& node : fe.nodes) positions.push_back(node.position);
+  const linalg::Matrix Phi = rigid_modes(positions, fe.dofs, fe.shape.com);
+  check_stiffness_is_free(body, fe.K, Phi, fe);
+  return Sieve(Phi, fe.M);
+}
+
+linalg::SparseMatrix damping_matrix(const fem::FeModel& fe, double mass_damping) {
+  linalg::SparseMatrix C = mass_damping * fe.M;
+  if (fe.K_damping.nonZeros() > 0) C += fe.K_damping;
+  if (mass_damping == 0.0 && fe.K_damping.nonZeros() == 0) C.setZero();
+  return C;
+}
+
+}  // namespace
+
+std::string to_string(CouplingLevel level) {
+  return level == CouplingLevel::full ? "full" : "none";
+}
+
+FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, double mass_damping,
+                           CouplingLevel level)
+    : fe(std::move(model)),
+      sieve(make_sieve(body, fe)),
+      invariants(fe.shape),
+      C(damping_matrix(fe, mass_damping)),
+      coupling(level) {}
+
+int Body::find_marker(const std::string& marker) const {
+  const auto found = std::find_if(markers.begin(), markers.end(),
+                                  [&](const Marker& m) { return m.name == marker; });
+  return found == markers.end() ? -1 : static_cast<int>(found - markers.begin());
+}
+
+Eigen::VectorXd Body::row_values(const linalg::Vector& d) const {
+  if (!flexible) return {};
+  return flexible->rows * d;
+}
+
+double Body::length_scale() const {
+  return std::max(1e-9, std::sqrt(0.5 * J0.trace() / mass));
+}
+
+void select_frame_coordinates(Body& body, const std::optional<Vector3d>& plane_normal,
+                              std::vector<std::string>& notes) {
+  body.rotation_basis.resize(3, 0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(body.J0);
+  const double largest = eigen.eigenvalues()[2];
+  const auto add_rotation = [&](const Vector3d& axis, double moment) {
+    if (largest > 0.0 && moment > kNoInertia * largest) {
+      body.rotation_basis.conservativeResize(3, body.rotation_basis.cols() + 1);
+      body.rotation_basis.rightCols<1>() = axis;
+      return;
+    }
+    notes.push_back(fmt::format(
+        "body \"{}\" has no rotary inertia about ({:.3g}, {:.3g}, {:.3g}); its frame does not turn "
+        "about this axis",
+        body.name, axis.x(), axis.y(), axis.z()));
+  };
+  if (plane_normal) {
+    add_rotation(*plane_normal, plane_normal->dot(body.J0 * *plane_normal));
+    body.translation_basis.resize(3, 2);
+    const Vector3d first = plane_normal->unitOrthogonal();
+    body.translation_basis << first, plane_normal->cross(first);
+    return;
+  }
+  body.translation_basis = Eigen::Matrix3d::Identity();
+  // Eigenvectors only where something is missing: otherwise the body axes stay readable.
+  if (eigen.eigenvalues()[0] > kNoInertia * largest && largest > 0.0) {
+    body.rotation_basis = Eigen::Matrix3d::Identity();
+    return;
+  }
+  for (int k = 0; k < 3; ++k) add_rotation(eigen.eigenvectors().col(k), eigen.eigenvalues()[k]);
+}
+
+}  // namespace buckens::body

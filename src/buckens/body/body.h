@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/body/inertia_invariants.h"
+#include "buckens/body/marker.h"
+#include "buckens/body/sieve.h"
+#include "buckens/fem/fe_model.h"
+
+namespace buckens::body {
+
+/// Which inertial coupling terms between frame and nodal variables are kept.
+///
+/// `full`: all of them, from the exact kinetic energy FM (13). `none`: the body's frame moves like
+/// that of a rigid body, its mesh vibrates as at rest; derives from a kinetic energy with J₀.
+enum class CouplingLevel { none, full };
+
+std::string to_string(CouplingLevel level);
+
+/// The finite-element share of a body: everything with n rows.
+struct FlexiblePart {
+  fem::FeModel fe;
+  Sieve sieve;
+  InertiaInvariants invariants;
+  linalg::SparseMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
+  CouplingLevel coupling = CouplingLevel::full;
+
+  /// Rows y = N d of all markers; the first `num_interface_rows` belong to markers that joints and
+  /// loads use.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows;
+  int num_interface_rows = 0;
+
+  /// @throws ModelError if rigid motion strains the mesh or the mesh is a mechanism
+  FlexiblePart(const std::string& body, fem::FeModel model, double mass_damping,
+               CouplingLevel level);
+  FlexiblePart(const FlexiblePart&) = delete;
+  FlexiblePart& operator=(const FlexiblePart&) = delete;
+
+  Eigen::Index num_dofs() const { return fe.M.rows(); }
+  bool is_damped() const { return C.nonZeros() > 0; }
+};
+
+/// A body of the model: a Buckens frame B that carries all large motion, and for flexible bodies a
+/// mesh that deforms in it. A rigid body is the same thing without nodal variables.
+///
+/// B has its origin at the mass centre and axes parallel to the body's model axes.
+class Body {
+ public:
+  std::string name;
+  double mass = 0;                                          ///< [kg]
+  Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();             ///< about the mass centre [kg m²]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();            ///< mass centre in model axes [m]
+  /// Orthonormal bases of the frame coordinates in use: rotations in body axes (3×0…3),
+  /// translations in world axes (3×2…3). Planar models and missing inertia shorten them.
+  Eigen::Matrix<double, 3, Eigen::Dynamic> rotation_basis;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> translation_basis;
+  std::vector<Marker> markers;
+  std::unique_ptr<FlexiblePart> flexible;  ///< empty for rigid bodies
+
+  bool is_flexible() const { return flexible != nullptr; }
+  Eigen::Index num_dofs() const { return flexible ? flexible->num_dofs() : 0; }
+  int num_rows() const { return flexible ? static_cast<int>(flexible->rows.rows()) : 0; }
+  int num_interface_rows() const { return flexible ? flexible->num_interface_rows : 0; }
+
+  /// Index of the marker with this name, −1 if there is none.
+  int find_marker(const std::string& marker) const;
+  /// y = N d for all marker rows; empty for rigid bodies.
+  Eigen::VectorXd row_values(const linalg::Vector& d) const;
+  /// |w|-independent size used to judge rotations and rigid residuals [m]: √(tr J0 / 2m), the
+  /// radius of gyration, at least 1e-9.
+  double length_scale() const;
+};
+
+/// Bases of the frame coordinates that carry inertia, rank-revealing.
+/// @param planar normal of the plane in world axes at the initial orientation, zero for 3-D
+/// @param note receives a sentence for each dropped rotation
+void select_frame_coordinates(Body& body, const std::optional<Eigen::Vector3d>& plane_normal,
+                              std::vector<std::string>& notes);
+
+}  // namespace buckens::body

@@ -1,0 +1,135 @@
+#include "buckens/body/inertia_invariants.h"
+
+#include <array>
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::body {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using linalg::Matrix;
+using linalg::Vector;
+
+namespace {
+
+// Places (a, b) of the six stored matrices W_ab, a ≤ b.
+constexpr std::array<std::array<int, 2>, 6> kPairs = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+Matrix3d to_inertia(const Matrix3d& second_moment) {
+  return second_moment.trace() * Matrix3d::Identity() - second_moment;
+}
+
+/// (T_23 − T_32, T_31 − T_13, T_12 − T_21).
+Vector3d axial(const Matrix3d& T) {
+  return {T(1, 2) - T(2, 1), T(2, 0) - T(0, 2), T(0, 1) - T(1, 0)};
+}
+
+/// Weights A with Σ A_ab W_ab = Σ w_a H_a.
+Matrix3d gyroscopic_weights(const Vector3d& w) { return -spatial::skew(w); }
+
+/// T_ab = xᵀ W_ab y for all nine pairs, from the stored six.
+Matrix3d bilinear(const fem::ShapeIntegrals& shape, const Vector& x, const Vector& y) {
+  Matrix3d T = Matrix3d::Zero();
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    const auto [a, b] = kPairs[k];
+    if (shape.W[k].nonZeros() == 0) continue;
+    const Vector Wy = shape.W[k] * y;
+    T(a, b) = x.dot(Wy);
+    if (a == b) continue;
+    const Vector Wx = shape.W[k] * x;
+    T(b, a) = y.dot(Wx);
+  }
+  return T;
+}
+
+}  // namespace
+
+InertiaInvariants::InertiaInvariants(const fem::ShapeIntegrals& shape) : shape_(&shape) {
+  patterns_.resize(shape.c.rows(), 6);
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    const auto [a, b] = kPairs[k];
+    const auto column = static_cast<Eigen::Index>(k);
+    patterns_.col(column) = shape.c.col(3 * a + b);
+    if (a != b) patterns_.col(column) += shape.c.col(3 * b + a);
+  }
+}
+
+Matrix3d InertiaInvariants::rotary_inertia(const Vector& d) const {
+  Matrix3d S1;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) S1(a, b) = shape_->c.col(3 * a + b).dot(d);
+  }
+  return shape_->J0 + to_inertia(S1 + S1.transpose() + bilinear(*shape_, d, d));
+}
+
+Vector3d InertiaInvariants::relative_momentum(const Vector& d, const Vector& d_dot) const {
+  return axial(bilinear(*shape_, d, d_dot));
+}
+
+DeformedMoments InertiaInvariants::moments(const Vector& d, const Vector& d_dot,
+                                           const Vector& d_ddot) const {
+  Matrix3d S1 = Matrix3d::Zero();
+  Matrix3d S1_dot = Matrix3d::Zero();
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      S1(a, b) = shape_->c.col(3 * a + b).dot(d);
+      S1_dot(a, b) = shape_->c.col(3 * a + b).dot(d_dot);
+    }
+  }
+  // One pass over W with W_ab d and W_abᵀ d gives xᵀW_ab d and dᵀW_ab x for every x.
+  Matrix3d T_dd = Matrix3d::Zero();
+  Matrix3d T_d_rate = Matrix3d::Zero();
+  Matrix3d T_d_acceleration = Matrix3d::Zero();
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    const auto [a, b] = kPairs[k];
+    const auto& W = shape_->W[k];
+    if (W.nonZeros() == 0) continue;
+    const Vector left = W.transpose() * d;  // dᵀW_ab x = left·x
+    T_dd(a, b) = left.dot(d);
+    T_d_rate(a, b) = left.dot(d_dot);
+    T_d_acceleration(a, b) = left.dot(d_ddot);
+    if (a == b) continue;
+    const Vector right = W * d;  // dᵀW_ba x = right·x
+    T_dd(b, a) = T_dd(a, b);
+    T_d_rate(b, a) = right.dot(d_dot);
+    T_d_acceleration(b, a) = right.dot(d_ddot);
+  }
+  DeformedMoments out;
+  out.J = shape_->J0 + to_inertia(S1 + S1.transpose() + T_dd);
+  out.J_dot = to_inertia(S1_dot + S1_dot.transpose() + T_d_rate + T_d_rate.transpose());
+  out.l = axial(T_d_rate);
+  out.l_dot = axial(T_d_acceleration);
+  return out;
+}
+
+void InertiaInvariants::add_weighted(const Matrix3d& A, const Vector& x, Vector& y) const {
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    const auto [a, b] = kPairs[k];
+    const auto& W = shape_->W[k];
+    if (W.nonZeros() == 0) continue;
+    if (A(a, b) != 0.0) y.noalias() += A(a, b) * (W * x);
+    if (a != b && A(b, a) != 0.0) y.noalias() += A(b, a) * (W.transpose() * x);
+  }
+}
+
+Vector InertiaInvariants::deformation_load(const Vector& d, const Vector& d_dot, const Vector3d& w,
+                                           const Vector3d& w_dot) const {
+  Vector load = Vector::Zero(d.size());
+  const Matrix3d centrifugal = w.squaredNorm() * Matrix3d::Identity() - w * w.transpose();
+  add_weighted(centrifugal + gyroscopic_weights(w_dot), d, load);
+  add_weighted(2.0 * gyroscopic_weights(w), d_dot, load);
+  return load;
+}
+
+Eigen::Matrix<double, 6, 1> InertiaInvariants::centrifugal_weights(const Vector3d& w) {
+  const Matrix3d A = w.squaredNorm() * Matrix3d::Identity() - w * w.transpose();
+  Eigen::Matrix<double, 6, 1> weights;
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    weights[static_cast<Eigen::Index>(k)] = A(kPairs[k][0], kPairs[k][1]);
+  }
+  return weights;
+}
+
+}  // namespace buckens::body

@@ -1,0 +1,73 @@
+#include "buckens/body/marker.h"
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::body {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+Vector3d rows(const VectorXd& y, int first) {
+  return first < 0 ? Vector3d::Zero() : Vector3d(y.segment<3>(first));
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 6, 1> MarkerKinematics::frame_load(const spatial::Wrench& wrench) const {
+  Eigen::Matrix<double, 6, 1> load;
+  load.head<3>() =
+      R_WB.transpose() * wrench.torque + z.cross(R_WB.transpose() * wrench.force);
+  load.tail<3>() = wrench.force;
+  return load;
+}
+
+Eigen::Matrix<double, 6, 1> MarkerKinematics::interface_load(const spatial::Wrench& wrench) const {
+  Eigen::Matrix<double, 6, 1> load;
+  load.head<3>() = R_WB.transpose() * wrench.force;
+  load.tail<3>() = rotation_map.transpose() * (R_WB.transpose() * wrench.torque);
+  return load;
+}
+
+MarkerKinematics marker_kinematics(const Marker& marker, const FrameMotion& frame,
+                                   const VectorXd& y, const VectorXd& y_dot) {
+  MarkerKinematics out;
+  out.R_WB = frame.X_WB.R();
+  out.z = marker.X_BF.p + rows(y, marker.translation_row);
+  const Vector3d z_dot = rows(y_dot, marker.translation_row);
+  Matrix3d R_BF = marker.X_BF.R();
+  Vector3d w_relative = Vector3d::Zero();
+  out.rotation_map.setIdentity();
+  if (marker.rotation_row >= 0) {
+    const Vector3d theta = rows(y, marker.rotation_row);
+    out.rotation_map = spatial::left_jacobian(theta);
+    w_relative = out.rotation_map * rows(y_dot, marker.rotation_row);
+    R_BF = spatial::exp_rotation(theta).toRotationMatrix() * R_BF;
+  }
+  out.motion.p = frame.X_WB.p + out.R_WB * out.z;
+  out.motion.R = out.R_WB * R_BF;
+  out.motion.w = out.R_WB * (frame.w + w_relative);
+  out.motion.v = frame.v + out.R_WB * (frame.w.cross(out.z) + z_dot);
+  return out;
+}
+
+spatial::MarkerBias marker_bias(const Marker& marker, const FrameMotion& frame, const VectorXd& y,
+                                const VectorXd& y_dot) {
+  const Matrix3d R = frame.X_WB.R();
+  const Vector3d& w = frame.w;
+  const Vector3d z = marker.X_BF.p + rows(y, marker.translation_row);
+  const Vector3d z_dot = rows(y_dot, marker.translation_row);
+  spatial::MarkerBias bias;
+  bias.a = R * (w.cross(w.cross(z)) + 2.0 * w.cross(z_dot));
+  if (marker.rotation_row >= 0) {
+    const Vector3d theta = rows(y, marker.rotation_row);
+    const Vector3d theta_dot = rows(y_dot, marker.rotation_row);
+    const Vector3d w_relative = spatial::left_jacobian(theta) * theta_dot;
+    bias.alpha = R * (w.cross(w_relative) + spatial::left_jacobian_rate(theta, theta_dot));
+  }
+  return bias;
+}
+
+}  // namespace buckens::body

@@ -1,0 +1,53 @@
+#include "buckens/body/sieve.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace buckens::body {
+
+using linalg::Matrix;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+// Eigenvalues of the diagonally scaled S below this are motions without inertia.
+constexpr double kNoInertia = 1e-12;
+}  // namespace
+
+Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
+  S_ = Phi.transpose() * (M * Phi);
+  S_ = 0.5 * (S_ + S_.transpose().eval());
+  Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Zero();
+  const double translation = S_.diagonal().head<3>().maxCoeff();
+  const double rotation = S_.diagonal().tail<3>().maxCoeff();
+  for (int k = 0; k < 6; ++k) {
+    const double reference = k < 3 ? translation : rotation;
+    if (S_(k, k) > kNoInertia * reference) scale[k] = 1.0 / std::sqrt(S_(k, k));
+  }
+  const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * S_ * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scaled);
+  to_axes_.resize(6, 0);
+  for (int k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()[k] < kNoInertia) continue;
+    to_axes_.conservativeResize(6, to_axes_.cols() + 1);
+    to_axes_.rightCols<1>() =
+        scale.cwiseProduct(eigen.eigenvectors().col(k)) / std::sqrt(eigen.eigenvalues()[k]);
+  }
+  Phi_ = Phi * to_axes_;
+  P_ = M * Phi_;
+}
+
+void Sieve::apply(Vector& d) const { d.noalias() -= Phi_ * (P_.transpose() * d); }
+
+void Sieve::apply(Matrix& columns) const {
+  const Matrix amplitudes = P_.transpose() * columns;
+  columns.noalias() -= Phi_ * amplitudes;
+}
+
+void Sieve::apply_transposed(Vector& f) const { f.noalias() -= P_ * (Phi_.transpose() * f); }
+
+Eigen::Matrix<double, 6, 1> Sieve::rigid_part(const Vector& d) const {
+  return to_axes_ * (P_.transpose() * d);
+}
+
+}  // namespace buckens::body

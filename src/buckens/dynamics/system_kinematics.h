@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::dynamics {
+
+/// Motion of one body at one instant, reduced to what joints and loads can see.
+struct BodyMotion {
+  body::FrameMotion frame;
+  Eigen::VectorXd y, y_dot;  ///< marker rows of a flexible body
+};
+
+/// Derivatives of one scalar with respect to one body: frame coordinates (rotation in body axes,
+/// translation in world axes) and six interface values.
+struct BodyRow {
+  int body = model::kGround;
+  Eigen::Matrix<double, 1, 6> frame = Eigen::Matrix<double, 1, 6>::Zero();
+  int translation_row = -1;  ///< first of three interface rows, −1: none
+  int rotation_row = -1;
+  Eigen::Matrix<double, 1, 6> interface = Eigen::Matrix<double, 1, 6>::Zero();
+
+  /// Rate of the scalar by this body's motion.
+  double rate(const BodyMotion& motion) const;
+  /// Change of the scalar by a displacement of the body.
+  double change(const Eigen::Matrix<double, 6, 1>& u, const Eigen::VectorXd& y) const;
+};
+
+/// Both bodies' shares of a scalar between two markers.
+struct SystemRow {
+  BodyRow first, second;
+};
+
+/// Kinematics of one marker, on a body or on the ground.
+body::MarkerKinematics evaluate_marker(const model::Model& model, const model::MarkerId& id,
+                                       const std::vector<BodyMotion>& motions);
+
+/// Marker acceleration that remains when all coordinate accelerations vanish.
+spatial::MarkerBias evaluate_bias(const model::Model& model, const model::MarkerId& id,
+                                  const std::vector<BodyMotion>& motions);
+
+/// Chains the derivatives with respect to marker twists to those of the bodies' coordinates.
+SystemRow system_row(const model::Model& model, const model::MarkerId& first,
+                     const body::MarkerKinematics& first_kinematics,
+                     const model::MarkerId& second,
+                     const body::MarkerKinematics& second_kinematics, const spatial::PairRow& J);
+
+/// Motions of all bodies at a state.
+std::vector<BodyMotion> motions_of(const model::Model& model, const model::State& state);
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// LU factors of a small sparse matrix whose pattern never changes while its values do.
+///
+/// Backend KLU: the ordering is computed once; each factorise() reuses the pivots of the last one
+/// while they stay good (reciprocal pivot growth), and pivots anew otherwise.
+class SparseLu {
+ public:
+  /// @param pattern square matrix in compressed form; the values are not read
+  explicit SparseLu(const SparseMatrix& pattern);
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  /// @param A the pattern of the constructor with new values
+  /// @return false if A is singular to working precision
+  bool factorise(const SparseMatrix& A);
+  /// Ratio of the smallest to the largest pivot; cheap estimate of 1/condition.
+  double pivot_ratio() const;
+  /// x ← A⁻¹ x with the last factorisation.
+  void solve_in_place(Vector& x) const;
+
+ private:
+  struct Backend;
+  std::unique_ptr<Backend> backend_;
+};
+
+}  // namespace buckens::linalg

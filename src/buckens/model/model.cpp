@@ -1,0 +1,40 @@
+#include "buckens/model/model.h"
+
+#include <algorithm>
+
+#include "buckens/model/state.h"
+
+namespace buckens::model {
+
+int Model::num_constraint_rows() const {
+  return joints.empty() ? 0
+                        : joints.back().first_row + static_cast<int>(joints.back().rows.size());
+}
+
+std::pair<const Joint*, int> Model::owner_of_row(int row) const {
+  const auto next = std::upper_bound(joints.begin(), joints.end(), row,
+                                     [](int r, const Joint& j) { return r < j.first_row; });
+  const Joint* joint = &*(next - 1);
+  return {joint, row - joint->first_row};
+}
+
+int Model::find_body(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const body::Body& b) { return b.name == name; });
+  return found == bodies.end() ? kGround : static_cast<int>(found - bodies.begin());
+}
+
+State placed_state(const Model& model) {
+  State state;
+  state.bodies.resize(model.bodies.size());
+  for (std::size_t k = 0; k < model.bodies.size(); ++k) {
+    BodyState& body = state.bodies[k];
+    body.frame.X_WB = model.placed[k];
+    const Eigen::Index n = model.bodies[k].num_dofs();
+    body.d = body.d_dot = body.d_ddot = body.d_alg = linalg::Vector::Zero(n);
+  }
+  state.lambda = linalg::Vector::Zero(model.num_constraint_rows());
+  return state;
+}
+
+}  // namespace buckens::model

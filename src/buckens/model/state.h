@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "buckens/body/body.h"
+#include "buckens/model/model.h"
+
+namespace buckens::model {
+
+/// Inertial coupling of one flexible body at one instant: the terms that the large solve takes as
+/// given. Part of the state, because steps extrapolate from it.
+struct Coupling {
+  body::DeformedMoments moments;
+  linalg::Vector load;  ///< nodal, n; without the centrifugal load of the undeformed body [N, N m]
+};
+
+/// Motion of one body at time t: all that a continuation bit for bit needs.
+struct BodyState {
+  body::FrameMotion frame;
+  Eigen::Vector3d w_dot = Eigen::Vector3d::Zero();  ///< body axes [rad/s²]
+  Eigen::Vector3d v_dot = Eigen::Vector3d::Zero();  ///< world axes [m/s²]
+  Eigen::Vector3d w_alg = Eigen::Vector3d::Zero();  ///< algorithmic accelerations of the frame
+  Eigen::Vector3d v_alg = Eigen::Vector3d::Zero();
+  linalg::Vector d, d_dot, d_ddot, d_alg;           ///< nodal variables, n each, body axes
+  Coupling coupling, coupling_before;               ///< at this and at the previous step
+};
+
+/// State of the mechanism.
+struct State {
+  double t = 0;                                     ///< [s]
+  std::vector<BodyState> bodies;
+  linalg::Vector lambda;                            ///< joint multipliers [N, N m]
+  double lambda_time = 0;                           ///< instant to which λ belongs [s]
+  double last_step = 0;                             ///< length of the step that led here [s]
+  int history = 0;                                  ///< number of valid coupling entries: 0, 1, 2
+};
+
+/// All bodies as placed, undeformed and at rest.
+State placed_state(const Model& model);
+
+}  // namespace buckens::model
