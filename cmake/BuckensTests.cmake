@@ -3,6 +3,7 @@
 #   verification/*/*_test.cpp             -> verification_test  label verify
 #   apps/cli/test/*_test.cpp              -> cli_test           label unit
 #   tests/test_*.py                       -> pytest, one entry per file, label cli
+#   tools/check_*                         -> structural checks  label structure
 #   tests/kill/*.cpp                      -> programs used by those
 # The install test stands in BuckensInstall.cmake, the viewer's in BuckensViewer.cmake.
 if(NOT BUCKENS_TESTS)
@@ -76,3 +77,17 @@ foreach(source IN LISTS python_tests)
       ENVIRONMENT
       "BUCKENS_PROGRAM=${PROJECT_BINARY_DIR}/bin/buckens;BUCKENS_SOURCE_DIR=${PROJECT_SOURCE_DIR};BUCKENS_BINARY_DIR=${PROJECT_BINARY_DIR};PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+
+foreach(check IN ITEMS floors sizes streams)
+  add_test(NAME structure.${check} COMMAND ${BUCKENS_PYTHON} -B
+                                           "${PROJECT_SOURCE_DIR}/tools/check_${check}.py"
+                                           "${PROJECT_SOURCE_DIR}")
+endforeach()
+add_test(NAME structure.format COMMAND bash "${PROJECT_SOURCE_DIR}/tools/check_format.sh"
+                                       "${PROJECT_SOURCE_DIR}")
+add_test(NAME structure.checks COMMAND ${BUCKENS_PYTHON} -B
+                                       "${PROJECT_SOURCE_DIR}/tools/test/test_checks.py")
+add_test(NAME structure.setup COMMAND bash "${PROJECT_SOURCE_DIR}/tools/test/test_setup.sh")
+set_tests_properties(
+  structure.floors structure.sizes structure.streams structure.format structure.checks
+  structure.setup PROPERTIES LABELS structure TIMEOUT 120)

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds the program, simulates the slider-crank and makes its page.
+# usage: ./demo.sh [OUT]   OUT: run directory, default build/demo
+set -euo pipefail
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+out="$(realpath -m "${1:-$here/build/demo}")"
+cd "$here"
+. tools/setup.sh
+
+buckens_setup
+configure_release
+say "Building the program and the viewer page"
+cmake --build --preset release --target buckens_program buckens_viewer
+
+program=build/release/bin/buckens
+model=examples/slider_crank/slider_crank.yaml
+say "Simulating $model"
+"$program" run "$model" -o "$out"
+"$program" view "$out"
+
+page="$(find "$out" -maxdepth 1 -name '*.html' | head -n 1)"
+if [ -z "$page" ]; then
+  fail "\`buckens view\` wrote no page into $out."
+fi
+picture="$out/screenshot.png"
+if [ -f viewer/scripts/screenshot.mjs ] && find_chromium >/dev/null; then
+  if node viewer/scripts/screenshot.mjs "$page" "$picture" >/dev/null; then
+    say "Picture of the page: $picture"
+  else
+    warn "no picture: headless Chromium could not show the page. The page itself is complete."
+  fi
+else
+  warn "no picture: Chromium is not installed. The page itself is complete."
+fi
+
+say "The machine moves on this page; open it in a browser:"
+echo "  $page"
+cat <<TEXT
+
+What to try next:
+  $program run $model -o out --set bodies.rod.beam.elements=32
+  $program check $model
+  $program --help
+  ls examples
+TEXT

@@ -1,0 +1,133 @@
+# shellcheck shell=bash
+# Set-up shared by demo.sh and test.sh: Debian packages, npm packages, configuring.
+# Meant to be sourced; run by itself (`bash tools/setup.sh`) it installs what is missing.
+# Nothing is compiled or written as root: only apt-get runs under sudo.
+
+buckens_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+
+# Debian packages the build and the tests need; keep in step with cmake/BuckensDependencies.cmake.
+buckens_packages=(
+  g++ cmake ninja-build ccache git ca-certificates
+  libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
+  libmuparser-dev libhdf5-dev libsuitesparse-dev libopenblas-openmp-dev libspectra-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+  clang-format-14 python3 python3-pytest python3-numpy python3-h5py
+)
+
+say() { printf '\033[1m== %s\033[0m\n' "$*"; }
+warn() { printf 'note: %s\n' "$*" >&2; }
+fail() { printf 'error: %s\n' "$*" >&2; return 1; }
+
+# Installed packages among the arguments, one per line. Replaced in the test of this script.
+installed_packages() {
+  # dpkg-query fails when it does not know one of the names; what it prints is right all the same.
+  { dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' "$@" 2>/dev/null || true; } |
+    sed -n 's/^ii *//p' | sort -u
+}
+
+has_command() { command -v "$1" >/dev/null 2>&1; }
+
+# Packages that are not there, one per line. Programs that people install by other ways (node,
+# npm, a Chromium) count as there when the command exists.
+missing_packages() {
+  local installed package
+  installed="$(installed_packages "${buckens_packages[@]}")"
+  for package in "${buckens_packages[@]}"; do
+    grep -qxF "$package" <<<"$installed" || echo "$package"
+  done
+  has_command node || echo nodejs
+  has_command npm || echo npm
+  find_chromium >/dev/null || printf 'chromium\nfonts-liberation\n'
+}
+
+find_chromium() {
+  local name
+  for name in chromium chromium-browser google-chrome; do
+    command -v "$name" 2>/dev/null && return 0
+  done
+  return 1
+}
+
+is_debian() {
+  has_command apt-get && has_command dpkg-query
+}
+
+# How to become root: nothing, "sudo", or failure.
+root_prefix() {
+  if [ "$(id -u)" -eq 0 ]; then
+    echo ""
+  elif has_command sudo; then
+    echo sudo
+  else
+    return 1
+  fi
+}
+
+install_debian_packages() {
+  local missing prefix
+  if ! is_debian; then
+    warn "this is neither Debian nor Ubuntu. The build needs the equivalents of these packages:"
+    printf '  %s\n' "${buckens_packages[@]}" nodejs npm chromium >&2
+    warn "going on; configuring will name what is missing."
+    return 0
+  fi
+  missing="$(missing_packages | tr '\n' ' ')"
+  missing="${missing% }"
+  [ -z "$missing" ] && return 0
+  if ! prefix="$(root_prefix)"; then
+    fail "these Debian packages are missing, and neither root nor sudo is at hand. Ask for
+  apt-get install $missing"
+    return 1
+  fi
+  say "Installing Debian packages: $missing"
+  # shellcheck disable=SC2086  # word splitting wanted
+  $prefix apt-get update -qq || warn "apt-get update failed; trying with the lists that are there."
+  # shellcheck disable=SC2086
+  $prefix env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    $missing >/dev/null || {
+    fail "apt-get could not install: $missing
+  Run \`apt-get install $missing\` by hand to see why."
+    return 1
+  }
+}
+
+# npm ci only when the lock file changed since the last time.
+install_npm_packages() {
+  local viewer="$buckens_root/viewer" stamp sum
+  [ -f "$viewer/package-lock.json" ] || return 0
+  stamp="$viewer/node_modules/.buckens-lock"
+  sum="$(cksum <"$viewer/package-lock.json")"
+  [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$sum" ] && return 0
+  say "Installing npm packages of the viewer"
+  (cd "$viewer" && npm ci --no-audit --no-fund --loglevel=error) || {
+    fail "npm ci failed in viewer/. It needs the network once; see the lines above."
+    return 1
+  }
+  echo "$sum" >"$stamp"
+}
+
+# Warnings are errors with the compiler this project is tested with; others may know more warnings.
+werror_setting() {
+  local major
+  major="$("${CXX:-g++}" -dumpversion 2>/dev/null | cut -d. -f1)"
+  if [ "$major" = 12 ]; then echo ON; else echo OFF; fi
+}
+
+configure_release() {
+  say "Configuring (preset release)"
+  (cd "$buckens_root" && cmake --preset release -DBUCKENS_WERROR="$(werror_setting)" \
+    --log-level=WARNING >/dev/null) || {
+    fail "configuring failed; see the lines above."
+    return 1
+  }
+}
+
+buckens_setup() {
+  install_debian_packages && install_npm_packages
+}
+
+if [ "${BASH_SOURCE[0]}" = "$0" ]; then
+  set -eu
+  buckens_setup
+  say "Everything needed is installed"
+fi

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Each structural check rejects a tree with the fault it is there for, and passes a sound one."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, TOOLS)
+import check_sizes  # noqa: E402
+
+FLOORS = "buckens_module(base 0)\nbuckens_module(fem 2)\nbuckens_module(loads 2)\n"
+SOUND = {
+    "src/CMakeLists.txt": FLOORS,
+    "src/buckens/base/errors.h": "#pragma once\n",
+    "src/buckens/fem/beam.h": '#pragma once\n#include "buckens/base/errors.h"\n',
+    "src/buckens/fem/test/beam_test.cpp": '#include "buckens/loads/force.h"\n',
+    "src/buckens/loads/force.h": "#pragma once\n",
+}
+
+
+def run_check(script, files):
+    """Exit code and output of a check on a tree made of these files."""
+    with tempfile.TemporaryDirectory() as root:
+        for name, text in files.items():
+            path = os.path.join(root, name)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+        command = ["bash"] if script.endswith(".sh") else [sys.executable]
+        done = subprocess.run(command + [os.path.join(TOOLS, script), root],
+                              capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+
+class Checks(unittest.TestCase):
+    def expect(self, script, changes, *words):
+        """The sound tree with these changes is rejected with these words; none: it passes."""
+        status, output = run_check(script, {**SOUND, **changes})
+        self.assertEqual(status, 1 if words else 0, output)
+        for word in words:
+            self.assertIn(word, output)
+
+
+class Floors(Checks):
+    def test_sound_tree_passes(self):
+        self.expect("check_floors.py", {})
+
+    def test_higher_floor(self):
+        self.expect("check_floors.py",
+                    {"src/buckens/base/errors.h": '#include "buckens/fem/beam.h"\n'},
+                    'src/buckens/base/errors.h:1: "base" (floor 0) must not include "fem"')
+
+    def test_sibling(self):
+        self.expect("check_floors.py",
+                    {"src/buckens/fem/beam.h": '\n#include "buckens/loads/force.h"\n'},
+                    'beam.h:2: "fem" (floor 2) must not include "loads" (floor 2)')
+
+    def test_circle_of_files(self):
+        self.expect("check_floors.py",
+                    {"src/buckens/fem/a.h": '#include "buckens/fem/b.h"\n',
+                     "src/buckens/fem/b.h": '#include "buckens/fem/a.h"\n'},
+                    "files include each other in a circle", "fem/a.h")
+
+    def test_circle_of_modules(self):
+        self.expect("check_floors.py",
+                    {"src/buckens/fem/x.h": '#include "buckens/loads/force.h"\n',
+                     "src/buckens/loads/y.h": '#include "buckens/fem/beam.h"\n'},
+                    "modules include each other in a circle: fem -> loads -> fem")
+
+    def test_unknown_module_missing_file_and_short_path(self):
+        self.expect("check_floors.py", {"src/buckens/new/a.h": ""}, '"new" has no floor')
+        self.expect("check_floors.py",
+                    {"src/buckens/fem/a.h": '#include "buckens/base/gone.h"\n'}, "no such file")
+        self.expect("check_floors.py", {"src/buckens/fem/a.h": '#include "beam.h"\n'},
+                    "write the path from src/")
+
+    def test_comment_is_no_include(self):
+        self.expect("check_floors.py",
+                    {"src/buckens/fem/a.h": '// text\n/*\n#include "buckens/loads/force.h"\n*/\n'})
+
+
+class Streams(Checks):
+    def test_each_forbidden_call(self):
+        for statement in ("std::cout << 1;", "std::cerr << 1;", 'printf("a");', "std::abort();",
+                          'fprintf(stderr, "a");', 'fmt::print("a");', "exit(1);",
+                          "std::terminate();", "int i = rand();", "auto m = Matrix3d::Random();",
+                          "std::random_device d;"):
+            self.expect("check_streams.py",
+                        {"src/buckens/fem/a.cpp": f"void f() {{\n  {statement}\n}}\n"},
+                        "src/buckens/fem/a.cpp:2")
+
+    def test_innocent_text_passes(self):
+        self.expect("check_streams.py", {
+            "src/buckens/fem/a.cpp": '// std::cout, abort()\nauto s = "exit(1) printf(";\n'
+                                     'int n = std::snprintf(b, 2, "x"); pool.exit(); strand(1);\n',
+            "src/buckens/fem/test/a_test.cpp": "void f() { std::cout << 1; }\n",
+            "apps/cli/main.cpp": "void f() { std::cout << 1; }\n"})
+
+
+class Sizes(Checks):
+    def test_long_file(self):
+        self.expect("check_sizes.py", {"src/buckens/fem/a.h": "//\n" * 601}, "a.h: 601 lines")
+        status, output = run_check("check_sizes.py", {"src/buckens/fem/a.h": "//\n" * 301})
+        self.assertEqual((status, "warning: src/buckens/fem/a.h: 301" in output), (0, True))
+
+    def test_long_functions(self):
+        body = "  x();\n" * 59
+        for head in ("int f(int a) {", "Foo::Foo(int a) : a_{a}, b_(2) {",
+                     "auto Foo::g() const -> int {", "void operator()(struct S s) noexcept {",
+                     "TEST(Beam, Mass) {"):
+            text = f"namespace a {{\nnamespace {{\n\n{head}\n{body}}}\n}}\n}}\n"
+            self.expect("check_sizes.py", {"src/buckens/fem/a.cpp": text}, "a.cpp:4: function",
+                        "has 61 lines")
+            shorter = text.replace("  x();\n", "", 1)
+            self.expect("check_sizes.py", {"src/buckens/fem/a.cpp": shorter})
+        self.expect("check_sizes.py", {"tools/a.py": "def f():\n" + "    x()\n" * 60},
+                    "tools/a.py:1: function f has 61 lines")
+
+    def test_method_in_class_is_found_and_class_is_no_function(self):
+        methods = "  int f() {\n    return 1;\n  }\n" * 30
+        self.assertEqual([f[2] for f in check_sizes.cpp_functions(
+            "template <class T>\nclass A : public B<T> {\n public:\n" + methods + "};\n")],
+            [3] * 30)
+
+    def test_tables_and_lambdas(self):
+        table = "const std::map<int, int> kTable = {\n" + "    {1, 2},\n" * 80 + "};\n"
+        self.assertEqual(check_sizes.cpp_functions(table), [])
+        text = "int f() {\n  auto g = [&](int i) {\n    return i;\n  };\n  return g(1);\n}\n"
+        self.assertEqual([(f[0], f[2]) for f in check_sizes.cpp_functions(text)], [("f", 6)])
+
+
+class Format(Checks):
+    def test_format(self):
+        style = {".clang-format": "BasedOnStyle: Google\n"}
+        self.expect("check_format.sh", style)
+        self.expect("check_format.sh", {**style, "src/buckens/fem/a.h": "int   a ;\n"}, "a.h:1")
+
+
+if __name__ == "__main__":
+    unittest.main()

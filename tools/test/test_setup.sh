@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Tests the decisions of tools/setup.sh with stand-ins for the package system; installs nothing.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../setup.sh"
+failures=0
+
+expect() {  # expect WHAT WANTED GOT
+  if [ "$2" != "$3" ]; then
+    printf 'FAILED: %s\n  wanted: %s\n  got:    %s\n' "$1" "$2" "$3"
+    failures=$((failures + 1))
+  fi
+}
+expect_words() {  # expect_words WHAT WORDS TEXT
+  case "$3" in *"$2"*) ;; *) expect "$1" "...$2..." "$3" ;; esac
+}
+
+real_installed="$(declare -f installed_packages)"
+all="$(printf '%s\n' "${buckens_packages[@]}")"
+
+has_command() { true; }
+find_chromium() { echo chromium; }
+installed_packages() { echo "$all"; }
+expect "nothing is missing" "" "$(missing_packages)"
+expect "nothing to do makes no noise" "" "$(install_debian_packages 2>&1)"
+
+installed_packages() { grep -v -e muparser -e '^g++$' <<<"$all"; }
+expect "two packages are missing" "g++ libmuparser-dev " "$(missing_packages | tr '\n' ' ')"
+
+installed_packages() { true; }
+expect "everything is missing" "${#buckens_packages[@]}" "$(missing_packages | wc -l)"
+
+installed_packages() { echo "$all"; }
+has_command() { [ "$1" != npm ] && [ "$1" != node ]; }
+find_chromium() { return 1; }
+expect "programs count by their command" "nodejs npm chromium fonts-liberation " "$(missing_packages | tr '\n' ' ')"
+
+# Neither root nor sudo.
+has_command() { [ "$1" != sudo ]; }
+find_chromium() { echo chromium; }
+installed_packages() { grep -v muparser <<<"$all"; }
+id() { echo 1000; }
+if got="$(install_debian_packages 2>&1)"; then expect "refusal without sudo" failure success; fi
+expect_words "message without sudo" "apt-get install libmuparser-dev" "$got"
+
+# An ordinary user with sudo: only apt-get runs under it.
+has_command() { true; }
+sudo() { echo "sudo $*" >>"$log"; }
+log="$(mktemp)"
+install_debian_packages >/dev/null
+expect_words "sudo is used" "apt-get install -y" "$(cat "$log")"
+expect_words "only what is missing" "--no-install-recommends libmuparser-dev" "$(tail -n 1 "$log")"
+
+# apt-get fails.
+sudo() { return 100; }
+if got="$(install_debian_packages 2>&1)"; then expect "failing apt-get" failure success; fi
+expect_words "message of a failing apt-get" "could not install: libmuparser-dev" "$got"
+
+# Another system: the list, and on.
+is_debian() { false; }
+if ! got="$(install_debian_packages 2>&1)"; then expect "other systems go on" success failure; fi
+expect_words "list for other systems" "libsuitesparse-dev" "$got"
+
+# The real query, with a stand-in for dpkg-query: half-installed does not count.
+eval "$real_installed"
+dpkg-query() { printf 'ii cmake\nrc ninja-build\nun ccache\n'; return 1; }
+expect "states of dpkg" "cmake" "$(installed_packages cmake ninja-build ccache)"
+rm -f "$log"
+
+if [ "$failures" -gt 0 ]; then
+  echo "setup: $failures failure(s)"
+  exit 1
+fi
+echo "setup: ok"
