@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/fem/dof_map.h"
+#include "buckens/fem/shape_integrals.h"
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::fem {
+
+class ElementBlock;
+
+/// The constant matrices of one finite-element body: M d̈ + C ḋ + K d = f in the body frame, with
+/// C = α M + K_damping, and the inertia integrals that couple d to the frame's motion.
+///
+/// Made by assemble(); see structure.h for the way there and recovery.h for what comes back.
+struct FeModel {
+  std::vector<Node> nodes;
+  DofMap dofs;
+  linalg::SparseMatrix M;          ///< consistent mass, n×n [kg, kg m, kg m²]
+  linalg::SparseMatrix K;          ///< stiffness, n×n [N/m, N, N m]
+  linalg::SparseMatrix K_damping;  ///< Σ β K over materials, n×n; no entries where undamped
+  double mass_damping = 0;         ///< α [1/s], one value per body
+  ShapeIntegrals shape;
+  /// The elements, by kind. Elements are numbered through all blocks in this order.
+  std::vector<std::shared_ptr<const ElementBlock>> blocks;
+};
+
+}  // namespace buckens::fem

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::fem {
+
+/// Inertia integrals of a body over its undeformed shape s0 (from the mass centre, model axes) and
+/// its shape vectors g: the displacement of a material point is g(d) = Σ g_k d_k, FM (1).
+///
+/// They belong to one kinetic energy, the one M belongs to; for beams without rotary inertia the
+/// torsional flywheels stand in M and J0 only. Theory: docs/theory/07-beam.md.
+struct ShapeIntegrals {
+  double mass = 0;                                ///< [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< mass centre in model axes [m]
+  Eigen::Matrix3d C0 = Eigen::Matrix3d::Zero();   ///< ∫ s0 s0ᵀ dm [kg m²]
+  /// Rotary inertia about the mass centre: tr(C0) 1 − C0 and what is in M only [kg m²], FM (40).
+  Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();
+  /// W_11, W_22, W_33, W_12, W_13, W_23 with W_ab = ∫ g_a g_bᵀ dm, n×n; W_ba = W_abᵀ.
+  std::array<linalg::SparseMatrix, 6> W;
+  /// n×9, column 3a+b (from zero) is c_ab = ∫ s0_a g_b dm, FM (53).
+  linalg::Matrix c;
+};
+
+}  // namespace buckens::fem
