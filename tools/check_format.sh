@@ -12,7 +12,13 @@ if ! command -v clang-format-14 >/dev/null; then
   exit 1
 fi
 if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
-  list() { git ls-files -co --exclude-standard -z -- '*.h' '*.cpp'; }
+  # A file deleted but not yet committed is still listed.
+  list() {
+    local name
+    git ls-files -co --exclude-standard -z -- '*.h' '*.cpp' | while IFS= read -r -d '' name; do
+      if [ -f "$name" ]; then printf '%s\0' "$name"; fi
+    done
+  }
 else
   list() { find . -name build -prune -o -name node_modules -prune -o \
     \( -name '*.h' -o -name '*.cpp' \) -print0; }
