@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/system_kinematics.h"
+
+namespace buckens::dynamics {
+
+/// All joint equations at one instant: g = 0, ġ = G_q q̇ + G_d ḋ + g_t = 0.       FM (20), (34)
+struct Constraints {
+  linalg::Vector g;              ///< residuals [m] or [-]
+  linalg::Vector g_dot;          ///< their rates [m/s] or [1/s]
+  std::vector<SystemRow> rows;   ///< derivatives, one per row of λ
+};
+
+/// Evaluates every joint. Cost O(rows); reuses the vectors of `out`.
+void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
+                          double t, Constraints& out);
+
+/// Part of g̈ without coordinate accelerations, for the initial accelerations.
+linalg::Vector constraint_bias(const model::Model& model, const std::vector<BodyMotion>& motions,
+                               double t);
+
+}  // namespace buckens::dynamics

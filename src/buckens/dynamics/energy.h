@@ -1,0 +1,31 @@
+#pragma once
+
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::dynamics {
+
+/// Energies of the mechanism [J].
+struct Energy {
+  double kinetic = 0;
+  double strain = 0;
+  double gravity = 0;   ///< −Σ m g·p
+  double springs = 0;
+  double total() const { return kinetic + strain + gravity + springs; }
+};
+
+/// Energies at a state, FM (13): exact for `full`, with J₀ for `none` and rigid bodies.
+/// Cost: a product with M and K per flexible body.
+Energy energy(const model::Model& model, const model::State& state);
+
+/// Linear momentum [N s] and angular momentum about the world origin [N m s], world axes.
+struct Momentum {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+};
+Momentum momentum(const model::Model& model, const model::State& state);
+
+/// Power taken by the structural damping of all flexible bodies, Σ ḋᵀCḋ [W].
+double damping_power(const model::Model& model, const model::State& state);
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,100 @@
+#include "buckens/dynamics/forces.h"
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::dynamics {
+
+namespace {
+
+void add_wrench(const model::Model& model, const model::MarkerId& id,
+                const body::MarkerKinematics& kinematics, const spatial::Wrench& wrench,
+                Forces& out) {
+  if (id.body == model::kGround) return;
+  const auto b = static_cast<std::size_t>(id.body);
+  out.frame[b] += kinematics.frame_load(wrench);
+  const body::Marker& marker = model.bodies[b].markers[static_cast<std::size_t>(id.marker)];
+  if (!marker.follows_mesh()) return;
+  const Eigen::Matrix<double, 6, 1> load = kinematics.interface_load(wrench);
+  out.interface[b].segment<3>(marker.translation_row) += load.head<3>();
+  if (marker.rotation_row >= 0) out.interface[b].segment<3>(marker.rotation_row) += load.tail<3>();
+}
+
+void add_row(const BodyRow& row, double multiplier, Forces& out) {
+  if (row.body == model::kGround) return;
+  const auto b = static_cast<std::size_t>(row.body);
+  out.frame[b] += multiplier * row.frame.transpose();
+  if (row.translation_row >= 0) {
+    out.interface[b].segment<3>(row.translation_row) +=
+        multiplier * row.interface.head<3>().transpose();
+  }
+  if (row.rotation_row >= 0) {
+    out.interface[b].segment<3>(row.rotation_row) +=
+        multiplier * row.interface.tail<3>().transpose();
+  }
+}
+
+}  // namespace
+
+void Forces::reset(const model::Model& model) {
+  frame.resize(model.bodies.size());
+  interface.resize(model.bodies.size());
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    frame[b].setZero();
+    frame[b].tail<3>() = model.bodies[b].mass * model.gravity;
+    interface[b].setZero(model.bodies[b].num_interface_rows());
+  }
+  stored_energy = 0;
+  active_power = 0;
+}
+
+void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                     Forces& out) {
+  out.reset(model);
+  for (const model::Load& load : model.loads) {
+    const auto first = evaluate_marker(model, load.first, motions);
+    const auto second = evaluate_marker(model, load.second, motions);
+    loads::Action action;
+    try {
+      action = load.element->evaluate(t, first.motion, second.motion);
+    } catch (const NumericalError& error) {
+      throw NumericalError(fmt::format("load \"{}\": {}", load.name, error.what()));
+    }
+    add_wrench(model, load.first, first, action.on_first, out);
+    add_wrench(model, load.second, second, action.on_second, out);
+    out.stored_energy += action.stored_energy;
+    out.active_power += action.active_power;
+  }
+}
+
+void add_joint_forces(const Constraints& constraints, const linalg::Vector& lambda, Forces& out) {
+  for (std::size_t k = 0; k < constraints.rows.size(); ++k) {
+    const double multiplier = lambda[static_cast<Eigen::Index>(k)];
+    if (multiplier == 0.0) continue;
+    add_row(constraints.rows[k].first, multiplier, out);
+    add_row(constraints.rows[k].second, multiplier, out);
+  }
+}
+
+void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
+                        SoftRows& out) {
+  out.rows.clear();
+  out.stiffness.clear();
+  out.damping.clear();
+  std::vector<loads::SoftRow> rows;
+  for (const model::Load& load : model.loads) {
+    if (load.element->num_soft_rows() == 0) continue;
+    const auto first = evaluate_marker(model, load.first, motions);
+    const auto second = evaluate_marker(model, load.second, motions);
+    rows.clear();
+    load.element->append_soft_rows(first.motion, second.motion, rows);
+    for (const loads::SoftRow& row : rows) {
+      out.rows.push_back(system_row(model, load.first, first, load.second, second, row.J));
+      out.stiffness.push_back(row.stiffness);
+      out.damping.push_back(row.damping);
+    }
+  }
+}
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/constraints.h"
+
+namespace buckens::dynamics {
+
+/// Generalised forces on all bodies at one instant.
+struct Forces {
+  /// Per body: torque about the origin in body axes [N m], force in world axes [N].
+  std::vector<Eigen::Matrix<double, 6, 1>> frame;
+  /// Per body: loads on the interface rows, num_interface_rows() each.
+  std::vector<Eigen::VectorXd> interface;
+  double stored_energy = 0;  ///< in springs [J]
+  double active_power = 0;   ///< of loads and dampers [W], not counting stored energy
+
+  void reset(const model::Model& model);
+};
+
+/// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load lies in the span
+/// of P, which the sieve removes.
+/// @throws NumericalError naming the load whose law fails
+void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                     Forces& out);
+
+/// Adds Gᵀλ.
+void add_joint_forces(const Constraints& constraints, const linalg::Vector& lambda, Forces& out);
+
+/// Tangents of all force elements, in the order of Model::loads.
+struct SoftRows {
+  std::vector<SystemRow> rows;
+  std::vector<double> stiffness, damping;
+};
+void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
+                        SoftRows& out);
+
+}  // namespace buckens::dynamics

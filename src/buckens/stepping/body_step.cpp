@@ -1,0 +1,70 @@
+#include "buckens/stepping/body_step.h"
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::stepping {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+Vector6 stack(const Vector3d& rotation, const Vector3d& translation) {
+  Vector6 out;
+  out << rotation, translation;
+  return out;
+}
+
+spatial::Pose moved(const spatial::Pose& X, const Vector6& u) {
+  return {X.p + u.tail<3>(), (X.q * spatial::exp_rotation(u.head<3>())).normalized()};
+}
+
+}  // namespace
+
+void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
+                     const Scheme& scheme) {
+  before = state.frame;
+  frame = scheme.history<Vector6>(stack(state.frame.w, state.frame.v),
+                                  stack(state.w_dot, state.v_dot),
+                                  stack(state.w_alg, state.v_alg));
+  u = frame.predicted;
+  correction.setZero();
+  if (op == nullptr) return;
+  y_before = op->N() * state.d;
+  y = scheme.history<VectorXd>(op->N() * state.d_dot, op->N() * state.d_ddot,
+                               op->N() * state.d_alg);
+  y_end = y_before + y.predicted;
+  load = VectorXd::Zero(y_before.size());
+  correction_load = VectorXd::Zero(y_before.size());
+}
+
+dynamics::BodyMotion BodyStep::motion_at_end(const Scheme& scheme,
+                                             const BodyStepOperator* op) const {
+  dynamics::BodyMotion motion;
+  motion.frame.X_WB = moved(before.X_WB, u + correction);
+  const Vector6 rate = scheme.end_rate * u + frame.velocity;
+  motion.frame.w = rate.head<3>();
+  motion.frame.v = rate.tail<3>();
+  if (op != nullptr) {
+    motion.y = y_end + op->compliance() * correction_load;
+    motion.y_dot = scheme.end_rate * (y_end - y_before) + y.velocity;
+  }
+  return motion;
+}
+
+dynamics::BodyMotion BodyStep::motion_at_evaluation(const Scheme& scheme,
+                                                    const BodyStepOperator* op) const {
+  if (scheme.weight == 1.0) return motion_at_end(scheme, op);
+  dynamics::BodyMotion motion;
+  motion.frame.X_WB = moved(before.X_WB, scheme.weight * u);
+  const Vector6 rate = scheme.mean_rate * u + frame.mean_velocity;
+  motion.frame.w = rate.head<3>();
+  motion.frame.v = rate.tail<3>();
+  if (op != nullptr) {
+    motion.y = y_before + scheme.weight * (y_end - y_before);
+    motion.y_dot = scheme.mean_rate * (y_end - y_before) + y.mean_velocity;
+  }
+  return motion;
+}
+
+}  // namespace buckens::stepping

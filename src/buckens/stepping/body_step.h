@@ -1,0 +1,42 @@
+#pragma once
+
+#include "buckens/dynamics/system_kinematics.h"
+#include "buckens/model/state.h"
+#include "buckens/stepping/body_step_operator.h"
+#include "buckens/stepping/scheme.h"
+
+namespace buckens::stepping {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// One body within one step, without any n-sized vector: frame increments and interface values.
+///
+/// The increment u (rotation vector in body axes, translation in world axes) carries velocity; the
+/// position correction does not.
+struct BodyStep {
+  body::FrameMotion before;
+  History<Vector6> frame;
+  Vector6 u = Vector6::Zero();
+  Vector6 correction = Vector6::Zero();
+  body::DeformedMoments moments;                       ///< taken as given by the small Newton
+  Eigen::Matrix<double, 6, 6> compliance;              ///< W⁻¹ of the frame
+  Vector6 centrifugal = Vector6::Zero();               ///< weights at the evaluation instant
+
+  Eigen::VectorXd y_before;                            ///< interface values at the start
+  History<Eigen::VectorXd> y;
+  Eigen::VectorXd y_free;                              ///< at the end, without interface loads
+  Eigen::VectorXd y_end;                               ///< at the end, without correction
+  Eigen::VectorXd load;                                ///< f at the evaluation instant
+  Eigen::VectorXd correction_load;                     ///< e
+
+  /// Prepares everything but the free response.
+  void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme);
+
+  dynamics::BodyMotion motion_at_end(const Scheme& scheme, const BodyStepOperator* op) const;
+  dynamics::BodyMotion motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op) const;
+  Vector6 frame_acceleration(const Scheme& scheme) const {
+    return scheme.acceleration_rate * u + frame.acceleration;
+  }
+};
+
+}  // namespace buckens::stepping

@@ -1,0 +1,211 @@
+#include "buckens/stepping/stepper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "buckens/base/errors.h"
+#include "buckens/dynamics/coupling_terms.h"
+#include "buckens/dynamics/frame_equation.h"
+
+namespace buckens::stepping {
+
+using Eigen::Vector3d;
+using linalg::Vector;
+
+/// The n-sized share of one flexible body in a step.
+struct Stepper::Large {
+  explicit Large(const BodyStepOperator& op) : inverse_diagonal(op.K_hat().diagonal().cwiseInverse()) {}
+
+  History<Vector> history;
+  model::Coupling used;       // what the step was computed with
+  model::Coupling evaluated;  // what its result gives
+  Vector free;                // end value without interface loads
+  Vector d_end;               // end value
+  Vector increment;           // Δ: end value without correction, minus the start
+  Vector inverse_diagonal;    // of K̂: measures loads
+  bool load_changed = true;
+
+  Vector rate(const Scheme& scheme) const {
+    return scheme.end_rate * increment + history.velocity;
+  }
+  Vector acceleration(const Scheme& scheme) const {
+    return scheme.acceleration_rate * increment + history.acceleration;
+  }
+  double norm(const Vector& load) const {
+    return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
+  }
+};
+
+Stepper::Stepper(const model::Model& model, const StepSettings& settings,
+                 std::vector<int> rows_in_use)
+    : model_(model),
+      settings_(settings),
+      scheme_(settings.method, settings.step, settings.rho_inf),
+      bodies_(model.bodies.size()) {
+  std::vector<const BodyStepOperator*> views;
+  for (const body::Body& body : model.bodies) {
+    operators_.push_back(
+        body.is_flexible() ? std::make_unique<BodyStepOperator>(*body.flexible, scheme_) : nullptr);
+    large_.push_back(body.is_flexible() ? std::make_unique<Large>(*operators_.back()) : nullptr);
+    views.push_back(operators_.back().get());
+  }
+  newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
+                                          std::move(rows_in_use));
+}
+
+Stepper::~Stepper() = default;
+
+void Stepper::start_bodies(const model::State& state) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const model::BodyState& s = state.bodies[b];
+    const body::Body& body = model_.bodies[b];
+    bodies_[b].start(s, operators_[b].get(), scheme_);
+    if (!large_[b]) {
+      bodies_[b].moments = dynamics::undeformed_moments(body);
+      continue;
+    }
+    Large& large = *large_[b];
+    large.history = scheme_.history(s.d_dot, s.d_ddot, s.d_alg);
+    if (state.history >= 2) {
+      large.used =
+          dynamics::extrapolate(s.coupling, s.coupling_before, scheme_.h / state.last_step);
+    } else if (state.history == 1) {
+      large.used = s.coupling;
+    } else {
+      large.used = dynamics::evaluate_coupling(body, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
+    }
+    large.load_changed = true;
+    bodies_[b].moments = large.used.moments;
+  }
+}
+
+void Stepper::free_responses(const model::State& state, bool first_round) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!large_[b] || !(first_round || large_[b]->load_changed)) continue;
+    Large& large = *large_[b];
+    operators_[b]->free_response(state.bodies[b], large.history, large.used.load, large.free);
+    bodies_[b].y_free = operators_[b]->N() * large.free;
+  }
+}
+
+void Stepper::complete(const model::State& state) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!large_[b]) continue;
+    Large& large = *large_[b];
+    const BodyStep& step = bodies_[b];
+    large.d_end = large.free;
+    operators_[b]->complete(step.load, step.centrifugal, step.correction_load, large.d_end);
+    large.increment = large.d_end - state.bodies[b].d;
+    if (!step.correction_load.isZero(0.0)) {
+      large.increment -= operators_[b]->correction(step.correction_load);
+    }
+  }
+}
+
+bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
+  bool settled = true;
+  report.coupling_change = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const body::Body& body = model_.bodies[b];
+    if (!large_[b] || body.flexible->coupling == body::CouplingLevel::none) continue;
+    Large& large = *large_[b];
+    const BodyStep& step = bodies_[b];
+    const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
+    const Vector6 acceleration = step.frame_acceleration(scheme_);
+    const Vector3d w = rate.head<3>();
+    const Vector3d w_dot = acceleration.head<3>();
+    // The correction belongs to the evaluated position where the method ends there.
+    const Vector d_e = scheme_.weight == 1.0
+                           ? large.d_end
+                           : Vector(state.bodies[b].d + scheme_.weight * large.increment);
+    const Vector d_dot = scheme_.mean_rate * large.increment + large.history.mean_velocity;
+    large.evaluated = dynamics::evaluate_coupling(body, d_e, d_dot, large.acceleration(scheme_), w,
+                                                  w_dot);
+
+    const Vector undeformed = body.flexible->invariants.centrifugal_patterns() *
+                              body::InertiaInvariants::centrifugal_weights(w);
+    const double load_size = large.norm(large.evaluated.load + undeformed);
+    const double load_change =
+        load_size > 0.0 ? large.norm(large.evaluated.load - large.used.load) / load_size : 0.0;
+    const Vector3d frame_change =
+        (dynamics::frame_inertia(body, large.evaluated.moments, w, w_dot, Vector3d::Zero()) -
+         dynamics::frame_inertia(body, large.used.moments, w, w_dot, Vector3d::Zero()))
+            .head<3>();
+    const double frame_size = body.J0.norm() * (w_dot.norm() + w.squaredNorm());
+    const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
+    large.load_changed = load_change > settings_.outer_tolerance;
+    if (large.load_changed || frame_relative > settings_.outer_tolerance) settled = false;
+    report.coupling_change = std::max({report.coupling_change, load_change, frame_relative});
+  }
+  return settled;
+}
+
+model::State Stepper::next_state(const model::State& state, const Vector& lambda) const {
+  model::State next;
+  next.t = state.t + scheme_.h;
+  next.lambda = lambda;
+  next.lambda_time = scheme_.evaluation_time(state.t);
+  next.last_step = scheme_.h;
+  next.history = std::min(2, state.history + 1);
+  next.bodies.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const model::BodyState& old = state.bodies[b];
+    model::BodyState& s = next.bodies[b];
+    s.frame = newton_->motions_at_end()[b].frame;
+    const Vector6 acceleration = bodies_[b].frame_acceleration(scheme_);
+    s.w_dot = acceleration.head<3>();
+    s.v_dot = acceleration.tail<3>();
+    s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
+    s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
+    if (!large_[b]) continue;
+    s.d = large_[b]->d_end;
+    s.d_dot = large_[b]->rate(scheme_);
+    s.d_ddot = large_[b]->acceleration(scheme_);
+    s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
+    s.coupling = large_[b]->evaluated;
+    s.coupling_before = old.coupling;
+  }
+  return next;
+}
+
+StepReport Stepper::step(model::State& state) {
+  StepReport report;
+  Vector lambda = state.lambda;
+  start_bodies(state);
+  for (int round = 0;; ++round) {
+    free_responses(state, round == 0);
+    if (round == 0) newton_->prepare(bodies_, state.t);
+    newton_->iterate(bodies_, state.t, lambda, report);
+    complete(state);
+    ++report.large_solve_rounds;
+    if (coupling_settled(state, report)) break;
+    if (round + 1 >= settings_.max_outer || !std::isfinite(report.coupling_change)) {
+      throw NumericalError(fmt::format(
+          "step at t = {:.6g} s failed: the inertial coupling of a flexible body does not settle "
+          "(relative change {:.3g} after {} solves); the deformation is too large for linear "
+          "elasticity in one frame, or the step {:.3g} s is too long",
+          state.t, report.coupling_change, round + 1, scheme_.h));
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      if (!large_[b] || model_.bodies[b].flexible->coupling == body::CouplingLevel::none) continue;
+      if (large_[b]->load_changed) {
+        large_[b]->used = large_[b]->evaluated;
+      } else {
+        large_[b]->used.moments = large_[b]->evaluated.moments;
+      }
+      bodies_[b].moments = large_[b]->used.moments;
+    }
+  }
+  state = next_state(state, lambda);
+  return report;
+}
+
+SolveCounts Stepper::counts(std::size_t body) const {
+  if (!operators_[body]) return {};
+  return {1, operators_[body]->solves(), operators_[body]->setup_solves()};
+}
+
+}  // namespace buckens::stepping

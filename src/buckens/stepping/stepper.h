@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+#include "buckens/stepping/small_newton.h"
+#include "buckens/stepping/step_settings.h"
+
+namespace buckens::stepping {
+
+/// Large-solve counts of one body.
+struct SolveCounts {
+  long factorisations = 0;
+  long solves = 0;        ///< inside steps
+  long setup_solves = 0;  ///< for interface columns
+};
+
+/// Advances a mechanism by steps of one length with one factorisation per flexible body.
+///
+/// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the small
+/// Newton in frame coordinates and λ; a thin product to complete the nodal variables; inertial
+/// coupling evaluated there, with a further solve if it changed by more than the outer tolerance.
+class Stepper {
+ public:
+  /// Factorises. @param rows_in_use independent joint rows
+  Stepper(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use);
+  ~Stepper();
+
+  /// Advances `state` by one step.
+  /// @throws NumericalError naming joint or body that resists; `state` is then unchanged
+  StepReport step(model::State& state);
+
+  SolveCounts counts(std::size_t body) const;
+  const Scheme& scheme() const { return scheme_; }
+
+ private:
+  struct Large;  // n-sized vectors of one flexible body
+  void start_bodies(const model::State& state);
+  void free_responses(const model::State& state, bool first_round);
+  void complete(const model::State& state);
+  bool coupling_settled(const model::State& state, StepReport& report);
+  model::State next_state(const model::State& state, const linalg::Vector& lambda) const;
+
+  const model::Model& model_;
+  StepSettings settings_;
+  Scheme scheme_;
+  std::vector<std::unique_ptr<BodyStepOperator>> operators_;
+  std::unique_ptr<SmallNewton> newton_;
+  std::vector<BodyStep> bodies_;
+  std::vector<std::unique_ptr<Large>> large_;
+};
+
+}  // namespace buckens::stepping
