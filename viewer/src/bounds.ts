@@ -1,0 +1,70 @@
+import { Motion } from './motion';
+import type { Run } from './run';
+import type { Triple } from './page_data';
+
+export interface Bounds {
+  center: Triple;
+  /** Half edges of the box around everything over the whole run [m]. */
+  half: Triple;
+  /** Length that fills the view: diagonal over the whole run, never zero [m]. */
+  size: number;
+  /** Largest diagonal at any one time: the machine itself, however far it flies [m]. */
+  machine: number;
+}
+
+class Box {
+  low: Triple = [Infinity, Infinity, Infinity];
+  high: Triple = [-Infinity, -Infinity, -Infinity];
+
+  add(p: ArrayLike<number>): void {
+    for (let i = 0; i < 3; i++) {
+      if (!Number.isFinite(p[i])) continue;
+      this.low[i] = Math.min(this.low[i]!, p[i]!);
+      this.high[i] = Math.max(this.high[i]!, p[i]!);
+    }
+  }
+
+  get diagonal(): number {
+    const edges = this.low.map((low, i) => Math.max(0, this.high[i]! - low));
+    return Math.hypot(...edges.map((edge) => (Number.isFinite(edge) ? edge : 0)));
+  }
+}
+
+/** Box around all bodies and joints at about 200 of the stored frames. */
+export function runBounds(run: Run): Bounds {
+  const motion = new Motion(run);
+  const whole = new Box();
+  let machine = 0;
+  const step = Math.max(1, Math.floor(run.times.length / 200));
+  for (let index = 0; index < run.times.length; index += step) {
+    motion.setPlace({ index, fraction: 0 });
+    const now = new Box();
+    const add = (p: Triple) => (now.add(p), whole.add(p));
+    for (const body of motion.bodies) {
+      add(body.toWorld([0, 0, 0]));
+      const nodes = body.body.nodes.length;
+      const stride = Math.max(1, Math.floor(nodes / 50));
+      for (let i = 0; i < nodes; i += stride) add(body.toWorld(body.node(i, 1)));
+      if (nodes > 0) add(body.toWorld(body.node(nodes - 1, 1)));
+      for (const marker of body.body.markers) add(body.toWorld(body.marker(marker, 1)));
+    }
+    for (const joint of run.joints) for (const side of joint.between) add(motion.side(side, 1));
+    machine = Math.max(machine, now.diagonal);
+  }
+  const finite = whole.low.every(Number.isFinite) && whole.high.every(Number.isFinite);
+  const center = finite ? whole.low.map((l, i) => (l + whole.high[i]!) / 2) : [0, 0, 0];
+  const half = finite ? whole.low.map((l, i) => (whole.high[i]! - l) / 2) : [0, 0, 0];
+  const distance = Math.hypot(...center);
+  // A single body without extent has no length of its own; below float32's grain there is none either.
+  const resolvable = (length: number) => length > Math.max(1e-9, 1e-6 * distance);
+  const diagonal = whole.diagonal;
+  if (!resolvable(diagonal)) {
+    return { center: center as Triple, half: half as Triple, size: 1, machine: 1 };
+  }
+  return {
+    center: center as Triple,
+    half: half as Triple,
+    size: diagonal,
+    machine: resolvable(machine) ? machine : diagonal / 4,
+  };
+}

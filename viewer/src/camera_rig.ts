@@ -1,0 +1,112 @@
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { Triple } from './page_data';
+
+const kFieldOfView = 32;
+
+/** Perspective and orthographic camera behind one set of mouse controls. Scene units: run size = 1. */
+export class CameraRig {
+  private readonly perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.002, 60);
+  private readonly parallel = new THREE.OrthographicCamera(-1, 1, 1, -1, -30, 60);
+  private controls!: OrbitControls;
+  private aspect = 1;
+  /** Visible height at the target in the orthographic view before zoom. */
+  private height = 1;
+
+  constructor(
+    private readonly element: HTMLElement,
+    private readonly up: Triple,
+    public orthographic: boolean,
+    private readonly changed: () => void,
+  ) {
+    for (const camera of [this.perspective, this.parallel]) camera.up.set(...up);
+    this.bind(new THREE.Vector3());
+  }
+
+  get camera(): THREE.PerspectiveCamera | THREE.OrthographicCamera {
+    return this.orthographic ? this.parallel : this.perspective;
+  }
+
+  private bind(target: THREE.Vector3): void {
+    this.controls?.dispose();
+    this.controls = new OrbitControls(this.camera, this.element);
+    this.controls.target.copy(target);
+    this.controls.zoomToCursor = true;
+    this.controls.minZoom = 0.05;
+    this.controls.maxZoom = 400;
+    this.controls.minDistance = 0.01;
+    this.controls.maxDistance = 30;
+    this.controls.addEventListener('change', this.changed);
+    this.controls.update();
+  }
+
+  resize(width: number, height: number): void {
+    this.aspect = width / Math.max(1, height);
+    this.perspective.aspect = this.aspect;
+    this.perspective.updateProjectionMatrix();
+    this.setFrustum();
+  }
+
+  private setFrustum(): void {
+    const camera = this.parallel;
+    camera.top = this.height / 2;
+    camera.bottom = -camera.top;
+    camera.right = camera.top * this.aspect;
+    camera.left = -camera.right;
+    camera.updateProjectionMatrix();
+  }
+
+  /** Looks at the box (half edges about the origin) from direction `back` and fills the view. */
+  fit(half: Triple, back?: Triple): void {
+    const direction = back
+      ? new THREE.Vector3(...back)
+      : this.camera.position.clone().sub(this.controls.target);
+    direction.normalize();
+    // Exactly along `up` the view has no horizon; a hair beside it is seen as the same.
+    const up = new THREE.Vector3(...this.up);
+    if (Math.abs(direction.dot(up)) > 0.9999) {
+      const aside = Math.abs(up.y) < 0.9 ? new THREE.Vector3(0, -1, 0) : new THREE.Vector3(0, 0, 1);
+      direction.addScaledVector(aside, 1e-3).normalize();
+    }
+    const right = new THREE.Vector3().crossVectors(up, direction).normalize();
+    const above = new THREE.Vector3().crossVectors(direction, right);
+    const tangent = Math.tan(THREE.MathUtils.degToRad(kFieldOfView / 2));
+    let distance = 0;
+    let height = 0;
+    for (let corner = 0; corner < 8; corner++) {
+      const p = new THREE.Vector3(...half.map((h, i) => ((corner >> i) & 1 ? h : -h)));
+      const x = Math.abs(p.dot(right)) / this.aspect;
+      const y = Math.abs(p.dot(above));
+      distance = Math.max(distance, Math.max(x, y) / tangent + p.dot(direction));
+      height = Math.max(height, 2 * x, 2 * y);
+    }
+    this.height = 1.25 * Math.max(height, 0.05);
+    this.parallel.zoom = 1;
+    this.setFrustum();
+    this.controls.target.set(0, 0, 0);
+    this.perspective.position.copy(direction).multiplyScalar(1.22 * Math.max(distance, 0.1));
+    this.parallel.position.copy(direction).multiplyScalar(3);
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Changes the projection; what is at the target keeps its size. */
+  setOrthographic(on: boolean): void {
+    if (on === this.orthographic) return;
+    const target = this.controls.target.clone();
+    const direction = this.camera.position.clone().sub(target);
+    const tangent = Math.tan(THREE.MathUtils.degToRad(kFieldOfView / 2));
+    if (on) {
+      this.height = 2 * tangent * direction.length();
+      this.parallel.zoom = 1;
+      this.parallel.position.copy(target).addScaledVector(direction.normalize(), 3);
+      this.setFrustum();
+    } else {
+      const distance = this.height / this.parallel.zoom / (2 * tangent);
+      this.perspective.position.copy(target).addScaledVector(direction.normalize(), distance);
+    }
+    this.orthographic = on;
+    this.bind(target);
+    this.changed();
+  }
+}

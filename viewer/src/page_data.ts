@@ -1,0 +1,78 @@
+/** The JSON that `buckens view` puts into the page: version 1 of the format. SI units throughout. */
+
+export type Triple = [number, number, number];
+
+/** Numbers as base64 of little-endian float32, row after row. */
+export type Base64 = string;
+
+export interface PageMarker {
+  name: string;
+  /** Body frame, undeformed [m]. */
+  position: Triple;
+  /** Unit quaternion w, x, y, z: marker axes in the body frame. */
+  orientation: [number, number, number, number];
+  /** Node that carries the marker, −1 on a rigid body. */
+  node: number;
+}
+
+export interface PageBody {
+  name: string;
+  kind: 'rigid' | 'beam';
+  /** Body frame, undeformed [m]. The origin is the mass centre. */
+  nodes: Triple[];
+  elements: [number, number][];
+  /** Radius of the drawn tube per element [m]. */
+  radius: number[];
+  markers: PageMarker[];
+  /** frames × 7: position, then unit quaternion w, x, y, z. */
+  pose: Base64;
+  /** frames × nodes × 6: translations [m] and rotations [rad] in the body frame. */
+  displacement: Base64 | null;
+  /** frames × elements: largest |stress| in the element [Pa]. */
+  stress: Base64 | null;
+}
+
+export interface PageJointSide {
+  /** Index into bodies, −1 for the ground. */
+  body: number;
+  /** Index into the body's markers, −1 where `position` alone says it. */
+  marker: number;
+  /** Frame of the body (world for the ground) [m]. */
+  position: Triple;
+}
+
+export interface PageJoint {
+  name: string;
+  type: string;
+  between: PageJointSide[];
+  /** Unit vector in the frame of the first side's body (world for the ground). */
+  axis: Triple;
+}
+
+export interface PageSensor {
+  name: string;
+  unit: string;
+  components: string[];
+  values: Base64;
+}
+
+export interface PageEnergy {
+  name: string;
+  unit: string;
+  values: Base64;
+}
+
+export interface PageData {
+  format: number;
+  title: string;
+  version: string;
+  generated: string;
+  time: { n: number; f32: Base64 };
+  bodies: PageBody[];
+  joints: PageJoint[];
+  gravity: Triple;
+  planar: string | null;
+  sensors: PageSensor[];
+  energies: PageEnergy[];
+  summary: Record<string, unknown>;
+}

@@ -1,0 +1,59 @@
+import { describe, expect, it } from 'vitest';
+import { kVariants, base64 } from '../tests/fixture.mjs';
+import { decodeFloats, decodeRun, PageDataError } from './run';
+import type { PageData } from './page_data';
+
+const fresh = () => kVariants['slider-crank']() as unknown as PageData;
+
+describe('decodeFloats', () => {
+  it('reads little-endian float32', () => {
+    // 1.5 = 0x3fc00000, −2 = 0xc0000000
+    const text = btoa('\x00\x00\xc0\x3f\x00\x00\x00\xc0');
+    expect([...decodeFloats(text, 2, 'x')]).toEqual([1.5, -2]);
+  });
+
+  it('names the field whose count is wrong', () => {
+    expect(() => decodeFloats(base64([1, 2, 3]), 2, 'time.f32')).toThrow(
+      'time.f32: 3 numbers found, 2 expected',
+    );
+  });
+
+  it('refuses what is not base64', () => {
+    expect(() => decodeFloats('%%%', 1, 'bodies[0].pose')).toThrow('bodies[0].pose: not valid base64');
+    expect(() => decodeFloats(null, 1, 'bodies[0].pose')).toThrow(PageDataError);
+  });
+});
+
+describe('decodeRun', () => {
+  it('keeps every part of a run', () => {
+    const run = decodeRun(fresh());
+    expect(run.times).toHaveLength(400);
+    expect(run.times[399]).toBeCloseTo(0.1, 7);
+    expect(run.bodies.map((body) => body.name)).toEqual(['crank', 'rod', 'slider']);
+    expect(run.bodies[1]!.displacement).toHaveLength(400 * 13 * 6);
+    expect(run.bodies[1]!.hasRotations).toBe(true);
+    expect(run.bodies[0]!.hasRotations).toBe(false);
+    expect(run.joints).toHaveLength(5);
+    expect(run.sensors[1]!.values).toHaveLength(1200);
+    expect(run.planar).toBe('xy');
+  });
+
+  it('takes runs without frames, bodies or curves', () => {
+    expect(decodeRun(kVariants['no-frames']() as unknown as PageData).times).toHaveLength(0);
+    expect(decodeRun(kVariants['no-bodies']() as unknown as PageData).bodies).toHaveLength(0);
+    expect(decodeRun(kVariants['no-curves']() as unknown as PageData).sensors).toHaveLength(0);
+  });
+
+  it('refuses an unfilled page, another format, time that runs backwards, missing nodes', () => {
+    expect(() => decodeRun(null)).toThrow('holds no run');
+    expect(() => decodeRun({ ...fresh(), format: 2 })).toThrow('format 2');
+    const backwards = { ...fresh(), time: { n: 2, f32: base64([1, 0]) }, bodies: [], joints: [] };
+    expect(() => decodeRun(backwards)).toThrow('time: decreases at frame 1');
+    const wrong = fresh();
+    wrong.bodies[1]!.elements.push([3, 99]);
+    expect(() => decodeRun(wrong)).toThrow('bodies[1].elements: no node 3 or 99');
+    const loose = fresh();
+    loose.joints[0]!.between[1]!.body = 7;
+    expect(() => decodeRun(loose)).toThrow('joints[0]: no body 7');
+  });
+});

@@ -1,0 +1,59 @@
+import { describe, expect, it } from 'vitest';
+import { kVariants } from '../tests/fixture.mjs';
+import { colorAt } from './color_map';
+import { figure, niceBelow, prefixFor, TimeFormat } from './quantity';
+import { decodeRun } from './run';
+import { flatten, notices, summaryChips, trustReasons } from './run_summary';
+import type { PageData } from './page_data';
+
+describe('quantities', () => {
+  it('choose the prefix an engineer would', () => {
+    expect(prefixFor(0.0074, 'm').unit).toBe('mm');
+    expect(prefixFor(0.2, 'm').unit).toBe('m');
+    expect(prefixFor(4.9e8, 'Pa').unit).toBe('MPa');
+    expect(prefixFor(3000, 'm').unit).toBe('m');
+    expect(prefixFor(3000, 'N m').unit).toBe('kN m');
+    expect(prefixFor(1e-8, 'm^2').unit).toBe('m^2');
+    expect(prefixFor(0, 'm').unit).toBe('m');
+  });
+
+  it('read as figures', () => {
+    expect(figure(50, 1)).toBe('50');
+    expect(figure(-0.5)).toBe('−0.5000');
+    expect(figure(3.1e-14, 2)).toBe('3.10e−14');
+    expect(figure(NaN)).toBe('–');
+    expect(niceBelow(0.07)).toBeCloseTo(0.05, 12);
+    expect(new TimeFormat(0.02).number(0.0123)).toBe('12.30');
+    expect(new TimeFormat(0.02).unit).toBe('ms');
+    expect(new TimeFormat(0).number(0)).toBe('0.000');
+  });
+
+  it('colour runs from blue to red and is clamped', () => {
+    const [low, high] = [colorAt(-1), colorAt(2)];
+    expect(low[2]).toBeGreaterThan(low[0]);
+    expect(high[0]).toBeGreaterThan(high[2]);
+    expect(colorAt(NaN)).toEqual(low);
+  });
+});
+
+describe('run summary', () => {
+  it('shows what a good run did', () => {
+    const run = decodeRun(kVariants['slider-crank']() as unknown as PageData);
+    const chips = summaryChips(run).map(({ label, value, tone }) => [label, value, tone]);
+    expect(chips).toContainEqual(['factorisations', '1', 'plain']);
+    expect(chips).toContainEqual(['trust', 'ok', 'good']);
+  });
+
+  it('warns about a run that is not to be trusted', () => {
+    const run = decodeRun(kVariants.spatial() as unknown as PageData);
+    expect(trustReasons(run.summary)).toEqual(['step too large for the highest mode']);
+    expect(notices(run.summary)).toHaveLength(2);
+    expect(summaryChips(run).filter((chip) => chip.tone === 'warn')).toHaveLength(2);
+  });
+
+  it('bears a summary of nothing', () => {
+    const run = decodeRun(kVariants['no-curves']() as unknown as PageData);
+    expect(summaryChips(run)).toEqual([]);
+    expect(flatten({ a: { b: [1, 2] }, c: 0.5 })).toEqual([['a.b', '1, 2'], ['c', '0.500000']]);
+  });
+});

@@ -1,0 +1,69 @@
+import { describe, expect, it } from 'vitest';
+import { Tube } from './tube';
+import type { Body } from './run';
+import type { Triple } from './page_data';
+
+function beam(nodes: Triple[], elements: [number, number][], displacement: Float32Array | null): Body {
+  return {
+    name: 'b', kind: 'beam', nodes, elements, radius: elements.map(() => 0.1), markers: [],
+    pose: new Float32Array(7), displacement, stress: null, hasRotations: displacement !== null,
+  };
+}
+
+/** Volume enclosed by the triangles, positive if their fronts look outwards (divergence theorem). */
+function volume(tube: Tube): number {
+  const p = (v: number) => tube.positions.subarray(3 * v, 3 * v + 3);
+  let sum = 0;
+  for (let i = 0; i < tube.indices.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => p(tube.indices[i + k]!));
+    sum += a![0]! * (b![1]! * c![2]! - b![2]! * c![1]!);
+    sum += a![1]! * (b![2]! * c![0]! - b![0]! * c![2]!);
+    sum += a![2]! * (b![0]! * c![1]! - b![1]! * c![0]!);
+  }
+  return sum / 6;
+}
+
+describe('Tube', () => {
+  const chain: Triple[] = [[0, 0, 0], [1, 0, 0], [2, 0, 0]];
+
+  it('is a closed prism with its fronts outside', () => {
+    const tube = new Tube(beam(chain, [[0, 1], [1, 2]], null), 0);
+    tube.deform(new Float32Array(18), 0);
+    const sides = 16;
+    const area = (sides / 2) * 0.1 ** 2 * Math.sin((2 * Math.PI) / sides);
+    // Vertices are float32.
+    expect(volume(tube)).toBeCloseTo(2 * area, 6);
+    expect(tube.kinks).toEqual([]);
+  });
+
+  it('stays closed, and every vertex one radius from the centre line, when bent', () => {
+    const d = new Float32Array(18);
+    d.set([0, 0, 0, 0, 0, 0.3, 0, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.3]);
+    const tube = new Tube(beam(chain, [[0, 1], [1, 2]], d), 0);
+    tube.deform(d, 1);
+    const per = tube.elementOf.indexOf(1);
+    const ring = (element: number, s: number) => tube.positions.subarray(
+      3 * (element * per + s), 3 * (element * per + s) + 48);
+    // The last ring of an element is the first ring of the next one.
+    const [last, first] = [ring(0, per - 16), ring(1, 0)];
+    for (let i = 0; i < 48; i++) expect(last[i]).toBeCloseTo(first[i]!, 6);
+    const middle = ring(1, 0);
+    for (let i = 0; i < 48; i += 3) {
+      const r = Math.hypot(middle[i]! - 1, middle[i + 1]! - 0.2, middle[i + 2]!);
+      expect(r).toBeCloseTo(0.1, 6);
+    }
+  });
+
+  it('finds bends and branches, and keeps thin beams visible', () => {
+    const corner = new Tube(beam([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1], [1, 2]], null), 0.2);
+    expect(corner.kinks).toEqual([1]);
+    expect(corner.radius).toEqual([0.2, 0.2]);
+  });
+
+  it('stays within its budget for long models', () => {
+    const nodes = [...Array(5001)].map((_, i): Triple => [i, 0, 0]);
+    const elements = nodes.slice(1).map((_, i): [number, number] => [i, i + 1]);
+    const tube = new Tube(beam(nodes, elements, new Float32Array(6 * 5001)), 0);
+    expect(tube.positions.length / 3).toBeLessThan(61000);
+  });
+});

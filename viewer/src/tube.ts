@@ -1,0 +1,147 @@
+import { BeamCurve, cross, dot, perpendicular, unit } from './beam_curve';
+import type { Body } from './run';
+import type { Triple } from './page_data';
+
+/** Vertices that one body may spend; long models get coarser tubes instead of a slow page. */
+const kVertexBudget = 60000;
+
+interface Cap {
+  element: number;
+  atEnd: boolean;
+  firstVertex: number;
+}
+
+/** Nodes at which tubes do not run smoothly into each other. */
+function nodeEnds(body: Body, curves: BeamCurve[]): { free: Set<number>; kinks: number[] } {
+  const at = new Map<number, number[]>();
+  body.elements.forEach(([a, b], e) => {
+    for (const node of [a, b]) at.set(node, [...(at.get(node) ?? []), e]);
+  });
+  const free = new Set<number>();
+  const kinks: number[] = [];
+  for (const [node, elements] of at) {
+    if (elements.length === 1) free.add(node);
+    else if (
+      elements.length > 2 ||
+      Math.abs(dot(curves[elements[0]!]!.axis, curves[elements[1]!]!.axis)) < 0.9999
+    ) {
+      kinks.push(node);
+    }
+  }
+  return { free, kinks };
+}
+
+/** Triangles of the tubes that draw a beam body; the topology is fixed, vertices follow the nodes. */
+export class Tube {
+  readonly positions: Float32Array;
+  readonly normals: Float32Array;
+  readonly indices: number[] = [];
+  /** Element of each vertex, for colours. */
+  readonly elementOf: Int32Array;
+  /** Nodes with a bend or a branch, where a ball closes the gap between tubes. */
+  readonly kinks: number[];
+  readonly radius: number[];
+  private readonly curves: BeamCurve[];
+  private readonly reference: Triple[];
+  private readonly caps: Cap[] = [];
+  private readonly sides: number;
+  private readonly segments: number;
+
+  /** `leastRadius` keeps thin beams visible [m]. */
+  constructor(private readonly body: Body, leastRadius: number) {
+    const count = body.elements.length;
+    this.curves = body.elements.map(
+      ([a, b]) => new BeamCurve(body.nodes[a]!, body.nodes[b]!, body.hasRotations),
+    );
+    this.reference = this.curves.map((curve) => perpendicular(curve.axis));
+    this.radius = body.radius.map((r) => Math.max(r, leastRadius));
+    const share = kVertexBudget / Math.max(1, count);
+    this.sides = share > 150 ? 16 : share > 40 ? 10 : 6;
+    const curved = body.displacement !== null && body.hasRotations;
+    const most = Math.max(1, Math.floor(share / this.sides) - 1);
+    this.segments = curved ? Math.min(most, count > 40 ? 4 : 10) : 1;
+
+    const { free, kinks } = nodeEnds(body, this.curves);
+    this.kinks = kinks;
+    let vertices = count * (this.segments + 1) * this.sides;
+    body.elements.forEach(([a, b], element) => {
+      for (const atEnd of [false, true]) {
+        if (!free.has(atEnd ? b : a)) continue;
+        this.caps.push({ element, atEnd, firstVertex: vertices });
+        vertices += this.sides + 1;
+      }
+    });
+    this.positions = new Float32Array(3 * vertices);
+    this.normals = new Float32Array(3 * vertices);
+    this.elementOf = new Int32Array(vertices);
+    this.connect();
+  }
+
+  private connect(): void {
+    const n = this.sides;
+    const rings = this.segments + 1;
+    for (let e = 0; e < this.curves.length; e++) {
+      this.elementOf.fill(e, e * rings * n, (e + 1) * rings * n);
+      for (let s = 0; s < this.segments; s++) {
+        const a = (e * rings + s) * n;
+        for (let i = 0; i < n; i++) {
+          const j = (i + 1) % n;
+          this.indices.push(a + i, a + j, a + n + i, a + j, a + n + j, a + n + i);
+        }
+      }
+    }
+    for (const { element, atEnd, firstVertex } of this.caps) {
+      this.elementOf.fill(element, firstVertex, firstVertex + n + 1);
+      for (let i = 0; i < n; i++) {
+        const j = (i + 1) % n;
+        this.indices.push(firstVertex + n, firstVertex + (atEnd ? i : j));
+        this.indices.push(firstVertex + (atEnd ? j : i));
+      }
+    }
+  }
+
+  /** Moves the vertices to the nodal values d (nodes × 6) magnified by `scale`. */
+  deform(d: ArrayLike<number>, scale: number): void {
+    const rings = this.segments + 1;
+    this.body.elements.forEach(([a, b], e) => {
+      const curve = this.curves[e]!;
+      curve.deform(d, 6 * a, 6 * b, scale);
+      for (let s = 0; s < rings; s++) {
+        curve.at(s / this.segments);
+        this.ring((e * rings + s) * this.sides, e, 0);
+      }
+    });
+    for (const cap of this.caps) {
+      const curve = this.curves[cap.element]!;
+      const [a, b] = this.body.elements[cap.element]!;
+      curve.deform(d, 6 * a, 6 * b, scale);
+      curve.at(cap.atEnd ? 1 : 0);
+      this.ring(cap.firstVertex, cap.element, cap.atEnd ? 1 : -1);
+    }
+  }
+
+  /** Writes one ring around the curve's present point; `capSign` ≠ 0 makes it the rim of a cap. */
+  private ring(first: number, element: number, capSign: number): void {
+    const { point, tangent } = this.curves[element]!;
+    const r = this.radius[element]!;
+    const t = unit(tangent);
+    const ref = this.reference[element]!;
+    const along = dot(ref, t);
+    const u = unit([ref[0] - along * t[0], ref[1] - along * t[1], ref[2] - along * t[2]]);
+    const v = cross(t, u);
+    for (let i = 0; i < this.sides; i++) {
+      const angle = (2 * Math.PI * i) / this.sides;
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      for (let k = 0; k < 3; k++) {
+        const out = c * u[k]! + s * v[k]!;
+        this.positions[3 * (first + i) + k] = point[k]! + r * out;
+        this.normals[3 * (first + i) + k] = capSign === 0 ? out : capSign * t[k]!;
+      }
+    }
+    if (capSign === 0) return;
+    for (let k = 0; k < 3; k++) {
+      this.positions[3 * (first + this.sides) + k] = point[k]!;
+      this.normals[3 * (first + this.sides) + k] = capSign * t[k]!;
+    }
+  }
+}
