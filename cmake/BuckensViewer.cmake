@@ -20,7 +20,7 @@ file(GLOB viewer_settings CONFIGURE_DEPENDS "${viewer_dir}/*.html" "${viewer_dir
 add_custom_command(
   OUTPUT "${BUCKENS_VIEWER_PAGE}"
   COMMAND "${CMAKE_COMMAND}" -D "VIEWER_DIR=${viewer_dir}" -D "NPM=${BUCKENS_NPM}" -D
-          "OUT_DIR=${PROJECT_BINARY_DIR}/viewer" -D "PAGE=${BUCKENS_VIEWER_PAGE}" -P
+          "PAGE=${BUCKENS_VIEWER_PAGE}" -P
           "${PROJECT_SOURCE_DIR}/cmake/build_viewer.cmake"
   DEPENDS ${viewer_sources} ${viewer_settings} "${PROJECT_SOURCE_DIR}/cmake/build_viewer.cmake"
   COMMENT "Building the viewer page"
@@ -37,9 +37,7 @@ if(BUCKENS_TESTS)
       add_test(NAME ${name} COMMAND "${BUCKENS_NPM}" run --silent "${script}"
                WORKING_DIRECTORY "${viewer_dir}")
       # The page tests share one browser's appetite for the processor; they run alone.
-      set_tests_properties(
-        ${name} PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON
-                           ENVIRONMENT "BUCKENS_VIEWER_PAGE=${BUCKENS_VIEWER_PAGE}")
+      set_tests_properties(${name} PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON)
     endif()
   endforeach()
 endif()
