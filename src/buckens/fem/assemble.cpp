@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/assemble.h"
+
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/fem/node_label.h"
+
+namespace buckens::fem {
+
+using linalg::SparseMatrix;
+using linalg::Triplet;
+
+namespace {
+
+using Blocks = std::vector<std::shared_ptr<const ElementBlock>>;
+
+void check_node_numbers(const Structure& structure, const Blocks& blocks) {
+  const int num_nodes = static_cast<int>(structure.nodes.size());
+  for (const auto& block : blocks) {
+    for (int e = 0; e < block->num_elements(); ++e) {
+      for (const int node : block->ends(e)) {
+        if (node >= 0 && node < num_nodes) continue;
+        throw ModelError(
+            fmt::format("an element refers to node {}, but there are {} nodes", node, num_nodes));
+      }
+    }
+  }
+}
+
+/// Refuses nodes without line elements and meshes in several pieces.
+void check_connected(const std::vector<Node>& nodes, const Blocks& blocks) {
+  std::vector<int> parent(nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<bool> used(nodes.size(), false);
+  const auto root = [&parent](int node) {
+    while (parent[static_cast<std::size_t>(node)] != node) {
+      int& up = parent[static_cast<std::size_t>(node)];
+      up = parent[static_cast<std::size_t>(up)];
+      node = up;
+    }
+    return node;
+  };
+  for (const auto& block : blocks) {
+    for (int e = 0; block->is_line() && e < block->num_elements(); ++e) {
+      const auto [a, b] = block->ends(e);
+      used[static_cast<std::size_t>(a)] = used[static_cast<std::size_t>(b)] = true;
+      parent[static_cast<std::size_t>(root(a))] = root(b);
+    }
+  }
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const int node = static_cast<int>(k);
+    if (!used[k]) {
+      throw ModelError(node_label(nodes, node) +
+                       " is connected to no element; remove it or join a beam or bar to it");
+    }
+    if (root(node) != root(0)) {
+      throw ModelError(fmt::format(
+          "{} and {} belong to parts that nothing holds together; join them by a beam or bar, or "
+          "make two bodies",
+          node_label(nodes, 0), node_label(nodes, node)));
+    }
+  }
+}
+
+std::array<bool, 6> kept_variables(std::optional<spatial::Plane> planar) {
+  std::array<bool, 6> kept;
+  kept.fill(true);
+  if (!planar) return kept;
+  const auto normal = static_cast<std::size_t>(spatial::normal_index(*planar));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    kept[axis] = axis != normal;
+    kept[3 + axis] = axis == normal;
+  }
+  return kept;
+}
+
+DofMap number_dofs(std::size_t num_nodes, const Blocks& blocks,
+                   std::optional<spatial::Plane> planar) {
+  std::vector<bool> turns(num_nodes, false);
+  for (const auto& block : blocks) {
+    for (int e = 0; block->has_rotations() && e < block->num_elements(); ++e) {
+      for (const int node : block->ends(e)) turns[static_cast<std::size_t>(node)] = true;
+    }
+  }
+  const std::array<bool, 6> kept = kept_variables(planar);
+  DofMap dofs;
+  dofs.node_dofs.resize(num_nodes);
+  for (std::size_t node = 0; node < num_nodes; ++node) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const bool present = kept[k] && (k < 3 || turns[node]);
+      dofs.node_dofs[node][k] = present ? dofs.num_dofs++ : -1;
+    }
+  }
+  return dofs;
+}
+
+SparseMatrix to_sparse(int n, const std::vector<Triplet>& triplets) {
+  SparseMatrix A(n, n);
+  A.setFromTriplets(triplets.begin(), triplets.end());
+  return A;
+}
+
+double common_mass_damping(const Blocks& blocks) {
+  std::optional<double> alpha;
+  for (const auto& block : blocks) {
+    for (int e = 0; e < block->num_elements(); ++e) {
+      const Material* material = block->material(e);
+      if (material == nullptr) continue;
+      if (alpha && *alpha != material->damping_mass) {
+        throw ModelError(fmt::format(
+            "its materials have different mass damping, {:g} and {:g} 1/s; mass damping "
+            "is one value per body",
+            *alpha, material->damping_mass));
+      }
+      alpha = material->damping_mass;
+    }
+  }
+  return alpha.value_or(0.0);
+}
+
+void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
+  MassMoment moment;
+  for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
+  if (!(moment.mass > 0.0)) {
+    throw ModelError("the mesh has no mass; give a material a density or add a point mass");
+  }
+  ShapeIntegrals& shape = fe.shape;
+  shape.mass = moment.mass;
+  shape.com = moment.first / moment.mass;
+
+  const int n = mesh.dofs.num_dofs;
+  InertiaSum sum;
+  sum.c = linalg::Matrix::Zero(n, 9);
+  for (const auto& block : blocks) block->add_inertia(mesh, shape.com, sum);
+  for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = to_sparse(n, sum.W[k]);
+  shape.c = std::move(sum.c);
+  shape.C0 = sum.C0;
+  shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
+  fe.M = shape.W[0] + shape.W[1];
+  fe.M += shape.W[2];
+  fe.M += to_sparse(n, sum.M_flywheel);
+  fe.M.makeCompressed();
+}
+
+}  // namespace
+
+FeModel assemble(const Structure& structure, std::optional<spatial::Plane> planar) {
+  FeModel fe;
+  fe.blocks = {std::make_shared<BeamBlock>(structure.beams),
+               std::make_shared<BarBlock>(structure.bars),
+               std::make_shared<PointMassBlock>(structure.masses)};
+  check_node_numbers(structure, fe.blocks);
+  check_connected(structure.nodes, fe.blocks);
+  fe.nodes = structure.nodes;
+  fe.dofs = number_dofs(fe.nodes.size(), fe.blocks, planar);
+  const MeshView mesh{fe.nodes, fe.dofs};
+  for (const auto& block : fe.blocks) block->check(mesh);
+
+  integrate_inertia(fe.blocks, mesh, fe);
+  StiffnessSum stiffness;
+  for (const auto& block : fe.blocks) block->add_stiffness(mesh, stiffness);
+  fe.K = to_sparse(fe.dofs.num_dofs, stiffness.K);
+  fe.K_damping = to_sparse(fe.dofs.num_dofs, stiffness.K_damping);
+  fe.mass_damping = common_mass_damping(fe.blocks);
+  return fe;
+}
+
+}  // namespace buckens::fem

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/fem/dof_map.h"
+#include "buckens/fem/material.h"
+#include "buckens/fem/section.h"
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::fem {
+
+/// Mass and first moment about the origin of the model axes.
+struct MassMoment {
+  double mass = 0;                                  ///< [kg]
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();  ///< ∫ s dm [kg m]
+};
+
+/// Inertia of a body under assembly. Entries with row or column −1 are never added.
+struct InertiaSum {
+  std::array<std::vector<linalg::Triplet>, 6> W;  ///< order of ShapeIntegrals::W
+  std::vector<linalg::Triplet> M_flywheel;        ///< what is in M but not in Σ W_aa
+  linalg::Matrix c;                               ///< n×9
+  Eigen::Matrix3d C0 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d J0_flywheel = Eigen::Matrix3d::Zero();
+};
+
+/// Stiffness of a body under assembly.
+struct StiffnessSum {
+  std::vector<linalg::Triplet> K;
+  std::vector<linalg::Triplet> K_damping;  ///< β K
+};
+
+/// Linear map from nodal variables to a point of the mesh: y = N d, entries (0…2, DOF, value).
+struct PointRows {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< undeformed, model axes [m]
+  std::vector<linalg::Triplet> translation;
+  std::vector<linalg::Triplet> rotation;
+  bool has_rotation = false;  ///< false where the mesh has no rotations (bars)
+};
+
+/// What a block needs to know about its body.
+struct MeshView {
+  const std::vector<Node>& nodes;
+  const DofMap& dofs;
+};
+
+/// All elements of one kind in a body: one virtual call handles the whole block.
+class ElementBlock {
+ public:
+  virtual ~ElementBlock() = default;
+
+  virtual int num_elements() const = 0;
+  /// The two end nodes; twice the same for a point mass.
+  virtual std::array<int, 2> ends(int element) const = 0;
+  /// Whether the elements extend along a line (beams, bars), or sit on a node.
+  virtual bool is_line() const = 0;
+  /// Whether the elements give rotations to their nodes.
+  virtual bool has_rotations() const = 0;
+  /// Null for elements without material or section.
+  virtual const Material* material(int element) const = 0;
+  virtual const Section* section(int element) const = 0;
+
+  /// @throws ModelError naming the nodes of an element that cannot be (zero length, bad constants)
+  virtual void check(const MeshView& mesh) const = 0;
+
+  virtual void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const = 0;
+  /// @param com mass centre of the whole body in model axes [m]
+  virtual void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,
+                           InertiaSum& sum) const = 0;
+  virtual void add_stiffness(const MeshView& mesh, StiffnessSum& sum) const = 0;
+
+  /// Section forces as rows over d: row 12 e + (0…5) at the first end, (6…11) at the second, with e
+  /// counted from `first_element`. See recovery.h for their meaning.
+  virtual void add_force_rows(const MeshView& mesh, int first_element,
+                              std::vector<linalg::Triplet>& rows) const = 0;
+  /// @param xi 0 at the first end, 1 at the second
+  virtual PointRows point_rows(const MeshView& mesh, int element, double xi) const = 0;
+};
+
+}  // namespace buckens::fem

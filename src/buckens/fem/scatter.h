@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "buckens/fem/element_block.h"
+#include "buckens/fem/shape_polynomial.h"
+
+namespace buckens::fem {
+
+/// Adds `scale` times an element matrix to the triplets of a body matrix. DOF −1 are dropped, which
+/// restricts planar models; exact zeros are left out, so axis-aligned beams stay decoupled.
+template <int N>
+void scatter(const Eigen::Matrix<double, N, N>& element, const std::array<int, N>& dofs,
+             double scale, std::vector<linalg::Triplet>& sum) {
+  for (int j = 0; j < N; ++j) {
+    const int column = dofs[static_cast<std::size_t>(j)];
+    if (column < 0) continue;
+    for (int i = 0; i < N; ++i) {
+      const int row = dofs[static_cast<std::size_t>(i)];
+      if (row >= 0 && element(i, j) != 0.0) sum.emplace_back(row, column, scale * element(i, j));
+    }
+  }
+}
+
+/// Adds the inertia of one element to that of the body.
+template <int N>
+void scatter(const ElementInertia<N>& element, const std::array<int, N>& dofs, InertiaSum& sum) {
+  for (std::size_t k = 0; k < element.W.size(); ++k) scatter<N>(element.W[k], dofs, 1.0, sum.W[k]);
+  for (int i = 0; i < N; ++i) {
+    const int row = dofs[static_cast<std::size_t>(i)];
+    if (row >= 0) sum.c.row(row) += element.c.row(i);
+  }
+  sum.C0 += element.C0;
+}
+
+/// Adds the rows of a 3×N map to those of a point.
+template <int N>
+void scatter(const Eigen::Matrix<double, 3, N>& map, const std::array<int, N>& dofs,
+             std::vector<linalg::Triplet>& rows) {
+  for (int j = 0; j < N; ++j) {
+    const int column = dofs[static_cast<std::size_t>(j)];
+    if (column < 0) continue;
+    for (int i = 0; i < 3; ++i) {
+      if (map(i, j) != 0.0) rows.emplace_back(i, column, map(i, j));
+    }
+  }
+}
+
+}  // namespace buckens::fem

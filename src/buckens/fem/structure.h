@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/fem/bar_block.h"
+#include "buckens/fem/beam_block.h"
+#include "buckens/fem/dof_map.h"
+#include "buckens/fem/point_mass_block.h"
+
+namespace buckens::fem {
+
+/// The mesh of one body before assembly: nodes and elements in model axes.
+///
+/// Elements are numbered through all kinds: beams first, then bars, then point masses.
+struct Structure {
+  std::vector<Node> nodes;
+  BeamBlock beams;
+  BarBlock bars;
+  PointMassBlock masses;
+};
+
+/// Elements and nodes made from one beam.
+struct BeamDivision {
+  int first_element = 0;  ///< among the beams; the elements follow one another
+  int num_elements = 0;
+  std::vector<int> nodes;  ///< from the first end to the second, both included
+};
+
+/// @param name may be empty
+/// @return index of the new node
+/// @throws ModelError if another node has this name
+int add_node(Structure& structure, const std::string& name, const Eigen::Vector3d& position);
+
+/// Divides the line between two nodes into equal beam elements; makes the nodes between, unnamed.
+/// @throws ModelError if `divisions` < 1 or a node does not exist
+BeamDivision add_beam(Structure& structure, int node_a, int node_b, int divisions,
+                      const BeamProperties& properties);
+
+/// Index of the node with this name, −1 if there is none.
+int find_node(const Structure& structure, const std::string& name);
+
+}  // namespace buckens::fem
