@@ -2,6 +2,12 @@
 # Installs what is missing, builds the program, simulates the slider-crank and makes its page.
 # usage: ./demo.sh [OUT]   OUT: run directory, default build/demo
 set -euo pipefail
+case "${1:-}" in
+  -h | --help)
+    sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}"
+    exit 0
+    ;;
+esac
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 out="$(realpath -m "${1:-$here/build/demo}")"
 cd "$here"

@@ -14,7 +14,9 @@ buckens_packages=(
   clang-format-14 python3 python3-pytest python3-numpy python3-h5py
 )
 
-say() { printf '\033[1m== %s\033[0m\n' "$*"; }
+say() {
+  if [ -t 1 ]; then printf '\033[1m== %s\033[0m\n' "$*"; else printf '== %s\n' "$*"; fi
+}
 warn() { printf 'note: %s\n' "$*" >&2; }
 fail() { printf 'error: %s\n' "$*" >&2; return 1; }
 
