@@ -3,9 +3,15 @@ import { existsSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 
 const kFlags = [
-  '--no-sandbox', '--headless=new', '--use-gl=angle', '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader', '--disable-background-networking', '--disable-component-update',
-  '--disable-sync', '--no-first-run',
+  '--no-sandbox',
+  '--headless=new',
+  '--use-gl=angle',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+  '--no-first-run',
 ];
 
 /** Starts the browser of CHROMIUM, by default /usr/bin/chromium. */

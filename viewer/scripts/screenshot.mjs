@@ -17,8 +17,10 @@ const { values, positionals } = parseArgs({
 });
 const [page, out] = positionals;
 if (!page || !out) {
-  console.error('usage: screenshot.mjs PAGE.html OUT.png [--time FRACTION] [--width W] [--height H]' +
-    ' [--dark] [--click SELECTOR] [--scale X]');
+  console.error(
+    'usage: screenshot.mjs PAGE.html OUT.png [--time FRACTION] [--width W] [--height H]' +
+      ' [--dark] [--click SELECTOR] [--scale X]',
+  );
   process.exit(2);
 }
 
@@ -42,8 +44,12 @@ try {
   }
   for (const selector of values.click) await tab.locator(selector).first().click();
   // Two pictures: the first lays out, the second has everything in place.
-  await tab.evaluate(() => new Promise((done) =>
-    requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+  await tab.evaluate(
+    () =>
+      new Promise((done) =>
+        requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))),
+      ),
+  );
   await tab.screenshot({ path: out });
 } finally {
   await browser.close();

@@ -4,7 +4,7 @@ import type { Triple } from './page_data';
 
 const kXi = [0, 0.1, 0.35, 0.5, 0.8, 1];
 
-/** Tip-loaded cantilever of unit length along x: w = x²(3 − x)/2, a cubic, so one element has it exactly. */
+/** Tip-loaded cantilever of unit length: w = x²(3 − x)/2, a cubic: one element has it exactly. */
 const bent = [0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1.5];
 
 describe('BeamCurve', () => {
@@ -20,7 +20,7 @@ describe('BeamCurve', () => {
   });
 
   it('bends about any axis with the sign of θ × e', () => {
-    // Along z, rotation about x by θ at both ends and w = −θ z: a small rigid rotation, a straight line.
+    // Along z, θ about x at both ends and w = −θ z: a small rigid rotation, a straight line.
     const theta = 0.01;
     const curve = new BeamCurve([0, 0, 0], [0, 0, 2], true);
     curve.deform([0, 0, 0, theta, 0, 0, 0, -2 * theta, 0, theta, 0, 0], 0, 6, 1);
@@ -53,7 +53,13 @@ describe('BeamCurve', () => {
 
 describe('vectors', () => {
   it('finds a unit vector at right angles to any axis', () => {
-    const axes: Triple[] = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.6, 0, 0.8], [0.36, 0.48, 0.8]];
+    const axes: Triple[] = [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+      [0.6, 0, 0.8],
+      [0.36, 0.48, 0.8],
+    ];
     for (const e of axes) {
       const n = perpendicular(e);
       expect(dot(n, e)).toBeCloseTo(0, 14);

@@ -71,7 +71,13 @@ export class BeamCurve {
     this.slope(d, b + 3, scale, stretch, 3);
   }
 
-  private slope(d: ArrayLike<number>, at: number, scale: number, stretch: number, to: number): void {
+  private slope(
+    d: ArrayLike<number>,
+    at: number,
+    scale: number,
+    stretch: number,
+    to: number,
+  ): void {
     const e = this.axis;
     const [x, y, z] = [d[at]! * scale, d[at + 1]! * scale, d[at + 2]! * scale];
     this.slopes[to] = e[0] * stretch + this.length * (y * e[2] - z * e[1]);

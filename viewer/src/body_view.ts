@@ -34,7 +34,10 @@ export class BodyView {
       this.root.add(this.tubes.root);
       if (body.displacement) {
         const pale = new THREE.MeshBasicMaterial({
-          color: theme.ghost, transparent: true, opacity: 0.35, depthWrite: false,
+          color: theme.ghost,
+          transparent: true,
+          opacity: 0.35,
+          depthWrite: false,
         });
         this.ghost = new TubeMesh(motion, size.leastRadius, pale);
         this.ghost.deform(new Float32Array(6 * body.nodes.length), 0);

@@ -55,7 +55,7 @@ export function runBounds(run: Run): Bounds {
   const center = finite ? whole.low.map((l, i) => (l + whole.high[i]!) / 2) : [0, 0, 0];
   const half = finite ? whole.low.map((l, i) => (whole.high[i]! - l) / 2) : [0, 0, 0];
   const distance = Math.hypot(...center);
-  // A single body without extent has no length of its own; below float32's grain there is none either.
+  // A body without extent has no length of its own; below float32's grain there is none either.
   const resolvable = (length: number) => length > Math.max(1e-9, 1e-6 * distance);
   const diagonal = whole.diagonal;
   if (!resolvable(diagonal)) {

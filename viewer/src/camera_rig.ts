@@ -4,7 +4,7 @@ import type { Triple } from './page_data';
 
 const kFieldOfView = 32;
 
-/** Perspective and orthographic camera behind one set of mouse controls. Scene units: run size = 1. */
+/** Two cameras behind one set of mouse controls. Scene units: the run's size is 1. */
 export class CameraRig {
   private readonly perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.002, 60);
   private readonly parallel = new THREE.OrthographicCamera(-1, 1, 1, -1, -30, 60);
@@ -84,7 +84,7 @@ export class CameraRig {
     this.parallel.zoom = 1;
     this.setFrustum();
     this.controls.target.set(0, 0, 0);
-    this.perspective.position.copy(direction).multiplyScalar(1.22 * Math.max(distance, 0.1));
+    this.perspective.position.copy(direction).multiplyScalar(1.12 * Math.max(distance, 0.1));
     this.parallel.position.copy(direction).multiplyScalar(3);
     this.controls.update();
     this.changed();

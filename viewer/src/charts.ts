@@ -6,7 +6,9 @@ import { interpolateRow, locate } from './interpolation';
 import type { Run, Series } from './run';
 import type { Theme } from './theme';
 
-const kPlotHeight = 128;
+/** Plots share the column's height, within what is legible [CSS px]. */
+const kLeastHeight = 112;
+const kMostHeight = 220;
 
 /** Energies of one unit share a panel; every sensor has its own. */
 export function chartSeries(run: Run): Series[] {
@@ -29,7 +31,10 @@ export function chartSeries(run: Run): Series[] {
 
 function largest(values: Float32Array): number {
   let most = 0;
-  for (const value of values) if (Math.abs(value) > most && Number.isFinite(value)) most = Math.abs(value);
+  for (const value of values) {
+    const size = Math.abs(value);
+    if (size > most && size < Infinity) most = size;
+  }
   return most;
 }
 
@@ -60,7 +65,11 @@ class Chart {
     this.root = el('section', { class: 'chart', 'data-name': series.name }, head, this.host);
   }
 
-  draw(theme: Theme, width: number, format: TimeFormat): void {
+  get titleHeight(): number {
+    return (this.root.firstElementChild as HTMLElement).offsetHeight;
+  }
+
+  draw(theme: Theme, width: number, height: number, format: TimeFormat): void {
     this.plot?.destroy();
     const { times } = this.run;
     const { components, values } = this.series;
@@ -82,18 +91,26 @@ class Chart {
     };
     const options: uPlot.Options = {
       width,
-      height: kPlotHeight,
+      height,
       legend: { show: false },
       padding: [8, 12, 0, 0],
       cursor: {
-        drag: { x: false, y: false }, points: { show: false }, y: false, sync: { key: 'time' },
+        drag: { x: false, y: false },
+        points: { show: false },
+        y: false,
+        sync: { key: 'time' },
       },
       scales: {
-        x: { time: false, range: [times[0]!, times[times.length - 1]!] },
+        x: { time: false, range: timeRange(times) },
         y: { range: (_u, low, high) => airy(low, high) },
       },
       axes: [
-        { ...axis, size: 24, gap: 2, values: (_u, ticks) => ticks.map((t) => trim(format.number(t))) },
+        {
+          ...axis,
+          size: 24,
+          gap: 2,
+          values: (_u, ticks) => ticks.map((t) => trim(format.number(t))),
+        },
         { ...axis, size: 54, gap: 4, space: 26, values: (_u, ticks) => ticks.map(tick) },
       ],
       series: [
@@ -124,8 +141,8 @@ class Chart {
     });
   }
 
-  setWidth(width: number): void {
-    this.plot?.setSize({ width, height: kPlotHeight });
+  setSize(width: number, height: number): void {
+    this.plot?.setSize({ width, height });
   }
 
   setTime(t: number): void {
@@ -143,6 +160,12 @@ class Chart {
     this.plot?.destroy();
     this.plot = null;
   }
+}
+
+/** The whole run, or something around its only time. */
+function timeRange(times: Float64Array): [number, number] {
+  const [first, last] = [times[0]!, times[times.length - 1]!];
+  return last > first ? [first, last] : [first - 0.5, first + 0.5];
 }
 
 /** A value range with air above and below, never empty. */
@@ -174,11 +197,13 @@ export class Charts {
   private readonly charts: Chart[];
   private readonly shown = new Set<number>();
   private readonly format: TimeFormat;
-  private theme: Theme;
   private time = 0;
 
-  constructor(run: Run, theme: Theme, seek: (t: number) => void) {
-    this.theme = theme;
+  constructor(
+    run: Run,
+    private theme: Theme,
+    seek: (t: number) => void,
+  ) {
     this.format = new TimeFormat((run.times.at(-1) ?? 0) - (run.times[0] ?? 0));
     this.charts = chartSeries(run).map((series) => new Chart(series, run, seek));
     // Sensors come first and energies last: show the first three of the former and the latter.
@@ -216,10 +241,13 @@ export class Charts {
     const chosen = this.charts.filter((_, i) => this.shown.has(i));
     this.root.replaceChildren(...chosen.map((chart) => chart.root));
     if (chosen.length === 0) {
-      const none = this.charts.length === 0 ? 'This run recorded no sensors.' : 'No curve is chosen.';
+      const none =
+        this.charts.length === 0 ? 'This run recorded no sensors.' : 'No curve is chosen.';
       this.root.append(el('p', { class: 'nothing' }, none));
     }
-    for (const chart of chosen) chart.draw(this.theme, this.width, this.format);
+    for (const chart of chosen) {
+      chart.draw(this.theme, this.width, this.height, this.format);
+    }
     this.setTime(this.time);
   }
 
@@ -227,8 +255,18 @@ export class Charts {
     return Math.max(160, this.root.clientWidth - 20);
   }
 
+  /** Of one plot: what the titles leave of the column, in equal parts. */
+  private get height(): number {
+    const chosen = this.charts.filter((_, i) => this.shown.has(i));
+    // 13 px of padding and line per panel, 14 px around all of them.
+    const titles = chosen.reduce((sum, chart) => sum + chart.titleHeight + 13, 14);
+    const share = Math.floor((this.root.clientHeight - titles) / Math.max(1, chosen.length));
+    return Math.min(kMostHeight, Math.max(kLeastHeight, share));
+  }
+
   resize(): void {
-    this.charts.forEach((chart, i) => this.shown.has(i) && chart.setWidth(this.width));
+    const [width, height] = [this.width, this.height];
+    this.charts.forEach((chart, i) => this.shown.has(i) && chart.setSize(width, height));
     this.setTime(this.time);
   }
 

@@ -11,7 +11,8 @@ const kStops: [number, number, number][] = [
 
 /** Colour of a fraction of the range, clamped to it. */
 export function colorAt(fraction: number): [number, number, number] {
-  const f = Math.min(1, Math.max(0, Number.isFinite(fraction) ? fraction : 0)) * (kStops.length - 1);
+  const f =
+    Math.min(1, Math.max(0, Number.isFinite(fraction) ? fraction : 0)) * (kStops.length - 1);
   const i = Math.min(kStops.length - 2, Math.floor(f));
   const [a, b] = [kStops[i]!, kStops[i + 1]!];
   return [0, 1, 2].map((k) => a[k]! + (f - i) * (b[k]! - a[k]!)) as [number, number, number];

@@ -1,6 +1,6 @@
 type Attributes = Record<string, string | number | boolean | ((event: Event) => void)>;
 
-/** Makes an element; attributes whose value is a function become listeners, `false` leaves one out. */
+/** Makes an element; a function becomes a listener, `false` leaves the attribute out. */
 export function el<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-/** Small solids that stand for joints, frames and mass centres. All have unit size about the origin. */
+/** Small solids of unit size that stand for joints, frames and mass centres. */
 
 export const kAxisColors = [0xd8403a, 0x3f9d45, 0x3b74d8] as const;
 
@@ -24,7 +24,10 @@ export function ball(material: THREE.Material): THREE.Mesh {
 
 /** Stretches something of unit length along z from a to b. */
 export function span(
-  object: THREE.Object3D, a: THREE.Vector3, b: THREE.Vector3, radius: number,
+  object: THREE.Object3D,
+  a: THREE.Vector3,
+  b: THREE.Vector3,
+  radius: number,
 ): void {
   const along = new THREE.Vector3().subVectors(b, a);
   const length = along.length();
@@ -142,7 +145,9 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
 export function support(color: THREE.ColorRepresentation): THREE.Object3D {
   const material = solid(color);
   const pyramid = new THREE.ConeGeometry(1.9, 2.4, 4)
-    .rotateY(Math.PI / 4).rotateX(Math.PI / 2).translate(0, 0, -1.2);
+    .rotateY(Math.PI / 4)
+    .rotateX(Math.PI / 2)
+    .translate(0, 0, -1.2);
   const plate = new THREE.BoxGeometry(3.8, 3.8, 0.35).translate(0, 0, -2.5);
   return new THREE.Group().add(new THREE.Mesh(pyramid, material), new THREE.Mesh(plate, material));
 }

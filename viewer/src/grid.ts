@@ -51,7 +51,9 @@ export class Grid {
     geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
     geometry.setAttribute('color', new THREE.Float32BufferAttribute(colors, 4));
     const material = new THREE.LineBasicMaterial({
-      vertexColors: true, transparent: true, depthWrite: false,
+      vertexColors: true,
+      transparent: true,
+      depthWrite: false,
     });
     this.root = new THREE.LineSegments(geometry, material);
     this.root.position.copy(center);

@@ -1,30 +1,28 @@
+import { modal, nameTable } from './dialog';
 import { el } from './dom';
 import { flatten, notices, summaryChips, trustReasons } from './run_summary';
 import type { Run } from './run';
 
 function list(title: string, lines: string[]): HTMLElement[] {
   if (lines.length === 0) return [];
-  return [el('h3', {}, title), el('ul', { class: 'warnings' }, ...lines.map((l) => el('li', {}, l)))];
+  return [
+    el('h3', {}, title),
+    el('ul', { class: 'warnings' }, ...lines.map((l) => el('li', {}, l))),
+  ];
 }
 
 /** The dialog with warnings in full and every figure of the summary. */
 function details(run: Run): HTMLDialogElement {
-  const rows = flatten(run.summary).map(([path, text]) =>
-    el('tr', {}, el('th', { scope: 'row' }, path), el('td', {}, text)),
-  );
-  const close = el('button', { class: 'icon', 'aria-label': 'Close', click: () => dialog.close() }, '✕');
+  const rows = flatten(run.summary);
   const made = [run.version && `Buckens ${run.version}`, run.generated].filter(Boolean).join(' · ');
-  const dialog: HTMLDialogElement = el(
-    'dialog',
-    { class: 'details', click: (event) => event.target === dialog && dialog.close() },
-    el('header', {}, el('h2', {}, run.title), close),
+  return modal(
+    run.title,
     el('p', { class: 'made' }, made),
     ...list('Why the result needs a second look', trustReasons(run.summary)),
     ...list('Warnings', notices(run.summary)),
     el('h3', {}, 'Summary of the run'),
-    rows.length ? el('table', {}, ...rows) : el('p', {}, 'The run left no summary.'),
+    rows.length ? nameTable(rows) : el('p', {}, 'The run left no summary.'),
   );
-  return dialog;
 }
 
 /** Title and the few figures that say how the run went; a click on them shows all. */
@@ -39,7 +37,12 @@ export function header(run: Run): HTMLElement {
     { class: 'top' },
     el('span', { class: 'brand' }, 'Buckens'),
     el('h1', { title: run.title }, run.title),
-    el('button', { class: 'chips', title: 'All figures of the run', click: open }, ...chips, 'Details'),
+    el(
+      'button',
+      { class: 'chips', title: 'All figures of the run', click: open },
+      ...chips,
+      'Details',
+    ),
     dialog,
   );
 }

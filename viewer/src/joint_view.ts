@@ -17,8 +17,8 @@ function isPrismatic(joint: PageJoint): boolean {
 }
 
 /**
- * One joint in the scene: its glyph where it holds its last side, a support under what stands on the
- * ground, a line between the two sides when they are apart (springs, or a magnified deformation).
+ * One joint in the scene: its glyph where it holds its last side, a support under what stands on
+ * the ground, a line between the two sides when they are apart (springs, or a magnified deformation).
  */
 export class JointView {
   readonly root = new THREE.Group();
@@ -75,9 +75,13 @@ export class JointView {
     return rail;
   }
 
+  /** In the world. */
   private axis(): Triple {
-    const first = this.motion.bodies[this.joint.between[0]!.body];
-    return rotate(first ? first.pose.slice(3) : kIdentity, 0, this.joint.axis);
+    const side = this.joint.between[0]!;
+    const body = this.motion.bodies[side.body];
+    const marker = body?.body.markers[side.marker];
+    const axis = rotate(marker?.orientation ?? kIdentity, 0, this.joint.axis);
+    return body ? rotate(body.pose, 3, axis) : axis;
   }
 
   /** World position of the glyph and of the label. */

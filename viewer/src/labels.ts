@@ -18,8 +18,10 @@ interface Rectangle {
 
 function overlaps(a: Rectangle, b: Rectangle): boolean {
   return (
-    a.left < b.left + b.width && b.left < a.left + a.width &&
-    a.top < b.top + b.height && b.top < a.top + a.height
+    a.left < b.left + b.width &&
+    b.left < a.left + a.width &&
+    a.top < b.top + b.height &&
+    b.top < a.top + a.height
   );
 }
 
@@ -42,8 +44,7 @@ export class Labels {
     const placed: Rectangle[] = [];
     this.pool.forEach((span, i) => {
       const label = labels[i];
-      const outside =
-        !label || label.x < 0 || label.y < 0 || label.x > width || label.y > height;
+      const outside = !label || label.x < 0 || label.y < 0 || label.x > width || label.y > height;
       span.hidden = outside;
       if (outside) return;
       const kind = `label ${label.kind}`;
@@ -66,7 +67,7 @@ export class Labels {
     return size;
   }
 
-  /** First free place beside the point: right above, right below, left above, left below, further. */
+  /** First free place beside the point: right above or below, left above or below, further. */
   private spot(label: Label, [w, h]: [number, number], placed: Rectangle[]): Rectangle {
     if (label.kind === 'axis') {
       return { left: label.x - w / 2, top: label.y - h / 2, width: w, height: h };
@@ -74,7 +75,12 @@ export class Labels {
     let first: Rectangle | null = null;
     for (const away of [0, 1, 2]) {
       const gap = 9 + away * (h + 1);
-      for (const [right, below] of [[1, 0], [1, 1], [0, 0], [0, 1]]) {
+      for (const [right, below] of [
+        [1, 0],
+        [1, 1],
+        [0, 0],
+        [0, 1],
+      ]) {
         const left = right ? label.x + 9 : label.x - 9 - w;
         const top = below ? label.y + gap : label.y - gap - h;
         const spot = { left, top, width: w, height: h };

@@ -1,4 +1,9 @@
-import './style.css';
+import './style/base.css';
+import './style/view.css';
+import './style/transport.css';
+import './style/curves.css';
+import './style/dialog.css';
+import './style/narrow.css';
 import { el } from './dom';
 import { decodeRun, PageDataError } from './run';
 import { Page } from './page';
@@ -11,7 +16,13 @@ declare global {
 }
 
 function refuse(title: string, text: string): HTMLElement {
-  return el('main', { class: 'refusal' }, el('span', { class: 'brand' }, 'Buckens'), el('h1', {}, title), el('p', {}, text));
+  return el(
+    'main',
+    { class: 'refusal' },
+    el('span', { class: 'brand' }, 'Buckens'),
+    el('h1', {}, title),
+    el('p', {}, text),
+  );
 }
 
 function start(app: HTMLElement): void {
@@ -31,7 +42,12 @@ function start(app: HTMLElement): void {
     }
   } catch (error) {
     if (!(error instanceof PageDataError)) throw error;
-    app.append(refuse('This run cannot be shown', `${error.message}. Write the page again: buckens view OUT`));
+    app.append(
+      refuse(
+        'This run cannot be shown',
+        `${error.message}. Write the page again: buckens view OUT`,
+      ),
+    );
   }
 }
 

@@ -51,7 +51,8 @@ describe('runBounds', () => {
 describe('orientationOf', () => {
   it('looks at a planar model along its normal, with positive axes to the right', () => {
     expect(orientationOf({ gravity: [0, -9.81, 0], planar: 'xy' })).toMatchObject({
-      up: [-0, 1, -0], back: [0, 0, 1],
+      up: [-0, 1, -0],
+      back: [0, 0, 1],
     });
     const fallen = orientationOf({ gravity: [0, 0, -9.81], planar: 'zx' });
     expect(fallen.up[2]).toBe(1);

@@ -79,6 +79,13 @@ export class Motion {
     for (const body of this.bodies) body.set(place);
   }
 
+  /** Over all elements at the present time [Pa]. */
+  get largestStress(): number {
+    let most = 0;
+    for (const body of this.bodies) for (const s of body.stress) most = s > most ? s : most;
+    return most;
+  }
+
   /** World position of one side of a joint. */
   side(side: PageJointSide, scale: number): Triple {
     const motion = this.bodies[side.body];

@@ -18,7 +18,7 @@ function minus(a: Triple): Triple {
   return [-a[0], -a[1], -a[2]];
 }
 
-/** A planar model is seen along its normal with positive axes to the right; others from the corner. */
+/** A planar model is seen along its normal, positive axes to the right; others from a corner. */
 export function orientationOf(run: Pick<Run, 'gravity' | 'planar'>): Orientation {
   const falls = Math.hypot(...run.gravity) > 0;
   const skyward = falls ? minus(unit(run.gravity)) : null;

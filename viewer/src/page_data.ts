@@ -1,4 +1,4 @@
-/** The JSON that `buckens view` puts into the page: version 1 of the format. SI units throughout. */
+/** The JSON that `buckens view` puts into the page, format 1. SI units throughout. */
 
 export type Triple = [number, number, number];
 
@@ -45,7 +45,7 @@ export interface PageJoint {
   name: string;
   type: string;
   between: PageJointSide[];
-  /** Unit vector in the frame of the first side's body (world for the ground). */
+  /** Unit vector in the first side's marker frame, else its body's frame, else the world. */
   axis: Triple;
 }
 

@@ -48,7 +48,8 @@ export class Playback {
     const last = this.times.length - 1;
     let nearest = 0;
     for (let i = 1; i <= last; i++) {
-      const better = Math.abs(this.times[i]! - this.time) < Math.abs(this.times[nearest]! - this.time);
+      const better =
+        Math.abs(this.times[i]! - this.time) < Math.abs(this.times[nearest]! - this.time);
       if (better) nearest = i;
     }
     this.setTime(this.times[Math.min(last, Math.max(0, nearest + frames))] ?? this.time);

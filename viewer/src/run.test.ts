@@ -19,7 +19,9 @@ describe('decodeFloats', () => {
   });
 
   it('refuses what is not base64', () => {
-    expect(() => decodeFloats('%%%', 1, 'bodies[0].pose')).toThrow('bodies[0].pose: not valid base64');
+    expect(() => decodeFloats('%%%', 1, 'bodies[0].pose')).toThrow(
+      'bodies[0].pose: not valid base64',
+    );
     expect(() => decodeFloats(null, 1, 'bodies[0].pose')).toThrow(PageDataError);
   });
 });

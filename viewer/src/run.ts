@@ -113,7 +113,7 @@ function checkJoint(joint: PageJoint, bodies: Body[], where: string): PageJoint 
   return joint;
 }
 
-/** Decodes and checks the page's data. `null` (an unfilled page) is refused like any other fault. */
+/** Decodes and checks the page's data; `null` (an unfilled page) is refused like any fault. */
 export function decodeRun(data: PageData | null | undefined): Run {
   if (!data) throw new PageDataError('This page holds no run.');
   if (data.format !== 1) {

@@ -41,8 +41,7 @@ export function trustReasons(summary: Tree): string[] {
   const trust = summary.trust;
   if (trust === undefined || trust === null || trust === 'ok') return [];
   if (isTree(trust) && (trust.ok === true || trust.status === 'ok')) return [];
-  const reasons = texts(trust).filter((reason) => reason !== 'ok');
-  return reasons;
+  return texts(trust).filter((reason) => reason !== 'ok');
 }
 
 /** What else the program had to say: warnings, redundant constraints, an interruption. */
@@ -84,7 +83,9 @@ export function summaryChips(run: Run): Chip[] {
     add('joint error', figure(closure, 2), 'Largest constraint residual on position level');
   }
   const energy = numberAt(summary, 'energy_error');
-  if (energy !== undefined) add('energy error', figure(energy, 2), 'Relative error of the energy balance');
+  if (energy !== undefined) {
+    add('energy error', figure(energy, 2), 'Relative error of the energy balance');
+  }
   if (summary.trust !== undefined && summary.trust !== null) {
     const reasons = trustReasons(summary);
     add(

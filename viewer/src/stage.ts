@@ -17,7 +17,7 @@ import type { ViewOptions } from './view_options';
 /** Edge of the corner with the world axes [CSS px]. */
 const kCorner = 92;
 
-/** The 3-D view of a run. The model is scaled to unit size, so every model gets the same depth range. */
+/** The 3-D view of a run, the model scaled to unit size: every model gets the same depth range. */
 export class Stage {
   readonly canvas = document.createElement('canvas');
   readonly labels = new Labels();
@@ -41,7 +41,11 @@ export class Stage {
   private height = 1;
 
   /** Throws if the browser has no WebGL. `changed` is called whenever the camera moves. */
-  constructor(private readonly run: Run, theme: Theme, changed: () => void) {
+  constructor(
+    private readonly run: Run,
+    theme: Theme,
+    changed: () => void,
+  ) {
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true });
     this.motion = new Motion(run);
     this.bounds = runBounds(run);
@@ -51,14 +55,15 @@ export class Stage {
       leastRadius: 0.0022 * this.bounds.size,
     };
     this.stressRange = run.bodies.reduce(
-      (most, body) => (body.stress ?? new Float32Array()).reduce((a, b) => (b > a ? b : a), most), 0,
+      (most, { stress }) => (stress ? stress.reduce((a, b) => (b > a ? b : a), most) : most),
+      0,
     );
     this.corner = new CornerTriad(run.gravity);
     this.trace = new Trace(run, this.bounds.center);
     const scale = 1 / this.bounds.size;
     this.model.scale.setScalar(scale);
     this.model.position.set(...this.bounds.center).multiplyScalar(-scale);
-    this.scene.add(this.model, new THREE.HemisphereLight(0xffffff, 0x8a94a0, 1.9));
+    this.scene.add(this.model, new THREE.HemisphereLight(0xffffff, 0xb4bcc6, 2.1));
     this.rig = new CameraRig(this.canvas, this.orientation.up, run.planar !== null, changed);
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('aria-label', '3-D view of the model. Drag to turn, wheel to zoom.');
@@ -72,6 +77,9 @@ export class Stage {
   setTheme(theme: Theme): void {
     this.theme = theme;
     this.scene.background = new THREE.Color(theme.background);
+    this.model.traverse((part) => {
+      if (part instanceof THREE.Mesh || part instanceof THREE.Line) part.geometry.dispose();
+    });
     this.model.clear();
     const { run, glyphs, orientation } = this;
     const grid = new Grid(this.bounds, orientation, run.planar !== null, theme);

@@ -12,8 +12,12 @@ export class StressLegend {
     const { factor, unit } = prefixFor(range, 'Pa');
     const bar = el('div', { class: 'bar' }, this.needle);
     bar.style.background = cssGradient();
-    const ticks = [1, 0.75, 0.5, 0.25, 0].map((f) => el('span', {}, figure((f * range) / factor, 3)));
-    this.root = el('aside', { class: 'stress-legend', title: 'Largest |stress| of each element' },
+    const ticks = [1, 0.75, 0.5, 0.25, 0].map((f) =>
+      el('span', {}, figure((f * range) / factor, 3)),
+    );
+    this.root = el(
+      'aside',
+      { class: 'stress-legend', title: 'Largest |stress| of each element' },
       el('div', {}, `|σ| in ${unit}`),
       el('div', { class: 'scale' }, bar, el('div', { class: 'ticks' }, ...ticks)),
       el('div', {}, 'now ', this.now),

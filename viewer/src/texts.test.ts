@@ -54,6 +54,9 @@ describe('run summary', () => {
   it('bears a summary of nothing', () => {
     const run = decodeRun(kVariants['no-curves']() as unknown as PageData);
     expect(summaryChips(run)).toEqual([]);
-    expect(flatten({ a: { b: [1, 2] }, c: 0.5 })).toEqual([['a.b', '1, 2'], ['c', '0.500000']]);
+    expect(flatten({ a: { b: [1, 2] }, c: 0.5 })).toEqual([
+      ['a.b', '1, 2'],
+      ['c', '0.500000'],
+    ]);
   });
 });

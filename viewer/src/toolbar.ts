@@ -24,25 +24,44 @@ export class Toolbar {
   readonly root: HTMLElement;
   private readonly buttons = new Map<Toggle, HTMLButtonElement>();
 
-  constructor(run: Run, private readonly options: ViewOptions, private readonly changed: () => void) {
+  constructor(
+    run: Run,
+    private readonly options: ViewOptions,
+    private readonly changed: () => void,
+  ) {
     const deformable = run.bodies.some((body) => body.displacement);
     const stressed = run.bodies.some((body) => body.stress);
     const offered = kToggles.filter(
       ({ name }) => (name !== 'undeformed' || deformable) && (name !== 'stress' || stressed),
     );
     for (const { name, text, key, title } of offered) {
-      const button = el('button', {
-        type: 'button', 'data-toggle': name, title: `${title} (${key})`, click: () => this.flip(name),
-      }, text);
+      const button = el(
+        'button',
+        {
+          type: 'button',
+          'data-toggle': name,
+          title: `${title} (${key})`,
+          click: () => this.flip(name),
+        },
+        text,
+      );
       this.buttons.set(name, button);
     }
-    this.root = el('div', { class: 'toolbar', role: 'toolbar', 'aria-label': 'What is shown' },
-      ...this.buttons.values(), this.traceChoice(run));
+    this.root = el(
+      'div',
+      { class: 'toolbar', role: 'toolbar', 'aria-label': 'What is shown' },
+      ...this.buttons.values(),
+      this.traceChoice(run),
+    );
     this.update();
   }
 
   private traceChoice(run: Run): HTMLElement {
-    const select = el('select', { class: 'trace', 'aria-label': 'Trace of a point', title: 'Path of a point' });
+    const select = el('select', {
+      class: 'trace',
+      'aria-label': 'Trace of a point',
+      title: 'Path of a point',
+    });
     select.append(el('option', { value: '' }, 'No trace'));
     run.bodies.forEach((body, b) => {
       const points = body.markers.map((marker, m) => ({ m, text: `${body.name}/${marker.name}` }));

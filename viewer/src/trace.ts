@@ -15,7 +15,10 @@ export class Trace {
   private passed: Line2 | null = null;
   private shown = '';
 
-  constructor(run: Run, private readonly center: Triple) {
+  constructor(
+    run: Run,
+    private readonly center: Triple,
+  ) {
     // A motion of its own, so that walking through the frames does not disturb the picture.
     this.motion = new Motion(run);
     this.root.position.set(...center);
@@ -49,7 +52,10 @@ export class Trace {
     }
     for (const strong of [false, true]) {
       const material = new LineMaterial({
-        color, linewidth: strong ? 2.5 : 1.2, transparent: true, opacity: strong ? 1 : 0.45,
+        color,
+        linewidth: strong ? 2.5 : 1.2,
+        transparent: true,
+        opacity: strong ? 1 : 0.45,
       });
       const line = new Line2(new LineGeometry().setPositions(path), material);
       line.frustumCulled = false;

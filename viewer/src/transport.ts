@@ -15,18 +15,36 @@ export class Transport {
   readonly root: HTMLElement;
   private readonly play = el('button', { class: 'play', type: 'button' });
   private readonly scrub = el('input', {
-    type: 'range', class: 'scrub', min: 0, max: 1, step: 'any', 'aria-label': 'Time',
+    type: 'range',
+    class: 'scrub',
+    min: 0,
+    max: 1,
+    step: 'any',
+    'aria-label': 'Time',
   });
   private readonly clock = el('output', { class: 'clock' });
   private readonly speed = el('input', {
-    type: 'range', min: -1, max: 1, step: 0.01, value: 0, 'aria-label': 'Speed',
+    type: 'range',
+    min: -1,
+    max: 1,
+    step: 0.01,
+    value: 0,
+    'aria-label': 'Speed',
   });
   private readonly speedText = el('output', {});
   private readonly scale = el('input', {
-    type: 'range', min: 0, max: 1, step: 0.005, 'aria-label': 'Deformation scale',
+    type: 'range',
+    min: 0,
+    max: 1,
+    step: 0.005,
+    'aria-label': 'Deformation scale',
   });
   private readonly scaleNumber = el('input', {
-    type: 'number', min: 1, max: kMostScale, step: 'any', 'aria-label': 'Deformation scale, number',
+    type: 'number',
+    min: 1,
+    max: kMostScale,
+    step: 'any',
+    'aria-label': 'Deformation scale, number',
   });
   private readonly format: TimeFormat;
   private readonly usualSpeed: number;
@@ -54,16 +72,35 @@ export class Transport {
       playback.speed = this.usualSpeed;
       changed();
     });
-    this.scale.addEventListener('input', () => this.setScale(kMostScale ** Number(this.scale.value)));
-    this.scaleNumber.addEventListener('change', () => this.setScale(Number(this.scaleNumber.value)));
+    this.scale.addEventListener('input', () =>
+      this.setScale(kMostScale ** Number(this.scale.value)),
+    );
+    this.scaleNumber.addEventListener('change', () =>
+      this.setScale(Number(this.scaleNumber.value)),
+    );
 
-    const speedField = el('label', { class: 'field', title: 'Simulated time per second of watching; double click resets' },
-      'Speed', this.speed, this.speedText);
-    const scaleField = el('div', {
-      class: 'field',
-      title: 'Magnifies nodal displacements and rotations in the body frame; above 1 joints no longer meet',
-    }, 'Deformation', this.scale, this.scaleNumber, '×');
-    this.root = el('footer', { class: 'transport' },
+    const speedField = el(
+      'label',
+      { class: 'field', title: 'Simulated time per second of watching; double click resets' },
+      'Speed',
+      this.speed,
+      this.speedText,
+    );
+    const scaleField = el(
+      'div',
+      {
+        class: 'field',
+        title:
+          'Magnifies nodal displacements and rotations in the body frame; above 1 joints no longer meet',
+      },
+      'Deformation',
+      this.scale,
+      this.scaleNumber,
+      '×',
+    );
+    this.root = el(
+      'footer',
+      { class: 'transport' },
       el('div', { class: 'line' }, this.play, this.scrub, this.clock),
       el('div', { class: 'line fields' }, speedField, ...(deformable ? [scaleField] : [])),
     );

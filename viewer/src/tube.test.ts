@@ -3,10 +3,22 @@ import { Tube } from './tube';
 import type { Body } from './run';
 import type { Triple } from './page_data';
 
-function beam(nodes: Triple[], elements: [number, number][], displacement: Float32Array | null): Body {
+function beam(
+  nodes: Triple[],
+  elements: [number, number][],
+  displacement: Float32Array | null,
+): Body {
   return {
-    name: 'b', kind: 'beam', nodes, elements, radius: elements.map(() => 0.1), markers: [],
-    pose: new Float32Array(7), displacement, stress: null, hasRotations: displacement !== null,
+    name: 'b',
+    kind: 'beam',
+    nodes,
+    elements,
+    radius: elements.map(() => 0.1),
+    markers: [],
+    pose: new Float32Array(7),
+    displacement,
+    stress: null,
+    hasRotations: displacement !== null,
   };
 }
 
@@ -24,10 +36,24 @@ function volume(tube: Tube): number {
 }
 
 describe('Tube', () => {
-  const chain: Triple[] = [[0, 0, 0], [1, 0, 0], [2, 0, 0]];
+  const chain: Triple[] = [
+    [0, 0, 0],
+    [1, 0, 0],
+    [2, 0, 0],
+  ];
 
   it('is a closed prism with its fronts outside', () => {
-    const tube = new Tube(beam(chain, [[0, 1], [1, 2]], null), 0);
+    const tube = new Tube(
+      beam(
+        chain,
+        [
+          [0, 1],
+          [1, 2],
+        ],
+        null,
+      ),
+      0,
+    );
     tube.deform(new Float32Array(18), 0);
     const sides = 16;
     const area = (sides / 2) * 0.1 ** 2 * Math.sin((2 * Math.PI) / sides);
@@ -39,11 +65,21 @@ describe('Tube', () => {
   it('stays closed, and every vertex one radius from the centre line, when bent', () => {
     const d = new Float32Array(18);
     d.set([0, 0, 0, 0, 0, 0.3, 0, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.3]);
-    const tube = new Tube(beam(chain, [[0, 1], [1, 2]], d), 0);
+    const tube = new Tube(
+      beam(
+        chain,
+        [
+          [0, 1],
+          [1, 2],
+        ],
+        d,
+      ),
+      0,
+    );
     tube.deform(d, 1);
     const per = tube.elementOf.indexOf(1);
-    const ring = (element: number, s: number) => tube.positions.subarray(
-      3 * (element * per + s), 3 * (element * per + s) + 48);
+    const ring = (element: number, s: number) =>
+      tube.positions.subarray(3 * (element * per + s), 3 * (element * per + s) + 48);
     // The last ring of an element is the first ring of the next one.
     const [last, first] = [ring(0, per - 16), ring(1, 0)];
     for (let i = 0; i < 48; i++) expect(last[i]).toBeCloseTo(first[i]!, 6);
@@ -55,7 +91,21 @@ describe('Tube', () => {
   });
 
   it('finds bends and branches, and keeps thin beams visible', () => {
-    const corner = new Tube(beam([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1], [1, 2]], null), 0.2);
+    const corner = new Tube(
+      beam(
+        [
+          [0, 0, 0],
+          [1, 0, 0],
+          [1, 1, 0],
+        ],
+        [
+          [0, 1],
+          [1, 2],
+        ],
+        null,
+      ),
+      0.2,
+    );
     expect(corner.kinks).toEqual([1]);
     expect(corner.radius).toEqual([0.2, 0.2]);
   });

@@ -48,7 +48,10 @@ export class Tube {
   private readonly segments: number;
 
   /** `leastRadius` keeps thin beams visible [m]. */
-  constructor(private readonly body: Body, leastRadius: number) {
+  constructor(
+    private readonly body: Body,
+    leastRadius: number,
+  ) {
     const count = body.elements.length;
     this.curves = body.elements.map(
       ([a, b]) => new BeamCurve(body.nodes[a]!, body.nodes[b]!, body.hasRotations),

@@ -40,36 +40,62 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
   const states = times.map((t) => crankState(t, { r, l, speed }));
   const place = (p) => p.map((x, i) => x + offset[i]);
   const marker = (name, x, node = -1) => ({
-    name, position: [x, 0, 0], orientation: kUpright, node,
+    name,
+    position: [x, 0, 0],
+    orientation: kUpright,
+    node,
   });
   const side = (body, at, position) => ({ body, marker: at, position });
   const bodies = [
     {
-      name: 'crank', kind: 'rigid', nodes: [], elements: [], radius: [],
+      name: 'crank',
+      kind: 'rigid',
+      nodes: [],
+      elements: [],
+      radius: [],
       markers: [marker('base', -r / 2), marker('pin', r / 2)],
       pose: base64(states.flatMap((s) => [...place(s.pin.map((x) => x / 2)), ...aboutZ(s.phi)])),
-      displacement: null, stress: null,
+      displacement: null,
+      stress: null,
     },
     {
-      name: 'rod', kind: 'beam', nodes,
+      name: 'rod',
+      kind: 'beam',
+      nodes,
       elements: [...Array(elements)].map((_, i) => [i, i + 1]),
       radius: Array(elements).fill(0.003 * scale),
-      markers: [marker('start', -l / 2, 0), marker('mid', 0, elements / 2),
-        marker('end', l / 2, elements)],
-      pose: base64(states.flatMap((s) =>
-        [...place([(s.pin[0] + s.slider) / 2, s.pin[1] / 2, 0]), ...aboutZ(s.psi)])),
+      markers: [
+        marker('start', -l / 2, 0),
+        marker('mid', 0, elements / 2),
+        marker('end', l / 2, elements),
+      ],
+      pose: base64(
+        states.flatMap((s) => [
+          ...place([(s.pin[0] + s.slider) / 2, s.pin[1] / 2, 0]),
+          ...aboutZ(s.psi),
+        ]),
+      ),
       displacement: base64(states.flatMap((s) => rodShape(nodes, l, s.mid))),
-      stress: base64(states.flatMap((s) => nodes.slice(1).map(([x], i) => {
-        const middle = (x + nodes[i][0]) / 2;
-        const curvature = s.mid * (Math.PI / l) ** 2 * Math.sin(Math.PI * (middle / l + 0.5));
-        return Math.abs(2e11 * 0.003 * scale * curvature);
-      }))),
+      stress: base64(
+        states.flatMap((s) =>
+          nodes.slice(1).map(([x], i) => {
+            const middle = (x + nodes[i][0]) / 2;
+            const curvature = s.mid * (Math.PI / l) ** 2 * Math.sin(Math.PI * (middle / l + 0.5));
+            return Math.abs(2e11 * 0.003 * scale * curvature);
+          }),
+        ),
+      ),
     },
     {
-      name: 'slider', kind: 'rigid', nodes: [], elements: [], radius: [],
+      name: 'slider',
+      kind: 'rigid',
+      nodes: [],
+      elements: [],
+      radius: [],
       markers: [marker('origin', 0)],
       pose: base64(states.flatMap((s) => [...place([s.slider, 0, 0]), ...kUpright])),
-      displacement: null, stress: null,
+      displacement: null,
+      stress: null,
     },
   ];
   const joint = (name, type, a, b, axis = [0, 0, 1]) => ({ name, type, between: [a, b], axis });
@@ -81,35 +107,56 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
     joint('wrist', 'revolute', side(1, 2, [l / 2, 0, 0]), side(2, 0, [0, 0, 0])),
     joint('guide', 'prismatic', ground, side(2, 0, [0, 0, 0]), [1, 0, 0]),
   ];
-  const sensor = (name, unit, components, row) =>
-    ({ name, unit, components, values: base64(states.flatMap(row)) });
+  const sensor = (name, unit, components, row) => ({
+    name,
+    unit,
+    components,
+    values: base64(states.flatMap(row)),
+  });
   const kinetic = (s) => 20 + 8 * Math.cos(2 * s.phi);
   return {
-    format: 1, title: 'Flexible slider-crank', version: '0.1.0', generated: '2026-01-01T00:00:00Z',
-    time: { n: frames, f32: base64(times) }, bodies, joints,
-    gravity: [0, 0, 0], planar,
+    format: 1,
+    title: 'Flexible slider-crank',
+    version: '0.1.0',
+    generated: '2026-01-01T00:00:00Z',
+    time: { n: frames, f32: base64(times) },
+    bodies,
+    joints,
+    gravity: [0, 0, 0],
+    planar,
     sensors: [
       sensor('mid deflection', 'm', [''], (s) => [s.mid]),
       sensor('slider position', 'm', ['x', 'y', 'z'], (s) => place([s.slider, 0, 0])),
       sensor('motor torque', 'N m', [''], (s) => [3 * Math.sin(2 * s.phi)]),
-      sensor('pin force', 'N', ['x', 'y', 'z'],
-        (s) => [900 * Math.cos(s.phi), 650 * Math.sin(s.phi), 0]),
+      sensor('pin force', 'N', ['x', 'y', 'z'], (s) => [
+        900 * Math.cos(s.phi),
+        650 * Math.sin(s.phi),
+        0,
+      ]),
     ],
     energies: [
       { name: 'kinetic', unit: 'J', values: base64(states.map(kinetic)) },
       { name: 'strain', unit: 'J', values: base64(states.map((s) => 5e4 * (s.mid / scale) ** 2)) },
     ],
     summary: {
-      version: '0.1.0', title: 'Flexible slider-crank', finished: true, end_time: duration,
-      steps: 1000, wall_seconds: { total: 0.412, setup: 0.021, stepping: 0.391 },
+      version: '0.1.0',
+      title: 'Flexible slider-crank',
+      finished: true,
+      end_time: duration,
+      steps: 1000,
+      wall_seconds: { total: 0.412, setup: 0.021, stepping: 0.391 },
       bodies: {
         crank: { dof: 6, factorisations: 0, solves: 0 },
         rod: { dof: 39, factorisations: 1, solves: 1014 },
         slider: { dof: 6, factorisations: 0, solves: 0 },
       },
-      setup_solves: 14, newton_iterations: { total: 2300, per_step_mean: 2.3, max: 3 },
+      setup_solves: 14,
+      newton_iterations: { total: 2300, per_step_mean: 2.3, max: 3 },
       residuals: { position: 3.1e-14, velocity: 2.2e-12, sieve: 1.8e-15 },
-      energy_error: 4.3e-5, trust: 'ok', warnings: [], redundant: [],
+      energy_error: 4.3e-5,
+      trust: 'ok',
+      warnings: [],
+      redundant: [],
     },
   };
 }
@@ -122,37 +169,82 @@ export function spatial() {
   const swing = (t) => 1.2 * Math.cos(3.1 * t);
   const aboutX = (angle) => [Math.cos(angle / 2), Math.sin(angle / 2), 0, 0];
   return {
-    format: 1, title: 'Pendulum and spinning body </script> "&', version: '0.1.0',
-    generated: '2026-01-01T00:00:00Z', time: { n: frames, f32: base64(times) },
+    format: 1,
+    title: 'Pendulum and spinning body </script> "&',
+    version: '0.1.0',
+    generated: '2026-01-01T00:00:00Z',
+    time: { n: frames, f32: base64(times) },
     bodies: [
       {
-        name: 'pendulum', kind: 'rigid', nodes: [], elements: [], radius: [],
-        markers: [{ name: 'hinge', position: [0, 0, 0.5], orientation: kUpright, node: -1 },
-          { name: 'tip', position: [0, 0, -0.5], orientation: kUpright, node: -1 }],
-        pose: base64(times.flatMap((t) =>
-          [-0.5 * Math.sin(swing(t)), 0, -0.5 * Math.cos(swing(t)), ...tilt(swing(t))])),
-        displacement: null, stress: null,
+        name: 'pendulum',
+        kind: 'rigid',
+        nodes: [],
+        elements: [],
+        radius: [],
+        markers: [
+          { name: 'hinge', position: [0, 0, 0.5], orientation: kUpright, node: -1 },
+          { name: 'tip', position: [0, 0, -0.5], orientation: kUpright, node: -1 },
+        ],
+        pose: base64(
+          times.flatMap((t) => [
+            -0.5 * Math.sin(swing(t)),
+            0,
+            -0.5 * Math.cos(swing(t)),
+            ...tilt(swing(t)),
+          ]),
+        ),
+        displacement: null,
+        stress: null,
       },
       {
-        name: 'spinner', kind: 'rigid', nodes: [], elements: [], radius: [], markers: [],
+        name: 'spinner',
+        kind: 'rigid',
+        nodes: [],
+        elements: [],
+        radius: [],
+        markers: [],
         pose: base64(times.flatMap((t) => [0.6, 0.6, -0.3, ...aboutX(3 * t)])),
-        displacement: null, stress: null,
+        displacement: null,
+        stress: null,
       },
     ],
     joints: [
-      { name: 'hinge', type: 'revolute', axis: [0, 1, 0],
-        between: [{ body: -1, marker: -1, position: [0, 0, 0] },
-          { body: 0, marker: 0, position: [0, 0, 0.5] }] },
-      { name: 'tether', type: 'spring-damper', axis: [0, 0, 1],
-        between: [{ body: 0, marker: 1, position: [0, 0, -0.5] },
-          { body: 1, marker: -1, position: [0, 0, 0] }] },
+      {
+        name: 'hinge',
+        type: 'revolute',
+        axis: [0, 1, 0],
+        between: [
+          { body: -1, marker: -1, position: [0, 0, 0] },
+          { body: 0, marker: 0, position: [0, 0, 0.5] },
+        ],
+      },
+      {
+        name: 'tether',
+        type: 'spring-damper',
+        axis: [0, 0, 1],
+        between: [
+          { body: 0, marker: 1, position: [0, 0, -0.5] },
+          { body: 1, marker: -1, position: [0, 0, 0] },
+        ],
+      },
     ],
-    gravity: [0, 0, -9.81], planar: null,
-    sensors: [{ name: 'tip', unit: 'm', components: ['x', 'y', 'z'],
-      values: base64(times.flatMap((t) => [-Math.sin(swing(t)), 0, -Math.cos(swing(t))])) }],
+    gravity: [0, 0, -9.81],
+    planar: null,
+    sensors: [
+      {
+        name: 'tip',
+        unit: 'm',
+        components: ['x', 'y', 'z'],
+        values: base64(times.flatMap((t) => [-Math.sin(swing(t)), 0, -Math.cos(swing(t))])),
+      },
+    ],
     energies: [],
-    summary: { steps: 2000, finished: false, trust: ['step too large for the highest mode'],
-      warnings: ['body spinner: no connection to any other body'] },
+    summary: {
+      steps: 2000,
+      finished: false,
+      trust: ['step too large for the highest mode'],
+      warnings: ['body spinner: no connection to any other body'],
+    },
   };
 }
 
@@ -171,11 +263,13 @@ export const kVariants = {
   spatial,
 };
 
-/** The built page with `data` in it, as the program writes it. */
-export function pageWith(data, template = join(kHere, '../dist/index.html')) {
+/** The built page (BUCKENS_VIEWER_PAGE, else viewer/dist) with `data` in it, as the program writes it. */
+const kTemplate = process.env.BUCKENS_VIEWER_PAGE ?? join(kHere, '../dist/index.html');
+export function pageWith(data, template = kTemplate) {
   const html = readFileSync(template, 'utf8');
   const parts = html.split(kMarker);
-  if (parts.length !== 2) throw new Error(`${template}: ${parts.length - 1} data markers, 1 expected`);
+  if (parts.length !== 2)
+    throw new Error(`${template}: ${parts.length - 1} data markers, 1 expected`);
   // No "<" reaches the page, so no text in a model can end the script element.
   return parts.join(JSON.stringify(data).replaceAll('<', '\\u003c'));
 }

@@ -1,0 +1,19 @@
+import { el } from './dom';
+
+/** A modal box with a title; closes by its button, by escape and by a click beside it. */
+export function modal(title: string, ...content: (Node | string)[]): HTMLDialogElement {
+  const dialog = el('dialog', { class: 'details' });
+  const close = el('button', { class: 'icon', type: 'button', 'aria-label': 'Close' }, '✕');
+  close.addEventListener('click', () => dialog.close());
+  dialog.addEventListener('click', (event) => event.target === dialog && dialog.close());
+  dialog.append(el('header', {}, el('h2', {}, title), close), ...content);
+  return dialog;
+}
+
+/** Two columns: names and what belongs to them. */
+export function nameTable(rows: [string, string][]): HTMLTableElement {
+  const lines = rows.map(([name, text]) =>
+    el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, text)),
+  );
+  return el('table', {}, ...lines);
+}

@@ -1,0 +1,28 @@
+import type { ViewOptions } from './view_options';
+
+/** Answer of `window.__buckens.state()`: what is on the screen, in plain numbers. */
+export interface ViewerState extends ViewOptions {
+  /** [s] */
+  time: number;
+  playing: boolean;
+  /** Simulated seconds per second. */
+  speed: number;
+  /** Stored frame at or before the time. */
+  frame: number;
+  orthographic: boolean;
+  /** Pictures drawn so far. */
+  drawn: number;
+  /** Diagonal of the box around the whole run [m]. */
+  size: number;
+  /** Time cursor of each panel shown [CSS px from the left end of its axis]. */
+  cursors: { name: string; x: number }[];
+  /** Pose (position, quaternion w x y z) and place of the mass centre in the view [CSS px]. */
+  bodies: { name: string; pose: number[]; screen: { x: number; y: number } }[];
+}
+
+declare global {
+  interface Window {
+    /** For tests and scripts: `setTime` pauses and shows time t [s]. */
+    __buckens?: { setTime(t: number): void; state(): ViewerState };
+  }
+}

@@ -1,0 +1,92 @@
+// What the page tests need to know about an open page.
+import { pathToFileURL } from 'node:url';
+
+/** Opens a page and records whatever goes wrong in it or is fetched by it. */
+export async function open(browser, path, options = {}) {
+  const tab = await browser.newPage({
+    viewport: { width: 1280, height: 800 },
+    reducedMotion: 'reduce',
+    ...options,
+  });
+  const complaints = [];
+  tab.on('console', (message) => {
+    // Software WebGL reports its own slowness; everything else counts.
+    const driver = /GPU stall due to ReadPixels|SwiftShader/.test(message.text());
+    if (['error', 'warning'].includes(message.type()) && !driver) complaints.push(message.text());
+  });
+  tab.on('pageerror', (error) => complaints.push(String(error)));
+  tab.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) complaints.push(`fetched ${request.url()}`);
+  });
+  await tab.goto(pathToFileURL(path).href);
+  return { tab, complaints };
+}
+
+export const state = (tab) => tab.evaluate(() => window.__buckens.state());
+export const settle = (tab) =>
+  tab.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
+export const setTime = async (tab, t) => {
+  await tab.evaluate((time) => window.__buckens.setTime(time), t);
+  await settle(tab);
+};
+
+/** RGBA pixels of the 3-D view, read back from a screenshot so that it is what a person sees. */
+export async function pixels(tab) {
+  await settle(tab);
+  const box = await tab.locator('.view').boundingBox();
+  const shot = await tab.screenshot({ clip: box });
+  const numbers = await tab.evaluate(async (text) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${text}`;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let raw = '';
+    for (let i = 0; i < data.length; i += 8192) {
+      raw += String.fromCharCode(...data.subarray(i, i + 8192));
+    }
+    return { width: image.width, height: image.height, text: btoa(raw) };
+  }, shot.toString('base64'));
+  return { ...numbers, data: Buffer.from(numbers.text, 'base64') };
+}
+
+/** Pixels that differ by more than 24 of 255 in some channel. */
+export function difference(a, b) {
+  let count = 0;
+  for (let i = 0; i < a.data.length; i += 4) {
+    const far = [0, 1, 2].some((k) => Math.abs(a.data[i + k] - b.data[i + k]) > 24);
+    if (far) count++;
+  }
+  return count;
+}
+
+/** Colours in the middle of the view, away from the buttons over it, rounded to 16 levels. */
+export function colors({ data, width, height }) {
+  const seen = new Map();
+  for (let y = 100; y < height - 100; y++) {
+    for (let x = 10; x < width - 110; x++) {
+      const i = 4 * (y * width + x);
+      const key = `${data[i] >> 4},${data[i + 1] >> 4},${data[i + 2] >> 4}`;
+      seen.set(key, (seen.get(key) ?? 0) + 1);
+    }
+  }
+  return seen;
+}
+
+export async function overflows(tab) {
+  return tab.evaluate(() => {
+    const { scrollWidth, scrollHeight } = document.documentElement;
+    const found = scrollWidth > innerWidth || scrollHeight > innerHeight ? ['page'] : [];
+    for (const part of document.querySelectorAll('.top, .transport, .toolbar, .side, .chart')) {
+      const box = part.getBoundingClientRect();
+      if (part.scrollWidth > part.clientWidth + 1) found.push(`${part.className} is clipped`);
+      if (box.right > innerWidth + 1) found.push(`${part.className} sticks out`);
+    }
+    return found;
+  });
+}
