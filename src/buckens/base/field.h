@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/base/dimension.h"
+
+namespace buckens::base {
+
+/// Which numbers a field takes.
+enum class Range { any, positive, non_negative, fraction /* 0 … 1 */, poisson /* −1 … ½ */ };
+
+/// What is said about a field besides its member.
+struct FieldNote {
+  std::string name;  ///< key in the model file; empty: the value stands in place of the struct
+  std::string doc;   ///< one sentence
+  Dimension dimension;
+  Range range = Range::any;
+  bool is_required = false;
+  bool is_shorthand = false;  ///< a struct given as a single value means this field
+  bool is_switch = false;     ///< a truth value written on | off
+  std::string example;        ///< YAML, for messages and the reference page
+  std::string standard;  ///< what happens if left out, where the member's default says too little
+};
+
+/// One line of a field list: a key of the model file, the member it fills, and the rules.
+///
+/// A spec carries its field list as the member template `fields(visit)`; the reader, the schema and
+/// the reference page all visit the same list.
+template <class T>
+struct Field {
+  T& member;
+  FieldNote note;
+
+  Field in(Dimension dimension) && { return note.dimension = dimension, std::move(*this); }
+  Field required() && { return note.is_required = true, std::move(*this); }
+  Field positive() && { return note.range = Range::positive, std::move(*this); }
+  Field non_negative() && { return note.range = Range::non_negative, std::move(*this); }
+  Field within(Range range) && { return note.range = range, std::move(*this); }
+  Field shorthand() && { return note.is_shorthand = true, std::move(*this); }
+  Field on_off() && { return note.is_switch = true, std::move(*this); }
+  Field like(std::string example) && { return note.example = std::move(example), std::move(*this); }
+  Field otherwise(std::string standard) && {
+    return note.standard = std::move(standard), std::move(*this);
+  }
+};
+
+template <class T>
+Field<T> field(std::string name, T& member, std::string doc) {
+  return {member, {std::move(name), std::move(doc), {}, Range::any, false, false, false, {}, {}}};
+}
+
+/// The value stands in place of the struct: a variant's alternatives become keys next to the other
+/// fields (exactly one of them), any other member is the struct's whole content.
+template <class T>
+Field<T> inlined(T& member, std::string doc) {
+  return field<T>("", member, std::move(doc));
+}
+
+/// Something that is given by the name of an entry elsewhere or written out in place.
+template <class T>
+struct Reference {
+  std::string name;  ///< empty if written in place
+  T value;           ///< complete in both cases
+
+  const T& operator*() const { return value; }
+  const T* operator->() const { return &value; }
+};
+
+/// Pointer to the entry called `name`, or null. Entries have a member `name`.
+template <class T>
+const T* find_named(const std::vector<T>& list, const std::string& name) {
+  for (const T& entry : list) {
+    if (entry.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+}  // namespace buckens::base

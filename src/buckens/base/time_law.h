@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buckens/base/expression.h"
+
+namespace buckens::base {
+
+/// How a table of points becomes a function.
+enum class Interpolation { linear, spline };
+
+/// Something that varies with time in a prescribed way: f(t) with its first two derivatives.
+///
+/// Copies are cheap and share what they are made of. Evaluation is const, gives the same number for
+/// the same time always, and may run in several threads at once.
+class TimeLaw {
+ public:
+  /// What a law is made of; see time_law.cpp.
+  class Body;
+
+  /// Zero at all times.
+  TimeLaw() = default;
+
+  static TimeLaw constant(double value);
+
+  /// scale · expression(t). The expression has exactly the variable t.
+  ///
+  /// The derivatives come from extrapolated central differences (Ridders 1982), good to about 1e-11
+  /// of the law's own magnitude over its own time scale for smooth expressions; they straddle t, so
+  /// within the last attempted distance of a kink they are averages of both sides.
+  static TimeLaw expression(Expression expression, double scale = 1.0);
+
+  /// Through the points (times[i], values[i]), times strictly increasing, at least one point.
+  /// Outside of the range the law is held at the first and last value with zero derivatives. A
+  /// linear table has piecewise constant rate (at a corner that of the interval to the right) and
+  /// zero acceleration; the spline is the natural cubic one.
+  /// @throws InputError if times do not increase, sizes differ, or a number is not finite
+  static TimeLaw table(std::vector<double> times, std::vector<double> values,
+                       Interpolation interpolation);
+
+  /// f(t) in SI units.
+  /// @throws NumericalError naming the expression, its place, t and the value if f(t) is no number
+  double value(double t) const;
+  /// df/dt
+  double rate(double t) const;
+  /// d²f/dt²
+  double acceleration(double t) const;
+
+  /// True if the law has the same value at all times.
+  bool is_constant() const;
+
+ private:
+  explicit TimeLaw(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
+
+  std::shared_ptr<const Body> body_;  // null: the constant
+  double constant_ = 0;
+};
+
+}  // namespace buckens::base

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "buckens/base/field.h"
+#include "buckens/fem/structure_spec.h"
+
+namespace buckens::body {
+
+/// Orientation, given in one of three ways.
+struct OrientationSpec {
+  SourceLocation where;
+  std::optional<Eigen::Vector3d> axis;
+  std::optional<double> angle;                      ///< about the axis [rad]
+  std::optional<Eigen::Vector3d> euler;             ///< [rad]
+  std::optional<std::array<double, 4>> quaternion;  ///< w, x, y, z
+
+  /// R = Rx(α) Ry(β) Rz(γ) for Euler angles: each turn about the axes already turned.
+  Eigen::Quaterniond rotation() const {
+    using Eigen::AngleAxisd, Eigen::Quaterniond, Eigen::Vector3d;
+    if (axis && angle) return Quaterniond(AngleAxisd(*angle, axis->normalized()));
+    if (euler) {
+      return Quaterniond(AngleAxisd(euler->x(), Vector3d::UnitX()) *
+                         AngleAxisd(euler->y(), Vector3d::UnitY()) *
+                         AngleAxisd(euler->z(), Vector3d::UnitZ()));
+    }
+    if (quaternion) {
+      const auto& q = *quaternion;
+      return Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+    }
+    return Quaterniond::Identity();
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("axis", axis, "axis of the rotation by `angle`").like("[0, 0, 1]"));
+    visit(base::field("angle", angle, "angle about `axis`").in(base::kAngle).like("30 deg"));
+    visit(base::field("euler", euler, "turns about x, then the turned y, then the turned z")
+              .in(base::kAngle)
+              .like("[0, 0, 90 deg]"));
+    visit(base::field("quaternion", quaternion, "[w, x, y, z]; normalised").like("[1, 0, 0, 0]"));
+  }
+};
+
+/// Where the model axes of a body stand in the world at t = 0.
+struct PlacementSpec {
+  SourceLocation where;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the origin of the model axes [m]
+  std::optional<OrientationSpec> orientation;
+
+  Eigen::Quaterniond rotation() const {
+    return orientation ? orientation->rotation() : Eigen::Quaterniond::Identity();
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("position", position, "origin of the model axes in the world")
+              .in(base::kLength)
+              .like("[150 mm, 0, 0]"));
+    visit(base::field("orientation", orientation, "orientation of the model axes in the world")
+              .like("{axis: [0, 0, 1], angle: 30 deg}")
+              .otherwise("parallel to the world"));
+  }
+};
+
+/// A named point with axes on a body. Exactly one of position and at is given.
+struct MarkerSpec {
+  std::string name;
+  SourceLocation where;
+  std::optional<Eigen::Vector3d> position;  ///< model axes [m]
+  std::string at;                           ///< origin, com, start, mid, end or a node
+  std::optional<OrientationSpec> orientation;
+
+  Eigen::Quaterniond rotation() const {
+    return orientation ? orientation->rotation() : Eigen::Quaterniond::Identity();
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("position", position,
+                      "place in model axes; on a flexible body it must lie on the "
+                      "mesh")
+              .in(base::kLength)
+              .like("[100 mm, 0, 0]")
+              .otherwise("give this or `at`"));
+    visit(base::field("at", at, "origin, com, start, mid, end or the name of a node")
+              .like("end")
+              .otherwise("give this or `position`"));
+    visit(base::field("orientation", orientation, "orientation of the marker in model axes")
+              .like("{axis: [0, 0, 1], angle: 30 deg}")
+              .otherwise("parallel to the model axes"));
+  }
+};
+
+/// Rigid body by its mass properties.
+struct RigidSpec {
+  static constexpr const char* kKey = "rigid";
+  static constexpr const char* kDoc = "rigid body by its mass properties";
+  SourceLocation where;
+  double mass = 0;                                ///< [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< model axes [m]
+  /// Ixx, Iyy, Izz and perhaps Ixy, Ixz, Iyz about the mass centre, in model axes [kg m²].
+  std::vector<double> inertia;
+
+  Eigen::Matrix3d inertia_matrix() const { return fem::symmetric_matrix(inertia); }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("mass", mass, "mass")
+              .in(base::kMass)
+              .required()
+              .non_negative()
+              .like("0.36 kg"));
+    visit(base::field("com", com, "mass centre in model axes")
+              .in(base::kLength)
+              .like("[75 mm, 0, 0]"));
+    visit(base::field("inertia", inertia,
+                      "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the "
+                      "mass centre, in model axes; Ixy = -∫ x y dm")
+              .in(base::kInertia)
+              .like("[0, 0, 2.727e-3 kg m^2]")
+              .otherwise("a point mass"));
+  }
+};
+
+/// A second body with the mesh or mass properties of another one.
+struct LikeSpec {
+  static constexpr const char* kKey = "like";
+  static constexpr const char* kDoc = "the same as another body, placed elsewhere";
+  SourceLocation where;
+  std::string body;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("body", body, "name of the other body")
+              .required()
+              .shorthand()
+              .like("left_arm"));
+  }
+};
+
+/// Inertial coupling of elastic and frame motion.
+enum class CouplingLevel { full, none };
+
+constexpr std::array<const char*, 2> choice_names(CouplingLevel) { return {"full", "none"}; }
+
+/// A rigid or flexible body.
+struct BodySpec {
+  std::string name;
+  SourceLocation where;
+  /// What the body is made of. The reader replaces LikeSpec by the other body's content; `like`
+  /// then holds the other body's name.
+  std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, LikeSpec> kind;
+  std::string like;
+  PlacementSpec at;
+  std::vector<MarkerSpec> markers;
+  int frames = 1;
+  CouplingLevel coupling = CouplingLevel::full;
+  std::string reduction = "none";
+  std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
+
+  bool is_rigid() const { return std::holds_alternative<RigidSpec>(kind); }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(kind, "what the body is made of").required());
+    visit(base::field("at", at, "where the model axes stand in the world at t = 0"));
+    visit(base::field("markers", markers, "named points for joints, loads and sensors")
+              .like("{pin: {position: [100 mm, 0, 0]}}"));
+    visit(base::field("frames", frames, "number of body frames that carry the mesh; 1 for now")
+              .positive());
+    visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion"));
+    visit(base::field("reduction", reduction, "reduced basis of the mesh; `none` for now"));
+    visit(base::field("damping", damping, "Rayleigh damping in place of that of the materials")
+              .otherwise("that of the materials"));
+  }
+};
+
+}  // namespace buckens::body

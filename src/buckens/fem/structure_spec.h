@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/base/field.h"
+#include "buckens/fem/material_spec.h"
+#include "buckens/fem/section_spec.h"
+
+namespace buckens::fem {
+
+enum class BeamTheory { euler_bernoulli, timoshenko };
+
+constexpr std::array<const char*, 2> choice_names(BeamTheory) {
+  return {"euler-bernoulli", "timoshenko"};
+}
+
+/// What beams have in common, however their ends are given.
+struct BeamProperties {
+  int elements = 1;
+  base::Reference<SectionSpec> section;
+  base::Reference<MaterialSpec> material;
+  std::optional<Eigen::Vector3d> up;  ///< hint for the local z axis, model axes
+  BeamTheory theory = BeamTheory::euler_bernoulli;
+  std::optional<bool> rotary_inertia;  ///< default: on for Timoshenko, off for Euler–Bernoulli
+
+  bool has_rotary_inertia() const {
+    return rotary_inertia.value_or(theory == BeamTheory::timoshenko);
+  }
+
+  template <class Visitor>
+  void property_fields(Visitor& visit) {
+    visit(base::field("elements", elements, "number of elements, all of the same length")
+              .positive()
+              .like("16"));
+    visit(
+        base::field("section", section, "cross-section: a name from `sections` or written in place")
+            .required()
+            .like("{circle: {diameter: 6 mm}}"));
+    visit(base::field("material", material, "material: a name from `materials` or written in place")
+              .required()
+              .like("steel"));
+    visit(base::field("up", up, "direction near which the local z axis lies, in model axes")
+              .like("[0, 0, 1]")
+              .otherwise("model z; model y for members along z"));
+    visit(base::field("theory", theory, "with (`timoshenko`) or without shear deformation"));
+    visit(base::field("rotary-inertia", rotary_inertia,
+                      "rotary inertia of bending (that of torsion is "
+                      "always there)")
+              .on_off()
+              .otherwise("on for timoshenko, off for euler-bernoulli"));
+  }
+};
+
+/// Point mass at a node.
+struct PointMassSpec {
+  SourceLocation where;
+  std::string at;   ///< node; of a beam: start, mid, end
+  double mass = 0;  ///< [kg]
+  /// Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the node in model axes [kg m²].
+  std::vector<double> inertia;
+
+  Eigen::Matrix3d inertia_matrix() const;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("at", at, "node that carries the mass; of a `beam`: start, mid or end")
+              .required()
+              .like("end"));
+    visit(base::field("mass", mass, "mass").in(base::kMass).required().non_negative().like("33 g"));
+    visit(base::field("inertia", inertia,
+                      "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the "
+                      "node, in model axes")
+              .in(base::kInertia)
+              .like("[0, 0, 1e-5 kg m^2]")
+              .otherwise("none"));
+  }
+};
+
+/// The matrix of [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]; zero for an empty list. The
+/// last three are entries of the matrix: Ixy = −∫ x y dm.
+inline Eigen::Matrix3d symmetric_matrix(const std::vector<double>& entries) {
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  if (entries.size() >= 3) out.diagonal() << entries[0], entries[1], entries[2];
+  if (entries.size() == 6) {
+    out(0, 1) = out(1, 0) = entries[3];
+    out(0, 2) = out(2, 0) = entries[4];
+    out(1, 2) = out(2, 1) = entries[5];
+  }
+  return out;
+}
+
+inline Eigen::Matrix3d PointMassSpec::inertia_matrix() const { return symmetric_matrix(inertia); }
+
+/// A straight beam made a body by itself.
+struct BeamSpec : BeamProperties {
+  static constexpr const char* kKey = "beam";
+  static constexpr const char* kDoc = "flexible body: one straight beam";
+  SourceLocation where;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< model axes [m]
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< model axes [m]
+  std::vector<PointMassSpec> masses;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("from", from, "first end (`start`), in model axes")
+              .in(base::kLength)
+              .like("[0, 0, 0]"));
+    visit(base::field("to", to, "second end (`end`), in model axes")
+              .in(base::kLength)
+              .required()
+              .like("[300 mm, 0, 0]"));
+    property_fields(visit);
+    visit(base::field("masses", masses, "point masses on the beam"));
+  }
+};
+
+/// A named point of a structure.
+struct NodeSpec {
+  std::string name;
+  SourceLocation where;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< model axes [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(position, "position in model axes")
+              .in(base::kLength)
+              .required()
+              .like("[0, 100 mm, 0]"));
+  }
+};
+
+/// A beam between two named nodes.
+struct BeamMemberSpec : BeamProperties {
+  SourceLocation where;
+  std::array<std::string, 2> between;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two nodes").required().like("[a, b]"));
+    property_fields(visit);
+  }
+};
+
+/// A bar (axial stiffness only) between two named nodes. It is one element: more would be a
+/// mechanism. Exactly one of section and area is given.
+struct BarMemberSpec {
+  SourceLocation where;
+  std::array<std::string, 2> between;
+  std::optional<base::Reference<SectionSpec>> section;
+  std::optional<double> area;  ///< [m²]
+  base::Reference<MaterialSpec> material;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two nodes").required().like("[a, b]"));
+    visit(
+        base::field("section", section, "cross-section: a name from `sections` or written in place")
+            .like("{circle: {diameter: 6 mm}}")
+            .otherwise("give this or `area`"));
+    visit(base::field("area", area, "cross-section area")
+              .in(base::kArea)
+              .positive()
+              .like("100 mm^2")
+              .otherwise("give this or `section`"));
+    visit(base::field("material", material, "material: a name from `materials` or written in place")
+              .required()
+              .like("steel"));
+  }
+};
+
+/// Beams, bars and point masses joined rigidly (beams) or by pins (bars) at named nodes.
+struct StructureSpec {
+  static constexpr const char* kKey = "structure";
+  static constexpr const char* kDoc = "flexible body: beams, bars and masses between named nodes";
+  SourceLocation where;
+  std::vector<NodeSpec> nodes;
+  std::vector<BeamMemberSpec> beams;
+  std::vector<BarMemberSpec> bars;
+  std::vector<PointMassSpec> masses;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("nodes", nodes, "points by name")
+              .required()
+              .like("{a: [0, 0, 0], b: [1 m, 0, 0]}"));
+    visit(base::field("beams", beams, "beams between nodes"));
+    visit(base::field("bars", bars, "bars between nodes: axial stiffness only"));
+    visit(base::field("masses", masses, "point masses at nodes"));
+  }
+};
+
+}  // namespace buckens::fem

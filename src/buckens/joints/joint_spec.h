@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "buckens/base/field.h"
+#include "buckens/base/marker_ref.h"
+#include "buckens/base/time_law.h"
+
+namespace buckens::joints {
+
+/// Two markers; the joint's axes are those of the first.
+struct JointEnds {
+  std::array<base::MarkerRef, 2> between;
+
+  template <class Visitor>
+  void end_fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers").required().like("[ground, crank]"));
+  }
+};
+
+struct JointEndsAndAxis : JointEnds {
+  std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
+
+  template <class Visitor>
+  void axis_fields(Visitor& visit) {
+    end_fields(visit);
+    visit(base::field("axis", axis, "direction of the axis in the first marker's axes")
+              .like("[0, 0, 1]")
+              .otherwise("planar models: the normal of the plane"));
+  }
+};
+
+struct RevoluteSpec : JointEndsAndAxis {
+  static constexpr const char* kKey = "revolute";
+  static constexpr const char* kDoc = "hinge: only rotation about the axis is free";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    axis_fields(visit);
+  }
+};
+
+struct SphericalSpec : JointEnds {
+  static constexpr const char* kKey = "spherical";
+  static constexpr const char* kDoc = "ball joint: all rotations are free";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    end_fields(visit);
+  }
+};
+
+struct PrismaticSpec : JointEnds {
+  static constexpr const char* kKey = "prismatic";
+  static constexpr const char* kDoc = "slider: only translation along the axis is free";
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    end_fields(visit);
+    visit(base::field("axis", axis, "direction of sliding in the first marker's axes")
+              .required()
+              .like("[1, 0, 0]"));
+  }
+};
+
+struct FixedSpec : JointEnds {
+  static constexpr const char* kKey = "fixed";
+  static constexpr const char* kDoc = "weld: no relative motion of the markers";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    end_fields(visit);
+  }
+};
+
+/// Elastic connection along and about the axes of the first marker, free of force as placed.
+struct BushingSpec : JointEnds {
+  static constexpr const char* kKey = "bushing";
+  static constexpr const char* kDoc =
+      "elastic connection with stiffness and damping along and "
+      "about the three axes of the first marker";
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();             ///< [N/m]
+  Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();  ///< [N m/rad]
+  Eigen::Vector3d damping = Eigen::Vector3d::Zero();               ///< [N s/m]
+  Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    end_fields(visit);
+    visit(base::field("stiffness", stiffness, "along the axes")
+              .in(base::kStiffness)
+              .non_negative()
+              .like("[1e6 N/m, 1e6 N/m, 1e5 N/m]"));
+    visit(base::field("rotational-stiffness", rotational_stiffness, "about the axes")
+              .in(base::kRotationalStiffness)
+              .non_negative()
+              .like("[0, 0, 20 N m/rad]"));
+    visit(base::field("damping", damping, "along the axes")
+              .in(base::kDamping)
+              .non_negative()
+              .like("[100 N s/m, 100 N s/m, 0]"));
+    visit(base::field("rotational-damping", rotational_damping, "about the axes")
+              .in(base::kRotationalDamping)
+              .non_negative()
+              .like("[0, 0, 0.1 N m s/rad]"));
+  }
+};
+
+struct PrescribedRotationSpec : JointEndsAndAxis {
+  static constexpr const char* kKey = "prescribed-rotation";
+  static constexpr const char* kDoc =
+      "drives the rotation about the axis; add a joint that "
+      "carries the other directions";
+  base::TimeLaw angle;  ///< counted from the position as placed [rad]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    axis_fields(visit);
+    visit(base::field("angle", angle,
+                      "angle of the second marker about the axis, counted from "
+                      "the position as placed")
+              .in(base::kAngle)
+              .required()
+              .like("\"150*t\""));
+  }
+};
+
+struct PrescribedTranslationSpec : JointEnds {
+  static constexpr const char* kKey = "prescribed-translation";
+  static constexpr const char* kDoc =
+      "drives the distance along the axis; add a joint that "
+      "carries the other directions";
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
+  base::TimeLaw displacement;                      ///< counted from the position as placed [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    end_fields(visit);
+    visit(base::field("axis", axis, "direction in the first marker's axes")
+              .required()
+              .like("[1, 0, 0]"));
+    visit(base::field("displacement", displacement,
+                      "distance of the second marker along the axis, "
+                      "counted from the position as placed")
+              .in(base::kLength)
+              .required()
+              .like("\"10*sin(20*t) mm\""));
+  }
+};
+
+/// A connection between two markers.
+struct JointSpec {
+  std::string name;
+  SourceLocation where;
+  std::variant<RevoluteSpec, SphericalSpec, PrismaticSpec, FixedSpec, BushingSpec,
+               PrescribedRotationSpec, PrescribedTranslationSpec>
+      kind;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(kind, "kind of the joint").required());
+  }
+};
+
+}  // namespace buckens::joints

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "buckens/base/field.h"
+#include "buckens/base/marker_ref.h"
+#include "buckens/base/time_law.h"
+
+namespace buckens::loads {
+
+/// Axes in which a load is given: those of the world, or those of its marker, which it follows.
+enum class LoadAxes { fixed, following };
+
+constexpr std::array<const char*, 2> choice_names(LoadAxes) { return {"fixed", "following"}; }
+
+struct ForceSpec {
+  static constexpr const char* kKey = "force";
+  static constexpr const char* kDoc = "force on a marker";
+  base::MarkerRef on;
+  std::array<base::TimeLaw, 3> value;  ///< [N]
+  LoadAxes axes = LoadAxes::fixed;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on, "marker that takes the force").required().like("rod/end"));
+    visit(base::field("value", value, "three components, each a number or a law of time")
+              .in(base::kForce)
+              .required()
+              .like("[0, \"10*sin(20*t) N\", 0]"));
+    visit(base::field("axes", axes, "world axes (`fixed`) or those of the marker (`following`)"));
+  }
+};
+
+struct TorqueSpec {
+  static constexpr const char* kKey = "torque";
+  static constexpr const char* kDoc = "torque on a marker";
+  base::MarkerRef on;
+  std::array<base::TimeLaw, 3> value;  ///< [N m]
+  LoadAxes axes = LoadAxes::fixed;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on, "marker that takes the torque").required().like("crank"));
+    visit(base::field("value", value, "three components, each a number or a law of time")
+              .in(base::kTorque)
+              .required()
+              .like("[0, 0, 2 N m]"));
+    visit(base::field("axes", axes, "world axes (`fixed`) or those of the marker (`following`)"));
+  }
+};
+
+/// Tension k (l − l0) + c l̇ + f(t) along the line between two markers.
+struct SpringDamperSpec {
+  static constexpr const char* kKey = "spring-damper";
+  static constexpr const char* kDoc = "linear spring and damper along the line between two markers";
+  std::array<base::MarkerRef, 2> between;
+  double stiffness = 0;                ///< k [N/m]
+  double damping = 0;                  ///< c [N s/m]
+  std::optional<double> length;        ///< l0 [m]; default: the distance as placed
+  std::optional<base::TimeLaw> force;  ///< f [N], pulls the markers together where positive
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers").required().like("[ground, rod/end]"));
+    visit(base::field("stiffness", stiffness, "spring rate")
+              .in(base::kStiffness)
+              .non_negative()
+              .like("2 kN/m"));
+    visit(base::field("damping", damping, "damper rate")
+              .in(base::kDamping)
+              .non_negative()
+              .like("5 N s/m"));
+    visit(base::field("length", length, "length at which the spring is free of force")
+              .in(base::kLength)
+              .non_negative()
+              .like("120 mm")
+              .otherwise("the distance as placed"));
+    visit(base::field("force", force,
+                      "additional tension as a law of time; positive pulls the markers "
+                      "together")
+              .in(base::kForce)
+              .like("\"10*sin(20*t) N\"")
+              .otherwise("none"));
+  }
+};
+
+struct TorsionalSpringSpec {
+  static constexpr const char* kKey = "torsional-spring";
+  static constexpr const char* kDoc = "linear torsional spring and damper about an axis";
+  std::array<base::MarkerRef, 2> between;
+  std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
+  double stiffness = 0;                 ///< [N m/rad]
+  double damping = 0;                   ///< [N m s/rad]
+  double angle = 0;                     ///< free angle, counted from the position as placed [rad]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers").required().like("[ground, arm]"));
+    visit(base::field("axis", axis, "axis in the first marker's axes")
+              .like("[0, 0, 1]")
+              .otherwise("planar models: the normal of the plane"));
+    visit(base::field("stiffness", stiffness, "spring rate")
+              .in(base::kRotationalStiffness)
+              .non_negative()
+              .like("20 N m/rad"));
+    visit(base::field("damping", damping, "damper rate")
+              .in(base::kRotationalDamping)
+              .non_negative()
+              .like("0.1 N m s/rad"));
+    visit(base::field("angle", angle,
+                      "angle at which the spring is free of torque, counted from the "
+                      "position as placed")
+              .in(base::kAngle)
+              .like("10 deg"));
+  }
+};
+
+struct LoadSpec {
+  std::string name;
+  SourceLocation where;
+  std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec> kind;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(kind, "kind of the load").required());
+  }
+};
+
+}  // namespace buckens::loads

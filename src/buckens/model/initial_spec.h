@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/base/expression.h"
+#include "buckens/base/field.h"
+
+namespace buckens::model {
+
+/// A number that varies over a body: a formula in x, y, z (model axes of the body, metres).
+struct PositionLaw {
+  base::Expression expression;
+  double scale = 1;  ///< SI value of the formula's unit
+  bool given = false;
+
+  double operator()(const Eigen::Vector3d& p) const {
+    return given ? scale * expression({p.x(), p.y(), p.z()}) : 0.0;
+  }
+};
+
+/// Velocities of the nodal variables relative to the body frame, in model axes. Rigid motion in it
+/// is sieved out.
+struct NodalVelocitySpec {
+  SourceLocation where;
+  PositionLaw x, y, z;     ///< [m/s]
+  PositionLaw rx, ry, rz;  ///< [rad/s]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("x", x, "velocity along model x")
+              .in(base::kVelocity)
+              .like("\"0.1*sin(pi*x) m/s\""));
+    visit(base::field("y", y, "velocity along model y").in(base::kVelocity));
+    visit(base::field("z", z, "velocity along model z").in(base::kVelocity));
+    visit(base::field("rx", rx, "rate of rotation about model x").in(base::kAngularVelocity));
+    visit(base::field("ry", ry, "rate of rotation about model y").in(base::kAngularVelocity));
+    visit(base::field("rz", rz, "rate of rotation about model z").in(base::kAngularVelocity));
+  }
+};
+
+/// Motion of one body at t = 0.
+struct InitialBodySpec {
+  std::string name;  ///< of the body
+  SourceLocation where;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the mass centre, world [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< model axes [rad/s]
+  std::optional<NodalVelocitySpec> nodal_velocity;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("velocity", velocity, "velocity of the mass centre, world axes")
+              .in(base::kVelocity)
+              .like("[1 m/s, 0, 0]"));
+    visit(base::field("angular-velocity", angular_velocity,
+                      "angular velocity, in the body's model axes")
+              .in(base::kAngularVelocity)
+              .like("[0, 0, 60 rpm]"));
+    visit(base::field("nodal-velocity", nodal_velocity,
+                      "velocity of the nodes relative to the body "
+                      "frame: formulas in the model coordinates x, y, "
+                      "z [m]; rigid motion is taken out")
+              .otherwise("none"));
+  }
+};
+
+enum class StartKind { as_given, static_equilibrium };
+
+constexpr std::array<const char*, 2> choice_names(StartKind) { return {"as-given", "static"}; }
+
+/// How the motion begins.
+struct InitialSpec {
+  SourceLocation where;
+  std::vector<InitialBodySpec> bodies;
+  StartKind start = StartKind::as_given;
+  bool preload = false;  ///< accept bodies that must be deformed to fit together
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("bodies", bodies, "velocities by name of the body"));
+    visit(base::field("start", start,
+                      "`static` begins in equilibrium under gravity and constant loads"));
+    visit(base::field("preload", preload, "accept bodies that must be deformed to fit together"));
+  }
+};
+
+}  // namespace buckens::model

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/base/expression.h"
+#include "buckens/base/field.h"
+#include "buckens/body/body_spec.h"
+#include "buckens/fem/material_spec.h"
+#include "buckens/fem/section_spec.h"
+#include "buckens/joints/joint_spec.h"
+#include "buckens/loads/load_spec.h"
+#include "buckens/model/initial_spec.h"
+#include "buckens/model/sensor_spec.h"
+#include "buckens/model/simulation_spec.h"
+#include "buckens/spatial/plane.h"
+
+namespace buckens::spatial {
+
+constexpr std::array<const char*, 3> choice_names(Plane) { return {"yz", "zx", "xy"}; }
+
+}  // namespace buckens::spatial
+
+namespace buckens::model {
+
+/// A named value for use in expressions, SI.
+struct ParameterSpec {
+  std::string name;
+  SourceLocation where;
+  double value = 0;
+};
+
+/// Everything a model file says, in SI units, names resolved and checked as far as one can without
+/// building the model.
+struct ModelDescription {
+  int format = 1;
+  std::string title;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
+  std::optional<spatial::Plane> planar;
+  std::vector<ParameterSpec> parameters;
+  std::vector<fem::MaterialSpec> materials;
+  std::vector<fem::SectionSpec> sections;
+  std::vector<body::BodySpec> bodies;
+  std::vector<joints::JointSpec> joints;
+  std::vector<loads::LoadSpec> loads;
+  InitialSpec initial;
+  std::optional<SimulationSpec> simulation;  ///< absent: the model can be checked, not run
+  OutputSpec output;
+  SourceLocation where;  ///< the file
+  std::string source;    ///< text of the file with overrides as a comment
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("buckens", format, "version of the file format, 1").required().like("1"));
+    visit(base::field("title", title, "one line about the model").like("Flexible slider-crank"));
+    visit(base::field("gravity", gravity, "acceleration of gravity, world axes")
+              .in(base::kAcceleration)
+              .like("[0, -9.81 m/s^2, 0]"));
+    visit(base::field("planar", planar, "plane of a planar model").otherwise("a model in space"));
+    visit(base::field("parameters", parameters, "named values for use in expressions")
+              .like("{L: 300 mm, speed: 150}"));
+    visit(base::field("materials", materials, "materials by name")
+              .like("{steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}"));
+    visit(base::field("sections", sections, "cross-sections by name")
+              .like("{rod6: {circle: {diameter: 6 mm}}}"));
+    visit(base::field("bodies", bodies, "bodies by name").required());
+    visit(base::field("joints", joints, "joints by name"));
+    visit(base::field("loads", loads, "loads and force laws by name"));
+    visit(base::field("initial", initial, "how the motion begins").otherwise("at rest, as placed"));
+    visit(base::field("simulation", simulation, "how far and how finely to simulate")
+              .otherwise("the model can be checked but not run"));
+    visit(base::field("output", output, "what is recorded"));
+  }
+};
+
+}  // namespace buckens::model

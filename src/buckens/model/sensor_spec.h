@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/base/field.h"
+#include "buckens/base/marker_ref.h"
+
+namespace buckens::model {
+
+/// A vector quantity of one marker.
+struct MarkerSensor {
+  base::MarkerRef of;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "marker that is observed").required().shorthand().like("rod/end"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+
+struct PositionSensor : MarkerSensor {
+  static constexpr const char* kKey = "position";
+  static constexpr const char* kDoc = "place of a marker in the world";
+};
+struct DisplacementSensor : MarkerSensor {
+  static constexpr const char* kKey = "displacement";
+  static constexpr const char* kDoc = "way of a marker in the world since t = 0";
+};
+struct VelocitySensor : MarkerSensor {
+  static constexpr const char* kKey = "velocity";
+  static constexpr const char* kDoc = "velocity of a marker";
+};
+struct AccelerationSensor : MarkerSensor {
+  static constexpr const char* kKey = "acceleration";
+  static constexpr const char* kDoc = "acceleration of a marker";
+};
+/// Rotation vector of a marker since t = 0.
+struct RotationSensor : MarkerSensor {
+  static constexpr const char* kKey = "rotation";
+  static constexpr const char* kDoc = "rotation vector of a marker since t = 0";
+};
+struct AngularVelocitySensor : MarkerSensor {
+  static constexpr const char* kKey = "angular-velocity";
+  static constexpr const char* kDoc = "angular velocity of a marker";
+};
+
+enum class DeflectionBase { chord, frame };
+
+constexpr std::array<const char*, 2> choice_names(DeflectionBase) { return {"chord", "frame"}; }
+
+/// Elastic displacement of a marker of a flexible body, in the body frame.
+struct DeflectionSensor {
+  static constexpr const char* kKey = "deflection";
+  static constexpr const char* kDoc =
+      "elastic displacement of a marker, seen from the chord "
+      "between the ends of the beam or from the body frame";
+  base::MarkerRef of;
+  DeflectionBase from = DeflectionBase::chord;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "marker that is observed").required().shorthand().like("rod/mid"));
+    visit(base::field("from", from,
+                      "line between `start` and `end` (beams only), or the body frame"));
+  }
+};
+
+enum class RelativeQuantity { position, distance, velocity, rotation, angle, angular_velocity };
+
+constexpr std::array<const char*, 6> choice_names(RelativeQuantity) {
+  return {"position", "distance", "velocity", "rotation", "angle", "angular-velocity"};
+}
+
+/// Motion of the second marker as seen from the first, in the first one's axes.
+struct RelativeSensor {
+  static constexpr const char* kKey = "relative";
+  static constexpr const char* kDoc = "motion of the second marker as seen from the first";
+  std::array<base::MarkerRef, 2> between;
+  RelativeQuantity quantity = RelativeQuantity::position;
+  std::optional<Eigen::Vector3d> axis;  ///< of `angle`, in the first marker
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers").required().like("[crank, rod]"));
+    visit(
+        base::field("quantity", quantity, "what is recorded; `angle` counts turns about the axis"));
+    visit(base::field("axis", axis, "axis of `angle` in the first marker's axes")
+              .like("[0, 0, 1]")
+              .otherwise("planar models: the normal of the plane"));
+  }
+};
+
+/// Force or torque of a joint on its second marker.
+struct JointForceSensor {
+  static constexpr const char* kKey = "joint-force";
+  static constexpr const char* kDoc = "force of a joint on its second marker";
+  std::string joint;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("joint", joint, "name of the joint").required().shorthand().like("base"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+struct JointTorqueSensor : JointForceSensor {
+  static constexpr const char* kKey = "joint-torque";
+  static constexpr const char* kDoc = "torque of a joint on its second marker";
+};
+
+/// Section of a beam: at a marker on the mesh, or at an end of a numbered element.
+struct SectionPlace {
+  base::MarkerRef of;
+  std::optional<int> element;  ///< from 1, in the order of the model file
+
+  template <class Visitor>
+  void place_fields(Visitor& visit) {
+    visit(base::field("of", of,
+                      "start, mid, end or a node of a flexible body; with `element` the body")
+              .required()
+              .shorthand()
+              .like("rod/mid"));
+    visit(base::field("element", element,
+                      "number of the element, counted from 1 in the order of the "
+                      "file; its first end is meant")
+              .positive()
+              .otherwise("the first element that touches the marker"));
+  }
+};
+struct SectionForceSensor : SectionPlace {
+  static constexpr const char* kKey = "section-force";
+  static constexpr const char* kDoc =
+      "normal force, shear forces, torsion and bending moments of "
+      "a beam in its local axes";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    place_fields(visit);
+  }
+};
+struct StressSensor : SectionPlace {
+  static constexpr const char* kKey = "stress";
+  static constexpr const char* kDoc =
+      "largest stress in a section; for a body without marker the "
+      "largest anywhere in it";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    place_fields(visit);
+  }
+};
+
+enum class EnergyKind { total, kinetic, potential, strain, work, dissipated, balance };
+
+constexpr std::array<const char*, 7> choice_names(EnergyKind) {
+  return {"total", "kinetic", "potential", "strain", "work", "dissipated", "balance"};
+}
+
+struct EnergySensor {
+  static constexpr const char* kKey = "energy";
+  static constexpr const char* kDoc = "energy of the whole model";
+  EnergyKind kind = EnergyKind::total;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("kind", kind, "which energy").shorthand());
+  }
+};
+
+/// Something observed over time, one or more columns of sensors.csv.
+struct SensorSpec {
+  std::string name;
+  SourceLocation where;
+  std::variant<PositionSensor, DisplacementSensor, VelocitySensor, AccelerationSensor,
+               RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
+               JointForceSensor, JointTorqueSensor, SectionForceSensor, StressSensor, EnergySensor>
+      kind;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(kind, "what is observed").required());
+  }
+};
+
+/// What is recorded and how often.
+struct OutputSpec {
+  SourceLocation where;
+  std::optional<double> every;  ///< [s]; default: about 500 records over the duration
+  std::vector<SensorSpec> sensors;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(
+        base::field("every", every, "time between two records; interpolated where steps do not fit")
+            .in(base::kTime)
+            .positive()
+            .like("1 ms")
+            .otherwise("duration/500, at least one step"));
+    visit(base::field("sensors", sensors, "observed quantities by name")
+              .like("{tip: {position: rod/end}}"));
+  }
+};
+
+}  // namespace buckens::model
