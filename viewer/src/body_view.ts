@@ -110,6 +110,10 @@ class TubeMesh {
     this.geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
     this.colors = new THREE.BufferAttribute(new Float32Array(positions.length).fill(1), 3);
     this.geometry.setAttribute('color', this.colors);
+    for (const name of ['position', 'normal', 'color']) {
+      const attribute = this.geometry.getAttribute(name) as THREE.BufferAttribute;
+      attribute.setUsage(THREE.DynamicDrawUsage);
+    }
     this.geometry.setIndex(indices);
     this.plain = material.color.clone();
     const mesh = new THREE.Mesh(this.geometry, material);

@@ -139,8 +139,6 @@ export class Page {
       this.legend.root,
       this.gridText,
     );
-    const { factor, unit } = prefixFor(this.stage.gridSpacing, 'm');
-    this.gridText.textContent = `grid ${figure(this.stage.gridSpacing / factor, 1)} ${unit}`;
     const box = this.view.getBoundingClientRect();
     this.stage.resize(box.width, box.height);
     this.stage.fitHome();
@@ -223,6 +221,10 @@ export class Page {
     this.projection.textContent = stage.rig.orthographic ? 'Parallel' : 'Perspective';
     this.projection.title = 'Change the projection (o)';
     stage.render(playback.time, options);
+    const { factor, unit } = prefixFor(stage.gridSpacing, 'm');
+    const grid = `grid ${figure(stage.gridSpacing / factor, 1)} ${unit}`;
+    const enlarged = options.scale > 1 ? `deformation × ${figure(options.scale, 2)} · ` : '';
+    this.gridText.textContent = enlarged + grid;
     this.legend!.update(options.stress && stage.stressRange > 0, stage.motion.largestStress);
   }
 

@@ -41,7 +41,10 @@ export function figure(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return '–';
   if (value === 0) return '0';
   const size = Math.abs(value);
-  const text = size >= 1e5 || size < 1e-3 ? value.toExponential(2) : plain(value, digits);
+  const text =
+    size >= 1e5 || size < 1e-3
+      ? value.toExponential(Math.min(2, digits - 1))
+      : plain(value, digits);
   return text.replace('-', '−').replace('e+', 'e').replace('e-', 'e−');
 }
 

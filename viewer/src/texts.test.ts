@@ -20,7 +20,7 @@ describe('quantities', () => {
   it('read as figures', () => {
     expect(figure(50, 1)).toBe('50');
     expect(figure(-0.5)).toBe('−0.5000');
-    expect(figure(3.1e-14, 2)).toBe('3.10e−14');
+    expect(figure(3.1e-14, 2)).toBe('3.1e−14');
     expect(figure(NaN)).toBe('–');
     expect(niceBelow(0.07)).toBeCloseTo(0.05, 12);
     expect(new TimeFormat(0.02).number(0.0123)).toBe('12.30');

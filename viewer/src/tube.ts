@@ -45,6 +45,8 @@ export class Tube {
   private readonly reference: Triple[];
   private readonly caps: Cap[] = [];
   private readonly sides: number;
+  /** Cosine and sine of each side. */
+  private readonly circle: Float64Array;
   private readonly segments: number;
 
   /** `leastRadius` keeps thin beams visible [m]. */
@@ -60,6 +62,10 @@ export class Tube {
     this.radius = body.radius.map((r) => Math.max(r, leastRadius));
     const share = kVertexBudget / Math.max(1, count);
     this.sides = share > 150 ? 16 : share > 40 ? 10 : 6;
+    this.circle = new Float64Array(2 * this.sides).map((_, i) => {
+      const angle = (2 * Math.PI * (i >> 1)) / this.sides;
+      return i % 2 ? Math.sin(angle) : Math.cos(angle);
+    });
     const curved = body.displacement !== null && body.hasRotations;
     const most = Math.max(1, Math.floor(share / this.sides) - 1);
     this.segments = curved ? Math.min(most, count > 40 ? 4 : 10) : 1;
@@ -132,13 +138,14 @@ export class Tube {
     const along = dot(ref, t);
     const u = unit([ref[0] - along * t[0], ref[1] - along * t[1], ref[2] - along * t[2]]);
     const v = cross(t, u);
+    const { positions, normals, circle } = this;
     for (let i = 0; i < this.sides; i++) {
-      const angle = (2 * Math.PI * i) / this.sides;
-      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const [c, s] = [circle[2 * i]!, circle[2 * i + 1]!];
       for (let k = 0; k < 3; k++) {
         const out = c * u[k]! + s * v[k]!;
-        this.positions[3 * (first + i) + k] = point[k]! + r * out;
-        this.normals[3 * (first + i) + k] = capSign === 0 ? out : capSign * t[k]!;
+        const at = 3 * (first + i) + k;
+        positions[at] = point[k]! + r * out;
+        normals[at] = capSign === 0 ? out : capSign * t[k]!;
       }
     }
     if (capSign === 0) return;
