@@ -6,7 +6,6 @@ import type { PageJoint, Triple } from './page_data';
 import type { Theme } from './theme';
 
 const kZ = new THREE.Vector3(0, 0, 1);
-const kIdentity = [1, 0, 0, 0];
 
 function isSpring(joint: PageJoint): boolean {
   return joint.type.toLowerCase().includes('spring');
@@ -77,11 +76,8 @@ export class JointView {
 
   /** In the world. */
   private axis(): Triple {
-    const side = this.joint.between[0]!;
-    const body = this.motion.bodies[side.body];
-    const marker = body?.body.markers[side.marker];
-    const axis = rotate(marker?.orientation ?? kIdentity, 0, this.joint.axis);
-    return body ? rotate(body.pose, 3, axis) : axis;
+    const first = this.motion.bodies[this.joint.between[0]!.body];
+    return first ? rotate(first.pose, 3, this.joint.axis) : this.joint.axis;
   }
 
   /** World position of the glyph and of the label. */

@@ -45,7 +45,7 @@ export interface PageJoint {
   name: string;
   type: string;
   between: PageJointSide[];
-  /** Unit vector in the first side's marker frame, else its body's frame, else the world. */
+  /** Unit vector along the axes of the first side's body, of the world for the ground. */
   axis: Triple;
 }
 
