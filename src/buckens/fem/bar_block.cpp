@@ -100,8 +100,9 @@ void BarBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
     const Line at = line(mesh.nodes, element.ends);
     Eigen::Matrix<double, 6, 1> strain;
     strain << -at.direction, at.direction;
-    const Eigen::Matrix<double, 6, 6> K =
-        element.material.E * element.section.A / at.length * (strain * strain.transpose());
+    const double stiffness = element.material.E * element.section.A / at.length;
+    Eigen::Matrix<double, 6, 6> K = strain * strain.transpose();
+    K *= stiffness;  // after the product, so that rounding stays symmetric
     const Dofs dofs = element_dofs(mesh.dofs, element.ends);
     scatter<6>(K, dofs, 1.0, sum.K);
     if (element.material.damping_stiffness != 0.0) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::body {
+
+/// Elastic vibrations of a free body, lowest first.
+struct FreeModes {
+  linalg::Vector omega;   ///< angular frequencies ω [rad/s], ascending
+  linalg::Matrix shapes;  ///< n×count, M-orthonormal, M-orthogonal to the rigid modes
+};
+
+/// Solves (K − ω²M) d = 0 with Pᵀd = 0, P = MΦ, FM (27); rigid motion never appears.
+///
+/// Up to 600 DOF: dense, on an orthonormal basis of {d : Pᵀd = 0}. Above: shift–invert Lanczos on
+/// Y (K + μM)⁻¹ M, FM (31), the shift μ > 0 near the lowest ω² found by sieved inverse iteration; a
+/// handful of sparse factorisations. Theory: docs/theory/04-free-vibration.md.
+/// @param M positive definite on {d : Pᵀd = 0}, n×n
+/// @param Phi rigid modes, n×r; zero and dependent columns allowed
+/// @param count modes wanted; fewer come back where the body has fewer
+/// @throws NumericalError if the iteration does not converge or M is not positive definite
+FreeModes free_modes(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
+                     const linalg::Matrix& Phi, int count);
+
+}  // namespace buckens::body
