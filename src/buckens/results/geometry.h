@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "buckens/spatial/pose.h"
+
+namespace buckens::results {
+
+/// Index of the ground in place of a body.
+inline constexpr int kGroundBody = -1;
+
+/// A marker as a viewer draws it.
+struct GeometryMarker {
+  std::string name;
+  int node = -1;       ///< node that carries it; −1: fixed to the body frame
+  spatial::Pose X_BF;  ///< in the undeformed body [m]
+};
+
+enum class BodyKind { rigid, beam };
+
+/// The undeformed shape of one body in its body frame B.
+struct GeometryBody {
+  std::string name;
+  BodyKind kind = BodyKind::rigid;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> nodes;  ///< N×3 [m]; none if rigid
+  std::vector<std::array<int, 2>> elements;                         ///< E pairs of node indices
+  std::vector<double> radius;                                       ///< E, of the drawn tube [m]
+  std::vector<GeometryMarker> markers;
+};
+
+/// One of the two places that a joint or force element connects.
+struct GeometrySide {
+  int body = kGroundBody;
+  int marker = -1;                                     ///< of that body; −1: position alone
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< body frame, world for the ground [m]
+};
+
+struct GeometryJoint {
+  std::string name;
+  std::string type;  ///< as in the model file: "revolute" …
+  std::array<GeometrySide, 2> between;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector, axes of the first body
+};
+
+/// What never changes during a run and a viewer needs besides the records.
+struct Geometry {
+  std::vector<GeometryBody> bodies;
+  std::vector<GeometryJoint> joints;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²] world
+  std::string planar;                                 ///< "xy", "yz", "zx"; empty in 3-D
+};
+
+}  // namespace buckens::results

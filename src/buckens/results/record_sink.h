@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/results/channel.h"
+#include "buckens/results/geometry.h"
+#include "buckens/results/run_summary.h"
+
+namespace buckens::results {
+
+/// The values of all channels at one instant.
+struct Record {
+  double t = 0;                ///< [s]
+  std::vector<double> values;  ///< RecordLayout::num_values() numbers
+};
+
+/// Where the records of a run go: a directory, memory, a test.
+///
+/// Called in the order begin, write …, finish; `finish` also after a run that failed, with
+/// RunSummary::finished false.
+class RecordSink {
+ public:
+  virtual ~RecordSink() = default;
+  RecordSink() = default;
+  RecordSink(const RecordSink&) = delete;
+  RecordSink& operator=(const RecordSink&) = delete;
+
+  virtual void begin(const RecordLayout& layout, const Geometry& geometry) = 0;
+  /// @pre record.t is larger than that of the record before
+  virtual void write(const Record& record) = 0;
+  virtual void finish(const RunSummary& summary) = 0;
+};
+
+}  // namespace buckens::results

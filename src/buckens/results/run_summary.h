@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace buckens::results {
+
+/// How much work one body caused.
+struct BodyEffort {
+  std::string name;
+  int dof = 0;              ///< nodal variables; 0 for rigid bodies
+  long factorisations = 0;  ///< large factorisations, all step sizes together
+  long solves = 0;          ///< large solves while stepping
+  /// Further counts and measures of this body, by name ("mode_ratio", "factor_bytes").
+  std::vector<std::pair<std::string, double>> measures;
+};
+
+/// Wall time [s].
+struct WallSeconds {
+  double total = 0;
+  double setup = 0;
+  double stepping = 0;
+  std::vector<std::pair<std::string, double>> phases;  ///< shares of `stepping`, by name
+};
+
+struct NewtonEffort {
+  long total = 0;
+  double per_step_mean = 0;
+  long max = 0;  ///< in one step
+};
+
+/// Largest values over the run.
+struct Residuals {
+  double position = 0;  ///< of the constraints [m or rad]
+  double velocity = 0;  ///< of the constraints [m/s or rad/s]
+  double sieve = 0;     ///< ‖S⁻¹Pᵀd‖ relative to the body's size
+};
+
+/// What a run reports about itself at its end; the content of summary.json.
+struct RunSummary {
+  std::string title;        ///< of the model
+  std::string version;      ///< of Buckens
+  bool finished = false;    ///< true: reached the end that was asked for
+  std::string interrupted;  ///< why not, in words; empty if finished
+  double end_time = 0;      ///< simulated time reached [s]
+  long steps = 0;
+  WallSeconds wall_seconds;
+  std::vector<BodyEffort> bodies;
+  long setup_solves = 0;  ///< large solves before the first step
+  NewtonEffort newton_iterations;
+  Residuals residuals;
+  double energy_error = 0;         ///< (E−E₀−W+D)/scale, largest magnitude
+  std::vector<std::string> trust;  ///< reasons to doubt the results; empty: none
+  std::vector<std::string> warnings;
+  std::vector<std::string> redundant_constraints;  ///< rows found redundant, by joint
+  /// Further figures of the run, by name.
+  std::vector<std::pair<std::string, double>> measures;
+};
+
+}  // namespace buckens::results
