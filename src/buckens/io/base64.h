@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace buckens::io {
+
+/// Base64 (RFC 4648, with padding) of the numbers as little-endian float32, one after the other.
+/// Numbers beyond the range of float32 become infinite.
+std::string base64_float32(std::span<const double> values);
+
+}  // namespace buckens::io

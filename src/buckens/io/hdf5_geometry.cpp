@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/hdf5_geometry.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/hdf5_values.h"
+
+namespace buckens::io {
+
+namespace {
+
+using results::BodyKind;
+using results::Geometry;
+using results::GeometryBody;
+using results::GeometryJoint;
+using results::GeometryMarker;
+using results::GeometrySide;
+
+constexpr char kRoot[] = "/geometry";
+constexpr char kBodies[] = "/geometry/bodies";
+constexpr char kJoints[] = "/geometry/joints";
+constexpr char kGround[] = "ground";
+
+std::span<const double> numbers(const Eigen::Vector3d& v) { return {v.data(), 3}; }
+
+Eigen::Vector3d vector_at(const std::vector<double>& values, std::size_t row) {
+  return {values[3 * row], values[3 * row + 1], values[3 * row + 2]};
+}
+
+/// A damaged file must not make us read beyond a list.
+void expect(const Hdf5File& file, const std::string& path, bool holds) {
+  if (!holds) {
+    throw IoError(
+        fmt::format("{}: {} does not have the form of a Buckens run.", file.path().string(), path));
+  }
+}
+
+void write_markers(const Hdf5File& file, const std::string& path,
+                   const std::vector<GeometryMarker>& markers) {
+  std::vector<std::string> names;
+  std::vector<int> nodes;
+  std::vector<double> positions, orientations;
+  for (const GeometryMarker& marker : markers) {
+    names.push_back(marker.name);
+    nodes.push_back(marker.node);
+    const Eigen::Vector3d& p = marker.X_BF.p;
+    const Eigen::Quaterniond& q = marker.X_BF.q;
+    positions.insert(positions.end(), {p.x(), p.y(), p.z()});
+    orientations.insert(orientations.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
+  const hsize_t count = markers.size();
+  write_dataset(file, path + "/marker_names", names);
+  write_dataset(file, path + "/marker_nodes", {count}, nodes);
+  write_dataset(file, path + "/marker_positions", {count, 3}, positions);
+  write_attribute(file, path + "/marker_positions", "unit", std::string("m"));
+  write_dataset(file, path + "/marker_orientations", {count, 4}, orientations);
+  write_attribute(file, path + "/marker_orientations", "unit", std::string("1"));
+  write_attribute(file, path + "/marker_orientations", "components",
+                  std::vector<std::string>{"w", "x", "y", "z"});
+}
+
+void write_body(const Hdf5File& file, int index, const GeometryBody& body) {
+  const std::string path = fmt::format("{}/{}", kBodies, body.name);
+  create_group(file, path);
+  write_attribute(file, path, "index", index);
+  write_attribute(file, path, "kind", std::string(body.kind == BodyKind::beam ? "beam" : "rigid"));
+  const std::span<const double> nodes(body.nodes.data(),
+                                      static_cast<std::size_t>(body.nodes.size()));
+  write_dataset(file, path + "/nodes", {static_cast<hsize_t>(body.nodes.rows()), 3}, nodes);
+  write_attribute(file, path + "/nodes", "unit", std::string("m"));
+  std::vector<int> elements;
+  for (const auto& element : body.elements) {
+    elements.insert(elements.end(), element.begin(), element.end());
+  }
+  write_dataset(file, path + "/elements", {body.elements.size(), 2}, elements);
+  write_dataset(file, path + "/radius", {body.radius.size()}, body.radius);
+  write_attribute(file, path + "/radius", "unit", std::string("m"));
+  write_markers(file, path, body.markers);
+}
+
+void write_joint(const Hdf5File& file, int index, const Geometry& geometry,
+                 const GeometryJoint& joint) {
+  const std::string path = fmt::format("{}/{}", kJoints, joint.name);
+  create_group(file, path);
+  write_attribute(file, path, "index", index);
+  write_attribute(file, path, "type", joint.type);
+  write_attribute(file, path, "axis", numbers(joint.axis));
+  std::vector<std::string> bodies, markers;
+  std::vector<double> positions;
+  for (const GeometrySide& side : joint.between) {
+    const GeometryBody* body =
+        side.body < 0 ? nullptr : &geometry.bodies.at(static_cast<std::size_t>(side.body));
+    bodies.push_back(body == nullptr ? kGround : body->name);
+    markers.push_back(body == nullptr || side.marker < 0
+                          ? ""
+                          : body->markers.at(static_cast<std::size_t>(side.marker)).name);
+    positions.insert(positions.end(), side.position.data(), side.position.data() + 3);
+  }
+  write_attribute(file, path, "bodies", bodies);
+  write_attribute(file, path, "markers", markers);
+  write_dataset(file, path + "/positions", {2, 3}, positions);
+  write_attribute(file, path + "/positions", "unit", std::string("m"));
+}
+
+/// Names of the groups in the order in which they were written.
+std::vector<std::string> in_order(const Hdf5File& file, const std::string& path) {
+  std::vector<std::pair<int, std::string>> found;
+  if (!has_object(file, path)) return {};
+  for (std::string& name : list_objects(file, path)) {
+    const std::vector<int> index = read_ints(file, path + "/" + name, "index");
+    expect(file, path, index.size() == 1);
+    found.emplace_back(index[0], std::move(name));
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::string> names;
+  for (auto& [index, name] : found) names.push_back(std::move(name));
+  return names;
+}
+
+std::vector<GeometryMarker> read_markers(const Hdf5File& file, const std::string& path) {
+  const std::vector<std::string> names = read_string_dataset(file, path + "/marker_names");
+  const std::vector<int> nodes = read_int_dataset(file, path + "/marker_nodes");
+  const std::vector<double> p = read_double_dataset(file, path + "/marker_positions");
+  const std::vector<double> q = read_double_dataset(file, path + "/marker_orientations");
+  const std::size_t count = names.size();
+  expect(file, path, nodes.size() == count && p.size() == 3 * count && q.size() == 4 * count);
+  std::vector<GeometryMarker> markers(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    markers[i].name = names[i];
+    markers[i].node = nodes[i];
+    markers[i].X_BF.p = vector_at(p, i);
+    markers[i].X_BF.q = Eigen::Quaterniond(q[4 * i], q[4 * i + 1], q[4 * i + 2], q[4 * i + 3]);
+  }
+  return markers;
+}
+
+GeometryBody read_body(const Hdf5File& file, const std::string& name) {
+  const std::string path = fmt::format("{}/{}", kBodies, name);
+  GeometryBody body;
+  body.name = name;
+  body.kind = read_string(file, path, "kind") == "beam" ? BodyKind::beam : BodyKind::rigid;
+  const std::vector<double> nodes = read_double_dataset(file, path + "/nodes");
+  const std::vector<int> elements = read_int_dataset(file, path + "/elements");
+  body.radius = read_double_dataset(file, path + "/radius");
+  expect(file, path, nodes.size() % 3 == 0 && elements.size() % 2 == 0);
+  const auto num_nodes = static_cast<int>(nodes.size() / 3);
+  body.nodes.resize(num_nodes, 3);
+  std::copy(nodes.begin(), nodes.end(), body.nodes.data());
+  for (std::size_t i = 0; i < elements.size(); i += 2) {
+    const std::array<int, 2> pair{elements[i], elements[i + 1]};
+    for (const int node : pair) expect(file, path, node >= 0 && node < num_nodes);
+    body.elements.push_back(pair);
+  }
+  body.markers = read_markers(file, path);
+  return body;
+}
+
+template <typename Named>
+int index_of(const std::vector<Named>& list, const std::string& name) {
+  const auto at = std::find_if(list.begin(), list.end(),
+                               [&](const Named& entry) { return entry.name == name; });
+  return at == list.end() ? -1 : static_cast<int>(at - list.begin());
+}
+
+GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, const std::string& name) {
+  const std::string path = fmt::format("{}/{}", kJoints, name);
+  GeometryJoint joint;
+  joint.name = name;
+  joint.type = read_string(file, path, "type");
+  const std::vector<double> axis = read_doubles(file, path, "axis");
+  const std::vector<std::string> bodies = read_strings(file, path, "bodies");
+  const std::vector<std::string> markers = read_strings(file, path, "markers");
+  const std::vector<double> positions = read_double_dataset(file, path + "/positions");
+  expect(file, path,
+         axis.size() == 3 && bodies.size() == 2 && markers.size() == 2 && positions.size() == 6);
+  joint.axis = vector_at(axis, 0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    GeometrySide& side = joint.between[i];
+    side.body = bodies[i] == kGround ? results::kGroundBody : index_of(geometry.bodies, bodies[i]);
+    if (side.body >= 0 && !markers[i].empty()) {
+      const auto& body = geometry.bodies[static_cast<std::size_t>(side.body)];
+      side.marker = index_of(body.markers, markers[i]);
+    }
+    side.position = vector_at(positions, i);
+  }
+  return joint;
+}
+
+}  // namespace
+
+void write_geometry(const Hdf5File& file, const Geometry& geometry) {
+  create_group(file, kRoot);
+  write_attribute(file, kRoot, "gravity", numbers(geometry.gravity));
+  write_attribute(file, kRoot, "gravity_unit", std::string("m/s^2"));
+  write_attribute(file, kRoot, "planar", geometry.planar);
+  create_group(file, kBodies);
+  create_group(file, kJoints);
+  int index = 0;
+  for (const GeometryBody& body : geometry.bodies) write_body(file, index++, body);
+  index = 0;
+  for (const GeometryJoint& joint : geometry.joints) write_joint(file, index++, geometry, joint);
+}
+
+Geometry read_geometry(const Hdf5File& file) {
+  expect(file, kRoot, has_object(file, kRoot));
+  Geometry geometry;
+  const std::vector<double> gravity = read_doubles(file, kRoot, "gravity");
+  expect(file, kRoot, gravity.size() == 3);
+  geometry.gravity = vector_at(gravity, 0);
+  geometry.planar = read_string(file, kRoot, "planar");
+  for (const std::string& name : in_order(file, kBodies)) {
+    geometry.bodies.push_back(read_body(file, name));
+  }
+  for (const std::string& name : in_order(file, kJoints)) {
+    geometry.joints.push_back(read_joint(file, geometry, name));
+  }
+  return geometry;
+}
+
+}  // namespace buckens::io

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/io/hdf5_file.h"
+#include "buckens/results/geometry.h"
+
+namespace buckens::io {
+
+/// Writes the group `/geometry` of results.h5:
+///
+///     /geometry                        attributes gravity [m/s²], planar
+///     /geometry/bodies/<body>          attributes index, kind
+///         nodes [N×3], elements [E×2], radius [E]            body frame, m; beams only
+///         marker_names [M], marker_nodes [M], marker_positions [M×3], marker_orientations [M×4]
+///     /geometry/joints/<joint>         attributes index, type, axis [3], bodies [2], markers [2]
+///         (names; the ground is "ground", no marker is ""), positions [2×3]
+/// @throws IoError
+void write_geometry(const Hdf5File& file, const results::Geometry& geometry);
+
+/// Reads what write_geometry wrote. @throws IoError
+results::Geometry read_geometry(const Hdf5File& file);
+
+}  // namespace buckens::io

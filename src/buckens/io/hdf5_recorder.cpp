@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/hdf5_recorder.h"
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/hdf5_geometry.h"
+#include "buckens/io/hdf5_values.h"
+
+namespace buckens::io {
+
+namespace {
+
+constexpr int kFormat = 1;
+
+std::filesystem::path unfinished(std::filesystem::path path) {
+  path += ".part";
+  return path;
+}
+
+}  // namespace
+
+Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, const results::RecordLayout& layout,
+                           const results::Geometry& geometry, const std::string& title,
+                           const std::string& version, const FlushRule& rule)
+    : rule_(rule), file_(Hdf5File::create(unfinished(path))) {
+  try {
+    write_attribute(file_, "/", "program", std::string("buckens"));
+    write_attribute(file_, "/", "format", kFormat);
+    write_attribute(file_, "/", "version", version);
+    write_attribute(file_, "/", "title", title);
+    write_geometry(file_, geometry);
+    table_ = Hdf5Table(file_, layout);
+    file_.flush();  // SWMR starts from a file that is complete so far
+    file_.start_swmr();
+    file_.rename(path);
+  } catch (...) {
+    file_.abandon();
+    table_.close();
+    throw;
+  }
+  thread_ = std::thread([this] { watch_age(); });
+}
+
+Hdf5Recorder::~Hdf5Recorder() {
+  try {
+    close();
+  } catch (...) {  // close() says so to those who call it
+  }
+}
+
+void Hdf5Recorder::write(const results::Record& record) {
+  const std::lock_guard lock(mutex_);
+  rethrow_failure();
+  if (times_.empty()) {
+    oldest_ = std::chrono::steady_clock::now();
+    changed_.notify_one();
+  }
+  times_.push_back(record.t);
+  values_.insert(values_.end(), record.values.begin(), record.values.end());
+  if (times_.size() >= rule_.records || values_.size() * sizeof(double) >= rule_.bytes) {
+    flush_waiting();
+    rethrow_failure();
+  }
+}
+
+void Hdf5Recorder::flush_waiting() {
+  if (times_.empty() || failure_) return;
+  try {
+    table_.append(file_, times_, values_);
+  } catch (const IoError& error) {
+    failure_ = std::make_exception_ptr(IoError(fmt::format(
+        "{} Recording ends after {} records (before t = {} s); these stay readable. Free space, "
+        "write elsewhere (-o), or record less (output: every).",
+        error.what(), table_.num_records(), times_.front())));
+    file_.abandon();
+  } catch (...) {
+    failure_ = std::current_exception();
+    file_.abandon();
+  }
+  times_.clear();
+  values_.clear();
+}
+
+void Hdf5Recorder::watch_age() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    if (times_.empty()) {
+      changed_.wait(lock);
+    } else if (std::chrono::steady_clock::now() >= oldest_ + rule_.age) {
+      flush_waiting();
+    } else {
+      changed_.wait_until(lock, oldest_ + rule_.age);
+    }
+  }
+}
+
+void Hdf5Recorder::stop_thread() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void Hdf5Recorder::close() {
+  stop_thread();
+  flush_waiting();
+  table_.close();
+  if (!failure_) {
+    try {
+      file_.close();
+    } catch (...) {
+      failure_ = std::current_exception();
+      file_.abandon();
+    }
+  }
+  file_ = Hdf5File();
+  rethrow_failure();
+}
+
+void Hdf5Recorder::rethrow_failure() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+}  // namespace buckens::io

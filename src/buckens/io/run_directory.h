@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "buckens/io/hdf5_recorder.h"
+#include "buckens/io/output_file.h"
+#include "buckens/io/sensors_csv.h"
+#include "buckens/results/record_sink.h"
+
+namespace buckens::io {
+
+/// Names of the files in a run directory.
+inline constexpr char kResultsName[] = "results.h5";
+inline constexpr char kSensorsName[] = "sensors.csv";
+inline constexpr char kSummaryName[] = "summary.json";
+inline constexpr char kModelName[] = "model.yaml";
+inline constexpr char kLogName[] = "log.txt";
+
+struct RunDirectoryOptions {
+  std::string title;       ///< of the model
+  std::string model_text;  ///< content of model.yaml: the model as it was read
+  FlushRule flush;
+};
+
+/// The directory that holds everything a run leaves behind. Layout:
+/// docs/reference/run-directory.md.
+///
+/// It can be read while the run goes on and after SIGKILL at any moment; of the records at most
+/// those of the last second are then missing. One process at a time writes into a directory.
+class RunDirectory : public results::RecordSink {
+ public:
+  /// Creates the directory and its parents, or takes over that of an earlier run, whose files are
+  /// removed once it is known that new ones can be written. Files of others stay.
+  /// @throws IoError if the directory holds other things than a run, another run is writing into
+  ///   it, or it cannot be written
+  explicit RunDirectory(std::filesystem::path path, RunDirectoryOptions options = {});
+  /// Without a call of `finish` the run counts as interrupted.
+  ~RunDirectory() override;
+
+  /// Creates results.h5 and sensors.csv. @throws IoError
+  void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
+  /// @throws IoError: from then on nothing is recorded any more, what was written stays readable
+  void write(const results::Record& record) override;
+  /// Completes all files; summary.json even if completing another one fails.
+  /// @throws IoError unless `write` has thrown the same before
+  void finish(const results::RunSummary& summary) override;
+
+  /// Appends lines to log.txt; a line break is added at the end. @throws IoError
+  void log(std::string_view lines);
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void take_directory();
+  void write_status(std::string_view json) const;
+
+  std::filesystem::path path_;
+  RunDirectoryOptions options_;
+  std::string started_;
+  OutputFile log_;  // its lock marks the directory as taken
+  SensorsCsv sensors_;
+  std::unique_ptr<Hdf5Recorder> recorder_;
+  std::size_t num_values_ = 0;
+  double last_time_ = 0;
+  std::string failure_;  // why recording ended early
+  bool finished_ = false;
+};
+
+}  // namespace buckens::io

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/sensors_csv.h"
+
+#include <iterator>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace buckens::io {
+
+namespace {
+
+constexpr std::string_view kSensors = "sensors/";
+
+/// A name as RFC 4180 wants it: quoted if it holds a comma, a quote or a line break.
+std::string quote(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == name.npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::vector<std::string> csv_column_names(const results::Channel& channel) {
+  const std::string_view path = channel.path;
+  const std::string_view name = path.starts_with(kSensors) ? path.substr(kSensors.size()) : path;
+  const std::string unit = channel.unit.empty() ? "1" : channel.unit;
+  if (channel.shape.empty()) return {fmt::format("{} [{}]", name, unit)};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < channel.size(); ++i) {
+    const bool named = channel.shape.size() == 1 && i < channel.components.size();
+    const std::string component = named ? channel.components[i] : fmt::format("{}", i + 1);
+    names.push_back(component.empty() ? fmt::format("{} [{}]", name, unit)
+                                      : fmt::format("{}.{} [{}]", name, component, unit));
+  }
+  return names;
+}
+
+SensorsCsv::SensorsCsv(const std::filesystem::path& path, const results::RecordLayout& layout)
+    : file_(path) {
+  line_ = "t [s]";
+  for (std::size_t index = 0; index < layout.channels().size(); ++index) {
+    const results::Channel& channel = layout.channel(index);
+    if (!channel.path.starts_with(kSensors)) continue;
+    std::size_t position = layout.offset(index);
+    for (const std::string& name : csv_column_names(channel)) {
+      line_ += ',' + quote(name);
+      positions_.push_back(position++);
+    }
+  }
+  line_ += '\n';
+  file_.write(line_);
+}
+
+void SensorsCsv::write(const results::Record& record) {
+  line_.clear();
+  const auto out = std::back_inserter(line_);
+  fmt::format_to(out, "{:.17g}", record.t);
+  for (const std::size_t position : positions_) {
+    fmt::format_to(out, ",{:.17g}", record.values[position]);
+  }
+  line_ += '\n';
+  file_.write(line_);
+}
+
+}  // namespace buckens::io

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/view_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/base64.h"
+#include "buckens/io/output_file.h"
+#include "buckens/io/run_reader.h"
+
+namespace buckens::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using results::Channel;
+using results::GeometryBody;
+
+constexpr std::string_view kMarker = "/*BUCKENS_DATA*/null";
+constexpr int kFormat = 1;
+constexpr std::size_t kPoseSize = 7;
+constexpr std::size_t kNodeSize = 6;
+
+Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Which records become frames: evenly spread, the first and the last among them.
+std::vector<std::size_t> choose_frames(std::size_t records, std::size_t limit) {
+  const std::size_t count = std::min(records, std::max<std::size_t>(limit, 2));
+  std::vector<std::size_t> frames(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    frames[i] = count == 1 ? 0 : i * (records - 1) / (count - 1);
+  }
+  return frames;
+}
+
+/// Reads the frames of a run, channel by channel, in the page's form.
+class FrameReader {
+ public:
+  FrameReader(const RunReader& run, std::vector<std::size_t> frames)
+      : run_(run), frames_(std::move(frames)) {}
+
+  std::size_t num_frames() const { return frames_.size(); }
+
+  std::string times() const {
+    std::vector<double> times;
+    for (const std::size_t frame : frames_) times.push_back(run_.times()[frame]);
+    return base64_float32(times);
+  }
+
+  std::string values(const std::string& path) const {
+    return base64_float32(run_.read(path, frames_));
+  }
+
+  /// Poses of a body; one that was not recorded stands at the origin.
+  std::string pose(const std::string& body) const {
+    const std::string path = fmt::format("bodies/{}/pose", body);
+    if (const Channel* channel = find(path); channel != nullptr && channel->size() == kPoseSize) {
+      return values(path);
+    }
+    std::vector<double> poses(num_frames() * kPoseSize, 0.0);
+    for (std::size_t i = 3; i < poses.size(); i += kPoseSize) poses[i] = 1.0;
+    return base64_float32(poses);
+  }
+
+  /// Nodal displacements, null if not recorded.
+  Json displacement(const GeometryBody& body) const {
+    const std::string path = fmt::format("bodies/{}/displacement", body.name);
+    const Channel* channel = find(path);
+    const auto size = static_cast<std::size_t>(body.nodes.rows()) * kNodeSize;
+    if (channel == nullptr || channel->size() != size) return nullptr;
+    return values(path);
+  }
+
+  /// Largest magnitude of the stresses of each element, null if not recorded.
+  Json stress(const GeometryBody& body) const {
+    const std::string path = fmt::format("bodies/{}/stress", body.name);
+    const Channel* channel = find(path);
+    const std::size_t elements = body.elements.size();
+    if (channel == nullptr || elements == 0 || channel->size() % elements != 0) return nullptr;
+    const std::size_t per_element = channel->size() / elements;
+    const std::vector<double> all = run_.read(path, frames_);
+    std::vector<double> largest(num_frames() * elements, 0.0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      double& value = largest[i / per_element];
+      value = std::max(value, std::abs(all[i]));
+    }
+    return base64_float32(largest);
+  }
+
+ private:
+  const Channel* find(const std::string& path) const {
+    const int index = run_.layout().find(path);
+    return index < 0 ? nullptr : &run_.layout().channel(static_cast<std::size_t>(index));
+  }
+
+  const RunReader& run_;
+  std::vector<std::size_t> frames_;
+};
+
+Json markers_json(const GeometryBody& body) {
+  Json all = Json::array();
+  for (const results::GeometryMarker& marker : body.markers) {
+    const Eigen::Quaterniond& q = marker.X_BF.q;
+    all.push_back({{"name", marker.name},
+                   {"position", json_of(marker.X_BF.p)},
+                   {"orientation", {q.w(), q.x(), q.y(), q.z()}},
+                   {"node", marker.node}});
+  }
+  return all;
+}
+
+Json body_json(const GeometryBody& body, const FrameReader& reader) {
+  Json nodes = Json::array();
+  for (Eigen::Index i = 0; i < body.nodes.rows(); ++i) {
+    nodes.push_back(json_of(body.nodes.row(i).transpose()));
+  }
+  return {{"name", body.name},
+          {"kind", body.kind == results::BodyKind::beam ? "beam" : "rigid"},
+          {"nodes", std::move(nodes)},
+          {"elements", body.elements},
+          {"radius", body.radius},
+          {"markers", markers_json(body)},
+          {"pose", reader.pose(body.name)},
+          {"displacement", reader.displacement(body)},
+          {"stress", reader.stress(body)}};
+}
+
+Json joint_json(const results::GeometryJoint& joint) {
+  Json between = Json::array();
+  for (const results::GeometrySide& side : joint.between) {
+    between.push_back(
+        {{"body", side.body}, {"marker", side.marker}, {"position", json_of(side.position)}});
+  }
+  return {{"name", joint.name},
+          {"type", joint.type},
+          {"between", std::move(between)},
+          {"axis", json_of(joint.axis)}};
+}
+
+/// Names of a channel's values, one each.
+std::vector<std::string> component_names(const Channel& channel) {
+  if (channel.shape.empty()) return {""};
+  if (channel.components.size() == channel.size()) return channel.components;
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= channel.size(); ++i) names.push_back(fmt::format("{}", i));
+  return names;
+}
+
+/// The channels right below `group`, as curves.
+Json curves_json(const RunReader& run, const FrameReader& reader, std::string_view group,
+                 bool with_components) {
+  Json all = Json::array();
+  for (const Channel& channel : run.layout().channels()) {
+    if (!channel.path.starts_with(group)) continue;
+    if (!with_components && channel.size() != 1) continue;
+    Json curve = {{"name", channel.path.substr(group.size())}, {"unit", channel.unit}};
+    if (with_components) curve["components"] = component_names(channel);
+    curve["values"] = reader.values(channel.path);
+    all.push_back(std::move(curve));
+  }
+  return all;
+}
+
+/// How many frames keep the page below the size that browsers take well.
+std::size_t frame_limit(const RunReader& run, const ViewPageOptions& options) {
+  std::size_t values = 1;
+  for (const Channel& channel : run.layout().channels()) values += channel.size();
+  return std::min(options.max_frames, options.max_bytes / (sizeof(float) * values));
+}
+
+Json page_json(const RunReader& run, const FrameReader& reader) {
+  const results::Geometry& geometry = run.geometry();
+  Json bodies = Json::array();
+  for (const GeometryBody& body : geometry.bodies) bodies.push_back(body_json(body, reader));
+  Json joints = Json::array();
+  for (const results::GeometryJoint& joint : geometry.joints) joints.push_back(joint_json(joint));
+  return {{"format", kFormat},
+          {"title", run.title()},
+          {"version", run.version()},
+          {"generated", utc_now()},
+          {"time", {{"n", reader.num_frames()}, {"f32", reader.times()}}},
+          {"bodies", std::move(bodies)},
+          {"joints", std::move(joints)},
+          {"gravity", json_of(geometry.gravity)},
+          {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
+          {"sensors", curves_json(run, reader, "sensors/", true)},
+          {"energies", curves_json(run, reader, "energies/", false)},
+          {"summary", Json::parse(run.summary_text(), nullptr, false)}};
+}
+
+/// JSON that may stand inside a <script> element: a name like "</script>" must not end it. These
+/// characters occur in JSON only within strings, where escapes mean the same.
+std::string script_text(const Json& json) {
+  const std::string plain = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text;
+  text.reserve(plain.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const char c = plain[i];
+    if (c == '<' || c == '>' || c == '&') {
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else if (plain.compare(i, 3, "\u2028") == 0 || plain.compare(i, 3, "\u2029") == 0) {
+      text += plain[i + 2] == '\xA8' ? "\\u2028" : "\\u2029";  // line ends in older JavaScript
+      i += 2;
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+ViewPageReport write_view_page(const std::filesystem::path& run_directory,
+                               const std::filesystem::path& template_html,
+                               const std::filesystem::path& output_html,
+                               const ViewPageOptions& options) {
+  const RunReader run(run_directory);
+  if (run.num_records() == 0) {
+    throw IoError(fmt::format("{}: the run has no records yet, there is nothing to show.",
+                              run_directory.string()));
+  }
+  std::string page = read_text_file(template_html);
+  const std::size_t at = page.find(kMarker);
+  if (at == page.npos || page.find(kMarker, at + 1) != page.npos) {
+    throw IoError(
+        fmt::format("{}: not the viewer's page: it must hold the text {} exactly once. "
+                    "Install Buckens again.",
+                    template_html.string(), kMarker));
+  }
+  const FrameReader reader(run, choose_frames(run.num_records(), frame_limit(run, options)));
+  page.replace(at, kMarker.size(), script_text(page_json(run, reader)));
+  replace_text_file(output_html, page);
+  return {run.num_records(), reader.num_frames()};
+}
+
+}  // namespace buckens::io
