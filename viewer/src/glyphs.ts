@@ -108,7 +108,10 @@ function drivenRotation(): THREE.Object3D {
   head.scale.set(0.45, 0.45, 0.9);
   head.position.set(0, -1.9, 0);
   head.quaternion.setFromUnitVectors(kZ, new THREE.Vector3(1, 0, 0));
-  return new THREE.Group().add(ring, head);
+  const turned = new THREE.Group().add(ring, head);
+  // The gap of the circle points to where a support stands.
+  turned.rotation.z = -Math.PI / 4;
+  return new THREE.Group().add(turned);
 }
 
 function drivenTranslation(): THREE.Object3D {

@@ -50,6 +50,9 @@ export function notices(summary: Tree): string[] {
   const interrupted = texts(summary.interrupted);
   if (interrupted.length) found.push(`Interrupted: ${interrupted.join(', ')}`);
   else if (summary.finished === false) found.push('The run did not reach its end.');
+  if (summary.status === 'starting' || summary.status === 'running') {
+    found.push('Written while the run was still going on, or after it was killed.');
+  }
   return found;
 }
 
@@ -110,6 +113,7 @@ export function flatten(value: unknown, path = ''): [string, string][] {
       flatten(inner, path ? `${path}.${key}` : key),
     );
   }
+  if (value === null || value === undefined) return [];
   if (Array.isArray(value)) {
     if (value.length === 0) return [];
     if (value.some((inner) => typeof inner === 'object')) {

@@ -51,6 +51,16 @@ describe('run summary', () => {
     expect(summaryChips(run).filter((chip) => chip.tone === 'warn')).toHaveLength(2);
   });
 
+  it('says when the run was still going on, or was interrupted', () => {
+    expect(notices({ status: 'running' })).toEqual([
+      'Written while the run was still going on, or after it was killed.',
+    ]);
+    expect(notices({ status: 'finished', finished: true, interrupted: null })).toEqual([]);
+    expect(notices({ finished: false, interrupted: 'Ctrl-C at t = 0.2 s' })).toEqual([
+      'Interrupted: Ctrl-C at t = 0.2 s',
+    ]);
+  });
+
   it('bears a summary of nothing', () => {
     const run = decodeRun(kVariants['no-curves']() as unknown as PageData);
     expect(summaryChips(run)).toEqual([]);
