@@ -223,7 +223,8 @@ export class Page {
     stage.render(playback.time, options);
     const { factor, unit } = prefixFor(stage.gridSpacing, 'm');
     const grid = `grid ${figure(stage.gridSpacing / factor, 1)} ${unit}`;
-    const enlarged = options.scale > 1 ? `deformation × ${Number(options.scale.toPrecision(3))} · ` : '';
+    const enlarged =
+      options.scale > 1 ? `deformation × ${Number(options.scale.toPrecision(3))} · ` : '';
     this.gridText.textContent = enlarged + grid;
     this.legend!.update(options.stress && stage.stressRange > 0, stage.motion.largestStress);
   }
