@@ -45,13 +45,23 @@ Vector variable_scale(const SparseMatrix& M, const SparseMatrix& K) {
   return scale;
 }
 
-/// Orthonormal columns Z with PᵀZ = 0.
-Matrix complement(const Matrix& P) {
-  const Eigen::Index n = P.rows();
-  const Eigen::HouseholderQR<Matrix> qr(P);
-  Matrix Z = Matrix::Zero(n, n - P.cols());
-  Z.bottomRows(n - P.cols()).setIdentity();
-  return qr.householderQ() * Z;
+/// Orthonormal columns Z with PᵀZ = 0, rigid motions without mass left out, too. Rows are scaled.
+Matrix complement(const Matrix& Phi, const Sieve& sieve, const Vector& scale) {
+  const Matrix P = scale.asDiagonal() * sieve.P();
+  Matrix massless = Phi;
+  sieve.apply(massless);
+  Matrix excluded(P.rows(), P.cols() + Phi.cols());
+  excluded << P.colwise().normalized(), scale.cwiseInverse().asDiagonal() * massless;
+  for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
+    const double size = scale.cwiseInverse().cwiseProduct(Phi.col(k)).norm();
+    if (size > 0.0) excluded.col(P.cols() + k) /= size;
+  }
+  Eigen::ColPivHouseholderQR<Matrix> qr(excluded);
+  qr.setThreshold(1e-8);  // rounding leaves 1e-14, a motion without mass 1
+  const Eigen::Index free = P.rows() - qr.rank();
+  Matrix Z = Matrix::Zero(P.rows(), free);
+  Z.bottomRows(free).setIdentity();
+  return qr.householderQ().setLength(qr.rank()) * Z;
 }
 
 /// Few variables without mass: (M − ν K) x = 0 with ν = 1/ω², the massless motions at ν = 0.
@@ -72,9 +82,10 @@ FreeModes solve_with_massless(const Matrix& M, const Matrix& K) {
   return modes;
 }
 
-FreeModes dense_modes(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve) {
+FreeModes dense_modes(const SparseMatrix& M, const SparseMatrix& K, const Matrix& Phi,
+                      const Sieve& sieve) {
   const Vector scale = variable_scale(M, K);
-  const Matrix Z = scale.asDiagonal() * complement(scale.asDiagonal() * sieve.P());
+  const Matrix Z = scale.asDiagonal() * complement(Phi, sieve, scale);
   const Matrix Mz = Z.transpose() * (M * Z);
   const Matrix Kz = Z.transpose() * (K * Z);
   FreeModes modes;
@@ -188,7 +199,7 @@ FreeModes free_modes(const SparseMatrix& M, const SparseMatrix& K, const Matrix&
   const Eigen::Index wanted = std::clamp<Eigen::Index>(count, 0, elastic);
   if (wanted == 0) return {Vector(0), Matrix(M.rows(), 0)};
   const bool dense = M.rows() <= kDenseLimit || 3 * wanted > M.rows();
-  FreeModes modes = dense ? dense_modes(M, K, sieve) : sparse_modes(M, K, sieve, wanted);
+  FreeModes modes = dense ? dense_modes(M, K, Phi, sieve) : sparse_modes(M, K, sieve, wanted);
   const Eigen::Index found = std::min(wanted, modes.omega.size());
   modes.omega = modes.omega.head(found).eval();
   modes.shapes = modes.shapes.leftCols(found).eval();

@@ -69,7 +69,9 @@ void Stepper::start_bodies(const model::State& state) {
     }
     Large& large = *large_[b];
     large.history = scheme_.history(s.d_dot, s.d_ddot, s.d_alg);
-    if (state.history >= 2) {
+    if (body.flexible->coupling == body::CouplingLevel::none) {
+      large.used = {dynamics::undeformed_moments(body), {}};
+    } else if (state.history >= 2) {
       large.used =
           dynamics::extrapolate(s.coupling, s.coupling_before, scheme_.h / state.last_step);
     } else if (state.history == 1) {

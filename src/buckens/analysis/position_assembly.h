@@ -1,0 +1,23 @@
+#pragma once
+
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// Moves undeformed bodies by the least change (in the mass metric) until all joints close at
+/// state.t: damped Newton with step limits, redundant joints allowed.
+/// @return the largest remaining |g|
+/// @throws ModelError naming the joint that cannot be closed, and its gap
+double assemble_positions(const model::Model& model, const dynamics::MassMetric& metric,
+                          model::State& state);
+
+/// Adds the least velocities that satisfy all joints: first by the frames alone, so that undeformed
+/// bodies start with a rigid velocity field, then also by nodal velocities if something is left.
+/// @return the largest remaining |ġ|
+/// @throws ModelError naming the joint whose velocity cannot be met
+double project_velocities(const model::Model& model, const dynamics::MassMetric& metric,
+                          model::State& state);
+
+}  // namespace buckens::analysis
