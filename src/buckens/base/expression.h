@@ -36,6 +36,9 @@ class Expression {
   ///         is not finite
   double operator()(std::initializer_list<double> values) const;
 
+  /// The same, but hands out infinities and not-a-numbers as they are.
+  double unchecked(std::initializer_list<double> values) const;
+
   /// True if no variable occurs in it.
   bool is_constant() const;
   const std::string& text() const;
@@ -45,5 +48,12 @@ class Expression {
   struct Parsed;
   std::shared_ptr<const Parsed> parsed_;
 };
+
+/// True if `name` can be a parameter: letters, digits and _, no digit first.
+bool is_identifier(const std::string& name);
+
+/// Functions and constants that every expression knows, and the variables t, x, y, z: names that
+/// parameters cannot have.
+const std::vector<std::string>& reserved_names();
 
 }  // namespace buckens::base

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/base/differentiate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace buckens::base {
+
+namespace {
+
+constexpr double kRatio = 1.6;  // no two distances have a common period
+constexpr int kMostLevels = 46;
+constexpr int kMostColumns = 8;
+constexpr double kFastestFall = 2.5;
+constexpr double kAgreement = 10.0;
+constexpr double kFirstDoubt = 20.0;
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+/// One central difference with the rounding error to be expected of it.
+struct Difference {
+  double h = 0;
+  double value = 0;
+  double noise = 0;
+};
+
+Difference central(const std::function<double(double)>& f, double t, double f_t, double h,
+                   int order) {
+  // The distance that the two arguments really have.
+  const volatile double ahead = t + h;
+  const volatile double behind = t - h;
+  const double f_ahead = f(ahead);
+  const double f_behind = f(behind);
+  Difference out;
+  out.h = 0.5 * (ahead - behind);
+  const double slope = std::abs(f_ahead - f_behind) / (2.0 * out.h);
+  // f is rounded, and so is its argument.
+  const double rounding = kEps * (std::max({std::abs(f_ahead), std::abs(f_behind), std::abs(f_t)}) +
+                                  std::abs(t) * slope);
+  if (order == 1) {
+    out.value = (f_ahead - f_behind) / (2.0 * out.h);
+    out.noise = rounding / out.h;
+  } else {
+    out.value = ((f_ahead - f_t) - (f_t - f_behind)) / (out.h * out.h);
+    out.noise = 4.0 * rounding / (out.h * out.h);
+  }
+  return out;
+}
+
+/// Neville's scheme in h², rows added with growing h.
+class Extrapolation {
+ public:
+  struct Estimate {
+    double value = 0;
+    double error = std::numeric_limits<double>::infinity();
+  };
+
+  /// The best entry of the new row that agrees with the best one so far.
+  Estimate add(const Difference& difference, const Estimate& best) {
+    Row row;
+    row[0] = difference.value;
+    differences_[static_cast<std::size_t>(count_)] = difference;
+    Estimate found;
+    const int columns = std::min(count_, kMostColumns - 1);
+    for (int j = 1; j <= columns; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      const Difference& narrow = differences_[static_cast<std::size_t>(count_ - j)];
+      const double q = difference.h * difference.h / (narrow.h * narrow.h);
+      row[k] = last_[k - 1] + (last_[k - 1] - row[k - 1]) / (q - 1.0);
+      const double spread =
+          std::max(std::abs(row[k] - row[k - 1]), std::abs(row[k] - last_[k - 1]));
+      const double error = spread + 2.0 * narrow.noise;
+      const bool agrees = std::abs(row[k] - best.value) <= kAgreement * best.error;
+      if (agrees && error < found.error) found = {row[k], error};
+    }
+    // Two differences may agree by luck; an error that falls faster than this from row to row is
+    // not believed.
+    if (count_ > 1) found.error = std::max(found.error, last_error_ / kFastestFall);
+    if (count_ == 1) found.error *= kFirstDoubt;
+    if (std::isfinite(found.error)) last_error_ = found.error;
+    last_ = row;
+    ++count_;
+    return found;
+  }
+
+ private:
+  using Row = std::array<double, kMostColumns>;
+  Row last_{};
+  std::array<Difference, kMostLevels> differences_{};
+  double last_error_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::optional<double> derivative(const std::function<double(double)>& f, double t, int order) {
+  const double f_t = f(t);
+  if (!std::isfinite(f_t)) return std::nullopt;
+  double h = std::max(order == 1 ? 1e-7 : 1e-6, 1e-8 * std::abs(t));
+  Extrapolation table;
+  Extrapolation::Estimate best;
+  std::optional<double> fallback;
+  int rows_without_agreement = 0;
+  for (int level = 0; level < kMostLevels && rows_without_agreement < 3; ++level, h *= kRatio) {
+    const Difference difference = central(f, t, f_t, h, order);
+    if (!std::isfinite(difference.value)) break;
+    if (!fallback) fallback = difference.value;
+    const auto found = table.add(difference, best);
+    if (level == 0) continue;
+    rows_without_agreement = std::isfinite(found.error) ? 0 : rows_without_agreement + 1;
+    if (found.error < best.error) best = found;
+  }
+  if (std::isfinite(best.error)) return best.value;
+  return fallback;
+}
+
+}  // namespace buckens::base

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/base/time_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/differentiate.h"
+#include "buckens/base/errors.h"
+
+namespace buckens::base {
+
+/// A law that is not simply a number.
+class TimeLaw::Body {
+ public:
+  virtual ~Body() = default;
+  virtual double value(double t) const = 0;
+  virtual double rate(double t) const = 0;
+  virtual double acceleration(double t) const = 0;
+  virtual bool is_constant() const = 0;
+};
+
+namespace {
+
+class Formula final : public TimeLaw::Body {
+ public:
+  Formula(Expression expression, double scale)
+      : expression_(std::move(expression)), scale_(scale) {}
+
+  double value(double t) const override { return scale_ * expression_({t}); }
+  double rate(double t) const override { return scale_ * differentiate(t, 1); }
+  double acceleration(double t) const override { return scale_ * differentiate(t, 2); }
+  bool is_constant() const override { return false; }
+
+ private:
+  double differentiate(double t, int order) const {
+    expression_({t});  // says what is wrong if the value itself does not exist
+    const auto f = [this](double s) { return expression_.unchecked({s}); };
+    const std::optional<double> out = derivative(f, t, order);
+    if (out) return *out;
+    throw NumericalError(
+        expression_.where(),
+        fmt::format("expression \"{}\" has no {} at t = {:.9g}: it is not defined on both sides of "
+                    "this time. Write it so that it is, e.g. with max(t, 0) in place of t",
+                    expression_.text(), order == 1 ? "rate" : "acceleration", t));
+  }
+
+  Expression expression_;
+  double scale_;
+};
+
+/// Piecewise cubic through points, of which the piecewise linear one is a case.
+class Table final : public TimeLaw::Body {
+ public:
+  Table(std::vector<double> times, std::vector<double> values, Interpolation interpolation)
+      : t_(std::move(times)), y_(std::move(values)), curvature_(t_.size(), 0.0) {
+    if (interpolation == Interpolation::spline) solve_natural_spline();
+  }
+
+  double value(double t) const override {
+    if (t <= t_.front()) return y_.front();
+    if (t >= t_.back()) return y_.back();
+    const auto [i, h, a, b] = interval(t);
+    return a * y_[i] + b * y_[i + 1] +
+           ((a * a * a - a) * curvature_[i] + (b * b * b - b) * curvature_[i + 1]) * h * h / 6.0;
+  }
+
+  double rate(double t) const override {
+    if (t < t_.front() || t >= t_.back()) return 0.0;
+    const auto [i, h, a, b] = interval(t);
+    return (y_[i + 1] - y_[i]) / h +
+           ((1.0 - 3.0 * a * a) * curvature_[i] + (3.0 * b * b - 1.0) * curvature_[i + 1]) * h /
+               6.0;
+  }
+
+  double acceleration(double t) const override {
+    if (t < t_.front() || t >= t_.back()) return 0.0;
+    const auto [i, h, a, b] = interval(t);
+    return a * curvature_[i] + b * curvature_[i + 1];
+  }
+
+  bool is_constant() const override {
+    return std::all_of(y_.begin(), y_.end(), [this](double y) { return y == y_.front(); });
+  }
+
+ private:
+  struct Interval {
+    std::size_t i;   // t_[i] ≤ t < t_[i+1]
+    double h, a, b;  // its length, and the weights of its ends
+  };
+
+  Interval interval(double t) const {
+    const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
+    const auto i = static_cast<std::size_t>(above - t_.begin()) - 1;
+    const double h = t_[i + 1] - t_[i];
+    return {i, h, (t_[i + 1] - t) / h, (t - t_[i]) / h};
+  }
+
+  /// Second derivatives at the points, zero at both ends: a tridiagonal system by elimination.
+  void solve_natural_spline() {
+    const std::size_t n = t_.size();
+    if (n < 3) return;
+    std::vector<double> upper(n, 0.0);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const double left = t_[i] - t_[i - 1];
+      const double right = t_[i + 1] - t_[i];
+      const double jump = (y_[i + 1] - y_[i]) / right - (y_[i] - y_[i - 1]) / left;
+      const double pivot = 2.0 * (left + right) - left * upper[i - 1];
+      upper[i] = right / pivot;
+      curvature_[i] = (6.0 * jump - left * curvature_[i - 1]) / pivot;
+    }
+    for (std::size_t i = n - 2; i > 0; --i) curvature_[i] -= upper[i] * curvature_[i + 1];
+  }
+
+  std::vector<double> t_, y_, curvature_;
+};
+
+void check_table(const std::vector<double>& times, const std::vector<double>& values) {
+  if (times.empty() || times.size() != values.size()) {
+    throw InputError(
+        fmt::format("a table needs as many times as values, at least one, not {} and {}",
+                    times.size(), values.size()));
+  }
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!std::isfinite(times[i]) || !std::isfinite(values[i])) {
+      throw InputError(fmt::format("row {} of the table holds {} and {}; finite numbers are needed",
+                                   i + 1, times[i], values[i]));
+    }
+    if (i > 0 && times[i] <= times[i - 1]) {
+      throw InputError(fmt::format(
+          "the times of a table must increase, but row {} has {:g} s after {:g} s; sort the rows "
+          "and remove repetitions",
+          i + 1, times[i], times[i - 1]));
+    }
+  }
+}
+
+}  // namespace
+
+TimeLaw TimeLaw::constant(double value) {
+  TimeLaw law;
+  law.constant_ = value;
+  return law;
+}
+
+TimeLaw TimeLaw::expression(Expression expression, double scale) {
+  if (expression.is_constant()) return constant(scale * expression({0.0}));
+  return TimeLaw(std::make_shared<const Formula>(std::move(expression), scale));
+}
+
+TimeLaw TimeLaw::table(std::vector<double> times, std::vector<double> values,
+                       Interpolation interpolation) {
+  check_table(times, values);
+  if (times.size() == 1) return constant(values.front());
+  return TimeLaw(std::make_shared<const Table>(std::move(times), std::move(values), interpolation));
+}
+
+double TimeLaw::value(double t) const { return body_ ? body_->value(t) : constant_; }
+double TimeLaw::rate(double t) const { return body_ ? body_->rate(t) : 0.0; }
+double TimeLaw::acceleration(double t) const { return body_ ? body_->acceleration(t) : 0.0; }
+bool TimeLaw::is_constant() const { return !body_ || body_->is_constant(); }
+
+}  // namespace buckens::base
