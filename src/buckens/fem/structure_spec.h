@@ -9,19 +9,18 @@
 #include <Eigen/Core>
 
 #include "buckens/base/field.h"
+#include "buckens/fem/beam_shape.h"
 #include "buckens/fem/material_spec.h"
 #include "buckens/fem/section_spec.h"
 
 namespace buckens::fem {
-
-enum class BeamTheory { euler_bernoulli, timoshenko };
 
 constexpr std::array<const char*, 2> choice_names(BeamTheory) {
   return {"euler-bernoulli", "timoshenko"};
 }
 
 /// What beams have in common, however their ends are given.
-struct BeamProperties {
+struct BeamPropertySpec {
   int elements = 1;
   base::Reference<SectionSpec> section;
   base::Reference<MaterialSpec> material;
@@ -98,7 +97,7 @@ inline Eigen::Matrix3d symmetric_matrix(const std::vector<double>& entries) {
 inline Eigen::Matrix3d PointMassSpec::inertia_matrix() const { return symmetric_matrix(inertia); }
 
 /// A straight beam made a body by itself.
-struct BeamSpec : BeamProperties {
+struct BeamSpec : BeamPropertySpec {
   static constexpr const char* kKey = "beam";
   static constexpr const char* kDoc = "flexible body: one straight beam";
   SourceLocation where;
@@ -136,7 +135,7 @@ struct NodeSpec {
 };
 
 /// A beam between two named nodes.
-struct BeamMemberSpec : BeamProperties {
+struct BeamMemberSpec : BeamPropertySpec {
   SourceLocation where;
   std::array<std::string, 2> between;
 
