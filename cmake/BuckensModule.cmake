@@ -72,7 +72,8 @@ function(buckens_library)
   target_include_directories(
     buckens PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                    $<BUILD_INTERFACE:${BUCKENS_GENERATED_DIR}> $<INSTALL_INTERFACE:include>)
-  target_link_libraries(buckens PUBLIC Eigen3::Eigen fmt::fmt)
+  # What the headers show; io/run_reader.h holds HDF5 handles.
+  target_link_libraries(buckens PUBLIC Eigen3::Eigen fmt::fmt HDF5Serial::C)
   if(BUCKENS_NATIVE)
     # Eigen's alignment depends on the processor flags, so users of the library must share them.
     target_compile_options(buckens PUBLIC -march=native)
