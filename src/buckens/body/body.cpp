@@ -28,10 +28,10 @@ Sieve make_sieve(const std::string& body, const fem::FeModel& fe) {
   return Sieve(Phi, fe.M);
 }
 
-linalg::SparseMatrix damping_matrix(const fem::FeModel& fe, double mass_damping) {
-  linalg::SparseMatrix C = mass_damping * fe.M;
+linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
+  linalg::SparseMatrix C(fe.M.rows(), fe.M.cols());
+  if (fe.mass_damping > 0.0) C = fe.mass_damping * fe.M;
   if (fe.K_damping.nonZeros() > 0) C += fe.K_damping;
-  if (mass_damping == 0.0 && fe.K_damping.nonZeros() == 0) C.setZero();
   return C;
 }
 
@@ -41,12 +41,11 @@ std::string to_string(CouplingLevel level) {
   return level == CouplingLevel::full ? "full" : "none";
 }
 
-FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, double mass_damping,
-                           CouplingLevel level)
+FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, CouplingLevel level)
     : fe(std::move(model)),
       sieve(make_sieve(body, fe)),
       invariants(fe.shape),
-      C(damping_matrix(fe, mass_damping)),
+      C(damping_matrix(fe)),
       coupling(level) {}
 
 int Body::find_marker(const std::string& marker) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/body/coupling_level.h"
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/body/marker.h"
 #include "buckens/body/sieve.h"
@@ -12,12 +13,7 @@
 
 namespace buckens::body {
 
-/// Which inertial coupling terms between frame and nodal variables are kept.
-///
-/// `full`: all of them, from the exact kinetic energy FM (13). `none`: the body's frame moves like
-/// that of a rigid body, its mesh vibrates as at rest; derives from a kinetic energy with J₀.
-enum class CouplingLevel { none, full };
-
+/// Name of the level as the model file spells it.
 std::string to_string(CouplingLevel level);
 
 /// The finite-element share of a body: everything with n rows.
@@ -34,8 +30,7 @@ struct FlexiblePart {
   int num_interface_rows = 0;
 
   /// @throws ModelError if rigid motion strains the mesh or the mesh is a mechanism
-  FlexiblePart(const std::string& body, fem::FeModel model, double mass_damping,
-               CouplingLevel level);
+  FlexiblePart(const std::string& body, fem::FeModel model, CouplingLevel level);
   FlexiblePart(const FlexiblePart&) = delete;
   FlexiblePart& operator=(const FlexiblePart&) = delete;
 

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "buckens/base/field.h"
+#include "buckens/body/coupling_level.h"
 #include "buckens/fem/structure_spec.h"
 
 namespace buckens::body {
@@ -145,9 +146,6 @@ struct LikeSpec {
               .like("left_arm"));
   }
 };
-
-/// Inertial coupling of elastic and frame motion.
-enum class CouplingLevel { full, none };
 
 constexpr std::array<const char*, 2> choice_names(CouplingLevel) { return {"full", "none"}; }
 

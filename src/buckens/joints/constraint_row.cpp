@@ -16,11 +16,12 @@ ConstraintRow ConstraintRow::point_world(const Vector3d& e) {
   return row;
 }
 
-ConstraintRow ConstraintRow::point_along(const Vector3d& e_F,
+ConstraintRow ConstraintRow::point_along(const Vector3d& e_F, double offset,
                                          std::optional<base::TimeLaw> displacement) {
   ConstraintRow row;
   row.kind_ = Kind::point_along;
   row.e_ = e_F;
+  row.offset_ = offset;
   row.law_ = std::move(displacement);
   return row;
 }
@@ -70,7 +71,7 @@ RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, d
       break;
     case Kind::point_along: {
       const Vector3d e = F.R * e_;
-      out.g = e.dot(r) - (law_ ? law_->value(t) : 0.0);
+      out.g = e.dot(r) - offset_ - (law_ ? law_->value(t) : 0.0);
       out.g_t = law_ ? -law_->rate(t) : 0.0;
       out.J.segment<3>(0) = e.cross(r).transpose();
       out.J.segment<3>(3) = -e.transpose();

@@ -23,7 +23,7 @@ struct RowValue {
 ///
 /// Every joint is made of three kinds of rows:
 ///   - `point_world`: e·(p_M − p_F) = 0 with e fixed in the world;
-///   - `point_along`: (R_F e)·(p_M − p_F) − s(t) = 0 with e fixed in F;
+///   - `point_along`: (R_F e)·(p_M − p_F) − s₀ − s(t) = 0 with e fixed in F;
 ///   - `direction`:   (R_F b(t))·(R_M c) = 0, b turning about the axis a of F by the law of time
 ///                    where there is one.
 class ConstraintRow {
@@ -31,8 +31,8 @@ class ConstraintRow {
   enum class Kind { point_world, point_along, direction };
 
   static ConstraintRow point_world(const Eigen::Vector3d& e);
-  /// @param displacement s(t) [m], zero if absent
-  static ConstraintRow point_along(const Eigen::Vector3d& e_F,
+  /// @param offset s₀ [m], @param displacement s(t) [m], zero if absent
+  static ConstraintRow point_along(const Eigen::Vector3d& e_F, double offset = 0.0,
                                    std::optional<base::TimeLaw> displacement = std::nullopt);
   static ConstraintRow direction(const Eigen::Vector3d& b_F, const Eigen::Vector3d& c_M);
   /// M's direction c, which coincides with x_F when the angle is zero, turned about `axis_F` by
@@ -64,6 +64,7 @@ class ConstraintRow {
   Eigen::Vector3d e_ = Eigen::Vector3d::Zero();  // world axis, axis in F, or b at angle zero
   Eigen::Vector3d axis_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d c_ = Eigen::Vector3d::Zero();
+  double offset_ = 0;
   std::optional<base::TimeLaw> law_;
 };
 

@@ -48,9 +48,9 @@ class RowCollector {
     }
   }
 
-  void point_along(const Vector3d& e_F, std::optional<base::TimeLaw> law = std::nullopt) {
+  void point_along(const Vector3d& e_F) {
     if (in_plane(placement_.R_WF * e_F)) {
-      rows_.push_back(ConstraintRow::point_along(e_F, std::move(law)));
+      rows_.push_back(ConstraintRow::point_along(e_F));
     }
   }
 
@@ -145,7 +145,8 @@ std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement)
       rows.push(ConstraintRow::turning(f.z, f.x, rows.to_M(f.x), placement.law.value()));
       break;
     case JointType::prescribed_translation:
-      rows.push(ConstraintRow::point_along(f.z, placement.law.value()));
+      rows.push(
+          ConstraintRow::point_along(f.z, f.z.dot(placement.r_F), placement.law.value()));
       break;
   }
   return rows.take();

@@ -25,10 +25,12 @@ std::string to_string(JointType type);
 /// Orientation of both marker frames as placed, and what the joint needs beside it.
 ///
 /// Joints keep the relative orientation that the placed bodies show: directions of M are the images
-/// of F's directions at that moment, and prescribed angles count from it.
+/// of F's directions at that moment, and prescribed angles and displacements count from it. Points are meant to coincide or to
+/// lie on the axis, so a gap there is closed by assembly.
 struct Placement {
   Eigen::Matrix3d R_WF = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_WM = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d r_F = Eigen::Vector3d::Zero();      ///< from F to M, in F [m]
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();  ///< joint axis in F, any length but zero
   std::optional<spatial::Plane> planar;               ///< keep in-plane rows only
   std::optional<base::TimeLaw> law;                   ///< angle [rad] or displacement [m]
