@@ -77,8 +77,8 @@ TEST(Section, ShearFactorsOfKnownShapes) {
   EXPECT_NEAR(Section::rectangle(1, 3).shear_z, 5.0 / 6, 1e-15);
   EXPECT_NEAR(Section::circle(0.1).shear_peak_y, 4.0 / 3, 1e-15);
   EXPECT_NEAR(Section::tube(0.1, 0.0999).shear_peak_y, 2.0, 1e-3);
-  // A square box: Cowper gives 0.436 at nu = 0.3 and little less at nu = 0.
-  EXPECT_NEAR(Section::box(0.1, 0.1, 0.001).shear_y, 0.43, 0.02);
+  // Cowper's 20 (1 + ν) / (48 + 39 ν) of a thin square box.
+  EXPECT_NEAR(Section::box(0.1, 0.1, 0.001).shear_y, 20.0 / 48, 1e-14);
   EXPECT_NEAR(Section::box(0.1, 0.1, 0.001).shear_y, Section::box(0.1, 0.1, 0.001).shear_z, 1e-15);
   // Nearly solid box: the peak of a rectangle.
   EXPECT_NEAR(Section::box(0.1, 0.2, 0.04999).shear_peak_z, 1.5, 0.01);
