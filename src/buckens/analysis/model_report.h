@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "buckens/model/model_builder.h"
+
+namespace buckens::analysis {
+
+/// What can be said of one body without running.
+struct BodyReport {
+  std::string name;
+  bool is_flexible = false;
+  double mass = 0;                          ///< [kg]
+  Eigen::Vector3d com;                      ///< mass centre in model axes [m]
+  Eigen::Matrix3d inertia;                  ///< about the mass centre, model axes [kg m²]
+  std::array<double, 3> principal_inertia;  ///< ascending [kg m²]
+  int nodes = 0, elements = 0, dof = 0;
+  int frame_coordinates = 0;
+  std::vector<double> frequencies;          ///< lowest elastic free-free frequencies [Hz]
+  std::vector<std::string> markers;         ///< names that joints and sensors can use
+};
+
+/// What can be said of a model without running: the content of `buckens check`.
+struct ModelReport {
+  std::vector<BodyReport> bodies;
+  int joints = 0, loads = 0;
+  int constraint_rows = 0, redundant_rows = 0;
+  int degrees_of_freedom = 0;                   ///< of the mechanism with rigid bodies
+  std::vector<std::string> redundant;           ///< by joint
+  double assembly_gap = 0;                      ///< largest |g| left by assembly [m] or [-]
+  double step = 0, highest_frequency = 0;       ///< [s]; of the modes that loads excite [Hz]
+  std::vector<std::string> notes, warnings;     ///< warnings carry advice on step size
+};
+
+/// Assembles the mechanism and reports on it.
+/// @throws ModelError if it cannot be assembled
+ModelReport report_model(const model::BuiltModel& built);
+
+}  // namespace buckens::analysis
