@@ -148,6 +148,10 @@ struct LikeSpec {
 };
 
 constexpr std::array<const char*, 2> choice_names(CouplingLevel) { return {"full", "none"}; }
+/// Levels that are known but cannot be chosen yet.
+constexpr std::array<const char*, 2> planned_names(CouplingLevel) {
+  return {"first-order", "auto"};
+}
 
 /// A rigid or flexible body.
 struct BodySpec {

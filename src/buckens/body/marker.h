@@ -17,6 +17,7 @@ struct Marker {
   spatial::Pose X_BF;         ///< in the undeformed body
   int translation_row = -1;   ///< first of three rows of FlexiblePart::rows; −1: rigid
   int rotation_row = -1;      ///< first of three rows; −1: no rotations at this point
+  int node = -1;              ///< mesh node that carries it, −1 if none does
 
   bool follows_mesh() const { return translation_row >= 0; }
   bool carries_moment() const { return !follows_mesh() || rotation_row >= 0; }

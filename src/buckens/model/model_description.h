@@ -33,6 +33,14 @@ struct ParameterSpec {
   std::string name;
   SourceLocation where;
   double value = 0;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(value, "number, quantity or expression of parameters above it")
+              .of_any_dimension()
+              .required()
+              .like("300 mm"));
+  }
 };
 
 /// Everything a model file says, in SI units, names resolved and checked as far as one can without

@@ -1,0 +1,165 @@
+#include "buckens/model/marker_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+#include "buckens/fem/recovery.h"
+
+namespace buckens::model {
+
+using Eigen::Vector3d;
+
+namespace {
+// A position counts as on the mesh within this share of the element length.
+constexpr double kOnMesh = 1e-6;
+}  // namespace
+
+MarkerTable::MarkerTable(const body::BodySpec& spec, body::Body& body, const NamedStructure* mesh)
+    : spec_(spec), body_(body), mesh_(mesh) {}
+
+std::vector<std::string> MarkerTable::names() const {
+  std::vector<std::string> out = {"com", "origin"};
+  if (mesh_ != nullptr) out.insert(out.end(), mesh_->names.begin(), mesh_->names.end());
+  for (const body::MarkerSpec& marker : spec_.markers) out.push_back(marker.name);
+  return out;
+}
+
+std::string MarkerTable::suggestion(const std::string& name) const {
+  const std::string near = base::nearest(name, names());
+  return near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near);
+}
+
+std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
+  const fem::FeModel& fe = body_.flexible->fe;
+  const auto lines = fem::line_elements(fe);
+  for (std::size_t e = 0; e < lines.size(); ++e) {
+    const Vector3d a = fe.nodes[static_cast<std::size_t>(lines[e].a)].position;
+    const Vector3d b = fe.nodes[static_cast<std::size_t>(lines[e].b)].position;
+    const double length = (b - a).norm();
+    const double xi = (position - a).dot(b - a) / (length * length);
+    if (xi < -kOnMesh || xi > 1.0 + kOnMesh) continue;
+    if ((position - a - xi * (b - a)).norm() > kOnMesh * length) continue;
+    if (xi < kOnMesh) return MeshPlace{lines[e].a, -1, 0};
+    if (xi > 1.0 - kOnMesh) return MeshPlace{lines[e].b, -1, 0};
+    return MeshPlace{-1, static_cast<int>(e), xi};
+  }
+  return std::nullopt;
+}
+
+MarkerTable::Target MarkerTable::named(const std::string& name,
+                                       const base::MarkerRef& ref) const {
+  if (name.empty() || name == "com") return {body_.com, Eigen::Quaterniond::Identity(), {}};
+  if (mesh_ != nullptr) {
+    if (const auto place = mesh_->find(name)) {
+      const fem::FeModel& fe = body_.flexible->fe;
+      const fem::PointRows rows = place->node >= 0
+                                      ? fem::node_rows(fe, place->node)
+                                      : fem::point_rows(fe, place->element, place->xi);
+      return {rows.position, Eigen::Quaterniond::Identity(), place};
+    }
+  }
+  if (name == "origin") {
+    const Vector3d origin = Vector3d::Zero();
+    return {origin, Eigen::Quaterniond::Identity(),
+            mesh_ != nullptr ? place_at(origin) : std::nullopt};
+  }
+  throw InputError(ref.where, fmt::format("body \"{}\" has no marker \"{}\"{}; markers there: {}",
+                                          spec_.name, name, suggestion(name),
+                                          fmt::join(names(), ", ")));
+}
+
+std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
+  return target(ref).place;
+}
+
+MarkerTable::Target MarkerTable::target(const base::MarkerRef& ref) const {
+  const body::MarkerSpec* own = base::find_named(spec_.markers, ref.marker);
+  if (own == nullptr) return named(ref.marker, ref);
+  Target target;
+  if (own->position) {
+    target = {*own->position, {}, mesh_ != nullptr ? place_at(*own->position) : std::nullopt};
+    if (mesh_ != nullptr && !target.place) {
+      throw InputError(own->where,
+                       fmt::format("marker \"{}\" of body \"{}\" does not lie on its mesh; name a "
+                                   "node (`at`) or a point on an element",
+                                   own->name, spec_.name));
+    }
+  } else {
+    base::MarkerRef at = ref;
+    at.where = own->where;
+    target = named(own->at, at);
+  }
+  target.orientation = own->rotation();
+  return target;
+}
+
+void MarkerTable::add_rows(const std::vector<linalg::Triplet>& entries, int first) {
+  for (const auto& entry : entries) {
+    entries_.emplace_back(first + entry.row(), entry.col(), entry.value());
+  }
+}
+
+std::pair<int, int> MarkerTable::rows_at(const MeshPlace& place) {
+  const auto key = std::make_tuple(place.node, place.element, place.xi);
+  if (const auto known = rows_of_place_.find(key); known != rows_of_place_.end()) {
+    return known->second;
+  }
+  const fem::FeModel& fe = body_.flexible->fe;
+  const fem::PointRows rows = place.node >= 0 ? fem::node_rows(fe, place.node)
+                                              : fem::point_rows(fe, place.element, place.xi);
+  std::pair<int, int> first{num_rows_, -1};
+  add_rows(rows.translation, num_rows_);
+  num_rows_ += 3;
+  if (rows.has_rotation) {
+    first.second = num_rows_;
+    add_rows(rows.rotation, num_rows_);
+    num_rows_ += 3;
+  }
+  rows_of_place_.emplace(key, first);
+  return first;
+}
+
+int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
+  const std::string name = ref.marker.empty() ? "com" : ref.marker;
+  const auto known = found_.find(name);
+  int index = known == found_.end() ? -1 : known->second;
+  if (index < 0) {
+    const Target where = target(ref);
+    body::Marker marker;
+    marker.name = name;
+    marker.X_BF = {where.position - body_.com, where.orientation};
+    if (where.place) {
+      std::tie(marker.translation_row, marker.rotation_row) = rows_at(*where.place);
+      marker.node = where.place->node;
+    }
+    index = static_cast<int>(body_.markers.size());
+    body_.markers.push_back(marker);
+    found_.emplace(name, index);
+  }
+  if (needs_mesh && mesh_ != nullptr &&
+      !body_.markers[static_cast<std::size_t>(index)].follows_mesh()) {
+    throw InputError(
+        ref.where,
+        fmt::format("\"{}\" is no point of the mesh of the flexible body \"{}\": a force there would "
+                    "act on nothing; use one of: {}",
+                    ref.text, spec_.name, fmt::join(mesh_->names, ", ")));
+  }
+  return index;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> MarkerTable::rows() const {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> N(num_rows_, body_.num_dofs());
+  std::vector<linalg::Triplet> kept;
+  for (const auto& entry : entries_) {
+    if (entry.col() >= 0) kept.push_back(entry);
+  }
+  N.setFromTriplets(kept.begin(), kept.end());
+  return N;
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buckens/model/model.h"
+#include "buckens/model/model_description.h"
+
+namespace buckens::model {
+
+/// Where a sensor looks.
+struct SensorPlace {
+  std::vector<MarkerId> markers;  ///< in the order in which the spec names them
+  int body = kGround;             ///< of section forces and stresses
+  int element = -1;               ///< line element of that body; −1: all of them
+  int end = 0;                    ///< 0 its first end, 1 its second
+};
+
+/// A built model with what the description said beyond the mechanics.
+struct BuiltModel {
+  Model model;
+  ModelDescription description;
+  std::vector<SensorPlace> sensors;  ///< one per entry of description.output.sensors
+};
+
+/// Builds and checks the mechanism.
+/// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and markers
+std::unique_ptr<BuiltModel> build_model(ModelDescription description);
+
+}  // namespace buckens::model

@@ -1,0 +1,157 @@
+#include "buckens/model/structure_from_spec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::model {
+
+namespace {
+
+fem::Section make_section(const fem::SectionSpec& spec) {
+  struct Maker {
+    fem::Section operator()(const fem::CircleSpec& s) const {
+      return fem::Section::circle(s.diameter);
+    }
+    fem::Section operator()(const fem::TubeSpec& s) const {
+      return fem::Section::tube(s.outer_diameter, s.inner());
+    }
+    fem::Section operator()(const fem::RectangleSpec& s) const {
+      return fem::Section::rectangle(s.width, s.height);
+    }
+    fem::Section operator()(const fem::BoxSpec& s) const {
+      return fem::Section::box(s.width, s.height, s.thickness);
+    }
+    fem::Section operator()(const fem::GeneralSectionSpec& s) const {
+      fem::Section section =
+          fem::Section::general(s.A, s.Iy, s.Iz, s.J, s.shear_factor_y, s.shear_factor_z);
+      if (s.stress_points.empty()) return section;
+      section.stress_points.clear();
+      for (const auto& point : s.stress_points) {
+        section.stress_points.emplace_back(point[0], point[1]);
+      }
+      return section;
+    }
+  };
+  try {
+    return std::visit(Maker{}, spec.shape);
+  } catch (const ModelError& error) {
+    throw InputError(spec.where, error.what());
+  }
+}
+
+class Builder {
+ public:
+  explicit Builder(const body::BodySpec& spec) : spec_(spec) {}
+
+  NamedStructure run() {
+    if (const auto* beam = std::get_if<fem::BeamSpec>(&spec_.kind)) {
+      add_single_beam(*beam);
+    } else {
+      add_structure(std::get<fem::StructureSpec>(spec_.kind));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  fem::Material make_material(const fem::MaterialSpec& spec) const {
+    fem::Material material{spec.E, spec.nu, spec.shear_modulus(), spec.rho, 0.0, 0.0};
+    const auto& damping = spec_.damping ? spec_.damping : spec.damping;
+    if (damping) {
+      material.damping_mass = damping->alpha();
+      material.damping_stiffness = damping->beta();
+    }
+    return material;
+  }
+
+  fem::BeamProperties make_properties(const fem::BeamPropertySpec& spec) const {
+    fem::BeamProperties properties;
+    properties.material = make_material(*spec.material);
+    properties.section = make_section(*spec.section);
+    properties.theory = spec.theory;
+    properties.rotary_inertia = spec.has_rotary_inertia();
+    properties.up = spec.up;
+    return properties;
+  }
+
+  void name_place(const std::string& name, MeshPlace place) {
+    out_.names.push_back(name);
+    out_.places.push_back(place);
+  }
+
+  void add_single_beam(const fem::BeamSpec& beam);
+  void add_structure(const fem::StructureSpec& structure);
+  int node_called(const std::string& name, const SourceLocation& where) const;
+  void add_mass(const fem::PointMassSpec& mass) {
+    out_.structure.masses.add(node_called(mass.at, mass.where), mass.mass, mass.inertia_matrix());
+  }
+
+  const body::BodySpec& spec_;
+  NamedStructure out_;
+};
+
+void Builder::add_single_beam(const fem::BeamSpec& beam) {
+  fem::Structure& structure = out_.structure;
+  const int start = fem::add_node(structure, "start", beam.from);
+  const int end = fem::add_node(structure, "end", beam.to);
+  out_.beams.push_back(
+      fem::add_beam(structure, start, end, beam.elements, make_properties(beam)));
+  const fem::BeamDivision& division = out_.beams.back();
+  const int half = beam.elements / 2;
+  name_place("start", {start, -1, 0});
+  name_place("end", {end, -1, 0});
+  if (beam.elements % 2 == 0) {
+    name_place("mid", {division.nodes[static_cast<std::size_t>(half)], -1, 0});
+  } else {
+    name_place("mid", {-1, division.first_element + half, 0.5});
+  }
+  for (const fem::PointMassSpec& mass : beam.masses) add_mass(mass);
+}
+
+void Builder::add_structure(const fem::StructureSpec& spec) {
+  fem::Structure& structure = out_.structure;
+  for (const fem::NodeSpec& node : spec.nodes) {
+    name_place(node.name, {fem::add_node(structure, node.name, node.position), -1, 0});
+  }
+  for (const fem::BeamMemberSpec& beam : spec.beams) {
+    out_.beams.push_back(fem::add_beam(structure, node_called(beam.between[0], beam.where),
+                                       node_called(beam.between[1], beam.where), beam.elements,
+                                       make_properties(beam)));
+  }
+  for (const fem::BarMemberSpec& bar : spec.bars) {
+    const fem::Section section =
+        bar.section ? make_section(**bar.section) : fem::Section::area(bar.area.value_or(0.0));
+    structure.bars.add(node_called(bar.between[0], bar.where),
+                       node_called(bar.between[1], bar.where), make_material(*bar.material),
+                       section);
+  }
+  for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
+}
+
+int Builder::node_called(const std::string& name, const SourceLocation& where) const {
+  const auto place = out_.find(name);
+  if (!place) {
+    throw InputError(where, fmt::format("body \"{}\" has no node \"{}\"; nodes there: {}",
+                                        spec_.name, name, fmt::join(out_.names, ", ")));
+  }
+  if (place->node < 0) {
+    throw InputError(where, fmt::format("body \"{}\": \"{}\" lies inside an element; use an even "
+                                        "number of elements so that a node is there",
+                                        spec_.name, name));
+  }
+  return place->node;
+}
+
+}  // namespace
+
+std::optional<MeshPlace> NamedStructure::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return places[static_cast<std::size_t>(found - names.begin())];
+}
+
+NamedStructure structure_from_spec(const body::BodySpec& spec) { return Builder(spec).run(); }
+
+}  // namespace buckens::model

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/body/body_spec.h"
+#include "buckens/fem/structure.h"
+
+namespace buckens::model {
+
+/// A place on a mesh: a node, or a point inside a line element.
+struct MeshPlace {
+  int node = -1;
+  int element = -1;
+  double xi = 0;
+};
+
+/// The mesh of a flexible body with the places that a model file can name.
+struct NamedStructure {
+  fem::Structure structure;
+  std::vector<fem::BeamDivision> beams;  ///< one per beam of the file
+  std::vector<std::string> names;        ///< of places: start, mid, end, nodes
+  std::vector<MeshPlace> places;
+
+  std::optional<MeshPlace> find(const std::string& name) const;
+};
+
+/// Turns a `beam` or `structure` of the model file into nodes and elements.
+/// @throws InputError or ModelError with the place in the file
+NamedStructure structure_from_spec(const body::BodySpec& spec);
+
+}  // namespace buckens::model

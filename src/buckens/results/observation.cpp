@@ -1,0 +1,46 @@
+#include "buckens/results/observation.h"
+
+namespace buckens::results {
+
+using Eigen::Vector3d;
+
+std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
+                                            const std::vector<dynamics::BodyMotion>& motions,
+                                            double t, const linalg::Vector& lambda) {
+  std::vector<spatial::Wrench> out;
+  out.reserve(model.joints.size());
+  for (const model::Joint& joint : model.joints) {
+    const auto first = dynamics::evaluate_marker(model, joint.first, motions).motion;
+    const auto second = dynamics::evaluate_marker(model, joint.second, motions).motion;
+    spatial::Wrench wrench;
+    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+      const double multiplier = lambda[joint.first_row + static_cast<int>(k)];
+      const spatial::PairRow J = joint.rows[k].evaluate(first, second, t).J;
+      wrench.torque += multiplier * J.segment<3>(6).transpose();
+      wrench.force += multiplier * J.segment<3>(9).transpose();
+    }
+    out.push_back(wrench);
+  }
+  return out;
+}
+
+MarkerObservation observe_marker(const Observation& now, const model::MarkerId& id) {
+  const auto kinematics = dynamics::evaluate_marker(now.model, id, now.motions);
+  MarkerObservation out;
+  out.motion = kinematics.motion;
+  if (id.body == model::kGround) return out;
+  const auto b = static_cast<std::size_t>(id.body);
+  const model::BodyState& s = now.state.bodies[b];
+  const body::Body& body = now.model.bodies[b];
+  const body::Marker& marker = body.markers[static_cast<std::size_t>(id.marker)];
+  Vector3d relative = Vector3d::Zero();
+  if (marker.follows_mesh()) {
+    relative = body.flexible->rows.middleRows(marker.translation_row, 3) * s.d_ddot;
+  }
+  const Vector3d bias = dynamics::evaluate_bias(now.model, id, now.motions).a;
+  out.acceleration =
+      s.v_dot + kinematics.R_WB * (s.w_dot.cross(kinematics.z) + relative) + bias;
+  return out;
+}
+
+}  // namespace buckens::results

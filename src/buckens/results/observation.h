@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/energy.h"
+#include "buckens/dynamics/system_kinematics.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::results {
+
+/// Work done on the mechanism since its start [J].
+struct WorkBalance {
+  double external = 0;    ///< by loads, drives and dampers between bodies
+  double dissipated = 0;  ///< by structural damping
+  double balance = 0;     ///< E − E₀ − external + dissipated
+};
+
+/// All that sensors and channels are computed from at one instant.
+struct Observation {
+  const model::Model& model;
+  const model::State& state;
+  std::vector<dynamics::BodyMotion> motions;     ///< with all marker rows
+  std::vector<spatial::Wrench> joint_wrenches;   ///< on the second markers, world axes
+  std::vector<linalg::Matrix> section_forces;    ///< 12×E per flexible body, see fem/recovery.h
+  std::vector<linalg::Matrix> stresses;          ///< 2×E per flexible body [Pa]
+  dynamics::Energy energy;
+  WorkBalance work;
+};
+
+/// Force and torque of each joint on its second marker at the marker's origin.
+/// @param lambda multipliers, with redundant rows shared out
+std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
+                                            const std::vector<dynamics::BodyMotion>& motions,
+                                            double t, const linalg::Vector& lambda);
+
+/// Motion of a marker with its acceleration.
+struct MarkerObservation {
+  spatial::MarkerMotion motion;
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< of the origin, world [m/s²]
+};
+MarkerObservation observe_marker(const Observation& now, const model::MarkerId& id);
+
+}  // namespace buckens::results

@@ -1,0 +1,405 @@
+#include "buckens/results/sensor.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+#include "buckens/dynamics/forces.h"
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::results {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using model::MarkerId;
+
+namespace {
+
+Channel vector_channel(const std::string& name, const std::string& unit,
+                       const std::string& description) {
+  return {"sensors/" + name, unit, {3}, description, {"x", "y", "z"}};
+}
+
+void push(const Vector3d& v, std::vector<double>& values) {
+  values.insert(values.end(), {v.x(), v.y(), v.z()});
+}
+
+/// Components in the axes of a marker, or of the world.
+class Axes {
+ public:
+  explicit Axes(std::optional<MarkerId> marker) : marker_(std::move(marker)) {}
+  Vector3d components(const Observation& now, const Vector3d& v) const {
+    if (!marker_) return v;
+    return dynamics::evaluate_marker(now.model, *marker_, now.motions).motion.R.transpose() * v;
+  }
+
+ private:
+  std::optional<MarkerId> marker_;
+};
+
+enum class MarkerQuantity { position, displacement, velocity, acceleration, rotation, spin };
+
+class MarkerSensor final : public Sensor {
+ public:
+  MarkerSensor(Channel channel, MarkerQuantity quantity, MarkerId of, Axes axes)
+      : channel_(std::move(channel)),
+        quantity_(quantity),
+        of_(std::move(of)),
+        axes_(std::move(axes)) {}
+
+  std::vector<Channel> channels() const override { return {channel_}; }
+  void start(const Observation& now) override { start_ = observe_marker(now, of_).motion; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    push(axes_.components(now, value(observe_marker(now, of_))), values);
+  }
+
+ private:
+  Vector3d value(const MarkerObservation& marker) const {
+    switch (quantity_) {
+      case MarkerQuantity::position:
+        return marker.motion.p;
+      case MarkerQuantity::displacement:
+        return marker.motion.p - start_.p;
+      case MarkerQuantity::velocity:
+        return marker.motion.v;
+      case MarkerQuantity::acceleration:
+        return marker.acceleration;
+      case MarkerQuantity::rotation:
+        return spatial::log_rotation(
+            Eigen::Quaterniond(Matrix3d(marker.motion.R * start_.R.transpose())));
+      default:
+        return marker.motion.w;
+    }
+  }
+
+  Channel channel_;
+  MarkerQuantity quantity_;
+  MarkerId of_;
+  Axes axes_;
+  spatial::MarkerMotion start_;
+};
+
+/// Elastic displacement in body axes, from the frame or from the chord between two markers.
+class DeflectionSensor final : public Sensor {
+ public:
+  DeflectionSensor(Channel channel, std::vector<MarkerId> markers)
+      : channel_(std::move(channel)), markers_(std::move(markers)) {}
+
+  std::vector<Channel> channels() const override { return {channel_}; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    push(markers_.size() == 3 ? from_chord(now) : displacement(now, markers_[0]), values);
+  }
+
+ private:
+  static const body::Marker& marker(const Observation& now, const MarkerId& id) {
+    return now.model.bodies[static_cast<std::size_t>(id.body)]
+        .markers[static_cast<std::size_t>(id.marker)];
+  }
+  static Vector3d displacement(const Observation& now, const MarkerId& id) {
+    const body::Marker& m = marker(now, id);
+    if (!m.follows_mesh()) return Vector3d::Zero();
+    return now.motions[static_cast<std::size_t>(id.body)].y.segment<3>(m.translation_row);
+  }
+  Vector3d from_chord(const Observation& now) const {
+    const Vector3d p0 = marker(now, markers_[0]).X_BF.p;
+    const Vector3d a0 = marker(now, markers_[1]).X_BF.p;
+    const Vector3d b0 = marker(now, markers_[2]).X_BF.p;
+    const Vector3d a = a0 + displacement(now, markers_[1]);
+    const Vector3d b = b0 + displacement(now, markers_[2]);
+    const double share = (p0 - a0).dot(b0 - a0) / (b0 - a0).squaredNorm();
+    const Vector3d off = p0 + displacement(now, markers_[0]) - (a + share * (b - a));
+    const Vector3d off0 = p0 - (a0 + share * (b0 - a0));
+    // Seen in axes that turn with the chord.
+    return Eigen::Quaterniond::FromTwoVectors(b - a, b0 - a0) * off - off0;
+  }
+
+  Channel channel_;
+  std::vector<MarkerId> markers_;
+};
+
+class RelativeSensor final : public Sensor {
+ public:
+  RelativeSensor(Channel channel, model::RelativeQuantity quantity, MarkerId first,
+                 MarkerId second, const Vector3d& axis)
+      : channel_(std::move(channel)),
+        quantity_(quantity),
+        first_(std::move(first)),
+        second_(std::move(second)),
+        axis_(axis.normalized()) {}
+
+  std::vector<Channel> channels() const override { return {channel_}; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const auto F = dynamics::evaluate_marker(now.model, first_, now.motions).motion;
+    const auto M = dynamics::evaluate_marker(now.model, second_, now.motions).motion;
+    const Vector3d r = M.p - F.p;
+    using Q = model::RelativeQuantity;
+    switch (quantity_) {
+      case Q::position:
+        return push(F.R.transpose() * r, values);
+      case Q::distance:
+        return values.push_back(r.norm());
+      case Q::velocity:
+        return push(F.R.transpose() * (M.v - F.v - F.w.cross(r)), values);
+      case Q::rotation:
+        return push(
+            spatial::log_rotation(Eigen::Quaterniond(Matrix3d(F.R.transpose() * M.R))), values);
+      case Q::angle:
+        return values.push_back(counted_angle(now.state.t, F, M));
+      case Q::angular_velocity:
+        return push(F.R.transpose() * (M.w - F.w), values);
+    }
+  }
+
+ private:
+  /// Angle of M about the axis of F; full turns are counted with the help of the rate.
+  double counted_angle(double t, const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) {
+    const Vector3d x = axis_.unitOrthogonal();
+    const Matrix3d R_FM = F.R.transpose() * M.R;
+    if (!reference_) reference_ = R_FM.transpose() * x;
+    const Vector3d moved = R_FM * *reference_;
+    double angle = std::atan2(axis_.cross(x).dot(moved), x.dot(moved));
+    const double rate = (F.R * axis_).dot(M.w - F.w);
+    const double expected = angle_ + 0.5 * (rate + rate_) * (t - t_);
+    const double turn = 2.0 * std::numbers::pi;
+    angle += turn * std::round((expected - angle) / turn);
+    angle_ = angle;
+    rate_ = rate;
+    t_ = t;
+    return angle;
+  }
+
+  Channel channel_;
+  model::RelativeQuantity quantity_;
+  MarkerId first_, second_;
+  Vector3d axis_;
+  std::optional<Vector3d> reference_;
+  double angle_ = 0, rate_ = 0, t_ = 0;
+};
+
+class JointSensor final : public Sensor {
+ public:
+  JointSensor(Channel channel, int joint, int load, bool torque, Axes axes)
+      : channel_(std::move(channel)),
+        joint_(joint),
+        load_(load),
+        torque_(torque),
+        axes_(std::move(axes)) {}
+
+  std::vector<Channel> channels() const override { return {channel_}; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const spatial::Wrench wrench = joint_ >= 0
+                                       ? now.joint_wrenches[static_cast<std::size_t>(joint_)]
+                                       : force_element(now);
+    push(axes_.components(now, torque_ ? wrench.torque : wrench.force), values);
+  }
+
+ private:
+  spatial::Wrench force_element(const Observation& now) const {
+    const model::Load& load = now.model.loads[static_cast<std::size_t>(load_)];
+    const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
+    const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
+    return load.element->evaluate(now.state.t, first, second).on_second;
+  }
+
+  Channel channel_;
+  int joint_, load_;
+  bool torque_;
+  Axes axes_;
+};
+
+class SectionForceSensor final : public Sensor {
+ public:
+  SectionForceSensor(std::string name, const model::SensorPlace& place)
+      : name_(std::move(name)), place_(place) {}
+
+  std::vector<Channel> channels() const override {
+    return {{"sensors/" + name_ + ".force", "N", {3}, "section forces in element axes",
+             {"N", "Qy", "Qz"}},
+            {"sensors/" + name_ + ".moment", "N m", {3}, "section moments in element axes",
+             {"Mt", "My", "Mz"}}};
+  }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const auto& forces = now.section_forces[static_cast<std::size_t>(place_.body)];
+    for (int k = 0; k < 6; ++k) values.push_back(forces(6 * place_.end + k, place_.element));
+  }
+
+ private:
+  std::string name_;
+  model::SensorPlace place_;
+};
+
+class StressSensor final : public Sensor {
+ public:
+  StressSensor(std::string name, const model::SensorPlace& place)
+      : name_(std::move(name)), place_(place) {}
+
+  std::vector<Channel> channels() const override {
+    return {{"sensors/" + name_, "Pa", {2}, "largest axial and von Mises stress",
+             {"axial", "mises"}}};
+  }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];
+    for (int k = 0; k < 2; ++k) {
+      values.push_back(place_.element >= 0 ? stresses(k, place_.element)
+                                           : stresses.row(k).maxCoeff());
+    }
+  }
+
+ private:
+  std::string name_;
+  model::SensorPlace place_;
+};
+
+class EnergySensor final : public Sensor {
+ public:
+  EnergySensor(std::string name, model::EnergyKind kind) : name_(std::move(name)), kind_(kind) {}
+
+  std::vector<Channel> channels() const override {
+    return {{"sensors/" + name_, "J", {}, "energy of the whole model", {}}};
+  }
+  void append(const Observation& now, std::vector<double>& values) override {
+    using K = model::EnergyKind;
+    const dynamics::Energy& e = now.energy;
+    switch (kind_) {
+      case K::total:
+        return values.push_back(e.total());
+      case K::kinetic:
+        return values.push_back(e.kinetic);
+      case K::potential:
+        return values.push_back(e.strain + e.gravity + e.springs);
+      case K::strain:
+        return values.push_back(e.strain);
+      case K::work:
+        return values.push_back(now.work.external);
+      case K::dissipated:
+        return values.push_back(now.work.dissipated);
+      case K::balance:
+        return values.push_back(now.work.balance);
+    }
+  }
+
+ private:
+  std::string name_;
+  model::EnergyKind kind_;
+};
+
+class Maker {
+ public:
+  Maker(const model::BuiltModel& built, std::size_t index)
+      : built_(built), spec_(built.description.output.sensors[index]), place_(built.sensors[index]) {}
+
+  std::unique_ptr<Sensor> operator()(const model::PositionSensor& s) const {
+    return marker(s, MarkerQuantity::position, "m", "position");
+  }
+  std::unique_ptr<Sensor> operator()(const model::DisplacementSensor& s) const {
+    return marker(s, MarkerQuantity::displacement, "m", "displacement since t = 0");
+  }
+  std::unique_ptr<Sensor> operator()(const model::VelocitySensor& s) const {
+    return marker(s, MarkerQuantity::velocity, "m/s", "velocity");
+  }
+  std::unique_ptr<Sensor> operator()(const model::AccelerationSensor& s) const {
+    return marker(s, MarkerQuantity::acceleration, "m/s^2", "acceleration");
+  }
+  std::unique_ptr<Sensor> operator()(const model::RotationSensor& s) const {
+    return marker(s, MarkerQuantity::rotation, "rad", "rotation vector since t = 0");
+  }
+  std::unique_ptr<Sensor> operator()(const model::AngularVelocitySensor& s) const {
+    return marker(s, MarkerQuantity::spin, "rad/s", "angular velocity");
+  }
+  std::unique_ptr<Sensor> operator()(const model::DeflectionSensor&) const {
+    return std::make_unique<DeflectionSensor>(
+        vector_channel(spec_.name, "m", "elastic displacement in body axes"), place_.markers);
+  }
+  std::unique_ptr<Sensor> operator()(const model::RelativeSensor& s) const {
+    static const char* const units[] = {"m", "m", "m/s", "rad", "rad", "rad/s"};
+    Channel channel = vector_channel(spec_.name, units[static_cast<int>(s.quantity)],
+                                     "motion of the second marker as seen from the first");
+    using Q = model::RelativeQuantity;
+    if (s.quantity == Q::distance || s.quantity == Q::angle) {
+      channel.shape.clear();
+      channel.components.clear();
+    }
+    Vector3d axis = s.axis.value_or(Vector3d::UnitZ());
+    if (!s.axis && built_.model.planar) axis = spatial::normal(*built_.model.planar);
+    if (s.quantity == Q::angle && !s.axis && !built_.model.planar) {
+      throw InputError(spec_.where, fmt::format("sensor \"{}\": the angle needs an `axis` in a model "
+                                                "in space, for example [0, 0, 1]",
+                                                spec_.name));
+    }
+    return std::make_unique<RelativeSensor>(channel, s.quantity, place_.markers[0],
+                                            place_.markers[1], axis);
+  }
+  std::unique_ptr<Sensor> operator()(const model::JointForceSensor& s) const {
+    return joint(s, false);
+  }
+  std::unique_ptr<Sensor> operator()(const model::JointTorqueSensor& s) const {
+    return joint(s, true);
+  }
+  std::unique_ptr<Sensor> operator()(const model::SectionForceSensor&) const {
+    if (place_.element < 0) {
+      throw InputError(spec_.where, fmt::format("sensor \"{}\": name a section, for example "
+                                                "rod/mid, or an `element`",
+                                                spec_.name));
+    }
+    return std::make_unique<SectionForceSensor>(spec_.name, place_);
+  }
+  std::unique_ptr<Sensor> operator()(const model::StressSensor&) const {
+    return std::make_unique<StressSensor>(spec_.name, place_);
+  }
+  std::unique_ptr<Sensor> operator()(const model::EnergySensor& s) const {
+    return std::make_unique<EnergySensor>(spec_.name, s.kind);
+  }
+
+ private:
+  Axes axes(std::size_t after) const {
+    return Axes(place_.markers.size() > after ? std::optional(place_.markers[after])
+                                              : std::nullopt);
+  }
+  std::unique_ptr<Sensor> marker(const model::MarkerSensor& s, MarkerQuantity quantity,
+                                 const char* unit, const char* what) const {
+    return std::make_unique<MarkerSensor>(
+        vector_channel(spec_.name, unit, fmt::format("{} of {}", what, s.of.text)), quantity,
+        place_.markers[0], axes(1));
+  }
+  std::unique_ptr<Sensor> joint(const model::JointForceSensor& s, bool torque) const {
+    const auto& joints = built_.model.joints;
+    const auto& loads = built_.model.loads;
+    const Channel channel =
+        vector_channel(spec_.name, torque ? "N m" : "N",
+                       fmt::format("{} of joint {} on its second marker",
+                                   torque ? "torque" : "force", s.joint));
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      if (joints[k].name == s.joint) {
+        return std::make_unique<JointSensor>(channel, static_cast<int>(k), -1, torque, axes(0));
+      }
+    }
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      if (loads[k].name == s.joint) {
+        return std::make_unique<JointSensor>(channel, -1, static_cast<int>(k), torque, axes(0));
+      }
+    }
+    std::vector<std::string> names;
+    for (const auto& j : joints) names.push_back(j.name);
+    for (const auto& l : loads) names.push_back(l.name);
+    throw InputError(spec_.where, fmt::format("sensor \"{}\": there is no joint \"{}\".{}",
+                                              spec_.name, s.joint,
+                                              base::suggestion(s.joint, names)));
+  }
+
+  const model::BuiltModel& built_;
+  const model::SensorSpec& spec_;
+  const model::SensorPlace& place_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_sensor(const model::BuiltModel& built, std::size_t index) {
+  return std::visit(Maker(built, index), built.description.output.sensors[index].kind);
+}
+
+}  // namespace buckens::results

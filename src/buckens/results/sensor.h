@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buckens/model/model_builder.h"
+#include "buckens/results/channel.h"
+#include "buckens/results/observation.h"
+
+namespace buckens::results {
+
+/// One observed quantity of the model file; may fill more than one channel.
+class Sensor {
+ public:
+  virtual ~Sensor() = default;
+
+  /// Channels in the order in which append() gives their values.
+  virtual std::vector<Channel> channels() const = 0;
+  /// Called once at t = 0, before the first append().
+  virtual void start(const Observation& /*now*/) {}
+  /// Appends the values of all channels.
+  virtual void append(const Observation& now, std::vector<double>& values) = 0;
+};
+
+/// Makes the sensor that a spec asks for.
+/// @throws InputError if it names an unknown joint, ModelError if it makes no sense there
+std::unique_ptr<Sensor> make_sensor(const model::BuiltModel& built, std::size_t index);
+
+}  // namespace buckens::results
