@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/io/output_file.h"
 
 namespace buckens::io {
 
@@ -77,7 +78,10 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   const Hdf5Quiet quiet;
   Hdf5File file;
   file.path_ = path;
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_settings().get());
+  file.fault_ = std::make_unique<Hdf5WriteFault>();
+  const Hdf5Handle access = access_settings();
+  if (!set_write_driver(access.get(), *file.fault_)) file.fail("create the file");
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
   file.file_ = Hdf5Handle(file.check(id, "create the file"), H5Fclose);
   return file;
 }
@@ -100,11 +104,20 @@ Hdf5File::~Hdf5File() {
 void Hdf5File::start_swmr() {
   const Hdf5Quiet quiet;
   check(H5Fstart_swmr_write(id()), "prepare the file for readers");
+  check_written();
 }
 
 void Hdf5File::flush() {
   const Hdf5Quiet quiet;
   check(H5Fflush(id(), H5F_SCOPE_GLOBAL), "write the file");
+  check_written();
+}
+
+void Hdf5File::check_written() const {
+  if (fault_ && fault_->error != 0) {
+    throw IoError(
+        fmt::format("{}: cannot write the file: {}", path_.string(), system_reason(fault_->error)));
+  }
 }
 
 void Hdf5File::rename(const std::filesystem::path& path) {
@@ -119,24 +132,20 @@ void Hdf5File::rename(const std::filesystem::path& path) {
 
 void Hdf5File::close() {
   if (!is_open()) return;
-  flush();  // reports a full disk while the file can still be abandoned
   const Hdf5Quiet quiet;
-  if (!file_.reset()) fail("complete the file");
+  const bool closed = file_.reset();
+  check_written();
+  if (!closed) fail("complete the file");
 }
 
 void Hdf5File::abandon() noexcept {
-  if (!is_open()) return;
-  const Hdf5Quiet quiet;
-  int* descriptor = nullptr;
-  if (H5Fget_vfd_handle(id(), H5P_DEFAULT, reinterpret_cast<void**>(&descriptor)) < 0) return;
-  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  if (nowhere < 0) return;
-  ::dup2(nowhere, *descriptor);
-  ::close(nowhere);
+  if (fault_) fault_->ended = true;
 }
 
 void Hdf5File::fail(const std::string& what) const {
-  throw IoError(fmt::format("{}: cannot {}: {}.", path_.string(), what, hdf5_reason()));
+  const bool known = fault_ && fault_->error != 0;
+  throw IoError(fmt::format("{}: cannot {}: {}", path_.string(), what,
+                            known ? system_reason(fault_->error) : hdf5_reason() + "."));
 }
 
 hid_t Hdf5File::check(hid_t result, const std::string& what) const {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include <hdf5.h>
+
+#include "buckens/io/hdf5_driver.h"
 
 namespace buckens::io {
 
@@ -70,16 +73,17 @@ class Hdf5File {
   /// Lets others read from now on; no attribute or data set can be added any more.
   /// @throws IoError
   void start_swmr();
-  /// Hands everything written so far to the system. @throws IoError
+  /// Hands everything written so far to the system. @throws IoError also for earlier writes: only
+  ///   here, in check_written and in close does a failed write show
   void flush();
+  /// @throws IoError if a write has failed
+  void check_written() const;
   /// Gives the file another name in the same directory. @throws IoError
   void rename(const std::filesystem::path& path);
-  /// Completes the file. All handles to its contents must be gone. @throws IoError
+  /// Completes the file. All handles to its contents must be gone. After a failed write the file on
+  /// disk is left as it is. @throws IoError if a write has failed now or before
   void close();
-  /// Cuts the connection to the file on disk after a failed write and leaves it as a killed program
-  /// would. HDF5 1.10 cannot close a file that it cannot write: it keeps the unwritten parts and
-  /// crashes at the end of the process. Here its further writes go nowhere, so that closing
-  /// succeeds.
+  /// Leaves the file on disk as it is, as a killed program would; further writes go nowhere.
   void abandon() noexcept;
 
   /// @throws IoError "<path>: cannot <what>: <reason>" with the reason of the last failed call
@@ -89,6 +93,7 @@ class Hdf5File {
 
  private:
   std::filesystem::path path_;
+  std::unique_ptr<Hdf5WriteFault> fault_;  // before file_, which uses it to its end
   Hdf5Handle file_;
 };
 

@@ -69,10 +69,9 @@ void Hdf5Recorder::flush_waiting() {
   try {
     table_.append(file_, times_, values_);
   } catch (const IoError& error) {
-    failure_ = std::make_exception_ptr(IoError(fmt::format(
-        "{} Recording ends after {} records (before t = {} s); these stay readable. Free space, "
-        "write elsewhere (-o), or record less (output: every).",
-        error.what(), table_.num_records(), times_.front())));
+    failure_ = std::make_exception_ptr(IoError(
+        fmt::format("{} Recording ends after {} records (before t = {} s), which stay readable.",
+                    error.what(), table_.num_records(), times_.front())));
     file_.abandon();
   } catch (...) {
     failure_ = std::current_exception();
@@ -109,13 +108,10 @@ void Hdf5Recorder::close() {
   stop_thread();
   flush_waiting();
   table_.close();
-  if (!failure_) {
-    try {
-      file_.close();
-    } catch (...) {
-      failure_ = std::current_exception();
-      file_.abandon();
-    }
+  try {
+    file_.close();
+  } catch (const IoError&) {
+    if (!failure_) failure_ = std::current_exception();
   }
   file_ = Hdf5File();
   rethrow_failure();

@@ -102,6 +102,7 @@ void Hdf5Table::append(Hdf5File& file, std::span<const double> times,
   file.flush();
   append_to(file, time_, times.size(), times.data());
   file.check(H5Dflush(time_.dataset.get()), "write /time");
+  file.check_written();
   num_records_ += times.size();
 }
 

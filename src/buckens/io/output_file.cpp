@@ -62,8 +62,8 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 
 void OutputFile::fail(std::string_view verb) const {
   const int error = errno;
-  throw IoError(fmt::format("{}: cannot {} the file: {}.{}", path_.string(), verb,
-                            std::generic_category().message(error), remedy(error)));
+  throw IoError(
+      fmt::format("{}: cannot {} the file: {}", path_.string(), verb, system_reason(error)));
 }
 
 void OutputFile::write(std::string_view text) {
@@ -87,6 +87,10 @@ bool OutputFile::try_lock() {
 
 void OutputFile::close() {
   if (is_open() && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("close");
+}
+
+std::string system_reason(int error) {
+  return fmt::format("{}.{}", std::generic_category().message(error), remedy(error));
 }
 
 std::string read_text_file(const std::filesystem::path& path) {

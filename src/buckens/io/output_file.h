@@ -41,6 +41,10 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
+/// What the system says about an error number, and what a user can do about it; ends in a full
+/// stop.
+std::string system_reason(int error);
+
 /// The whole content of a file. @throws IoError
 std::string read_text_file(const std::filesystem::path& path);
 
