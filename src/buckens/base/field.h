@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "buckens/base/dimension.h"
@@ -18,9 +19,10 @@ struct FieldNote {
   Dimension dimension;
   Range range = Range::any;
   bool is_required = false;
-  bool is_shorthand = false;  ///< a struct given as a single value means this field
-  bool is_switch = false;     ///< a truth value written on | off
-  std::string example;        ///< YAML, for messages and the reference page
+  bool is_shorthand = false;   ///< a struct given as a single value means this field
+  bool is_switch = false;      ///< a truth value written on | off
+  bool any_dimension = false;  ///< the unit may be anything
+  std::string example;         ///< YAML, for messages and the reference page
   std::string standard;  ///< what happens if left out, where the member's default says too little
 };
 
@@ -39,6 +41,7 @@ struct Field {
   Field non_negative() && { return note.range = Range::non_negative, std::move(*this); }
   Field within(Range range) && { return note.range = range, std::move(*this); }
   Field shorthand() && { return note.is_shorthand = true, std::move(*this); }
+  Field of_any_dimension() && { return note.any_dimension = true, std::move(*this); }
   Field on_off() && { return note.is_switch = true, std::move(*this); }
   Field like(std::string example) && { return note.example = std::move(example), std::move(*this); }
   Field otherwise(std::string standard) && {
@@ -48,7 +51,8 @@ struct Field {
 
 template <class T>
 Field<T> field(std::string name, T& member, std::string doc) {
-  return {member, {std::move(name), std::move(doc), {}, Range::any, false, false, false, {}, {}}};
+  return {member,
+          {std::move(name), std::move(doc), {}, Range::any, false, false, false, false, {}, {}}};
 }
 
 /// The value stands in place of the struct: a variant's alternatives become keys next to the other

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@ namespace buckens::base {
 
 /// How a table of points becomes a function.
 enum class Interpolation { linear, spline };
+
+constexpr std::array<const char*, 2> choice_names(Interpolation) { return {"linear", "spline"}; }
 
 /// Something that varies with time in a prescribed way: f(t) with its first two derivatives.
 ///

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/model_file.h"
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/model_file_fields.h"
+#include "buckens/io/model_overrides.h"
+#include "buckens/io/text_file.h"
+#include "buckens/io/yaml_tree.h"
+
+namespace buckens::io {
+
+namespace {
+
+/// The text with the overrides as a comment ahead, so that a run directory tells what was run.
+std::string with_overrides(const std::string& text, const std::string& name,
+                           const std::vector<std::string>& overrides) {
+  if (overrides.empty()) return text;
+  std::string out = fmt::format("# {} was read with these changes:\n", name);
+  for (std::string line : overrides) {
+    for (char& c : line) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+    out += "#   --set " + line + "\n";
+  }
+  return out + text;
+}
+
+}  // namespace
+
+model::ModelDescription read_model_text(const std::string& text, const std::string& name,
+                                        const std::vector<std::string>& overrides) {
+  YamlNode root = parse_yaml(text, name);
+  if (root.kind == YamlNode::Kind::null) {
+    throw InputError({name, 0, 0}, "the model file is empty; it begins with \"buckens: 1\"");
+  }
+  if (!root.is_map()) {
+    throw InputError(root.where, fmt::format("{} stands here; a model file is a map of keys such "
+                                             "as buckens, bodies, joints",
+                                             root.description()));
+  }
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+
+  model::ModelDescription out;
+  ReadContext context;
+  context.directory = std::filesystem::path(name).parent_path();
+  context.model = &out;
+  read_record({root, ""}, context, out);
+  out.where = {name, 0, 0};
+  out.source = with_overrides(text, name, overrides);
+  return out;
+}
+
+model::ModelDescription read_model_file(const std::filesystem::path& path,
+                                        const std::vector<std::string>& overrides) {
+  return read_model_text(read_text_file(path, "model file"), path.string(), overrides);
+}
+
+}  // namespace buckens::io

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "buckens/io/model_file_table.h"
+#include "buckens/io/model_file_values.h"
+#include "buckens/model/model_description.h"
+
+namespace buckens::io {
+
+/// What is wrong with a spec whose fields are fine each by itself.
+struct Problem {
+  std::string key;  ///< the field to be corrected; empty: the whole
+  std::string text;
+};
+
+using Finding = std::optional<Problem>;
+
+/// Most specs have no rules beyond those of their fields.
+template <class T>
+Finding problem(const T& /*spec*/, const ReadContext& /*context*/) {
+  return std::nullopt;
+}
+
+Finding problem(const TableLawSpec& spec, const ReadContext& context);
+Finding problem(const fem::DampingSpec& spec, const ReadContext& context);
+Finding problem(const fem::TubeSpec& spec, const ReadContext& context);
+Finding problem(const fem::BoxSpec& spec, const ReadContext& context);
+Finding problem(const fem::PointMassSpec& spec, const ReadContext& context);
+Finding problem(const fem::BeamSpec& spec, const ReadContext& context);
+Finding problem(const fem::BarMemberSpec& spec, const ReadContext& context);
+Finding problem(const fem::StructureSpec& spec, const ReadContext& context);
+Finding problem(const body::OrientationSpec& spec, const ReadContext& context);
+Finding problem(const body::MarkerSpec& spec, const ReadContext& context);
+Finding problem(const body::RigidSpec& spec, const ReadContext& context);
+Finding problem(const body::BodySpec& spec, const ReadContext& context);
+Finding problem(const joints::JointSpec& spec, const ReadContext& context);
+Finding problem(const loads::LoadSpec& spec, const ReadContext& context);
+Finding problem(const model::SimulationSpec& spec, const ReadContext& context);
+Finding problem(const model::SensorSpec& spec, const ReadContext& context);
+Finding problem(const model::ModelDescription& spec, const ReadContext& context);
+
+}  // namespace buckens::io

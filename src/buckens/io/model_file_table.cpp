@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/model_file_table.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/units.h"
+#include "buckens/io/model_file_fields.h"
+#include "buckens/io/text_file.h"
+
+namespace buckens::io {
+
+namespace {
+
+std::vector<std::string> split_row(const std::string& line) {
+  std::string text = line;
+  const bool has_commas = text.find(',') != std::string::npos;
+  const bool has_semicolons = text.find(';') != std::string::npos;
+  const std::string separators = has_semicolons ? ";" : has_commas ? "," : " \t";
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  const bool skips_empty = !has_semicolons && !has_commas;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    const std::string cell = text.substr(begin, end - begin);
+    if (!skips_empty || !cell.empty()) cells.push_back(cell);
+    begin = end + 1;
+  }
+  return cells;
+}
+
+double cell_value(const std::string& cell, const SourceLocation& where) {
+  const auto value = base::parse_number(cell);
+  if (value) return *value;
+  throw InputError(where, fmt::format("\"{}\" is not a number; write decimals such as 1.5e-3",
+                                      cell.substr(0, 40)));
+}
+
+}  // namespace
+
+CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
+  std::istringstream stream(read_text_file(path, "table"));
+  CsvColumns out;
+  std::string line;
+  bool may_be_heading = true;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    const SourceLocation where{path.string(), number, 1};
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (begin == std::string::npos || line[begin] == '#') continue;
+    const std::vector<std::string> cells = split_row(line);
+    const bool is_heading = may_be_heading && !base::parse_number(cells[0]);
+    may_be_heading = false;
+    if (is_heading) continue;
+    if (static_cast<int>(cells.size()) < column) {
+      throw InputError(where, fmt::format("the row has {} columns, column {} is asked for",
+                                          cells.size(), column));
+    }
+    out.times.push_back(cell_value(cells[0], where));
+    out.values.push_back(cell_value(cells[static_cast<std::size_t>(column - 1)], where));
+  }
+  if (out.times.empty()) throw InputError({path.string(), 0, 0}, "the table has no rows");
+  return out;
+}
+
+base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note,
+                             const ReadContext& context) {
+  TableLawSpec spec;
+  ReadContext own = context;
+  read_record(place, own, spec);
+  CsvColumns columns;
+  if (spec.file.empty()) {
+    for (const auto& [time, value] : spec.table) {
+      columns.times.push_back(time);
+      columns.values.push_back(value);
+    }
+  } else {
+    columns = read_csv_columns(context.directory / spec.file, spec.column);
+  }
+  if (!spec.unit.empty()) {
+    const auto unit = base::parse_unit(spec.unit);
+    const ReadPlace unit_place{*place.node.find("unit"), place.path + ".unit"};
+    if (!unit || !base::accepts(note.dimension, unit->dimension)) {
+      fail(unit_place,
+           fmt::format("\"{}\" is no unit of {}", spec.unit, base::dimension_name(note.dimension)));
+    }
+    for (double& value : columns.values) value *= unit->factor;
+  }
+  try {
+    return base::TimeLaw::table(std::move(columns.times), std::move(columns.values),
+                                spec.interpolation);
+  } catch (const InputError& error) {
+    fail(place, error.what());
+  }
+}
+
+}  // namespace buckens::io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace buckens::io {
+
+/// A model file that uses every part of the format at least once.
+inline constexpr const char* kSampleModel = R"(# every part of the format
+buckens: 1
+title: "Sample: all keys"
+gravity: [0, -9.81 m/s^2, 0]
+planar: xy
+parameters: {L: 300 mm, speed: 150, half: L/2}
+materials:
+  steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {mass: 0, stiffness: 1e-7 s}}
+  soft: {E: 2 GPa, G: 0.8 GPa, rho: 1100, damping: {ratio: 2 %, at: [10 Hz, 200 Hz]}}
+sections:
+  rod6: {circle: {diameter: 6 mm}}
+  tube: {tube: {outer-diameter: 40 mm, thickness: 3 mm}}
+bodies:
+  crank:
+    rigid: {mass: 0.36 kg, com: [75 mm, 0, 0], inertia: [0, 0, 2.727e-3 kg m^2]}
+    at: {position: [0, 0, 0], orientation: {axis: [0, 0, 1], angle: 30 deg}}
+    markers: {pin: {position: [150 mm, 0, 0]}}
+  rod:
+    beam:
+      from: [0, 0, 0]
+      to: [L, 0, 0]
+      elements: 16
+      section: rod6
+      material: steel
+      up: [0, 0, 1]
+      theory: timoshenko
+      rotary-inertia: off
+      masses: [{at: end, mass: 33 g, inertia: [1e-6, 1e-6, 1e-6 kg m^2]}]
+    at: {position: [150 mm, 0, 0]}
+    coupling: none
+    damping: {mass: 2 1/s}
+  frame:
+    structure:
+      nodes: {a: [0, 0, 0], b: [1 m, 0, 0], c: [1, 1, 0]}
+      beams: [{between: [a, b], elements: 2, section: {box: {width: 40 mm, height: 60 mm, thickness: 3 mm}}, material: soft}]
+      bars: [{between: [b, c], area: 100 mm^2, material: steel}, {between: [a, c], section: tube, material: steel}]
+      masses: [{at: c, mass: 1 kg}]
+    markers: {top: {at: c, orientation: {euler: [0, 0, 90 deg]}}}
+  twin: {like: rod, at: {position: [0, 1, 0], orientation: {quaternion: [1, 0, 0, 0]}}}
+joints:
+  base: {revolute: {between: [ground, crank/origin]}}
+  pin: {spherical: {between: [crank/pin, rod/start]}}
+  slide: {prismatic: {between: [ground, rod/end], axis: [1, 0, 0]}}
+  weld: {fixed: {between: [{ground: [0, 2 m, 0]}, frame/a]}}
+  soft: {bushing: {between: [frame/top, twin/mid], stiffness: [1e6 N/m, 1 kN/mm, 0], rotational-stiffness: [0, 0, 20 N m/rad], damping: [1 N s/m, 0, 0], rotational-damping: [0, 0, 0.1]}}
+  motor: {prescribed-rotation: {between: [ground, crank], axis: [0, 0, 1], angle: "speed*t"}}
+  shift: {prescribed-translation: {between: [ground, twin/end], axis: [1, 0, 0], displacement: {table: [[0, 0], [0.1, 2], [0.5, 2]], unit: mm, interpolation: spline}}}
+loads:
+  push: {force: {on: rod/end, value: [0, "10*sin(20*t) N", 0], axes: following}}
+  turn: {torque: {on: crank, value: [0, 0, 2 N m]}}
+  spring: {spring-damper: {between: [ground, rod/mid], stiffness: 2 kN/m, damping: 5 N s/m, length: 120 mm, force: "3*t N"}}
+  coil: {torsional-spring: {between: [ground, twin], stiffness: 20 N m/rad, angle: 10 deg}}
+initial:
+  bodies:
+    crank: {velocity: [1 m/s, 0, 0], angular-velocity: [0, 0, 60 rpm]}
+    rod: {nodal-velocity: {y: "0.1*sin(pi*x/L) m/s", rz: "2*x"}}
+  start: static
+  preload: true
+simulation: {duration: 0.1 s, step: 0.1 ms, method: newmark, rho-inf: 0.8, projection: off}
+output:
+  every: 1 ms
+  sensors:
+    tip: {position: rod/end}
+    way: {displacement: {of: rod/mid, in: crank}}
+    bend: {deflection: {of: rod/mid, from: chord}}
+    angle: {relative: {between: [crank, rod], quantity: angle}}
+    pull: {joint-force: base}
+    twist: {joint-torque: {joint: base, in: crank}}
+    cut: {section-force: {of: rod, element: 3}}
+    peak: {stress: rod}
+    sum: {energy: balance}
+)";
+
+}  // namespace buckens::io

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/yaml_tree.h"
+
+#include <cstdlib>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::io {
+
+namespace {
+
+// Far above any model written by hand or script; tables of numbers belong into CSV files.
+constexpr std::size_t kLargestText = 8u << 20;
+constexpr std::size_t kMostNodes = 500000;
+constexpr std::size_t kDeepest = 60;
+
+/// Length of the UTF-8 character at `i`, 0 if it is none.
+std::size_t character_length(const std::string& text, std::size_t i) {
+  const auto byte = [&](std::size_t k) {
+    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
+  };
+  const unsigned first = byte(i);
+  if (first < 0x80) return first == 0 ? 0 : 1;
+  const std::size_t length = first >= 0xF0 && first < 0xF5   ? 4
+                             : first >= 0xE0 && first < 0xF0 ? 3
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                                                             : 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(i + k) & 0xC0) != 0x80) return 0;
+  }
+  return length;
+}
+
+void check_encoding(const std::string& text, const std::string& name) {
+  if (text.size() > kLargestText) {
+    throw InputError({name, 0, 0},
+                     fmt::format("the text has {} bytes; a model file must not exceed {}. Put "
+                                 "tables into CSV files",
+                                 text.size(), kLargestText));
+  }
+  SourceLocation where{name, 1, 1};
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    if (length == 0) {
+      throw InputError(where, fmt::format("byte 0x{:02X} is not UTF-8 text; is this a model file? "
+                                          "Save it with UTF-8 encoding",
+                                          static_cast<unsigned char>(text[i])));
+    }
+    where.column += 1;
+    if (text[i] == '\n') {
+      where.line += 1;
+      where.column = 1;
+    }
+    i += length;
+  }
+}
+
+/// Builds the tree from the parser's events.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(const std::string& name, bool single_line) : name_(name), single_line_(single_line) {}
+
+  YamlNode take() { return std::move(root_); }
+
+  SourceLocation place(const YAML::Mark& mark) const {
+    if (single_line_ || mark.is_null()) return {name_, 0, 0};
+    return {name_, mark.line + 1, mark.column + 1};
+  }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    YamlNode node = make(YamlNode::Kind::null, mark, "", anchor);
+    close(std::move(node));
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse_anchor(mark); }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    YamlNode node = make(YamlNode::Kind::scalar, mark, tag, anchor);
+    node.text = value;
+    node.is_quoted = tag == "!";
+    if (wants_key()) return take_key(node);
+    close(std::move(node));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(make(YamlNode::Kind::list, mark, tag, anchor));
+  }
+  void OnSequenceEnd() override { close_top(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(make(YamlNode::Kind::map, mark, tag, anchor));
+  }
+  void OnMapEnd() override { close_top(); }
+
+ private:
+  struct Level {
+    YamlNode node;
+    bool has_key = false;  // the last entry waits for its value
+  };
+
+  [[noreturn]] void refuse_anchor(const YAML::Mark& mark) const {
+    throw InputError(place(mark),
+                     "anchors and aliases (&name, *name) are not supported; use `parameters`, "
+                     "`materials`, `sections` or `like`");
+  }
+
+  YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
+                YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) refuse_anchor(mark);
+    if (!tag.empty() && tag != "?" && tag != "!") {
+      throw InputError(place(mark), fmt::format("the YAML tag {} is not supported", tag));
+    }
+    if (++count_ > kMostNodes) {
+      throw InputError(place(mark),
+                       fmt::format("more than {} values; put tables into CSV files", kMostNodes));
+    }
+    YamlNode node;
+    node.kind = kind;
+    node.where = place(mark);
+    return node;
+  }
+
+  bool wants_key() const {
+    return !stack_.empty() && stack_.back().node.is_map() && !stack_.back().has_key;
+  }
+
+  void take_key(const YamlNode& key) {
+    Level& level = stack_.back();
+    if (key.text == "<<" && !key.is_quoted) {
+      throw InputError(key.where,
+                       "merge keys (<<) are not supported; use `like`, `materials` or "
+                       "`sections`");
+    }
+    for (const YamlEntry& entry : level.node.entries) {
+      if (entry.key != key.text) continue;
+      throw InputError(key.where,
+                       fmt::format("the key \"{}\" stands here a second time, first at {}; remove "
+                                   "or rename one of them",
+                                   key.text, entry.where.text()));
+    }
+    level.node.entries.push_back({key.text, key.where, {}});
+    level.has_key = true;
+  }
+
+  void open(YamlNode node) {
+    if (wants_key()) throw InputError(node.where, "a key must be a word, not a list or map");
+    if (stack_.size() >= kDeepest) {
+      throw InputError(node.where, fmt::format("nested more than {} levels deep", kDeepest));
+    }
+    stack_.push_back({std::move(node), false});
+  }
+
+  void close_top() {
+    YamlNode node = std::move(stack_.back().node);
+    stack_.pop_back();
+    close(std::move(node));
+  }
+
+  void close(YamlNode node) {
+    if (stack_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Level& level = stack_.back();
+    if (level.node.is_list()) {
+      level.node.items.push_back(std::move(node));
+      return;
+    }
+    if (!level.has_key) throw InputError(node.where, "a key is missing before the colon");
+    level.node.entries.back().value = std::move(node);
+    level.has_key = false;
+  }
+
+  std::string name_;
+  bool single_line_;
+  YamlNode root_;
+  std::vector<Level> stack_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+const YamlNode* YamlNode::find(const std::string& key) const {
+  for (const YamlEntry& entry : entries) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+YamlNode* YamlNode::find(const std::string& key) {
+  return const_cast<YamlNode*>(static_cast<const YamlNode*>(this)->find(key));
+}
+
+const YamlNode& YamlNode::deepest(const std::string& path) const {
+  const YamlNode* node = this;
+  std::istringstream stream(path);
+  for (std::string key; std::getline(stream, key, '.');) {
+    const YamlNode* next = node->find(key);
+    if (node->is_list() && key.find_first_not_of("0123456789") == std::string::npos) {
+      const std::size_t index = std::strtoul(key.c_str(), nullptr, 10);
+      next = index < node->items.size() ? &node->items[index] : nullptr;
+    }
+    if (next == nullptr) break;
+    node = next;
+  }
+  return *node;
+}
+
+std::string YamlNode::description() const {
+  switch (kind) {
+    case Kind::null:
+      return "no value";
+    case Kind::list:
+      return "a list";
+    case Kind::map:
+      return "a map";
+    case Kind::scalar:
+      break;
+  }
+  constexpr std::size_t kLongest = 60;
+  return "\"" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "\"";
+}
+
+YamlNode parse_yaml(const std::string& text, const std::string& name, bool single_line) {
+  check_encoding(text, name);
+  TreeBuilder builder(name, single_line);
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(builder);
+    YamlNode root = builder.take();
+    TreeBuilder rest(name, single_line);
+    if (parser.HandleNextDocument(rest)) {
+      throw InputError(rest.take().where, "a second document begins here; remove the line ---");
+    }
+    return root;
+  } catch (const YAML::Exception& error) {
+    throw InputError(builder.place(error.mark), "YAML syntax: " + error.msg);
+  }
+}
+
+}  // namespace buckens::io
