@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/SparseLU>
+
+#include "buckens/dynamics/forces.h"
+#include "buckens/stepping/scheme.h"
+#include "buckens/stepping/step_settings.h"
+
+namespace buckens::stepping {
+
+/// The slow route of a step, for tests: one sparse saddle-point system in all unknowns at once.
+///
+/// Unknown are the increments of frames and nodal variables, the joint multipliers λ and the frame
+/// multipliers Λ of FM (21), (28), and for the stabilised index-2 positions the corrections of
+/// frames and nodal variables with multipliers E and Λ_η of their own. Per iteration the whole
+/// system is assembled and factorised anew:
+///
+///     W u − Gᵀλ = …     K̂ Δ + k K η − PΛ − NᵀGᵀλ = …     PᵀΔ = …     ġ(end) = 0
+///     W κ − GᵀE = 0     K̂ η − PΛ_η − NᵀGᵀE = 0           Pᵀη = 0     g(end) = 0
+///
+/// No sieve, no interface compliance, no condensation: it shares with Stepper the physics
+/// (dynamics) and the coefficients of the method (Scheme), and must end in the same state. Coupling
+/// terms are iterated together with everything else. Cost per step: several factorisations of an
+/// indefinite matrix of twice the number of unknowns.
+class MonolithicStepper {
+ public:
+  /// @param rows_in_use independent joint rows
+  MonolithicStepper(const model::Model& model, const StepSettings& settings,
+                    std::vector<int> rows_in_use);
+  ~MonolithicStepper();
+
+  /// Advances `state` by one step, until changes are down to rounding or
+  /// `settings.newton_tolerance` relative to the motion of the step.
+  /// @throws NumericalError if the iteration does not settle; `state` is then unchanged
+  StepReport step(model::State& state);
+
+  const Scheme& scheme() const { return scheme_; }
+
+ private:
+  struct Part;   // one body: its unknowns and its motion within the step
+  struct Entry;  // one derivative of a scalar with respect to one unknown
+
+  bool corrects_positions() const;
+  void start(const model::State& state);
+  void predict(double t);
+  void evaluate(double t);
+  void update_coupling(Part& part);
+  std::vector<Entry> entries(const dynamics::SystemRow& row) const;
+  void fixed_part();
+  void fixed_body(const Part& part);
+  void fixed_corrections();
+  void add_product(const std::vector<Entry>& row, const std::vector<Entry>& column, double factor,
+                   bool row_corrects, bool column_corrects);
+  void tangent(std::vector<linalg::Triplet>& out) const;
+  linalg::Vector residual() const;
+  void body_residual(std::size_t b, linalg::Vector& r) const;
+  double apply(const linalg::Vector& change, double& motion);
+  void iterate(double t, StepReport& report);
+  model::State next_state(const model::State& state) const;
+
+  const model::Model& model_;
+  StepSettings settings_;
+  Scheme scheme_;
+  std::vector<int> rows_in_use_;
+  std::vector<std::unique_ptr<Part>> parts_;
+  int first_lambda_ = 0, first_correction_ = 0, size_ = 0;
+  linalg::Vector z_;                    // all unknowns
+  linalg::Vector lambda_;               // [N, N m]
+  std::vector<linalg::Triplet> fixed_;  // what does not change within a step
+  linalg::SparseMatrix fixed_matrix_;
+  dynamics::SoftRows soft_;
+  dynamics::Constraints end_, evaluation_;
+  std::vector<dynamics::BodyMotion> motions_end_, motions_evaluation_;
+  dynamics::Forces forces_;
+};
+
+}  // namespace buckens::stepping
