@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/initial_acceleration.h"
 
 #include <algorithm>
@@ -137,18 +138,17 @@ class Accelerations {
     const model::BodyState& s = state_.bodies[b];
     const BodyAcceleration& now = bodies_[b];
     body::DeformedMoments moments = now.moments;
-    const bool coupled =
-        body.is_flexible() && body.flexible->coupling == body::CouplingLevel::full;
+    const bool coupled = body.is_flexible() && body.flexible->coupling == body::CouplingLevel::full;
     if (coupled) moments.l_dot = body.flexible->invariants.relative_momentum(s.d, now.nodal);
-    const Vector6 inertia = dynamics::frame_inertia(body, moments, s.frame.w, Vector3d::Zero(),
-                                                    Vector3d::Zero());
+    const Vector6 inertia =
+        dynamics::frame_inertia(body, moments, s.frame.w, Vector3d::Zero(), Vector3d::Zero());
     frame = compliance_[b].frame * (forces_.frame[b] - inertia);
     if (!body.is_flexible()) return;
     nodal = now.nodal_static + metric_.H(b) * forces_.interface[b];
     if (coupled) {
       const Vector3d w_dot = now.frame.head<3>();
-      const Vector euler = body.flexible->invariants.deformation_load(
-          s.d, Vector::Zero(s.d.size()), Vector3d::Zero(), w_dot);
+      const Vector euler = body.flexible->invariants.deformation_load(s.d, Vector::Zero(s.d.size()),
+                                                                      Vector3d::Zero(), w_dot);
       if (!euler.isZero(0.0)) nodal += mass_solve(body, euler);
     }
     y = body.row_values(nodal);

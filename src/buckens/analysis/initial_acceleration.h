@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/dynamics/mass_metric.h"
@@ -7,7 +8,8 @@
 namespace buckens::analysis {
 
 /// Computes accelerations and multipliers consistent with positions, velocities and loads at
-/// state.t, FM (35), (36) with (20) differentiated twice. No factorisation: M by conjugate gradients.
+/// state.t, FM (35), (36) with (20) differentiated twice. No factorisation: M by conjugate
+/// gradients.
 /// @param rows_in_use independent rows of λ; the others stay zero
 /// @throws NumericalError if frames and meshes do not settle on common accelerations
 void compute_accelerations(const model::Model& model, const dynamics::MassMetric& metric,

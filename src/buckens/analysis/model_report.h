@@ -19,8 +19,8 @@ struct BodyReport {
   std::array<double, 3> principal_inertia;  ///< ascending [kg m²]
   int nodes = 0, elements = 0, dof = 0;
   int frame_coordinates = 0;
-  std::vector<double> frequencies;          ///< lowest elastic free-free frequencies [Hz]
-  std::vector<std::string> markers;         ///< names that joints and sensors can use
+  std::vector<double> frequencies;   ///< lowest elastic free-free frequencies [Hz]
+  std::vector<std::string> markers;  ///< names that joints and sensors can use
 };
 
 /// What can be said of a model without running: the content of `buckens check`.
@@ -28,11 +28,11 @@ struct ModelReport {
   std::vector<BodyReport> bodies;
   int joints = 0, loads = 0;
   int constraint_rows = 0, redundant_rows = 0;
-  int degrees_of_freedom = 0;                   ///< of the mechanism with rigid bodies
-  std::vector<std::string> redundant;           ///< by joint
-  double assembly_gap = 0;                      ///< largest |g| left by assembly [m] or [-]
-  double step = 0, highest_frequency = 0;       ///< [s]; of the modes that loads excite [Hz]
-  std::vector<std::string> notes, warnings;     ///< warnings carry advice on step size
+  int degrees_of_freedom = 0;                ///< of the mechanism with rigid bodies
+  std::vector<std::string> redundant;        ///< by joint
+  double assembly_gap = 0;                   ///< largest |g| left by assembly [m] or [-]
+  double step = 0, highest_frequency = 0;    ///< [s]; of the modes that loads excite [Hz]
+  std::vector<std::string> notes, warnings;  ///< warnings carry advice on step size
 };
 
 /// Assembles the mechanism and reports on it.

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/position_assembly.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
@@ -21,9 +22,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 namespace {
 
 constexpr int kMaxIterations = 200;
-constexpr double kClosed = 1e-12;        // of the model's length, about 1e4 roundings
-constexpr double kAcceptedGap = 1e-9;    // closed as far as anyone can tell
-constexpr double kLargestRotation = 0.5; // rad per iteration
+constexpr double kClosed = 1e-12;         // of the model's length, about 1e4 roundings
+constexpr double kAcceptedGap = 1e-9;     // closed as far as anyone can tell
+constexpr double kLargestRotation = 0.5;  // rad per iteration
 
 /// Answers closing demands with the least motion; redundant rows share it.
 class LeastMotion {
@@ -75,7 +76,8 @@ std::string describe_gap(const model::Model& model, const Vector& residual, cons
   Eigen::Index worst = 0;
   residual.cwiseAbs().maxCoeff(&worst);
   const auto [joint, row] = model.owner_of_row(static_cast<int>(worst));
-  const Vector own = residual.segment(joint->first_row, static_cast<Eigen::Index>(joint->rows.size()));
+  const Vector own =
+      residual.segment(joint->first_row, static_cast<Eigen::Index>(joint->rows.size()));
   double gap = 0.0;
   double angle = 0.0;
   for (std::size_t k = 0; k < joint->rows.size(); ++k) {
@@ -147,10 +149,9 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
   }
   const double gap = constraints.g.cwiseAbs().maxCoeff();
   if (gap <= kAcceptedGap * model.length) return gap;
-  throw ModelError(
-      "the mechanism cannot be assembled; closest approach leaves " +
-      describe_gap(model, constraints.g, "") +
-      "; correct the placement (`at`), the lengths of the bodies, or remove a joint");
+  throw ModelError("the mechanism cannot be assembled; closest approach leaves " +
+                   describe_gap(model, constraints.g, "") +
+                   "; correct the placement (`at`), the lengths of the bodies, or remove a joint");
 }
 
 double project_velocities(const model::Model& model, const dynamics::MassMetric& metric,
@@ -161,8 +162,7 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
   for (const body::Body& body : model.bodies) J.push_back(body.J0);
   double scale = 0.0;
   for (const bool with_mesh : {false, true}) {
-    dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
-                                   constraints);
+    dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
     LeastMotion motion(model, with_mesh ? metric.full(J) : metric.rigid(), constraints.rows);
     // The damping that tolerates redundant rows leaves 1e-10 of the demand: three rounds remove it.
     for (int round = 0; round < 3; ++round) {

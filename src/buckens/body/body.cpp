@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/body.h"
 
-#include <fmt/format.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_modes.h"
@@ -59,9 +60,7 @@ Eigen::VectorXd Body::row_values(const linalg::Vector& d) const {
   return flexible->rows * d;
 }
 
-double Body::length_scale() const {
-  return std::max(1e-9, std::sqrt(0.5 * J0.trace() / mass));
-}
+double Body::length_scale() const { return std::max(1e-9, std::sqrt(0.5 * J0.trace() / mass)); }
 
 void select_frame_coordinates(Body& body, const std::optional<Vector3d>& plane_normal,
                               std::vector<std::string>& notes) {

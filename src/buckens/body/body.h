@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -45,9 +46,9 @@ struct FlexiblePart {
 class Body {
  public:
   std::string name;
-  double mass = 0;                                          ///< [kg]
-  Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();             ///< about the mass centre [kg m²]
-  Eigen::Vector3d com = Eigen::Vector3d::Zero();            ///< mass centre in model axes [m]
+  double mass = 0;                                ///< [kg]
+  Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();   ///< about the mass centre [kg m²]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< mass centre in model axes [m]
   /// Orthonormal bases of the frame coordinates in use: rotations in body axes (3×0…3),
   /// translations in world axes (3×2…3). Planar models and missing inertia shorten them.
   Eigen::Matrix<double, 3, Eigen::Dynamic> rotation_basis;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/inertia_invariants.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/fem/fe_model.h"
@@ -9,10 +10,10 @@ namespace buckens::body {
 ///
 /// T_ab(x, y) = xᵀ W_ab y with W_ab = ∫ g_a g_bᵀ dm. Everything is in body axes.
 struct DeformedMoments {
-  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();        ///< rotary inertia [kg m²]
-  Eigen::Matrix3d J_dot = Eigen::Matrix3d::Zero();    ///< its rate [kg m²/s]
-  Eigen::Vector3d l = Eigen::Vector3d::Zero();        ///< relative angular momentum [N m s], FM (11)
-  Eigen::Vector3d l_dot = Eigen::Vector3d::Zero();    ///< Cᵀd̈ [N m]
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();      ///< rotary inertia [kg m²]
+  Eigen::Matrix3d J_dot = Eigen::Matrix3d::Zero();  ///< its rate [kg m²/s]
+  Eigen::Vector3d l = Eigen::Vector3d::Zero();      ///< relative angular momentum [N m s], FM (11)
+  Eigen::Vector3d l_dot = Eigen::Vector3d::Zero();  ///< Cᵀd̈ [N m]
 };
 
 /// Inertia integrals of a finite-element body and what follows from them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/marker.h"
 
 #include "buckens/spatial/rotation.h"
@@ -18,8 +19,7 @@ Vector3d rows(const VectorXd& y, int first) {
 
 Eigen::Matrix<double, 6, 1> MarkerKinematics::frame_load(const spatial::Wrench& wrench) const {
   Eigen::Matrix<double, 6, 1> load;
-  load.head<3>() =
-      R_WB.transpose() * wrench.torque + z.cross(R_WB.transpose() * wrench.force);
+  load.head<3>() = R_WB.transpose() * wrench.torque + z.cross(R_WB.transpose() * wrench.force);
   load.tail<3>() = wrench.force;
   return load;
 }

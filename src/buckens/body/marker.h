@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
@@ -10,14 +11,14 @@ namespace buckens::body {
 /// A frame fixed to a body, FM (1): to the body frame, or to a point of its mesh.
 ///
 /// On a mesh point the marker follows the interpolated displacement y_t = N_t d and rotation
-/// θ = N_r d:  p_BF = z₀ + y_t,  R_BF = exp(θ~) R₀. Where the mesh has no rotations the marker keeps
-/// the axes of the body frame and can carry no moment.
+/// θ = N_r d:  p_BF = z₀ + y_t,  R_BF = exp(θ~) R₀. Where the mesh has no rotations the marker
+/// keeps the axes of the body frame and can carry no moment.
 struct Marker {
   std::string name;
-  spatial::Pose X_BF;         ///< in the undeformed body
-  int translation_row = -1;   ///< first of three rows of FlexiblePart::rows; −1: rigid
-  int rotation_row = -1;      ///< first of three rows; −1: no rotations at this point
-  int node = -1;              ///< mesh node that carries it, −1 if none does
+  spatial::Pose X_BF;        ///< in the undeformed body
+  int translation_row = -1;  ///< first of three rows of FlexiblePart::rows; −1: rigid
+  int rotation_row = -1;     ///< first of three rows; −1: no rotations at this point
+  int node = -1;             ///< mesh node that carries it, −1 if none does
 
   bool follows_mesh() const { return translation_row >= 0; }
   bool carries_moment() const { return !follows_mesh() || rotation_row >= 0; }
@@ -33,9 +34,9 @@ struct FrameMotion {
 /// A marker's motion together with what a force on it does to the body.
 struct MarkerKinematics {
   spatial::MarkerMotion motion;
-  Eigen::Matrix3d R_WB;            ///< body axes
-  Eigen::Vector3d z;               ///< p_BF of the deformed body [m]
-  Eigen::Matrix3d rotation_map;    ///< J_l(θ): nodal rotation rates → angular velocity, body axes
+  Eigen::Matrix3d R_WB;          ///< body axes
+  Eigen::Vector3d z;             ///< p_BF of the deformed body [m]
+  Eigen::Matrix3d rotation_map;  ///< J_l(θ): nodal rotation rates → angular velocity, body axes
 
   /// Frame part of Jᵀ·wrench: torque about the body origin in body axes, then force in world axes.
   Eigen::Matrix<double, 6, 1> frame_load(const spatial::Wrench& wrench) const;

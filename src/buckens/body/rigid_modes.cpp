@@ -1,10 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/rigid_modes.h"
 
-#include <fmt/format.h>
+#include <array>
 
 #include <Eigen/Geometry>
-
-#include <array>
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 
@@ -49,9 +49,8 @@ Matrix rigid_modes(const std::vector<Vector3d>& node_positions, const fem::DofMa
 
 void check_stiffness_is_free(const std::string& body, const linalg::SparseMatrix& K,
                              const Matrix& Phi, const fem::FeModel& fe) {
-  static const std::array<const char*, 6> names = {"translation x", "translation y",
-                                                   "translation z", "rotation x",
-                                                   "rotation y",    "rotation z"};
+  static const std::array<const char*, 6> names = {
+      "translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"};
   const double stiffness = K.norm();
   for (int mode = 0; mode < 6; ++mode) {
     const linalg::Vector residual = K * Phi.col(mode);
@@ -60,11 +59,11 @@ void check_stiffness_is_free(const std::string& body, const linalg::SparseMatrix
     Eigen::Index worst = 0;
     residual.cwiseAbs().maxCoeff(&worst);
     throw ModelError(fmt::format(
-        "body \"{}\": the rigid {} strains its mesh (|K q| = {:.3g}, largest at node {}); a spring to "
+        "body \"{}\": the rigid {} strains its mesh (|K q| = {:.3g}, largest at node {}); a spring "
+        "to "
         "ground or an element that resists rigid motion is inside the body: take it out and attach "
         "it by a joint or a load",
-        body, names[static_cast<std::size_t>(mode)], residual.norm(),
-        node_of_dof(fe.dofs, worst)));
+        body, names[static_cast<std::size_t>(mode)], residual.norm(), node_of_dof(fe.dofs, worst)));
   }
 }
 

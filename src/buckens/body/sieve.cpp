@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/sieve.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
 
 namespace buckens::body {
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/linalg/matrix_types.h"
@@ -6,8 +7,8 @@ namespace buckens::body {
 
 /// Removes rigid-body motion from the nodal variables of one flexible body.
 ///
-/// The Buckens frame demands Pᵀd = 0 with P = MΦ, FM (25), (26). Adding a rigid motion to d changes no
-/// strain, so the condition is met by the projection
+/// The Buckens frame demands Pᵀd = 0 with P = MΦ, FM (25), (26). Adding a rigid motion to d changes
+/// no strain, so the condition is met by the projection
 ///
 ///     Y d = d − Φ S⁻¹ (Pᵀ d),   S = ΦᵀMΦ                                FM (38), (39)
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/constraints.h"
 
 namespace buckens::dynamics {
@@ -7,6 +8,7 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
   const int count = model.num_constraint_rows();
   out.g.resize(count);
   out.g_dot.resize(count);
+  out.g_t.resize(count);
   out.rows.resize(static_cast<std::size_t>(count));
   for (const model::Joint& joint : model.joints) {
     const auto first = evaluate_marker(model, joint.first, motions);
@@ -18,6 +20,7 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
       const joints::RowValue value = constraint.evaluate(first.motion, second.motion, t);
       out.g[row] = value.g;
       out.g_dot[row] = value.J.dot(V) + value.g_t;
+      out.g_t[row] = value.g_t;
       out.rows[static_cast<std::size_t>(row)] =
           system_row(model, joint.first, first, joint.second, second, value.J);
       ++row;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -8,9 +9,10 @@ namespace buckens::dynamics {
 
 /// All joint equations at one instant: g = 0, ġ = G_q q̇ + G_d ḋ + g_t = 0.       FM (20), (34)
 struct Constraints {
-  linalg::Vector g;              ///< residuals [m] or [-]
-  linalg::Vector g_dot;          ///< their rates [m/s] or [1/s]
-  std::vector<SystemRow> rows;   ///< derivatives, one per row of λ
+  linalg::Vector g;             ///< residuals [m] or [-]
+  linalg::Vector g_dot;         ///< their rates [m/s] or [1/s]
+  linalg::Vector g_t;           ///< their partial time derivatives
+  std::vector<SystemRow> rows;  ///< derivatives, one per row of λ
 };
 
 /// Evaluates every joint. Cost O(rows); reuses the vectors of `out`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/coupling_terms.h"
 
 #include "buckens/dynamics/frame_equation.h"
@@ -8,14 +9,12 @@ using Eigen::Vector3d;
 using linalg::Vector;
 
 model::Coupling evaluate_coupling(const body::Body& body, const Vector& d, const Vector& d_dot,
-                                  const Vector& d_ddot, const Vector3d& w,
-                                  const Vector3d& w_dot) {
+                                  const Vector& d_ddot, const Vector3d& w, const Vector3d& w_dot) {
   if (!body.is_flexible() || body.flexible->coupling == body::CouplingLevel::none) {
     return {undeformed_moments(body), {}};
   }
   const body::InertiaInvariants& invariants = body.flexible->invariants;
-  return {invariants.moments(d, d_dot, d_ddot),
-          invariants.deformation_load(d, d_dot, w, w_dot)};
+  return {invariants.moments(d, d_dot, d_ddot), invariants.deformation_load(d, d_dot, w, w_dot)};
 }
 
 model::Coupling extrapolate(const model::Coupling& now, const model::Coupling& before,

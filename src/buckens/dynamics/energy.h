@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/model/model.h"
@@ -9,7 +10,7 @@ namespace buckens::dynamics {
 struct Energy {
   double kinetic = 0;
   double strain = 0;
-  double gravity = 0;   ///< −Σ m g·p
+  double gravity = 0;  ///< −Σ m g·p
   double springs = 0;
   double total() const { return kinetic + strain + gravity + springs; }
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/forces.h"
 
 #include <fmt/format.h>

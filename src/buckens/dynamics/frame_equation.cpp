@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/frame_equation.h"
 
 #include "buckens/spatial/rotation.h"
@@ -17,8 +18,8 @@ Eigen::Matrix<double, 6, 1> frame_inertia(const body::Body& body,
                                           const body::DeformedMoments& moments, const Vector3d& w,
                                           const Vector3d& w_dot, const Vector3d& v_dot) {
   Eigen::Matrix<double, 6, 1> out;
-  out.head<3>() = moments.J * w_dot + moments.l_dot + moments.J_dot * w +
-                  w.cross(moments.J * w + moments.l);
+  out.head<3>() =
+      moments.J * w_dot + moments.l_dot + moments.J_dot * w + w.cross(moments.J * w + moments.l);
   out.tail<3>() = body.mass * v_dot;
   return out;
 }

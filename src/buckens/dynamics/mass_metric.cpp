@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/mass_metric.h"
+
+#include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <algorithm>
-#include <cmath>
 
 #include "buckens/linalg/conjugate_gradients.h"
 

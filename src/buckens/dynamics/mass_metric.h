@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -11,7 +12,8 @@ namespace buckens::dynamics {
 /// Response of all bodies to interface forces through their mass alone: what initial velocities,
 /// initial accelerations and the rank of the joint equations are measured in.
 ///
-/// Flexible bodies: H = Y M⁻¹Nᵀ by conjugate gradients, one solve per interface row, no factorisation.
+/// Flexible bodies: H = Y M⁻¹Nᵀ by conjugate gradients, one solve per interface row, no
+/// factorisation.
 class MassMetric {
  public:
   explicit MassMetric(const model::Model& model);
@@ -27,8 +29,8 @@ class MassMetric {
 
   /// Splits joint rows into independent ones and those that follow from them.
   ///
-  /// Rank-revealing QR of the Jacobian in the mass metric, rows scaled to unit length; tolerance 1e-9,
-  /// between rounding (1e-15) and the smallest lever arm worth a joint.
+  /// Rank-revealing QR of the Jacobian in the mass metric, rows scaled to unit length; tolerance
+  /// 1e-9, between rounding (1e-15) and the smallest lever arm worth a joint.
   linalg::RowRank split(const std::vector<SystemRow>& rows) const;
 
   /// Rows of the Jacobian times the square root of the mass metric, unscaled.

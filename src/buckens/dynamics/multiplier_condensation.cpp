@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/multiplier_condensation.h"
 
 #include <algorithm>
@@ -72,11 +73,11 @@ void MultiplierCondensation::add_body(std::size_t b, const std::vector<SystemRow
       const BodyRow& closing = share(test[static_cast<std::size_t>(i.row)], i.is_first);
       double value = closing.frame.dot(frame_image);
       if (on_interface && closing.translation_row >= 0) {
-        value += closing.interface.head<3>().dot(
-            interface_image.segment<3>(closing.translation_row));
+        value +=
+            closing.interface.head<3>().dot(interface_image.segment<3>(closing.translation_row));
         if (closing.rotation_row >= 0) {
-          value += closing.interface.tail<3>().dot(
-              interface_image.segment<3>(closing.rotation_row));
+          value +=
+              closing.interface.tail<3>().dot(interface_image.segment<3>(closing.rotation_row));
         }
       }
       S_.valuePtr()[positions_[b][position++]] += value;

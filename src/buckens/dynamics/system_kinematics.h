@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -43,8 +44,7 @@ spatial::MarkerBias evaluate_bias(const model::Model& model, const model::Marker
 
 /// Chains the derivatives with respect to marker twists to those of the bodies' coordinates.
 SystemRow system_row(const model::Model& model, const model::MarkerId& first,
-                     const body::MarkerKinematics& first_kinematics,
-                     const model::MarkerId& second,
+                     const body::MarkerKinematics& first_kinematics, const model::MarkerId& second,
                      const body::MarkerKinematics& second_kinematics, const spatial::PairRow& J);
 
 /// Motions of all bodies at a state.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/joints/constraint_row.h"
 
 #include <cmath>
@@ -45,8 +46,7 @@ ConstraintRow ConstraintRow::turning(const Vector3d& axis_F, const Vector3d& x_F
   return row;
 }
 
-ConstraintRow::TurningVector ConstraintRow::turning_vector(double t,
-                                                           bool with_acceleration) const {
+ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, bool with_acceleration) const {
   TurningVector b{e_, Vector3d::Zero(), Vector3d::Zero()};
   if (!law_) return b;
   const double angle = law_->value(t);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -11,11 +12,11 @@ namespace buckens::joints {
 ///
 ///     ġ = J V + g_t,      g̈ = J V̇ + bias                                   FM (20), (34)
 ///
-/// V holds the twists of both markers (see PairRow). The multiplier λ of the row acts on the markers
-/// with the wrench Jᵀλ.
+/// V holds the twists of both markers (see PairRow). The multiplier λ of the row acts on the
+/// markers with the wrench Jᵀλ.
 struct RowValue {
-  double g = 0;              ///< residual: [m] for point rows, [-] for direction rows
-  double g_t = 0;            ///< partial time derivative of g
+  double g = 0;    ///< residual: [m] for point rows, [-] for direction rows
+  double g_t = 0;  ///< partial time derivative of g
   spatial::PairRow J = spatial::PairRow::Zero();
 };
 
@@ -40,13 +41,11 @@ class ConstraintRow {
   static ConstraintRow turning(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
                                const Eigen::Vector3d& c_M, base::TimeLaw angle);
 
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-                    double t) const;
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t) const;
 
   /// Part of g̈ that does not come from the accelerations of the bodies' coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
-              double t) const;
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t) const;
 
   Kind kind() const { return kind_; }
   /// True for rows whose residual is a length, false for dimensionless ones.

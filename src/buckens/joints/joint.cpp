@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/joints/joint.h"
 
 #include <array>
@@ -97,12 +98,9 @@ void check_axis(JointType type, const Placement& placement, const Vector3d& axis
 }  // namespace
 
 std::string to_string(JointType type) {
-  static const std::array<const char*, 6> names = {"revolute",
-                                                   "spherical",
-                                                   "prismatic",
-                                                   "fixed",
-                                                   "prescribed-rotation",
-                                                   "prescribed-translation"};
+  static const std::array<const char*, 6> names = {
+      "revolute", "spherical",           "prismatic",
+      "fixed",    "prescribed-rotation", "prescribed-translation"};
   return names[static_cast<std::size_t>(type)];
 }
 
@@ -145,8 +143,7 @@ std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement)
       rows.push(ConstraintRow::turning(f.z, f.x, rows.to_M(f.x), placement.law.value()));
       break;
     case JointType::prescribed_translation:
-      rows.push(
-          ConstraintRow::point_along(f.z, f.z.dot(placement.r_F), placement.law.value()));
+      rows.push(ConstraintRow::point_along(f.z, f.z.dot(placement.r_F), placement.law.value()));
       break;
   }
   return rows.take();

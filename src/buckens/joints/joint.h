@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -25,8 +26,8 @@ std::string to_string(JointType type);
 /// Orientation of both marker frames as placed, and what the joint needs beside it.
 ///
 /// Joints keep the relative orientation that the placed bodies show: directions of M are the images
-/// of F's directions at that moment, and prescribed angles and displacements count from it. Points are meant to coincide or to
-/// lie on the axis, so a gap there is closed by assembly.
+/// of F's directions at that moment, and prescribed angles and displacements count from it. Points
+/// are meant to coincide or to lie on the axis, so a gap there is closed by assembly.
 struct Placement {
   Eigen::Matrix3d R_WF = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_WM = Eigen::Matrix3d::Identity();
@@ -38,8 +39,8 @@ struct Placement {
 
 /// Rows of a joint of the given kind between two marker frames.
 ///
-/// Rows per kind (planar in brackets): revolute 5 (2), spherical 3 (2), prismatic 5 (2), fixed 6 (3),
-/// prescribed rotation 1 (1), prescribed translation 1 (1). Cost O(1).
+/// Rows per kind (planar in brackets): revolute 5 (2), spherical 3 (2), prismatic 5 (2), fixed 6
+/// (3), prescribed rotation 1 (1), prescribed translation 1 (1). Cost O(1).
 /// @throws ModelError if the axis is zero or, in a planar model, neither normal to the plane
 ///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation)
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);

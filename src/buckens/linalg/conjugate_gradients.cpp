@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/conjugate_gradients.h"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ constexpr double kAcceptable = 1e-10;
 Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
   const Eigen::Index n = b.size();
   const Vector diagonal = A.diagonal();
-  const Vector inverse =
-      (diagonal.array() > 0.0).select(diagonal.cwiseInverse(), Vector::Zero(n));
+  const Vector inverse = (diagonal.array() > 0.0).select(diagonal.cwiseInverse(), Vector::Zero(n));
   Vector x = Vector::Zero(n);
   Vector r = (diagonal.array() > 0.0).select(b, Vector::Zero(n));
   Vector z = inverse.cwiseProduct(r);

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/row_rank.h"
+
+#include <algorithm>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/QR>
 #include <Eigen/SparseQR>
-#include <algorithm>
 
 namespace buckens::linalg {
 

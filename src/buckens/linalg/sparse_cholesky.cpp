@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/sparse_cholesky.h"
-
-#include <cholmod.h>
 
 #include <algorithm>
 #include <string>
+
+#include <cholmod.h>
 
 #include "buckens/base/errors.h"
 
@@ -72,10 +73,9 @@ SparseCholesky::SparseCholesky(const SparseMatrix& A) : backend_(std::make_uniqu
   }
   cholmod_factorize(&view, backend_->factor, &backend_->common);
   if (backend_->common.status != CHOLMOD_OK || backend_->factor->minor < view.nrow) {
-    throw NumericalError("a matrix of size " + std::to_string(lower.rows()) +
-                         " is not positive definite (column " +
-                         std::to_string(backend_->factor->minor) +
-                         "); check masses and materials of the body");
+    throw NumericalError(
+        "a matrix of size " + std::to_string(lower.rows()) + " is not positive definite (column " +
+        std::to_string(backend_->factor->minor) + "); check masses and materials of the body");
   }
 }
 
@@ -83,9 +83,7 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-Eigen::Index SparseCholesky::size() const {
-  return static_cast<Eigen::Index>(backend_->factor->n);
-}
+Eigen::Index SparseCholesky::size() const { return static_cast<Eigen::Index>(backend_->factor->n); }
 
 double SparseCholesky::num_factor_entries() const { return backend_->common.lnz; }
 

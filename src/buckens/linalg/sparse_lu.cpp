@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/sparse_lu.h"
 
 #include <klu.h>
@@ -28,9 +29,9 @@ struct SparseLu::Backend {
 
 SparseLu::SparseLu(const SparseMatrix& pattern) : backend_(std::make_unique<Backend>()) {
   if (pattern.rows() == 0) return;
-  backend_->symbolic = klu_analyze(static_cast<int>(pattern.rows()),
-                                   const_cast<int*>(pattern.outerIndexPtr()),
-                                   const_cast<int*>(pattern.innerIndexPtr()), &backend_->common);
+  backend_->symbolic =
+      klu_analyze(static_cast<int>(pattern.rows()), const_cast<int*>(pattern.outerIndexPtr()),
+                  const_cast<int*>(pattern.innerIndexPtr()), &backend_->common);
   if (backend_->symbolic == nullptr) {
     throw NumericalError("the joint equations are structurally singular; remove a joint");
   }
@@ -47,11 +48,10 @@ bool SparseLu::factorise(const SparseMatrix& A) {
   double* values = const_cast<double*>(A.valuePtr());
   klu_common* common = &backend_->common;
   if (backend_->numeric != nullptr) {
-    const bool refactored = klu_refactor(outer, inner, values, backend_->symbolic,
-                                         backend_->numeric, common) != 0 &&
-                            klu_rgrowth(outer, inner, values, backend_->symbolic,
-                                        backend_->numeric, common) != 0 &&
-                            common->rgrowth > kSmallestGrowth;
+    const bool refactored =
+        klu_refactor(outer, inner, values, backend_->symbolic, backend_->numeric, common) != 0 &&
+        klu_rgrowth(outer, inner, values, backend_->symbolic, backend_->numeric, common) != 0 &&
+        common->rgrowth > kSmallestGrowth;
     if (refactored) return pivot_ratio() > kSingular;
     klu_free_numeric(&backend_->numeric, common);
   }

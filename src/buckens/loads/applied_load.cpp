@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/applied_load.h"
 
 #include <algorithm>

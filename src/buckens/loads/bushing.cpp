@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/bushing.h"
 
 #include "buckens/spatial/rotation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/loads/force_element.h"
@@ -8,8 +9,8 @@ namespace buckens::loads {
 /// free of force as placed.
 ///
 /// With r the displacement of the second marker in the first one's axes and θ the rotation vector
-/// between them (both zero as placed): force −K r − C ṙ, torque −J_l⁻ᵀ(θ) K_r θ − C_r ω. The elastic
-/// part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is kept at any rotation below π.
+/// between them (both zero as placed): force −K r − C ṙ, torque −J_l⁻ᵀ(θ) K_r θ − C_r ω. The
+/// elastic part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is kept at any rotation below π.
 class Bushing final : public ForceElement {
  public:
   struct Coefficients {

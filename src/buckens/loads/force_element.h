@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -8,10 +9,10 @@ namespace buckens::loads {
 
 /// What a force element does at one configuration.
 struct Action {
-  spatial::Wrench on_first;    ///< on the first marker, world components
-  spatial::Wrench on_second;   ///< on the second marker, world components
-  double stored_energy = 0;    ///< of its springs [J]
-  double active_power = 0;     ///< power given to the system beyond −d(stored_energy)/dt [W]
+  spatial::Wrench on_first;   ///< on the first marker, world components
+  spatial::Wrench on_second;  ///< on the second marker, world components
+  double stored_energy = 0;   ///< of its springs [J]
+  double active_power = 0;    ///< power given to the system beyond −d(stored_energy)/dt [W]
 };
 
 /// A direction in which a force element resists: the generalised displacement x with ẋ = J V meets

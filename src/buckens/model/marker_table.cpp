@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/marker_table.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
@@ -51,15 +52,13 @@ std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
   return std::nullopt;
 }
 
-MarkerTable::Target MarkerTable::named(const std::string& name,
-                                       const base::MarkerRef& ref) const {
+MarkerTable::Target MarkerTable::named(const std::string& name, const base::MarkerRef& ref) const {
   if (name.empty() || name == "com") return {body_.com, Eigen::Quaterniond::Identity(), {}};
   if (mesh_ != nullptr) {
     if (const auto place = mesh_->find(name)) {
       const fem::FeModel& fe = body_.flexible->fe;
-      const fem::PointRows rows = place->node >= 0
-                                      ? fem::node_rows(fe, place->node)
-                                      : fem::point_rows(fe, place->element, place->xi);
+      const fem::PointRows rows = place->node >= 0 ? fem::node_rows(fe, place->node)
+                                                   : fem::point_rows(fe, place->element, place->xi);
       return {rows.position, Eigen::Quaterniond::Identity(), place};
     }
   }
@@ -68,9 +67,9 @@ MarkerTable::Target MarkerTable::named(const std::string& name,
     return {origin, Eigen::Quaterniond::Identity(),
             mesh_ != nullptr ? place_at(origin) : std::nullopt};
   }
-  throw InputError(ref.where, fmt::format("body \"{}\" has no marker \"{}\"{}; markers there: {}",
-                                          spec_.name, name, suggestion(name),
-                                          fmt::join(names(), ", ")));
+  throw InputError(ref.where,
+                   fmt::format("body \"{}\" has no marker \"{}\"{}; markers there: {}", spec_.name,
+                               name, suggestion(name), fmt::join(names(), ", ")));
 }
 
 std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
@@ -145,9 +144,10 @@ int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
       !body_.markers[static_cast<std::size_t>(index)].follows_mesh()) {
     throw InputError(
         ref.where,
-        fmt::format("\"{}\" is no point of the mesh of the flexible body \"{}\": a force there would "
-                    "act on nothing; use one of: {}",
-                    ref.text, spec_.name, fmt::join(mesh_->names, ", ")));
+        fmt::format(
+            "\"{}\" is no point of the mesh of the flexible body \"{}\": a force there would "
+            "act on nothing; use one of: {}",
+            ref.text, spec_.name, fmt::join(mesh_->names, ", ")));
   }
   return index;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/model.h"
 
 #include <algorithm>
@@ -7,8 +8,7 @@
 namespace buckens::model {
 
 int Model::num_constraint_rows() const {
-  return joints.empty() ? 0
-                        : joints.back().first_row + static_cast<int>(joints.back().rows.size());
+  return joints.empty() ? 0 : joints.back().first_row + static_cast<int>(joints.back().rows.size());
 }
 
 std::pair<const Joint*, int> Model::owner_of_row(int row) const {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -18,9 +19,9 @@ inline constexpr int kGround = -1;
 /// A marker of a body, or a frame fixed to the ground.
 struct MarkerId {
   int body = kGround;
-  int marker = 0;              ///< index into Body::markers; unused on the ground
-  spatial::Pose X_WF;          ///< ground only
-  std::string text;            ///< as the model file names it, for messages
+  int marker = 0;      ///< index into Body::markers; unused on the ground
+  spatial::Pose X_WF;  ///< ground only
+  std::string text;    ///< as the model file names it, for messages
 };
 
 /// Joint between two markers with its place in λ.
@@ -30,7 +31,7 @@ struct Joint {
   MarkerId first, second;
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
   std::vector<joints::ConstraintRow> rows;
-  int first_row = 0;           ///< of λ
+  int first_row = 0;  ///< of λ
 };
 
 /// Load or force law between two markers.
@@ -48,9 +49,9 @@ struct Model {
   std::vector<body::Body> bodies;
   std::vector<Joint> joints;
   std::vector<Load> loads;
-  std::vector<spatial::Pose> placed;                  ///< X_WB of each body as placed
-  double length = 1.0;                                ///< characteristic length L [m]
-  std::vector<std::string> notes;                     ///< what a user should know about the model
+  std::vector<spatial::Pose> placed;  ///< X_WB of each body as placed
+  double length = 1.0;                ///< characteristic length L [m]
+  std::vector<std::string> notes;     ///< what a user should know about the model
 
   int num_constraint_rows() const;
   /// Joint and row within it that own a row of λ.

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/model_builder.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
@@ -108,8 +109,7 @@ class Builder {
       body.mass = fe.shape.mass;
       body.com = fe.shape.com;
       body.J0 = fe.shape.J0;
-      body.flexible =
-          std::make_unique<body::FlexiblePart>(spec.name, std::move(fe), spec.coupling);
+      body.flexible = std::make_unique<body::FlexiblePart>(spec.name, std::move(fe), spec.coupling);
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,
@@ -161,23 +161,25 @@ class Builder {
                       const SourceLocation& where) const {
     const body::Marker* marker = on_body(id);
     if (marker == nullptr || marker->carries_moment()) return;
-    throw ModelError(where, fmt::format("{}: \"{}\" cannot carry a moment, bars have no rotations "
-                                        "there; use a spherical joint or a force, or make it a beam",
-                                        what, id.text));
+    throw ModelError(where,
+                     fmt::format("{}: \"{}\" cannot carry a moment, bars have no rotations "
+                                 "there; use a spherical joint or a force, or make it a beam",
+                                 what, id.text));
   }
 
   void require_two_bodies(const MarkerId& first, const MarkerId& second, const std::string& what,
                           const SourceLocation& where) const {
     if (first.body != second.body) return;
-    throw ModelError(where,
-                     fmt::format("{} connects {} with itself; it needs two different bodies, or a "
-                                 "body and the ground",
-                                 what,
-                                 first.body == kGround
-                                     ? "the ground"
-                                     : "body \"" + out_->description
-                                                       .bodies[static_cast<std::size_t>(first.body)]
-                                                       .name + "\""));
+    throw ModelError(
+        where,
+        fmt::format("{} connects {} with itself; it needs two different bodies, or a "
+                    "body and the ground",
+                    what,
+                    first.body == kGround
+                        ? "the ground"
+                        : "body \"" +
+                              out_->description.bodies[static_cast<std::size_t>(first.body)].name +
+                              "\""));
   }
 
   // ---- joints
@@ -272,11 +274,11 @@ class Builder {
     if (moment || kind.axes == loads::LoadAxes::following) {
       require_moment(load.first, fmt::format("load \"{}\"", load.name), where);
     }
-    load.element = std::make_unique<loads::AppliedLoad>(
-        what,
-        kind.axes == loads::LoadAxes::following ? loads::AppliedLoad::Axes::following
-                                                : loads::AppliedLoad::Axes::fixed,
-        kind.value);
+    load.element = std::make_unique<loads::AppliedLoad>(what,
+                                                        kind.axes == loads::LoadAxes::following
+                                                            ? loads::AppliedLoad::Axes::following
+                                                            : loads::AppliedLoad::Axes::fixed,
+                                                        kind.value);
   }
 
   void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {
@@ -298,9 +300,9 @@ class Builder {
     require_moment(load.second, what, where);
     joints::Placement p = placement_of(placed(load.first), placed(load.second));
     p.axis_F = axis_or_normal(kind.axis, p.R_WF, what, where);
-    load.element = std::make_unique<loads::TorsionalSpring>(
-        joints::unit_axis(p), p.R_WF.transpose() * p.R_WM, kind.stiffness, kind.damping,
-        kind.angle);
+    load.element =
+        std::make_unique<loads::TorsionalSpring>(joints::unit_axis(p), p.R_WF.transpose() * p.R_WM,
+                                                 kind.stiffness, kind.damping, kind.angle);
   }
 
   void add_load(const loads::LoadSpec& spec) {
@@ -363,9 +365,10 @@ class Builder {
   void find_section(const SectionPlace& kind, SensorPlace& found) {
     found.body = marker(kind.of, false).body;
     if (found.body == kGround || !model_.bodies[static_cast<std::size_t>(found.body)].flexible) {
-      throw ModelError(kind.of.where, fmt::format("\"{}\" is not on a flexible body; section forces "
-                                                  "and stresses exist on beams and bars only",
-                                                  kind.of.text));
+      throw ModelError(kind.of.where,
+                       fmt::format("\"{}\" is not on a flexible body; section forces "
+                                   "and stresses exist on beams and bars only",
+                                   kind.of.text));
     }
     const auto b = static_cast<std::size_t>(found.body);
     const auto lines = fem::line_elements(model_.bodies[b].flexible->fe);

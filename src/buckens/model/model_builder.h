@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -25,7 +26,8 @@ struct BuiltModel {
 };
 
 /// Builds and checks the mechanism.
-/// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and markers
+/// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and
+/// markers
 std::unique_ptr<BuiltModel> build_model(ModelDescription description);
 
 }  // namespace buckens::model

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -21,18 +22,18 @@ struct BodyState {
   Eigen::Vector3d v_dot = Eigen::Vector3d::Zero();  ///< world axes [m/s²]
   Eigen::Vector3d w_alg = Eigen::Vector3d::Zero();  ///< algorithmic accelerations of the frame
   Eigen::Vector3d v_alg = Eigen::Vector3d::Zero();
-  linalg::Vector d, d_dot, d_ddot, d_alg;           ///< nodal variables, n each, body axes
-  Coupling coupling, coupling_before;               ///< at this and at the previous step
+  linalg::Vector d, d_dot, d_ddot, d_alg;  ///< nodal variables, n each, body axes
+  Coupling coupling, coupling_before;      ///< at this and at the previous step
 };
 
 /// State of the mechanism.
 struct State {
-  double t = 0;                                     ///< [s]
+  double t = 0;  ///< [s]
   std::vector<BodyState> bodies;
-  linalg::Vector lambda;                            ///< joint multipliers [N, N m]
-  double lambda_time = 0;                           ///< instant to which λ belongs [s]
-  double last_step = 0;                             ///< length of the step that led here [s]
-  int history = 0;                                  ///< number of valid coupling entries: 0, 1, 2
+  linalg::Vector lambda;   ///< joint multipliers [N, N m]
+  double lambda_time = 0;  ///< instant to which λ belongs [s]
+  double last_step = 0;    ///< length of the step that led here [s]
+  int history = 0;         ///< number of valid coupling entries: 0, 1, 2
 };
 
 /// All bodies as placed, undeformed and at rest.

@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/structure_from_spec.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 
@@ -96,8 +97,7 @@ void Builder::add_single_beam(const fem::BeamSpec& beam) {
   fem::Structure& structure = out_.structure;
   const int start = fem::add_node(structure, "start", beam.from);
   const int end = fem::add_node(structure, "end", beam.to);
-  out_.beams.push_back(
-      fem::add_beam(structure, start, end, beam.elements, make_properties(beam)));
+  out_.beams.push_back(fem::add_beam(structure, start, end, beam.elements, make_properties(beam)));
   const fem::BeamDivision& division = out_.beams.back();
   const int half = beam.elements / 2;
   name_place("start", {start, -1, 0});

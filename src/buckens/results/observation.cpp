@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/observation.h"
 
 namespace buckens::results {
@@ -38,8 +39,7 @@ MarkerObservation observe_marker(const Observation& now, const model::MarkerId& 
     relative = body.flexible->rows.middleRows(marker.translation_row, 3) * s.d_ddot;
   }
   const Vector3d bias = dynamics::evaluate_bias(now.model, id, now.motions).a;
-  out.acceleration =
-      s.v_dot + kinematics.R_WB * (s.w_dot.cross(kinematics.z) + relative) + bias;
+  out.acceleration = s.v_dot + kinematics.R_WB * (s.w_dot.cross(kinematics.z) + relative) + bias;
   return out;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -20,10 +21,10 @@ struct WorkBalance {
 struct Observation {
   const model::Model& model;
   const model::State& state;
-  std::vector<dynamics::BodyMotion> motions;     ///< with all marker rows
-  std::vector<spatial::Wrench> joint_wrenches;   ///< on the second markers, world axes
-  std::vector<linalg::Matrix> section_forces;    ///< 12×E per flexible body, see fem/recovery.h
-  std::vector<linalg::Matrix> stresses;          ///< 2×E per flexible body [Pa]
+  std::vector<dynamics::BodyMotion> motions;    ///< with all marker rows
+  std::vector<spatial::Wrench> joint_wrenches;  ///< on the second markers, world axes
+  std::vector<linalg::Matrix> section_forces;   ///< 12×E per flexible body, see fem/recovery.h
+  std::vector<linalg::Matrix> stresses;         ///< 2×E per flexible body [Pa]
   dynamics::Energy energy;
   WorkBalance work;
 };

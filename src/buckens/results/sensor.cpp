@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/sensor.h"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
@@ -124,8 +125,8 @@ class DeflectionSensor final : public Sensor {
 
 class RelativeSensor final : public Sensor {
  public:
-  RelativeSensor(Channel channel, model::RelativeQuantity quantity, MarkerId first,
-                 MarkerId second, const Vector3d& axis)
+  RelativeSensor(Channel channel, model::RelativeQuantity quantity, MarkerId first, MarkerId second,
+                 const Vector3d& axis)
       : channel_(std::move(channel)),
         quantity_(quantity),
         first_(std::move(first)),
@@ -146,8 +147,8 @@ class RelativeSensor final : public Sensor {
       case Q::velocity:
         return push(F.R.transpose() * (M.v - F.v - F.w.cross(r)), values);
       case Q::rotation:
-        return push(
-            spatial::log_rotation(Eigen::Quaterniond(Matrix3d(F.R.transpose() * M.R))), values);
+        return push(spatial::log_rotation(Eigen::Quaterniond(Matrix3d(F.R.transpose() * M.R))),
+                    values);
       case Q::angle:
         return values.push_back(counted_angle(now.state.t, F, M));
       case Q::angular_velocity:
@@ -192,9 +193,8 @@ class JointSensor final : public Sensor {
 
   std::vector<Channel> channels() const override { return {channel_}; }
   void append(const Observation& now, std::vector<double>& values) override {
-    const spatial::Wrench wrench = joint_ >= 0
-                                       ? now.joint_wrenches[static_cast<std::size_t>(joint_)]
-                                       : force_element(now);
+    const spatial::Wrench wrench =
+        joint_ >= 0 ? now.joint_wrenches[static_cast<std::size_t>(joint_)] : force_element(now);
     push(axes_.components(now, torque_ ? wrench.torque : wrench.force), values);
   }
 
@@ -218,9 +218,15 @@ class SectionForceSensor final : public Sensor {
       : name_(std::move(name)), place_(place) {}
 
   std::vector<Channel> channels() const override {
-    return {{"sensors/" + name_ + ".force", "N", {3}, "section forces in element axes",
+    return {{"sensors/" + name_ + ".force",
+             "N",
+             {3},
+             "section forces in element axes",
              {"N", "Qy", "Qz"}},
-            {"sensors/" + name_ + ".moment", "N m", {3}, "section moments in element axes",
+            {"sensors/" + name_ + ".moment",
+             "N m",
+             {3},
+             "section moments in element axes",
              {"Mt", "My", "Mz"}}};
   }
   void append(const Observation& now, std::vector<double>& values) override {
@@ -239,8 +245,8 @@ class StressSensor final : public Sensor {
       : name_(std::move(name)), place_(place) {}
 
   std::vector<Channel> channels() const override {
-    return {{"sensors/" + name_, "Pa", {2}, "largest axial and von Mises stress",
-             {"axial", "mises"}}};
+    return {
+        {"sensors/" + name_, "Pa", {2}, "largest axial and von Mises stress", {"axial", "mises"}}};
   }
   void append(const Observation& now, std::vector<double>& values) override {
     const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];
@@ -291,7 +297,9 @@ class EnergySensor final : public Sensor {
 class Maker {
  public:
   Maker(const model::BuiltModel& built, std::size_t index)
-      : built_(built), spec_(built.description.output.sensors[index]), place_(built.sensors[index]) {}
+      : built_(built),
+        spec_(built.description.output.sensors[index]),
+        place_(built.sensors[index]) {}
 
   std::unique_ptr<Sensor> operator()(const model::PositionSensor& s) const {
     return marker(s, MarkerQuantity::position, "m", "position");
@@ -327,9 +335,10 @@ class Maker {
     Vector3d axis = s.axis.value_or(Vector3d::UnitZ());
     if (!s.axis && built_.model.planar) axis = spatial::normal(*built_.model.planar);
     if (s.quantity == Q::angle && !s.axis && !built_.model.planar) {
-      throw InputError(spec_.where, fmt::format("sensor \"{}\": the angle needs an `axis` in a model "
-                                                "in space, for example [0, 0, 1]",
-                                                spec_.name));
+      throw InputError(spec_.where,
+                       fmt::format("sensor \"{}\": the angle needs an `axis` in a model "
+                                   "in space, for example [0, 0, 1]",
+                                   spec_.name));
     }
     return std::make_unique<RelativeSensor>(channel, s.quantity, place_.markers[0],
                                             place_.markers[1], axis);
@@ -369,10 +378,9 @@ class Maker {
   std::unique_ptr<Sensor> joint(const model::JointForceSensor& s, bool torque) const {
     const auto& joints = built_.model.joints;
     const auto& loads = built_.model.loads;
-    const Channel channel =
-        vector_channel(spec_.name, torque ? "N m" : "N",
-                       fmt::format("{} of joint {} on its second marker",
-                                   torque ? "torque" : "force", s.joint));
+    const Channel channel = vector_channel(
+        spec_.name, torque ? "N m" : "N",
+        fmt::format("{} of joint {} on its second marker", torque ? "torque" : "force", s.joint));
     for (std::size_t k = 0; k < joints.size(); ++k) {
       if (joints[k].name == s.joint) {
         return std::make_unique<JointSensor>(channel, static_cast<int>(k), -1, torque, axes(0));
@@ -386,9 +394,9 @@ class Maker {
     std::vector<std::string> names;
     for (const auto& j : joints) names.push_back(j.name);
     for (const auto& l : loads) names.push_back(l.name);
-    throw InputError(spec_.where, fmt::format("sensor \"{}\": there is no joint \"{}\".{}",
-                                              spec_.name, s.joint,
-                                              base::suggestion(s.joint, names)));
+    throw InputError(spec_.where,
+                     fmt::format("sensor \"{}\": there is no joint \"{}\".{}", spec_.name, s.joint,
+                                 base::suggestion(s.joint, names)));
   }
 
   const model::BuiltModel& built_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Dense>
@@ -7,10 +8,10 @@ namespace buckens::spatial {
 /// Position and velocity of one marker frame, all in world components: everything a joint or a
 /// load knows about the body behind it.
 struct MarkerMotion {
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();           ///< origin [m]
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();       ///< R_W,marker
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();           ///< angular velocity [rad/s]
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();           ///< velocity of the origin [m/s]
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin [m]
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_W,marker
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();      ///< angular velocity [rad/s]
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();      ///< velocity of the origin [m/s]
 };
 
 /// The part of a marker's acceleration that remains when the accelerations of the body's own

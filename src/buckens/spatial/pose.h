@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Dense>
@@ -6,8 +7,8 @@ namespace buckens::spatial {
 
 /// Pose X_AB: where frame B stands in A.
 struct Pose {
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();                      ///< origin of B in A [m]
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();            ///< R_AB
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();            ///< origin of B in A [m]
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  ///< R_AB
 
   Eigen::Matrix3d R() const { return q.toRotationMatrix(); }
 

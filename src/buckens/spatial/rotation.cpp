@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/spatial/rotation.h"
 
 #include <cmath>
@@ -13,8 +14,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& x) {
 Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& psi) {
   const double angle = psi.norm();
   // sin(a/2)/a by its series where the quotient would lose digits.
-  const double s =
-      angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
+  const double s = angle < 1e-4 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
   Eigen::Quaterniond q(std::cos(0.5 * angle), s * psi.x(), s * psi.y(), s * psi.z());
   q.normalize();
   return q;

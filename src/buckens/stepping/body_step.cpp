@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step.h"
 
 #include "buckens/spatial/rotation.h"
@@ -25,8 +26,7 @@ void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
                      const Scheme& scheme) {
   before = state.frame;
   frame = scheme.history<Vector6>(stack(state.frame.w, state.frame.v),
-                                  stack(state.w_dot, state.v_dot),
-                                  stack(state.w_alg, state.v_alg));
+                                  stack(state.w_dot, state.v_dot), stack(state.w_alg, state.v_alg));
   u = frame.predicted;
   correction.setZero();
   if (op == nullptr) return;

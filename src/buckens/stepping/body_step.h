@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/dynamics/system_kinematics.h"
@@ -18,16 +19,16 @@ struct BodyStep {
   History<Vector6> frame;
   Vector6 u = Vector6::Zero();
   Vector6 correction = Vector6::Zero();
-  body::DeformedMoments moments;                       ///< taken as given by the small Newton
-  Eigen::Matrix<double, 6, 6> compliance;              ///< W⁻¹ of the frame
-  Vector6 centrifugal = Vector6::Zero();               ///< weights at the evaluation instant
+  body::DeformedMoments moments;           ///< taken as given by the small Newton
+  Eigen::Matrix<double, 6, 6> compliance;  ///< W⁻¹ of the frame
+  Vector6 centrifugal = Vector6::Zero();   ///< weights at the evaluation instant
 
-  Eigen::VectorXd y_before;                            ///< interface values at the start
+  Eigen::VectorXd y_before;  ///< interface values at the start
   History<Eigen::VectorXd> y;
-  Eigen::VectorXd y_free;                              ///< at the end, without interface loads
-  Eigen::VectorXd y_end;                               ///< at the end, without correction
-  Eigen::VectorXd load;                                ///< f at the evaluation instant
-  Eigen::VectorXd correction_load;                     ///< e
+  Eigen::VectorXd y_free;           ///< at the end, without interface loads
+  Eigen::VectorXd y_end;            ///< at the end, without correction
+  Eigen::VectorXd load;             ///< f at the evaluation instant
+  Eigen::VectorXd correction_load;  ///< e
 
   /// Prepares everything but the free response.
   void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme);

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step_operator.h"
+
+#include <cmath>
 
 namespace buckens::stepping {
 
@@ -50,9 +53,8 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   NGc_ = N_ * Gc_;
 }
 
-void BodyStepOperator::free_response(const model::BodyState& before,
-                                     const History<Vector>& history, const Vector& load,
-                                     Vector& free) {
+void BodyStepOperator::free_response(const model::BodyState& before, const History<Vector>& history,
+                                     const Vector& load, Vector& free) {
   // K̂ x_e = c θ F + M (m x − cθ ẍ₀) + C (d x − cθ ẋ₀), x⁺ = x + (x_e − x)/θ.
   const double c_theta = scheme_.force * scheme_.weight;
   scratch_ = scheme_.mass * before.d - c_theta * history.acceleration;
@@ -77,6 +79,20 @@ void BodyStepOperator::complete(const Vector& interface_load,
     x.noalias() += Gc_ * (scheme_.force * centrifugal);
   }
   if (!correction.isZero(0.0)) x.noalias() += D_ * correction;
+}
+
+double BodyStepOperator::lowest_excited_frequency() {
+  if (G_.cols() == 0) return 0.0;
+  Vector x = G_.rowwise().sum();
+  if (x.isZero(0.0)) return 0.0;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    x = part_->fe.M * (x / x.norm());
+    factor_.solve_in_place(x);
+    part_->sieve.apply(x);
+    ++setup_solves_;
+  }
+  const double kinetic = x.dot(part_->fe.M * x);
+  return kinetic > 0.0 ? std::sqrt(x.dot(part_->fe.K * x) / kinetic) : 0.0;
 }
 
 }  // namespace buckens::stepping

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <string>
+
+#include <Eigen/Dense>
 
 namespace buckens::stepping {
 
@@ -12,7 +14,8 @@ std::string to_string(Method method);
 
 /// What one coordinate x with rate ẋ knows about the coming step. With Δ the unknown increment:
 ///
-///     x⁺ = x + Δ,   ẋ⁺ = s₁ Δ + velocity,   ẍ_e = s₂ Δ + acceleration,   ẋ_e = s_e Δ + mean_velocity
+///     x⁺ = x + Δ,   ẋ⁺ = s₁ Δ + velocity,   ẍ_e = s₂ Δ + acceleration,   ẋ_e = s_e Δ +
+///     mean_velocity
 ///
 /// Index e marks the instant at which the equations of motion are satisfied.
 template <class V>
@@ -25,10 +28,10 @@ struct History {
 
 /// Coefficients of one step of length h.
 ///
-/// `newmark` is FM (37): average acceleration (β = 1/4, γ = 1/2) with all forces taken as means over the
-/// step; equations hold at t + h/2. `generalized_alpha` is the method of Chung and Hulbert in the form
-/// of Arnold and Brüls (2007), with algorithmic accelerations; equations hold at t + h. Both lead to
-/// the constant matrix  K̂ = mass·M + damping·C + stiffness·K.
+/// `newmark` is FM (37): average acceleration (β = 1/4, γ = 1/2) with all forces taken as means
+/// over the step; equations hold at t + h/2. `generalized_alpha` is the method of Chung and Hulbert
+/// in the form of Arnold and Brüls (2007), with algorithmic accelerations; equations hold at t + h.
+/// Both lead to the constant matrix  K̂ = mass·M + damping·C + stiffness·K.
 class Scheme {
  public:
   /// @param h step [s] > 0

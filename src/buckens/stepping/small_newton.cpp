@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/small_newton.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/frame_equation.h"
@@ -29,8 +30,8 @@ Matrix3d restricted_inverse(const Matrix3d& W,
 Eigen::Matrix<double, 6, 6> frame_compliance(const body::Body& body, const BodyStep& step,
                                              const Scheme& scheme, const Eigen::Vector3d& w) {
   Eigen::Matrix<double, 6, 6> out = Eigen::Matrix<double, 6, 6>::Zero();
-  const Matrix3d W = scheme.mass * step.moments.J +
-                     scheme.damping * dynamics::gyroscopic_tangent(step.moments, w);
+  const Matrix3d W =
+      scheme.mass * step.moments.J + scheme.damping * dynamics::gyroscopic_tangent(step.moments, w);
   out.topLeftCorner<3, 3>() = restricted_inverse(W, body.rotation_basis);
   out.bottomRightCorner<3, 3>() =
       body.translation_basis * body.translation_basis.transpose() / (scheme.mass * body.mass);
@@ -286,7 +287,8 @@ void SmallNewton::fail(double t, const StepReport& report, const char* what) con
     joint = fmt::format("joint \"{}\"", owner->name);
   }
   throw NumericalError(fmt::format(
-      "step at t = {:.6g} s failed after {} iterations: {} (worst at {}, |g| = {:.3g}); use a smaller "
+      "step at t = {:.6g} s failed after {} iterations: {} (worst at {}, |g| = {:.3g}); use a "
+      "smaller "
       "step than {:.3g} s, or look for a lock-up or a dead centre of the mechanism there",
       t, report.newton_iterations, what, joint, report.position_residual, scheme_.h));
 }

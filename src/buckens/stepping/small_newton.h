@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -12,9 +13,10 @@ namespace buckens::stepping {
 
 /// The iteration of one step in frame coordinates, interface values and multipliers only.
 ///
-/// Flexible bodies enter by their interface compliance, FM (42); no n-sized vector is touched. Position
-/// and velocity rows of the joints are closed together: the multipliers λ close the velocities, a
-/// correction q ← q + W⁻¹Gᵀη without velocity closes the positions (stabilised index 2).
+/// Flexible bodies enter by their interface compliance, FM (42); no n-sized vector is touched.
+/// Position and velocity rows of the joints are closed together: the multipliers λ close the
+/// velocities, a correction q ← q + W⁻¹Gᵀη without velocity closes the positions (stabilised index
+/// 2).
 ///
 /// Directions of the correction and the matrix of the iteration are those at the predicted
 /// configuration. Residuals are exact, so the result does not depend on the approximation.
@@ -31,8 +33,7 @@ class SmallNewton {
   /// Iterates until the motion no longer changes.
   /// @param lambda first guess and result [N, N m]
   /// @throws NumericalError with the joint that resists, if it does not converge
-  void iterate(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda,
-               StepReport& report);
+  void iterate(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
 
   /// Forces at the evaluation instant of the last iteration.
   const dynamics::Forces& forces() const { return forces_; }
@@ -70,10 +71,10 @@ class SmallNewton {
   std::vector<double> soft_stiffness_share_;                 // k θ / k_eff
   std::vector<dynamics::BodyCompliance> compliance_;
 
-  std::vector<Vector6> residual_frame_;          // −W⁻¹ c r
-  std::vector<Eigen::VectorXd> residual_y_;      // change of y_end at fixed λ
+  std::vector<Vector6> residual_frame_;      // −W⁻¹ c r
+  std::vector<Eigen::VectorXd> residual_y_;  // change of y_end at fixed λ
   std::vector<dynamics::BodyResponse> correction_, response_;
-  std::vector<Vector6> correction_u_;            // W⁻¹ Gᵀ E
+  std::vector<Vector6> correction_u_;  // W⁻¹ Gᵀ E
   linalg::Vector E_, X_;
 };
 

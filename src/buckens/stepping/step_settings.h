@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "buckens/stepping/scheme.h"
@@ -7,11 +8,11 @@ namespace buckens::stepping {
 /// How one step is taken.
 struct StepSettings {
   Method method = Method::generalized_alpha;
-  double step = 1e-3;                ///< h [s]
-  double rho_inf = 0.9;              ///< numerical damping of generalised-α
-  bool position_projection = true;   ///< Newmark: project positions after the velocity-level step
-  double newton_tolerance = 1e-10;   ///< change of positions relative to the step's motion
-  double outer_tolerance = 1e-6;     ///< relative change of the coupling load
+  double step = 1e-3;               ///< h [s]
+  double rho_inf = 0.9;             ///< numerical damping of generalised-α
+  bool position_projection = true;  ///< Newmark: project positions after the velocity-level step
+  double newton_tolerance = 1e-10;  ///< change of positions relative to the step's motion
+  double outer_tolerance = 1e-6;    ///< relative change of the coupling load
   int max_newton = 40;
   int max_outer = 30;
 };
@@ -19,11 +20,11 @@ struct StepSettings {
 /// What one step took and how well it closed.
 struct StepReport {
   int newton_iterations = 0;
-  int large_solve_rounds = 0;      ///< 1: one large solve per flexible body
-  double position_residual = 0;    ///< max |g| [m] or [-]
-  double velocity_residual = 0;    ///< max |ġ|
-  int worst_row = -1;              ///< of λ, where |g| is largest
-  double coupling_change = 0;      ///< last relative change of the coupling load
+  int large_solve_rounds = 0;    ///< 1: one large solve per flexible body
+  double position_residual = 0;  ///< max |g| [m] or [-]
+  double velocity_residual = 0;  ///< max |ġ|
+  int worst_row = -1;            ///< of λ, where |g| is largest
+  double coupling_change = 0;    ///< last relative change of the coupling load
 };
 
 }  // namespace buckens::stepping

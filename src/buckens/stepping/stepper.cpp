@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/stepper.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/coupling_terms.h"
@@ -23,7 +24,8 @@ constexpr double kCouplingRounding = 1e-9;
 
 /// The n-sized share of one flexible body in a step.
 struct Stepper::Large {
-  explicit Large(const BodyStepOperator& op) : inverse_diagonal(op.K_hat().diagonal().cwiseInverse()) {}
+  explicit Large(const BodyStepOperator& op)
+      : inverse_diagonal(op.K_hat().diagonal().cwiseInverse()) {}
 
   History<Vector> history;
   model::Coupling used;       // what the step was computed with
@@ -34,9 +36,7 @@ struct Stepper::Large {
   Vector inverse_diagonal;    // of K̂: measures loads
   bool load_changed = true;
 
-  Vector rate(const Scheme& scheme) const {
-    return scheme.end_rate * increment + history.velocity;
-  }
+  Vector rate(const Scheme& scheme) const { return scheme.end_rate * increment + history.velocity; }
   Vector acceleration(const Scheme& scheme) const {
     return scheme.acceleration_rate * increment + history.acceleration;
   }
@@ -130,8 +130,8 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
                            ? large.d_end
                            : Vector(state.bodies[b].d + scheme_.weight * large.increment);
     const Vector d_dot = scheme_.mean_rate * large.increment + large.history.mean_velocity;
-    large.evaluated = dynamics::evaluate_coupling(body, d_e, d_dot, large.acceleration(scheme_), w,
-                                                  w_dot);
+    large.evaluated =
+        dynamics::evaluate_coupling(body, d_e, d_dot, large.acceleration(scheme_), w, w_dot);
 
     const Vector undeformed = body.flexible->invariants.centrifugal_patterns() *
                               body::InertiaInvariants::centrifugal_weights(w);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <memory>
@@ -19,9 +20,10 @@ struct SolveCounts {
 
 /// Advances a mechanism by steps of one length with one factorisation per flexible body.
 ///
-/// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the small
-/// Newton in frame coordinates and λ; a thin product to complete the nodal variables; inertial
-/// coupling evaluated there, with a further solve if it changed by more than the outer tolerance.
+/// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the
+/// small Newton in frame coordinates and λ; a thin product to complete the nodal variables;
+/// inertial coupling evaluated there, with a further solve if it changed by more than the outer
+/// tolerance.
 class Stepper {
  public:
   /// Factorises. @param rows_in_use independent joint rows
@@ -34,6 +36,9 @@ class Stepper {
 
   SolveCounts counts(std::size_t body) const;
   const Scheme& scheme() const { return scheme_; }
+  /// Estimate of the lowest elastic ω that interface loads of a body excite [rad/s], 0 for rigid
+  /// bodies; see BodyStepOperator.
+  double lowest_excited_frequency(std::size_t body);
 
  private:
   struct Large;  // n-sized vectors of one flexible body

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "buckens/model/model_builder.h"
+#include "buckens/results/run_summary.h"
+#include "buckens/stepping/stepper.h"
+
+namespace buckens::analysis {
+
+/// Collects what the summary of a run reports.
+class RunStatistics {
+ public:
+  explicit RunStatistics(const model::BuiltModel& built);
+
+  void add_step(const stepping::StepReport& report);
+  /// At each record: residual of the sieve, rotations inside bodies, energy error.
+  /// @param balance E − E₀ − W + D [J], @param scale energy against which it counts [J]
+  void add_record(const model::State& state, double balance, double scale);
+
+  /// Fills counts, residuals, energy error and trust.
+  void fill(const stepping::Stepper& stepper, results::RunSummary& summary) const;
+
+ private:
+  const model::BuiltModel& built_;
+  long steps_ = 0;
+  long iterations_ = 0;
+  long most_iterations_ = 0;
+  long repeated_solves_ = 0;  // steps with more than one large solve
+  results::Residuals residuals_;
+  double energy_error_ = 0;
+  std::vector<double> largest_rotation_;  // per body, relative to its frame [rad]
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulate.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "buckens/analysis/prepare.h"
+#include "buckens/analysis/run_statistics.h"
+#include "buckens/analysis/step_advice.h"
+#include "buckens/analysis/work_account.h"
+#include "buckens/base/errors.h"
+#include "buckens/base/version.h"
+#include "buckens/results/recorder.h"
+#include "buckens/results/state_interpolation.h"
+#include "buckens/stepping/stepper.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+// About this many records where the model file does not say `every`.
+constexpr double kDefaultRecords = 500;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+stepping::StepSettings step_settings(const model::SimulationSpec& spec, long steps) {
+  stepping::StepSettings settings;
+  settings.method = spec.method == model::IntegrationMethod::newmark
+                        ? stepping::Method::newmark
+                        : stepping::Method::generalized_alpha;
+  settings.step = spec.duration / static_cast<double>(steps);
+  settings.rho_inf = spec.rho_inf;
+  settings.position_projection = spec.projection;
+  settings.newton_tolerance = spec.newton_tolerance;
+  settings.outer_tolerance = spec.outer_tolerance;
+  settings.max_newton = spec.max_iterations;
+  settings.max_outer = spec.max_outer_iterations;
+  return settings;
+}
+
+/// One run from start to end.
+class Simulation {
+ public:
+  Simulation(const model::BuiltModel& built, results::RecordSink& sink,
+             const SimulationOptions& options)
+      : built_(built), sink_(sink), options_(options), spec_(*built.description.simulation) {}
+
+  results::RunSummary run() {
+    const auto start = std::chrono::steady_clock::now();
+    set_up();
+    summary_.wall_seconds.setup = seconds_since(start);
+    const auto stepping_start = std::chrono::steady_clock::now();
+    std::exception_ptr failure;
+    try {
+      write_record(prepared_->state);
+      take_steps();
+    } catch (const NumericalError& error) {
+      summary_.interrupted = error.what();
+      failure = std::current_exception();
+    }
+    summary_.wall_seconds.stepping = seconds_since(stepping_start);
+    summary_.wall_seconds.total = seconds_since(start);
+    summary_.wall_seconds.phases.emplace_back("recording", recording_seconds_);
+    summary_.wall_seconds.phases.emplace_back("steps",
+                                              summary_.wall_seconds.stepping - recording_seconds_);
+    summary_.end_time = prepared_->state.t;
+    statistics_->fill(*stepper_, summary_);
+    sink_.finish(summary_);
+    if (failure) std::rethrow_exception(failure);
+    return summary_;
+  }
+
+ private:
+  void set_up() {
+    summary_.title = built_.model.title;
+    summary_.version = kVersion;
+    metric_.emplace(built_.model);
+    prepared_.emplace(prepare(built_, *metric_));
+    // The step is adjusted once so that a whole number of them fits the duration.
+    steps_ = std::max(1L, std::lround(std::ceil(spec_.duration / spec_.step - 1e-9)));
+    stepper_.emplace(built_.model, step_settings(spec_, steps_), prepared_->rows_in_use);
+    every_ = built_.description.output.every.value_or(
+        std::max(spec_.duration / kDefaultRecords, stepper_->scheme().h));
+    recorder_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
+    work_.emplace(built_.model, prepared_->state);
+    statistics_.emplace(built_);
+    summary_.redundant_constraints = prepared_->redundant_text;
+    summary_.warnings = prepared_->notes;
+    for (std::string& advice : judge_step(built_.model, *stepper_)) {
+      summary_.warnings.push_back(std::move(advice));
+    }
+    sink_.begin(recorder_->layout(), recorder_->geometry());
+  }
+
+  void take_steps() {
+    model::State& state = prepared_->state;
+    const double h = stepper_->scheme().h;
+    if (!report_progress(0)) return;
+    for (long step = 1; step <= steps_; ++step) {
+      model::State before = state;
+      statistics_->add_step(stepper_->step(state));
+      // Counting avoids the drift of summed steps.
+      state.t = step == steps_ ? spec_.duration : static_cast<double>(step) * h;
+      work_->add(state);
+      write_records(before, step == steps_);
+      if (!report_progress(step) && step < steps_) return;
+    }
+    summary_.finished = true;
+    summary_.interrupted.clear();
+  }
+
+  bool report_progress(long step) {
+    if (!options_.on_progress) return true;
+    const bool go_on = options_.on_progress({prepared_->state.t, spec_.duration, step, steps_});
+    if (!go_on) summary_.interrupted = options_.stop_reason;
+    return go_on;
+  }
+
+  /// Records due between two states, interpolated where steps do not fall on them.
+  void write_records(const model::State& before, bool is_last) {
+    const model::State& after = prepared_->state;
+    const double near = 1e-6 * stepper_->scheme().h;
+    for (; next_record() <= after.t + near; ++records_) {
+      const double t = next_record();
+      if (std::abs(t - after.t) <= near) {
+        model::State state = after;
+        state.lambda = results::multipliers_at(before, after, after.t);
+        write_record(state);
+      } else {
+        write_record(results::interpolate(before, after, t));
+      }
+    }
+    if (is_last && last_written_ < after.t - near) {
+      model::State state = after;
+      state.lambda = results::multipliers_at(before, after, after.t);
+      write_record(state);
+    }
+  }
+
+  double next_record() const { return static_cast<double>(records_) * every_; }
+
+  void write_record(const model::State& state) {
+    const auto start = std::chrono::steady_clock::now();
+    const results::Record record = recorder_->record(state, work_->work());
+    const dynamics::Energy& e = recorder_->last_energy();
+    const double scale = std::max(e.kinetic + e.strain + e.springs, work_->turnover());
+    statistics_->add_record(state, recorder_->last_balance(), scale);
+    sink_.write(record);
+    last_written_ = state.t;
+    recording_seconds_ += seconds_since(start);
+  }
+
+  const model::BuiltModel& built_;
+  results::RecordSink& sink_;
+  const SimulationOptions& options_;
+  const model::SimulationSpec& spec_;
+  std::optional<dynamics::MassMetric> metric_;
+  std::optional<Prepared> prepared_;
+  std::optional<stepping::Stepper> stepper_;
+  std::optional<results::Recorder> recorder_;
+  std::optional<WorkAccount> work_;
+  std::optional<RunStatistics> statistics_;
+  results::RunSummary summary_;
+  long steps_ = 0;
+  double every_ = 0;
+  long records_ = 1;  // the state at t = 0 is written before the first step
+  double last_written_ = 0;
+  double recording_seconds_ = 0;
+};
+
+}  // namespace
+
+results::RunSummary simulate(const model::BuiltModel& built, results::RecordSink& sink,
+                             const SimulationOptions& options) {
+  if (!built.description.simulation) {
+    throw InputError(built.description.where,
+                     "there is nothing to run: the model has no `simulation:`; add for example "
+                     "`simulation: {duration: 1 s, step: 1 ms}`");
+  }
+  return Simulation(built, sink, options).run();
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/fem/recovery.h"
+#include "buckens/model/model_builder.h"
+#include "buckens/results/record_sink.h"
+#include "buckens/results/sensor.h"
+
+namespace buckens::results {
+
+/// Turns states into records: poses, nodal displacements, section forces, stresses, joint forces,
+/// energies and all sensors of the model file.
+class Recorder {
+ public:
+  /// @param metric and has_redundant_joints: joint forces of redundant joints are shared out so
+  ///        that their norm is least
+  Recorder(const model::BuiltModel& built, const dynamics::MassMetric& metric,
+           bool has_redundant_joints);
+  ~Recorder();
+
+  const RecordLayout& layout() const { return layout_; }
+  Geometry geometry() const;
+
+  /// The record of a state. The first call fixes what sensors count from (t = 0).
+  /// Cost: a product with M, K and the recovery rows per flexible body.
+  /// @param work balance is filled in here
+  Record record(const model::State& state, WorkBalance work);
+
+  /// Energies of the last record.
+  const dynamics::Energy& last_energy() const { return energy_; }
+  double last_balance() const { return balance_; }
+
+ private:
+  void add_channels();
+  void append_bodies(const Observation& now, std::vector<double>& values) const;
+
+  const model::BuiltModel& built_;
+  const dynamics::MassMetric& metric_;
+  bool has_redundant_joints_;
+  RecordLayout layout_;
+  std::vector<std::unique_ptr<fem::Recovery>> recoveries_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+  bool started_ = false;
+  double first_energy_ = 0;
+  dynamics::Energy energy_;
+  double balance_ = 0;
+};
+
+}  // namespace buckens::results
