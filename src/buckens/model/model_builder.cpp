@@ -15,6 +15,7 @@
 #include "buckens/loads/bushing.h"
 #include "buckens/loads/spring_damper.h"
 #include "buckens/model/marker_table.h"
+#include "buckens/model/mesh_mechanism.h"
 
 namespace buckens::model {
 
@@ -79,7 +80,11 @@ class Builder {
       try {
         add_body(b, specs[b]);
       } catch (const ModelError& error) {
-        throw error.where().empty() ? ModelError(specs[b].where, error.what()) : error;
+        if (!error.where().empty()) throw;
+        const std::string what = error.what();
+        const bool is_named = what.find('"' + specs[b].name + '"') != std::string::npos;
+        throw ModelError(specs[b].where,
+                         is_named ? what : fmt::format("body \"{}\": {}", specs[b].name, what));
       }
     }
   }

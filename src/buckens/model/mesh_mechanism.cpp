@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/mesh_mechanism.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/body/free_modes.h"
+#include "buckens/fem/recovery.h"
+
+namespace buckens::model {
+
+namespace {
+// Share of the stiffness scale |K|/|M| below which a vibration has none: rounding stays near 1e-16,
+// the slackest sensible truss above 1e-9.
+constexpr double kNoStiffness = 1e-12;
+}  // namespace
+
+void refuse_mechanisms(const body::Body& body) {
+  const fem::FeModel& fe = body.flexible->fe;
+  const auto lines = fem::line_elements(fe);
+  if (std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.bends; })) return;
+  const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), 1);
+  if (modes.omega.size() == 0) return;
+  const double scale = fe.K.diagonal().maxCoeff() / fe.M.diagonal().maxCoeff();
+  if (modes.omega[0] * modes.omega[0] > kNoStiffness * scale) return;
+  Eigen::Index dof = 0;
+  modes.shapes.col(0).cwiseAbs().maxCoeff(&dof);
+  std::string node = "a node";
+  for (std::size_t k = 0; k < fe.nodes.size(); ++k) {
+    const auto& dofs = fe.dofs.node_dofs[k];
+    if (std::find(dofs.begin(), dofs.end(), static_cast<int>(dof)) == dofs.end()) continue;
+    node = fe.nodes[k].name.empty() ? fmt::format("node {}", k)
+                                    : fmt::format("node \"{}\"", fe.nodes[k].name);
+  }
+  throw ModelError(fmt::format(
+      "body \"{}\" is a mechanism in itself: {} can move without straining its bars; add bars or "
+      "beams that hold it, or make separate bodies with joints",
+      body.name, node));
+}
+
+}  // namespace buckens::model
