@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/prepare.h"
+#include "buckens/io/model_file.h"
+#include "buckens/stepping/stepper.h"
+
+namespace buckens::bench {
+
+/// A mechanism that has been assembled and can be stepped.
+struct Running {
+  std::unique_ptr<model::BuiltModel> built;
+  std::unique_ptr<dynamics::MassMetric> metric;
+  analysis::Prepared prepared;
+  std::unique_ptr<stepping::Stepper> stepper;
+};
+
+inline Running start(const std::string& text, double step) {
+  Running run;
+  run.built = model::build_model(io::read_model_text(text, "bench.yaml", {}));
+  run.metric = std::make_unique<dynamics::MassMetric>(run.built->model);
+  run.prepared = analysis::prepare(*run.built, *run.metric);
+  stepping::StepSettings settings;
+  settings.step = step;
+  run.stepper = std::make_unique<stepping::Stepper>(run.built->model, settings,
+                                                    run.prepared.rows_in_use);
+  return run;
+}
+
+/// Steel beam of 1 m in space on a ball joint, falling from the horizontal.
+inline std::string beam_pendulum(int elements, const char* coupling) {
+  return fmt::format(R"(buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  rod:
+    beam: {{to: [1, 0, 0], elements: {}, section: {{circle: {{diameter: 20 mm}}}},
+           material: {{E: 200 GPa, nu: 0.3, rho: 7850}}}}
+    coupling: {}
+joints:
+  pin: {{spherical: {{between: [ground, rod/start]}}}}
+)",
+                     elements, coupling);
+}
+
+/// Rigid links in space, each on a revolute joint, starting horizontally.
+inline std::string rigid_chain(int links) {
+  std::string text = "buckens: 1\ngravity: [0, -9.81, 0]\nbodies:\n";
+  for (int k = 0; k < links; ++k) {
+    text += fmt::format(
+        "  link{0}:\n"
+        "    rigid: {{mass: 1, com: [0.05, 0, 0], inertia: [1e-4, 1e-3, 1e-3]}}\n"
+        "    markers: {{a: {{position: [0, 0, 0]}}, b: {{position: [0.1, 0, 0]}}}}\n"
+        "    at: {{position: [{1}, 0, 0]}}\n",
+        k, 0.1 * k);
+  }
+  text += "joints:\n";
+  for (int k = 0; k < links; ++k) {
+    const std::string before = k == 0 ? "ground" : fmt::format("link{}/b", k - 1);
+    text += fmt::format("  j{0}: {{revolute: {{between: [{1}, link{0}/a], axis: [0, 0, 1]}}}}\n", k,
+                        before);
+  }
+  return text;
+}
+
+}  // namespace buckens::bench

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Step time of beam bodies against one solve with the same factor, and of rigid chains. Quote ratios
+// of one run: the machines that run this are shared.
+
+#include <benchmark/benchmark.h>
+
+#include "buckens/stepping/body_step_operator.h"
+#include "models.h"
+
+namespace {
+
+using buckens::bench::Running;
+
+constexpr double kStep = 1e-4;
+
+void beam_solve(benchmark::State& state) {
+  const Running run = buckens::bench::start(
+      buckens::bench::beam_pendulum(static_cast<int>(state.range(0)), "none"), kStep);
+  const auto& part = *run.built->model.bodies[0].flexible;
+  const buckens::linalg::SparseCholesky factor(
+      buckens::stepping::BodyStepOperator(part, run.stepper->scheme()).K_hat());
+  buckens::linalg::Vector x = buckens::linalg::Vector::Ones(part.num_dofs());
+  for (auto _ : state) {
+    factor.solve_in_place(x);
+    benchmark::DoNotOptimize(x.data());
+    x.normalize();
+  }
+  state.counters["dof"] = static_cast<double>(part.num_dofs());
+}
+
+void beam_step(benchmark::State& state, const char* coupling) {
+  Running run = buckens::bench::start(
+      buckens::bench::beam_pendulum(static_cast<int>(state.range(0)), coupling), kStep);
+  long iterations = 0;
+  for (auto _ : state) iterations += run.stepper->step(run.prepared.state).newton_iterations;
+  const double steps = static_cast<double>(state.iterations());
+  state.counters["dof"] = static_cast<double>(run.built->model.bodies[0].num_dofs());
+  state.counters["solves/step"] = static_cast<double>(run.stepper->counts(0).solves) / steps;
+  state.counters["newton/step"] = static_cast<double>(iterations) / steps;
+}
+
+void rigid_chain_step(benchmark::State& state) {
+  Running run =
+      buckens::bench::start(buckens::bench::rigid_chain(static_cast<int>(state.range(0))), kStep);
+  long iterations = 0;
+  for (auto _ : state) iterations += run.stepper->step(run.prepared.state).newton_iterations;
+  state.counters["newton/step"] =
+      static_cast<double>(iterations) / static_cast<double>(state.iterations());
+}
+
+// 16 … 5000 elements: 102 … 30 006 DOF.
+constexpr int kElements[] = {16, 50, 166, 500, 1666, 5000};
+
+void beam_sizes(benchmark::internal::Benchmark* bench) {
+  for (const int elements : kElements) bench->Arg(elements);
+  bench->Unit(benchmark::kMicrosecond);
+}
+
+BENCHMARK(beam_solve)->Apply(beam_sizes);
+BENCHMARK_CAPTURE(beam_step, none, "none")->Apply(beam_sizes);
+BENCHMARK_CAPTURE(beam_step, full, "full")->Apply(beam_sizes);
+BENCHMARK(rigid_chain_step)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
