@@ -255,6 +255,25 @@ TEST(RunDirectory, FullDiskAtTheStartIsSaidAtOnce) {
   }
 }
 
+/// Exit code of a line of Python with `f` an open results.h5 and `options` those of h5py.File.
+int exit_code_of_h5py(const std::filesystem::path& run, const std::string& options,
+                      const std::string& code) {
+  const std::string command = "/usr/bin/python3 -c \"import h5py, sys; f = h5py.File('" +
+                              (run / kResultsName).string() + "', 'r'" + options + "); sys.exit(" +
+                              code + ")\"";
+  return WEXITSTATUS(std::system(command.c_str()));
+}
+
+TEST(RunDirectory, FinishedResultsOpenLikeAnyHdf5File) {
+  const TemporaryDirectory directory;
+  write_run(directory / "out", 5);
+  EXPECT_EQ(exit_code_of_h5py(directory / "out", "",
+                              "0 if f['time'].attrs['unit'] == 's' and "
+                              "list(f['sensors/tip'].attrs['components']) == ['x', 'y', 'z'] and "
+                              "f['bodies/rod/displacement'].shape == (5, 3, 6) else 1"),
+            0);
+}
+
 /// The age rule, seen from another process: a few records, then silence.
 TEST(RunDirectory, RecordsReachTheFileWithoutFurtherCalls) {
   const TemporaryDirectory directory;
@@ -263,12 +282,9 @@ TEST(RunDirectory, RecordsReachTheFileWithoutFurtherCalls) {
   run.begin(layout, sample_geometry());
   for (std::size_t i = 0; i < 7; ++i) run.write(sample_record(i, layout.num_values()));
   std::this_thread::sleep_for(std::chrono::milliseconds(900));  // the promise is one second
-  const std::string read_with_h5py =
-      "/usr/bin/python3 -c \"import h5py, sys; f = h5py.File('" +
-      (directory / "out" / kResultsName).string() +
-      "', 'r', swmr=True); sys.exit(len(f['time']) + len(f['sensors/tip']))\"";
-  const int status = std::system(read_with_h5py.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 14);
+  EXPECT_EQ(
+      exit_code_of_h5py(directory / "out", ", swmr=True", "len(f['time']) + len(f['sensors/tip'])"),
+      14);
 }
 
 }  // namespace
