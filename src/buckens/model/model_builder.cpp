@@ -8,13 +8,11 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/base/nearest.h"
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/recovery.h"
-#include "buckens/loads/applied_load.h"
-#include "buckens/loads/bushing.h"
-#include "buckens/loads/spring_damper.h"
-#include "buckens/model/marker_table.h"
+#include "buckens/model/add_joint.h"
+#include "buckens/model/add_load.h"
+#include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_mechanism.h"
 
 namespace buckens::model {
@@ -26,14 +24,6 @@ namespace {
 
 // sin of the angle up to which a body counts as lying in the plane of a planar model.
 constexpr double kInPlane = 1e-6;
-
-joints::Placement placement_of(const spatial::Pose& first, const spatial::Pose& second) {
-  joints::Placement placement;
-  placement.R_WF = first.R();
-  placement.R_WM = second.R();
-  placement.r_F = placement.R_WF.transpose() * (second.p - first.p);
-  return placement;
-}
 
 class Builder {
  public:
@@ -49,10 +39,11 @@ class Builder {
     model_.planar = d.planar;
     check_gravity();
     add_bodies();
-    for (const joints::JointSpec& joint : d.joints) add_joint(joint);
-    for (const loads::LoadSpec& load : d.loads) add_load(load);
+    MarkerFinder find(model_, tables_);
+    for (const joints::JointSpec& joint : d.joints) add_joint(joint, find);
+    for (const loads::LoadSpec& load : d.loads) add_load(load, find);
     close_interfaces();
-    for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor);
+    for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor, find);
     add_remaining_markers();
     for (std::size_t b = 0; b < tables_.size(); ++b) {
       if (model_.bodies[b].is_flexible()) model_.bodies[b].flexible->rows = tables_[b]->rows();
@@ -128,203 +119,6 @@ class Builder {
     tables_.push_back(std::make_unique<MarkerTable>(spec, body, meshes_[b].get()));
   }
 
-  // ---- markers
-  MarkerId marker(const base::MarkerRef& ref, bool needs_mesh) {
-    MarkerId id;
-    id.text = ref.text;
-    if (ref.is_ground()) {
-      id.X_WF.p = ref.point.value_or(Vector3d::Zero());
-      return id;
-    }
-    id.body = model_.find_body(ref.body);
-    if (id.body == kGround) {
-      std::vector<std::string> names = {"ground"};
-      for (const body::Body& body : model_.bodies) names.push_back(body.name);
-      const std::string near = base::nearest(ref.body, names);
-      throw InputError(ref.where,
-                       fmt::format("there is no body \"{}\"{}; bodies: {}", ref.body,
-                                   near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near),
-                                   fmt::join(names, ", ")));
-    }
-    id.marker = tables_[static_cast<std::size_t>(id.body)]->find(ref, needs_mesh);
-    return id;
-  }
-
-  const body::Marker* on_body(const MarkerId& id) const {
-    if (id.body == kGround) return nullptr;
-    return &model_.bodies[static_cast<std::size_t>(id.body)]
-                .markers[static_cast<std::size_t>(id.marker)];
-  }
-
-  spatial::Pose placed(const MarkerId& id) const {
-    const body::Marker* marker = on_body(id);
-    return marker == nullptr ? id.X_WF
-                             : model_.placed[static_cast<std::size_t>(id.body)] * marker->X_BF;
-  }
-
-  void require_moment(const MarkerId& id, const std::string& what,
-                      const SourceLocation& where) const {
-    const body::Marker* marker = on_body(id);
-    if (marker == nullptr || marker->carries_moment()) return;
-    throw ModelError(where,
-                     fmt::format("{}: \"{}\" cannot carry a moment, bars have no rotations "
-                                 "there; use a spherical joint or a force, or make it a beam",
-                                 what, id.text));
-  }
-
-  void require_two_bodies(const MarkerId& first, const MarkerId& second, const std::string& what,
-                          const SourceLocation& where) const {
-    if (first.body != second.body) return;
-    throw ModelError(
-        where,
-        fmt::format("{} connects {} with itself; it needs two different bodies, or a "
-                    "body and the ground",
-                    what,
-                    first.body == kGround
-                        ? "the ground"
-                        : "body \"" +
-                              out_->description.bodies[static_cast<std::size_t>(first.body)].name +
-                              "\""));
-  }
-
-  // ---- joints
-  Vector3d axis_or_normal(const std::optional<Vector3d>& axis, const Matrix3d& R_WF,
-                          const std::string& what, const SourceLocation& where) const {
-    if (axis) return *axis;
-    if (model_.planar) return R_WF.transpose() * spatial::normal(*model_.planar);
-    throw InputError(where, what + " needs an `axis` in a model in space, for example [0, 0, 1]");
-  }
-
-  template <class Spec>
-  void add_rows(joints::JointType type, const Spec& kind, const joints::JointSpec& spec) {
-    const std::string what = fmt::format("joint \"{}\"", spec.name);
-    Joint joint;
-    joint.name = spec.name;
-    joint.type = type;
-    joint.first = marker(kind.between[0], true);
-    joint.second = marker(kind.between[1], true);
-    require_two_bodies(joint.first, joint.second, what, spec.where);
-    joints::Placement placement = placement_of(placed(joint.first), placed(joint.second));
-    placement.planar = model_.planar;
-    if constexpr (requires { kind.axis; }) {
-      placement.axis_F = axis_or_normal(kind.axis, placement.R_WF, what, spec.where);
-    }
-    if constexpr (requires { kind.angle; }) placement.law = kind.angle;
-    if constexpr (requires { kind.displacement; }) placement.law = kind.displacement;
-    try {
-      joint.axis_F = joints::unit_axis(placement);
-      joint.rows = joints::make_rows(type, placement);
-    } catch (const ModelError& error) {
-      throw ModelError(spec.where, fmt::format("{}: {}", what, error.what()));
-    }
-    for (const joints::ConstraintRow& row : joint.rows) {
-      if (row.kind() == joints::ConstraintRow::Kind::point_world) continue;
-      require_moment(joint.first, what, spec.where);
-      if (row.kind() == joints::ConstraintRow::Kind::direction) {
-        require_moment(joint.second, what, spec.where);
-      }
-    }
-    joint.first_row = model_.num_constraint_rows();
-    model_.joints.push_back(std::move(joint));
-  }
-
-  void add_bushing(const joints::BushingSpec& kind, const joints::JointSpec& spec) {
-    const std::string what = fmt::format("joint \"{}\"", spec.name);
-    Load load;
-    load.name = spec.name;
-    load.first = marker(kind.between[0], true);
-    load.second = marker(kind.between[1], true);
-    require_two_bodies(load.first, load.second, what, spec.where);
-    require_moment(load.first, what, spec.where);
-    require_moment(load.second, what, spec.where);
-    const joints::Placement p = placement_of(placed(load.first), placed(load.second));
-    load.element = std::make_unique<loads::Bushing>(
-        loads::Bushing::Coefficients{kind.stiffness, kind.rotational_stiffness, kind.damping,
-                                     kind.rotational_damping},
-        p.R_WF.transpose() * p.R_WM, p.r_F);
-    model_.loads.push_back(std::move(load));
-  }
-
-  void add_joint(const joints::JointSpec& spec) {
-    using joints::JointType;
-    struct Adder {
-      Builder& b;
-      const joints::JointSpec& spec;
-      void operator()(const joints::RevoluteSpec& k) { b.add_rows(JointType::revolute, k, spec); }
-      void operator()(const joints::SphericalSpec& k) { b.add_rows(JointType::spherical, k, spec); }
-      void operator()(const joints::PrismaticSpec& k) { b.add_rows(JointType::prismatic, k, spec); }
-      void operator()(const joints::FixedSpec& k) { b.add_rows(JointType::fixed, k, spec); }
-      void operator()(const joints::BushingSpec& k) { b.add_bushing(k, spec); }
-      void operator()(const joints::PrescribedRotationSpec& k) {
-        b.add_rows(JointType::prescribed_rotation, k, spec);
-      }
-      void operator()(const joints::PrescribedTranslationSpec& k) {
-        b.add_rows(JointType::prescribed_translation, k, spec);
-      }
-    };
-    std::visit(Adder{*this, spec}, spec.kind);
-  }
-
-  // ---- loads
-  template <class Spec>
-  void add_applied(const Spec& kind, loads::AppliedLoad::Kind what, Load& load,
-                   const SourceLocation& where) {
-    load.first = marker(kind.on, true);
-    if (load.first.body == kGround) {
-      throw ModelError(where, fmt::format("load \"{}\" acts on the ground, which does not move; "
-                                          "apply it to a body",
-                                          load.name));
-    }
-    const bool moment = what == loads::AppliedLoad::Kind::torque;
-    if (moment || kind.axes == loads::LoadAxes::following) {
-      require_moment(load.first, fmt::format("load \"{}\"", load.name), where);
-    }
-    load.element = std::make_unique<loads::AppliedLoad>(what,
-                                                        kind.axes == loads::LoadAxes::following
-                                                            ? loads::AppliedLoad::Axes::following
-                                                            : loads::AppliedLoad::Axes::fixed,
-                                                        kind.value);
-  }
-
-  void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {
-    load.first = marker(kind.between[0], true);
-    load.second = marker(kind.between[1], true);
-    require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
-    const double distance = (placed(load.second).p - placed(load.first).p).norm();
-    load.element = std::make_unique<loads::SpringDamper>(
-        kind.stiffness, kind.damping, kind.length.value_or(distance), kind.force);
-  }
-
-  void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,
-                     const SourceLocation& where) {
-    const std::string what = fmt::format("load \"{}\"", load.name);
-    load.first = marker(kind.between[0], true);
-    load.second = marker(kind.between[1], true);
-    require_two_bodies(load.first, load.second, what, where);
-    require_moment(load.first, what, where);
-    require_moment(load.second, what, where);
-    joints::Placement p = placement_of(placed(load.first), placed(load.second));
-    p.axis_F = axis_or_normal(kind.axis, p.R_WF, what, where);
-    load.element =
-        std::make_unique<loads::TorsionalSpring>(joints::unit_axis(p), p.R_WF.transpose() * p.R_WM,
-                                                 kind.stiffness, kind.damping, kind.angle);
-  }
-
-  void add_load(const loads::LoadSpec& spec) {
-    Load load;
-    load.name = spec.name;
-    if (const auto* force = std::get_if<loads::ForceSpec>(&spec.kind)) {
-      add_applied(*force, loads::AppliedLoad::Kind::force, load, spec.where);
-    } else if (const auto* torque = std::get_if<loads::TorqueSpec>(&spec.kind)) {
-      add_applied(*torque, loads::AppliedLoad::Kind::torque, load, spec.where);
-    } else if (const auto* spring = std::get_if<loads::SpringDamperSpec>(&spec.kind)) {
-      add_spring(*spring, load, spec.where);
-    } else {
-      add_torsional(std::get<loads::TorsionalSpringSpec>(spec.kind), load, spec.where);
-    }
-    model_.loads.push_back(std::move(load));
-  }
-
   void close_interfaces() {
     for (std::size_t b = 0; b < tables_.size(); ++b) {
       if (model_.bodies[b].is_flexible()) {
@@ -334,15 +128,15 @@ class Builder {
   }
 
   // ---- sensors and drawing
-  void add_sensor(const SensorSpec& spec) {
+  void add_sensor(const SensorSpec& spec, MarkerFinder& find) {
     SensorPlace found;
     const auto look = [&](const base::MarkerRef& ref) {
-      found.markers.push_back(marker(ref, false));
+      found.markers.push_back(find.marker(ref, false));
     };
     std::visit(
         [&](const auto& kind) {
           if constexpr (requires { kind.element; }) {
-            find_section(kind, found);
+            find_section(kind, find, found);
             return;
           }
           if constexpr (requires { kind.between; }) {
@@ -367,8 +161,8 @@ class Builder {
     out_->sensors.push_back(std::move(found));
   }
 
-  void find_section(const SectionPlace& kind, SensorPlace& found) {
-    found.body = marker(kind.of, false).body;
+  void find_section(const SectionPlace& kind, MarkerFinder& find, SensorPlace& found) {
+    found.body = find.marker(kind.of, false).body;
     if (found.body == kGround || !model_.bodies[static_cast<std::size_t>(found.body)].flexible) {
       throw ModelError(kind.of.where,
                        fmt::format("\"{}\" is not on a flexible body; section forces "

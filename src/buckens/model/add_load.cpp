@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/add_load.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/applied_load.h"
+#include "buckens/loads/spring_damper.h"
+
+namespace buckens::model {
+
+namespace {
+
+class LoadBuilder {
+ public:
+  explicit LoadBuilder(MarkerFinder& find) : find_(find) {}
+
+  void add(const loads::LoadSpec& spec) {
+    Load load;
+    load.name = spec.name;
+    if (const auto* force = std::get_if<loads::ForceSpec>(&spec.kind)) {
+      add_applied(*force, loads::AppliedLoad::Kind::force, load, spec.where);
+    } else if (const auto* torque = std::get_if<loads::TorqueSpec>(&spec.kind)) {
+      add_applied(*torque, loads::AppliedLoad::Kind::torque, load, spec.where);
+    } else if (const auto* spring = std::get_if<loads::SpringDamperSpec>(&spec.kind)) {
+      add_spring(*spring, load, spec.where);
+    } else {
+      add_torsional(std::get<loads::TorsionalSpringSpec>(spec.kind), load, spec.where);
+    }
+    find_.model().loads.push_back(std::move(load));
+  }
+
+ private:
+  template <class Spec>
+  void add_applied(const Spec& kind, loads::AppliedLoad::Kind what, Load& load,
+                   const SourceLocation& where) {
+    load.first = find_.marker(kind.on, true);
+    if (load.first.body == kGround) {
+      throw ModelError(where, fmt::format("load \"{}\" acts on the ground, which does not move; "
+                                          "apply it to a body",
+                                          load.name));
+    }
+    const bool moment = what == loads::AppliedLoad::Kind::torque;
+    if (moment || kind.axes == loads::LoadAxes::following) {
+      find_.require_moment(load.first, fmt::format("load \"{}\"", load.name), where);
+    }
+    load.element = std::make_unique<loads::AppliedLoad>(what,
+                                                        kind.axes == loads::LoadAxes::following
+                                                            ? loads::AppliedLoad::Axes::following
+                                                            : loads::AppliedLoad::Axes::fixed,
+                                                        kind.value);
+  }
+
+  void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {
+    load.first = find_.marker(kind.between[0], true);
+    load.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
+    const double distance = (find_.placed(load.second).p - find_.placed(load.first).p).norm();
+    load.element = std::make_unique<loads::SpringDamper>(
+        kind.stiffness, kind.damping, kind.length.value_or(distance), kind.force);
+  }
+
+  void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,
+                     const SourceLocation& where) {
+    const std::string what = fmt::format("load \"{}\"", load.name);
+    load.first = find_.marker(kind.between[0], true);
+    load.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(load.first, load.second, what, where);
+    find_.require_moment(load.first, what, where);
+    find_.require_moment(load.second, what, where);
+    joints::Placement p = find_.placement(load.first, load.second);
+    p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
+    load.element =
+        std::make_unique<loads::TorsionalSpring>(joints::unit_axis(p), p.R_WF.transpose() * p.R_WM,
+                                                 kind.stiffness, kind.damping, kind.angle);
+  }
+
+  MarkerFinder& find_;
+};
+
+}  // namespace
+
+void add_load(const loads::LoadSpec& spec, MarkerFinder& find) { LoadBuilder(find).add(spec); }
+
+}  // namespace buckens::model

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/loads/load_spec.h"
+#include "buckens/model/marker_finder.h"
+
+namespace buckens::model {
+
+/// Adds a load of the model file to the model under construction.
+/// @throws InputError, ModelError naming the load and its place in the file
+void add_load(const loads::LoadSpec& spec, MarkerFinder& find);
+
+}  // namespace buckens::model

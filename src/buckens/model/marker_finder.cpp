@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/marker_finder.h"
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+
+namespace buckens::model {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+MarkerId MarkerFinder::marker(const base::MarkerRef& ref, bool needs_mesh) {
+  MarkerId id;
+  id.text = ref.text;
+  if (ref.is_ground()) {
+    id.X_WF.p = ref.point.value_or(Vector3d::Zero());
+    return id;
+  }
+  id.body = model_.find_body(ref.body);
+  if (id.body == kGround) {
+    std::vector<std::string> names = {"ground"};
+    for (const body::Body& body : model_.bodies) names.push_back(body.name);
+    throw InputError(ref.where, fmt::format("there is no body \"{}\".{}", ref.body,
+                                            base::suggestion(ref.body, names)));
+  }
+  id.marker = tables_[static_cast<std::size_t>(id.body)]->find(ref, needs_mesh);
+  return id;
+}
+
+const body::Marker* MarkerFinder::on_body(const MarkerId& id) const {
+  if (id.body == kGround) return nullptr;
+  return &model_.bodies[static_cast<std::size_t>(id.body)]
+              .markers[static_cast<std::size_t>(id.marker)];
+}
+
+spatial::Pose MarkerFinder::placed(const MarkerId& id) const {
+  const body::Marker* marker = on_body(id);
+  return marker == nullptr ? id.X_WF
+                           : model_.placed[static_cast<std::size_t>(id.body)] * marker->X_BF;
+}
+
+void MarkerFinder::require_moment(const MarkerId& id, const std::string& what,
+                                  const SourceLocation& where) const {
+  const body::Marker* marker = on_body(id);
+  if (marker == nullptr || marker->carries_moment()) return;
+  throw ModelError(where, fmt::format("{}: \"{}\" cannot carry a moment, bars have no rotations "
+                                      "there; use a spherical joint or a force, or make it a beam",
+                                      what, id.text));
+}
+
+void MarkerFinder::require_two_bodies(const MarkerId& first, const MarkerId& second,
+                                      const std::string& what, const SourceLocation& where) const {
+  if (first.body != second.body) return;
+  throw ModelError(
+      where,
+      fmt::format(
+          "{} connects {} with itself; it needs two different bodies, or a "
+          "body and the ground",
+          what,
+          first.body == kGround
+              ? "the ground"
+              : "body \"" + model_.bodies[static_cast<std::size_t>(first.body)].name + "\""));
+}
+
+joints::Placement MarkerFinder::placement(const MarkerId& first, const MarkerId& second) const {
+  const spatial::Pose X_WF = placed(first);
+  const spatial::Pose X_WM = placed(second);
+  joints::Placement out;
+  out.R_WF = X_WF.R();
+  out.R_WM = X_WM.R();
+  out.r_F = out.R_WF.transpose() * (X_WM.p - X_WF.p);
+  out.planar = model_.planar;
+  return out;
+}
+
+Vector3d MarkerFinder::axis_or_normal(const std::optional<Vector3d>& axis, const Matrix3d& R_WF,
+                                      const std::string& what, const SourceLocation& where) const {
+  if (axis) return *axis;
+  if (model_.planar) return R_WF.transpose() * spatial::normal(*model_.planar);
+  throw InputError(where, what + " needs an `axis` in a model in space, for example [0, 0, 1]");
+}
+
+}  // namespace buckens::model
