@@ -45,21 +45,18 @@ void refuse_statements(const std::string& text, const SourceLocation& where) {
   }
 }
 
-std::vector<std::string> known_names(const std::vector<std::string>& variables,
-                                     const Parameters& parameters) {
-  std::vector<std::string> names = variables;
-  for (const auto& [name, value] : parameters) names.push_back(name);
-  for (const std::string& name : reserved_names()) {
-    if (name.size() > 1 || name == "e") names.push_back(name);
-  }
-  return names;
-}
-
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 /// Finds unknown names before muParser does: it reports an unknown function as a stray parenthesis.
-void refuse_unknown_names(const std::string& text, const std::vector<std::string>& names,
-                          const SourceLocation& where) {
+void refuse_unknown_names(const std::string& text, const std::vector<std::string>& variables,
+                          const Parameters& parameters, const SourceLocation& where) {
+  std::vector<std::string> own = variables;
+  for (const auto& [name, value] : parameters) own.push_back(name);
+  std::vector<std::string> names = own;
+  for (const std::string& name : reserved_names()) {
+    // The variables t, x, y, z are known only where the formula has them.
+    if (name.size() > 1 || name == "e") names.push_back(name);
+  }
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
     while (end < text.size() && is_word(text[end])) ++end;
@@ -67,7 +64,8 @@ void refuse_unknown_names(const std::string& text, const std::vector<std::string
     if (is_identifier(word) && std::find(names.begin(), names.end(), word) == names.end()) {
       throw InputError(shifted(where, static_cast<int>(i)),
                        fmt::format("expression \"{}\": unknown name \"{}\".{}", text, word,
-                                   suggestion(word, names)));
+                                   nearest(word, names).empty() ? suggestion(word, own)
+                                                                : suggestion(word, names)));
     }
     // Words that begin with a digit are numbers: 2e3.
     i = std::max(end, i + 1);
@@ -90,7 +88,7 @@ struct Expression::Parsed {
 Expression::Expression(const std::string& text, const std::vector<std::string>& variables,
                        const Parameters& parameters, const SourceLocation& where) {
   refuse_statements(text, where);
-  refuse_unknown_names(text, known_names(variables, parameters), where);
+  refuse_unknown_names(text, variables, parameters, where);
   auto parsed = std::make_shared<Parsed>();
   parsed->text = text;
   parsed->where = where;

@@ -235,6 +235,11 @@ QuantityText split_quantity(std::string_view text) {
   if (number > 0 && parse_unit(text.substr(number))) {
     return {std::string(text.substr(0, number)), std::string(trim(text.substr(number)))};
   }
+  const std::size_t rest = std::min(text.find_first_not_of(" \t", number), text.size());
+  const bool is_number_and_word = number > 0 && rest > number && rest < text.size() &&
+                                  std::isalpha(static_cast<unsigned char>(text[rest])) != 0;
+  // "3 kg/m s" is a number with a bad unit, not "3 kg/m" in seconds.
+  if (is_number_and_word) return {std::string(text), ""};
   // A unit is short: looking at the ending only keeps the cost linear.
   const std::size_t begin = text.size() > kLongestUnit ? text.size() - kLongestUnit : 0;
   for (std::size_t i = begin; i < text.size(); ++i) {

@@ -153,6 +153,15 @@ constexpr std::array<const char*, 2> planned_names(CouplingLevel) {
   return {"first-order", "auto"};
 }
 
+/// Reduced basis of a flexible body.
+enum class Reduction { none };
+
+constexpr std::array<const char*, 1> choice_names(Reduction) { return {"none"}; }
+/// Bases that are known but cannot be chosen yet.
+constexpr std::array<const char*, 2> planned_names(Reduction) {
+  return {"free-free", "craig-bampton"};
+}
+
 /// A rigid or flexible body.
 struct BodySpec {
   std::string name;
@@ -165,7 +174,7 @@ struct BodySpec {
   std::vector<MarkerSpec> markers;
   int frames = 1;
   CouplingLevel coupling = CouplingLevel::full;
-  std::string reduction = "none";
+  Reduction reduction = Reduction::none;
   std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
 
   bool is_rigid() const { return std::holds_alternative<RigidSpec>(kind); }
@@ -179,7 +188,7 @@ struct BodySpec {
     visit(base::field("frames", frames, "number of body frames that carry the mesh; 1 for now")
               .positive());
     visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion"));
-    visit(base::field("reduction", reduction, "reduced basis of the mesh; `none` for now"));
+    visit(base::field("reduction", reduction, "reduced basis of the mesh; only `none` for now"));
     visit(base::field("damping", damping, "Rayleigh damping in place of that of the materials")
               .otherwise("that of the materials"));
   }

@@ -26,7 +26,7 @@ struct DampingSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("mass", mass,
-                      "factor α of the mass matrix; one value per body, it acts on motion "
+                      "factor α [1/s] of the mass matrix; one value per body, it acts on motion "
                       "relative to the body frame")
               .in(base::kFrequency)
               .non_negative()

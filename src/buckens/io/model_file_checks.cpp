@@ -281,9 +281,6 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   if (spec.frames != 1) {
     return Problem{"frames", "more than one frame per body is not available yet; write 1"};
   }
-  if (spec.reduction != "none") {
-    return Problem{"reduction", "reduced bases are not available yet; write none"};
-  }
   return std::nullopt;
 }
 

@@ -112,9 +112,9 @@ class RecordReader {
     (try_one(static_cast<Alternatives*>(nullptr)), ...);
     if (count == 1) return;
     const std::vector<std::string> names = {Alternatives::kKey...};
-    fail(place_, fmt::format("{} one of the keys {} is needed",
-                             count == 0 ? "exactly" : "several keys stand here; exactly",
-                             fmt::join(names, ", ")));
+    const char* what =
+        count == 0 ? "one of these keys is missing" : "only one of these keys can be";
+    fail(place_, fmt::format("{}: {}", what, fmt::join(names, ", ")));
   }
 
   const ReadPlace& place_;

@@ -168,9 +168,10 @@ Formula read_formula(const ReadPlace& place, const FieldNote& note,
   } catch (const InputError& error) {
     // The place comes first once more, so it is taken off here.
     const std::string prefix = error.where().empty() ? "" : error.where().text() + ": ";
-    throw InputError(error.where(), place.path + ": " +
-                                        std::string(error.what()).substr(prefix.size()) +
-                                        " Expected is " + expectation(note));
+    std::string text = std::string(error.what()).substr(prefix.size());
+    if (text.back() != '.' && text.back() != '?') text += '.';
+    throw InputError(error.where(),
+                     fmt::format("{}: {} Expected is {}", place.path, text, expectation(note)));
   }
 }
 
@@ -236,6 +237,13 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
     return base::TimeLaw::constant(*number);
   }
   Formula formula = read_formula(place, note, {"t"}, context);
+  // Every run needs the value at its beginning, so a bad one is bad input.
+  const double first = formula.expression.unchecked({0.0});
+  if (!std::isfinite(first)) {
+    fail(place, fmt::format("\"{}\" has the value {} at t = 0; a finite number is needed "
+                            "(division by zero?)",
+                            place.node.text, first));
+  }
   return base::TimeLaw::expression(std::move(formula.expression), formula.scale);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -108,6 +109,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Level {
     YamlNode node;
     bool has_key = false;  // the last entry waits for its value
+    std::unordered_map<std::string, SourceLocation> keys;
   };
 
   [[noreturn]] void refuse_anchor(const YAML::Mark& mark) const {
@@ -143,23 +145,25 @@ class TreeBuilder final : public YAML::EventHandler {
                        "merge keys (<<) are not supported; use `like`, `materials` or "
                        "`sections`");
     }
-    for (const YamlEntry& entry : level.node.entries) {
-      if (entry.key != key.text) continue;
+    const auto [first, is_new] = level.keys.emplace(key.text, key.where);
+    if (!is_new) {
       throw InputError(key.where,
                        fmt::format("the key \"{}\" stands here a second time, first at {}; remove "
                                    "or rename one of them",
-                                   key.text, entry.where.text()));
+                                   key.text, first->second.text()));
     }
     level.node.entries.push_back({key.text, key.where, {}});
     level.has_key = true;
   }
 
   void open(YamlNode node) {
-    if (wants_key()) throw InputError(node.where, "a key must be a word, not a list or map");
+    if (wants_key())
+      throw InputError(node.where,
+                       "a key must be a word, not a list or map (is a bracket not closed?)");
     if (stack_.size() >= kDeepest) {
       throw InputError(node.where, fmt::format("nested more than {} levels deep", kDeepest));
     }
-    stack_.push_back({std::move(node), false});
+    stack_.push_back({std::move(node), false, {}});
   }
 
   void close_top() {

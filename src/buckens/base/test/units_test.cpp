@@ -113,6 +113,7 @@ TEST(Quantity, TheUnitIsTheEndingAfterWhiteSpace) {
                {"  4  ", "4", ""},
                {"2e3", "2e3", ""},
                {"3 foo", "3 foo", ""},
+               {"3 kg/m s", "3 kg/m s", ""},
                {"", "", ""}};
   for (const auto& c : cases) {
     const QuantityText split = split_quantity(c.text);

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/model_file.h"
+
+namespace buckens::io {
+namespace {
+
+using testing::HasSubstr;
+
+std::string message(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    read_model_text(text, "m.yaml", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+/// A bad text and what must be said about it.
+struct Bad {
+  std::string text;
+  std::vector<std::string> words;
+};
+
+void expect_messages(const std::vector<Bad>& cases, const std::string& before = "",
+                     const std::string& after = "") {
+  for (const Bad& bad : cases) {
+    const std::string text = message(before + bad.text + after);
+    for (const std::string& word : bad.words) EXPECT_THAT(text, HasSubstr(word)) << bad.text;
+  }
+}
+
+TEST(ModelFileErrors, Files) {
+  expect_messages({
+      {"", {"m.yaml: the model file is empty"}},
+      {"\n# only a comment\n", {"empty"}},
+      {"hello", {"m.yaml:1:1", "\"hello\" stands here"}},
+      {"- 1", {"a list stands here"}},
+      {"buckens: 1\n", {"the key \"bodies\" is missing"}},
+      {"buckens: 2\nbodies: {}", {"m.yaml:1:10: buckens: this program reads format 1, not 2"}},
+      {"buckens: 1\nbodies: {}", {"at least one body"}},
+      {"buckens: 1\nbodies:\n", {"no value stands here"}},
+      {"buckens: 1\nbodis: {}", {"m.yaml:2:1: unknown key \"bodis\"", "Did you mean \"bodies\"?"}},
+  });
+}
+
+TEST(ModelFileErrors, YamlThatIsNotWhatItSeems) {
+  expect_messages(
+      {
+          {"{a: {rigid: {mass: 1}}\n", {"m.yaml:3:1: YAML syntax: end of map flow not found"}},
+          {"\"abc", {"YAML syntax"}},
+          {"{a: {rigid: {mass: 1, mass: 2}}}",
+           {"m.yaml:2:31", "\"mass\" stands here a second time, first at m.yaml:2:22"}},
+          {"{a: {rigid: {mass: 1}}, a: {rigid: {mass: 1}}}", {"a second time"}},
+          {"{a: &x {rigid: {mass: 1}}, b: *x}", {"m.yaml:2:13: anchors and aliases"}},
+          {"{a: {<<: {rigid: {mass: 1}}}}", {"merge keys"}},
+          {"{a: {rigid: {mass: !!float 1}}}", {"tag", "is not supported"}},
+          {"{a: {rigid: {mass: 1}}}\n---\nx: 1\n", {"second document"}},
+          {"{a: {rigid: {[1]: 1}}}", {"a key must be a word"}},
+          {"\"\xff\"", {"m.yaml:2:10: byte 0xFF is not UTF-8"}},
+          {std::string("a\0b", 3), {"byte 0x00"}},
+      },
+      "buckens: 1\nbodies: ");
+}
+
+TEST(ModelFileErrors, Numbers) {
+  expect_messages(
+      {
+          {"-0.36 kg", {"m.yaml:2:28: bodies.a.rigid.mass: -0.36 kg", "must not be negative"}},
+          {"3 m", {"\"3 m\" is a length; expected is a mass such as 0.36 kg"}},
+          {"3 kgg", {"unknown unit \"kgg\"", "Did you mean \"kg\"?"}},
+          {"3 kg/m s", {"unknown unit \"kg/m s\"", "kg/m/s"}},
+          {"010", {"octal", "write 10"}},
+          {"-007.5", {"octal"}},
+          {"0x10", {"0x10"}},
+          {"yes", {"\"yes\" is not a number"}},
+          {"on", {"\"on\" is not a number"}},
+          {"true", {"is not a number"}},
+          {".nan", {"is not a number"}},
+          {".inf", {"is not a number"}},
+          {"1e999", {"1e999"}},
+          {"1/0", {"has the value inf", "division by zero?"}},
+          {"0/0", {"expression \"0/0\" has the value"}},
+          {"sqrt(-1)", {"has the value"}},
+          {"1e200*1e200", {"has the value inf"}},
+          {"\"1,5 kg\"", {"decimals are written 1.5"}},
+          {"''", {"an empty text stands here"}},
+          {"", {"no value stands here"}},
+          {"[1]", {"a list stands here"}},
+          {"{a: 1}", {"a map stands here"}},
+          {"2*Lenght", {"unknown name \"Lenght\"", "Did you mean \"Length\"?"}},
+      },
+      "buckens: 1\nbodies: {a: {rigid: {mass: ", "}}}\nparameters: {Length: 1}\n");
+}
+
+TEST(ModelFileErrors, Bodies) {
+  const std::string steel = "material: {E: 1, rho: 1}, section: {circle: {diameter: 6 mm}}";
+  expect_messages(
+      {
+          {"{rigd: {mass: 1}}", {"unknown key \"rigd\" in bodies.a. Did you mean \"rigid\"?"}},
+          {"{at: {}}", {"one of these keys is missing: rigid, beam, structure, like"}},
+          {"{rigid: {mass: 1}, like: b}", {"only one of these keys can be"}},
+          {"{rigid: {mas: 1}}", {"unknown key \"mas\" in bodies.a.rigid"}},
+          {"{rigid: {}}", {"the key \"mass\" is missing; add it, for example mass: 0.36 kg"}},
+          {"{rigid: {mass: 1, com: [1, 2]}}", {"a list of 2 values", "list of 3 values"}},
+          {"{rigid: {mass: 1, inertia: [1, 1, 5]}}", {"exceeds the sum of the others"}},
+          {"{rigid: {mass: 1, inertia: [1, 1, -5]}}", {"none can be negative"}},
+          {"{rigid: {mass: 1, inertia: [1, 1, 1, 5, 0, 0]}}", {"none can be negative"}},
+          {"{rigid: {mass: 1, inertia: [1, 1]}}", {"expected are 3", "or 6"}},
+          {"{rigid: {mass: 1}, coupling: first-order}", {"\"first-order\" is not available yet"}},
+          {"{rigid: {mass: 1}, coupling: ful}", {"Did you mean \"full\"?"}},
+          {"{rigid: {mass: 1}, frames: 2}", {"not available yet; write 1"}},
+          {"{rigid: {mass: 1}, reduction: free-free}", {"not available yet"}},
+          {"{rigid: {mass: 1}, damping: {mass: 1}}", {"has no damping of its own"}},
+          {"{rigid: {mass: 1}, markers: {com: {at: origin}}}", {"\"com\" is taken"}},
+          {"{rigid: {mass: 1}, markers: {q: {at: end}}}", {"body \"a\" has no place \"end\""}},
+          {"{rigid: {mass: 1}, markers: {q: {}}}", {"exactly one of the keys position and at"}},
+          {"{rigid: {mass: 1}, markers: {q/r: {at: com}}}", {"cannot be a name"}},
+          {"{rigid: {mass: 1}, at: {orientation: {axis: [1, 0, 0]}}}", {"belong together"}},
+          {"{rigid: {mass: 1}, at: {orientation: {}}}", {"in one way"}},
+          {"{like: nix}", {"unknown body \"nix\""}},
+          {"{beam: {to: [0, 0, 0], " + steel + "}}", {"bodies.a.beam.to", "the length zero"}},
+          {"{beam: {to: [1, 0, 0], elements: 0, " + steel + "}}", {"must be positive"}},
+          {"{beam: {to: [1, 0, 0], elements: 2.5, " + steel + "}}", {"not a whole number"}},
+          {"{beam: {to: [1, 0, 0], up: [2, 0, 0], " + steel + "}}", {"parallel to the beam"}},
+          {"{beam: {to: [1, 0, 0], masses: [{at: middle, mass: 1}], " + steel + "}}",
+           {"unknown place \"middle\""}},
+          {"{beam: {to: [1, 0, 0], elements: 3, masses: [{at: mid, mass: 1}], " + steel + "}}",
+           {"even number of elements"}},
+          {"{beam: {to: [1, 0, 0], material: stel, section: {circle: {diameter: 1}}}}",
+           {"unknown material \"stel\"", "Did you mean \"steel\"?"}},
+          {"{beam: {to: [1, 0, 0], material: steel, section: nix}}", {"unknown section \"nix\""}},
+          {"{beam: {to: [1, 0, 0], material: steel, section: {tube: {outer-diameter: 6 mm, "
+           "thickness: 4 mm}}}}",
+           {"thickness", "inner diameter would be -0.002 m"}},
+          {"{beam: {to: [1, 0, 0], material: steel, section: {box: {width: 1, height: 1, "
+           "thickness: 1}}}}",
+           {"thicker than half"}},
+          {"{structure: {nodes: {a: [0, 0, 0]}}}", {"needs beams or bars"}},
+          {"{structure: {nodes: {a: [0, 0, 0]}, bars: [{between: [a, b], area: 1, material: "
+           "steel}]}}",
+           {"bars.0.between: unknown node \"b\""}},
+          {"{structure: {nodes: {a: [0, 0, 0], b: [0, 0, 0]}, beams: [{between: [a, b], " + steel +
+               "}]}}",
+           {"beams.0.between", "the length zero"}},
+      },
+      "buckens: 1\nmaterials: {steel: {E: 1, rho: 7}}\nbodies: {a: ", "}\n");
+  EXPECT_THAT(message("buckens: 1\nbodies: {ground: {rigid: {mass: 1}}}"), HasSubstr("the world"));
+  EXPECT_THAT(message("buckens: 1\nmaterials: {s: {E: 1, rho: -7 kg/m^3}}\nbodies: {}"),
+              HasSubstr("materials.s.rho: -7 kg/m^3 is not allowed"));
+  EXPECT_THAT(message("buckens: 1\nmaterials: {s: {E: 1, rho: 1, damping: {ratio: 2 %}}}\n"),
+              HasSubstr("belong together"));
+}
+
+const char* const kTwoBodies =
+    "buckens: 1\n"
+    "bodies:\n"
+    "  rod: {beam: {to: [1,0,0], section: {circle: {diameter: 6 mm}}, material: {E: 1, rho: 1}}}\n"
+    "  box: {rigid: {mass: 1}}\n";
+
+TEST(ModelFileErrors, Joints) {
+  expect_messages(
+      {
+          {"{fixed: {between: [ground, rodd]}}",
+           {"m.yaml:5:40", "unknown body \"rodd\". Did you mean \"rod\"?"}},
+          {"{fixed: {between: [ground, rod/edn]}}",
+           {"body \"rod\" has no marker \"edn\". Did you mean \"end\"?"}},
+          {"{fixed: {between: [ground/a, rod]}}", {"the ground has no markers"}},
+          {"{fixed: {between: [{ground: [1, 2]}, rod]}}", {"three coordinates"}},
+          {"{fixed: {between: [ground]}}", {"list of 2 values"}},
+          {"{fixed: {between: [rod/start, rod/end]}}", {"on the same body"}},
+          {"{fixd: {between: [rod, box]}}", {"Did you mean \"fixed\"?"}},
+          {"{revolute: {between: [rod, box]}}", {"\"axis\" is missing; a model in space"}},
+          {"{revolute: {between: [rod, box], axis: [0, 0, 0]}}", {"cannot be [0, 0, 0]"}},
+          {"{prismatic: {between: [rod, box]}}", {"the key \"axis\" is missing"}},
+          {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: 150*x}}",
+           {"unknown name \"x\""}},
+          {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: 150*t mm}}",
+           {"\"150*t mm\" is a length; expected is an angle"}},
+          {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: 150*t/0}}",
+           {"has the value", "at t = 0"}},
+          {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: {table: [[0, 1], "
+           "[0, 2]]}}}",
+           {"the times of a table must increase"}},
+          {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: {table: [[0, 1]], "
+           "unit: mm}}}",
+           {"\"mm\" is no unit of an angle"}},
+          {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: {}}}",
+           {"exactly one of the keys table and file"}},
+      },
+      std::string(kTwoBodies) + "joints: {j: ", "}\n");
+}
+
+TEST(ModelFileErrors, LoadsInitialSimulationOutput) {
+  expect_messages(
+      {
+          {"loads: {f: {force: {on: ground, value: [0, 0, 0]}}}", {"has no effect"}},
+          {"loads: {f: {force: {on: box, value: 3}}}", {"list of 3 values"}},
+          {"loads: {f: {force: {on: box, value: [0, 0, 0], axes: fix}}}", {"none of fixed"}},
+          {"loads: {f: {spring-damper: {between: [box, rod], stiffness: -1}}}",
+           {"not be negative"}},
+          {"loads: {f: {spring-damper: {between: [box, box]}}}", {"the same marker"}},
+          {"initial: {bodies: {bx: {velocity: [0, 0, 0]}}}", {"Did you mean \"box\"?"}},
+          {"initial: {bodies: {box: {angular-velocity: [0, 0, 50 Hz]}}}",
+           {"\"50 Hz\" is a frequency", "2*pi*50 rad/s"}},
+          {"initial: {bodies: {box: {nodal-velocity: {x: 1}}}}", {"is rigid"}},
+          {"initial: {preload: yes}", {"\"yes\" stands here; expected is true or false"}},
+          {"simulation: {duration: 1 s, step: 0 s}", {"simulation.step: 0 s", "must be positive"}},
+          {"simulation: {duration: -1 s, step: 1 ms}", {"must be positive"}},
+          {"simulation: {duration: 1 ms, step: 1 s}", {"longer than the duration"}},
+          {"simulation: {duration: 1 s, step: 1e-15}", {"steps are more than"}},
+          {"simulation: {duration: 1 s}", {"the key \"step\" is missing"}},
+          {"simulation: {duration: 1 s, setp: 1 ms}", {"Did you mean \"step\"?"}},
+          {"simulation: {duration: 1 s, step: 1 ms, projection: yes}", {"expected is on or off"}},
+          {"simulation: {duration: 1 s, step: 1 ms, rho-inf: 1.2}", {"between 0 and 1"}},
+          {"output: {sensors: {a: {joint-force: x}}}", {"unknown joint \"x\""}},
+          {"output: {sensors: {a: {deflection: box}}}", {"not on a flexible body"}},
+          {"output: {sensors: {a: {stress: box}}}", {"not on a flexible body"}},
+          {"output: {sensors: {a: {energy: totl}}}", {"Did you mean \"total\"?"}},
+          {"output: {sensors: {a: {relative: {between: [rod, box], quantity: angle}}}}",
+           {"\"axis\" is missing"}},
+          {"output: {sensors: {a b: {energy: total}}}", {"cannot be a name"}},
+          {"parameters: {t: 1}", {"has a meaning in expressions"}},
+          {"parameters: {a-b: 1}", {"cannot be used in expressions"}},
+          {"parameters: {a: b, b: 1}", {"unknown name \"b\""}},
+      },
+      kTwoBodies, "\n");
+  EXPECT_THROW(read_model_text(std::string(kTwoBodies) + "loads: {f: {force: {on: box, value: "
+                                                         "[{file: nix.csv}, 0, 0]}}}",
+                               "m.yaml"),
+               IoError);
+}
+
+TEST(ModelFileErrors, Overrides) {
+  const auto set = [](const std::string& assignment) { return message(kTwoBodies, {assignment}); };
+  EXPECT_THAT(
+      set("bodies.rodd.beam.elements=8"),
+      HasSubstr("--set bodies.rodd.beam.elements: the model file has no \"rodd\" in bodies. "
+                "Did you mean \"rod\"?"));
+  EXPECT_THAT(set("bodies.rod.beam.elemnts=8"), HasSubstr("Did you mean \"elements\"?"));
+  EXPECT_THAT(set("bodis.rod=8"), HasSubstr("unknown key \"bodis\". Did you mean \"bodies\"?"));
+  EXPECT_THAT(set("parameters.L=3"), HasSubstr("has no \"L\" in parameters"));
+  EXPECT_THAT(set("bodies.rod.beam.elements=-8"), HasSubstr("must be positive"));
+  EXPECT_THAT(set("bodies.rod.beam.elements"), HasSubstr("write PATH=VALUE"));
+  EXPECT_THAT(set("bodies.rod.beam.elements="), HasSubstr("is missing"));
+  EXPECT_THAT(set("bodies.rod.beam.to.7=1"), HasSubstr("no item of bodies.rod.beam.to"));
+  EXPECT_THAT(set("bodies.rod.beam.to.0.x=1"), HasSubstr("nothing below"));
+  EXPECT_THAT(set("simulation.step=1 mm"), HasSubstr("the key \"duration\" is missing"));
+  EXPECT_THAT(set("=3"), HasSubstr("write PATH=VALUE"));
+  EXPECT_THAT(set("bodies..x=3"), HasSubstr("has no \"\" in bodies"));
+  EXPECT_THAT(set("gravity=[0, 0"), HasSubstr("--set gravity: "));
+}
+
+}  // namespace
+}  // namespace buckens::io
