@@ -17,9 +17,12 @@ using Eigen::Vector3d;
 using linalg::Vector;
 
 namespace {
-// Accelerations carry rounding of positions over h²; a coupling load that has come this close and
-// falls no further has reached it, whatever the outer tolerance asks for.
+// Positions are known to rounding, accelerations to that over h². A coupling load that falls no
+// further from solve to solve has been reached, whatever the outer tolerance asks for, if what is
+// left is this small: relative to the load, or as motion relative to the model's length (where a
+// motion has barely begun).
 constexpr double kCouplingRounding = 1e-9;
+constexpr double kPositionRounding = 1e-15;
 }  // namespace
 
 /// The n-sized share of one flexible body in a step.
@@ -42,6 +45,10 @@ struct Stepper::Large {
   }
   double norm(const Vector& load) const {
     return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
+  }
+  /// Largest displacement (before the factor c) by a load, estimated from the diagonal of K̂.
+  double moved_by(const Vector& load) const {
+    return load.cwiseProduct(inverse_diagonal).cwiseAbs().maxCoeff();
   }
 };
 
@@ -116,6 +123,7 @@ void Stepper::complete(const model::State& state) {
 bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
   bool settled = true;
   report.coupling_change = 0;
+  coupling_motion_ = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const body::Body& body = model_.bodies[b];
     if (!large_[b] || body.flexible->coupling == body::CouplingLevel::none) continue;
@@ -144,6 +152,11 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
             .head<3>();
     const double frame_size = body.J0.norm() * (w_dot.norm() + w.squaredNorm());
     const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
+    const double moved =
+        scheme_.force * large.moved_by(large.evaluated.load - large.used.load) / model_.length;
+    const double turned =
+        scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm();
+    coupling_motion_ = std::max({coupling_motion_, moved, turned});
     large.load_changed = load_change > settings_.outer_tolerance;
     if (large.load_changed || frame_relative > settings_.outer_tolerance) settled = false;
     report.coupling_change = std::max({report.coupling_change, load_change, frame_relative});
@@ -192,7 +205,8 @@ StepReport Stepper::step(model::State& state) {
     ++report.large_solve_rounds;
     if (coupling_settled(state, report)) break;
     const double change = report.coupling_change;
-    if (change <= kCouplingRounding && change > 0.5 * before) break;
+    const bool is_rounding = change <= kCouplingRounding || coupling_motion_ <= kPositionRounding;
+    if (is_rounding && change > 0.5 * before) break;
     before = change;
     if (round + 1 >= settings_.max_outer || !std::isfinite(report.coupling_change)) {
       throw NumericalError(fmt::format(

@@ -55,6 +55,7 @@ class Stepper {
   std::unique_ptr<SmallNewton> newton_;
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<Large>> large_;
+  double coupling_motion_ = 0;  // caused by the last change of coupling loads, relative to L
 };
 
 }  // namespace buckens::stepping
