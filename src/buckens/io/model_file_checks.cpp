@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/model_file_checks.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
@@ -14,54 +10,10 @@ namespace buckens::io {
 
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double kMostSteps = 1e10;
 
-Finding inertia_problem(const std::vector<double>& entries) {
-  if (entries.empty()) return std::nullopt;
-  if (entries.size() != 3 && entries.size() != 6) {
-    return Problem{"inertia", fmt::format("{} values stand here; expected are 3 (Ixx, Iyy, Izz) or "
-                                          "6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz)",
-                                          entries.size())};
-  }
-  const Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fem::symmetric_matrix(entries))
-          .eigenvalues();  // ascending
-  // Data sheets round to three digits or so; planar models often give Izz alone.
-  const double tolerance = 1e-3 * std::max(std::abs(principal[0]), principal[2]);
-  if (principal[0] < -1e-12 * std::abs(principal[2])) {
-    return Problem{"inertia",
-                   fmt::format("the principal moments are {:.4g}, {:.4g}, {:.4g} kg m^2; "
-                               "none can be negative. Check the signs and the order "
-                               "Ixx, Iyy, Izz, Ixy, Ixz, Iyz",
-                               principal[0], principal[1], principal[2])};
-  }
-  const bool is_planar_data = principal[1] == 0.0;
-  if (!is_planar_data && principal[0] + principal[1] < principal[2] - tolerance) {
-    return Problem{"inertia",
-                   fmt::format("the principal moments {:.4g}, {:.4g}, {:.4g} kg m^2 belong to no "
-                               "body: the largest exceeds the sum of the others",
-                               principal[0], principal[1], principal[2])};
-  }
-  return std::nullopt;
-}
-
-Finding up_problem(const std::optional<Vector3d>& up, const Vector3d& along) {
-  if (!up) return std::nullopt;
-  if (up->norm() == 0.0) return Problem{"up", "a direction cannot be zero"};
-  if (up->normalized().cross(along.normalized()).norm() < 1e-6) {
-    return Problem{"up", "the direction is parallel to the beam; choose one across it"};
-  }
-  return std::nullopt;
-}
-
-Finding axis_problem(const Vector3d& axis) {
-  if (axis.norm() > 0.0) return std::nullopt;
-  return Problem{"axis", "an axis cannot be [0, 0, 0]; give its direction"};
-}
-
-Finding axis_problem(const std::optional<Vector3d>& axis, const ReadContext& context) {
+Finding needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
+                            const ReadContext& context) {
   if (axis) return axis_problem(*axis);
   if (context.model->planar) return std::nullopt;
   return Problem{"axis",
@@ -86,12 +38,6 @@ Finding flexible_problem(const base::MarkerRef& marker, const char* key,
   return Problem{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
 }
 
-/// Places a finding about a member of a variant under the alternative's key.
-Finding under(const char* key, const Finding& finding) {
-  if (!finding) return finding;
-  return Problem{std::string(key) + "." + finding->key, finding->text};
-}
-
 /// Rules of the alternatives; overloads for those that have any.
 struct AlternativeRules {
   const ReadContext& context;
@@ -103,10 +49,11 @@ struct AlternativeRules {
       if (Finding found = ends_problem(spec.between, is_joint)) return found;
     }
     if constexpr (std::is_same_v<T, model::RelativeSensor>) {
-      return spec.quantity == model::RelativeQuantity::angle ? axis_problem(spec.axis, context)
-                                                             : std::nullopt;
+      return spec.quantity == model::RelativeQuantity::angle
+                 ? needed_axis_problem(spec.axis, context)
+                 : std::nullopt;
     } else if constexpr (requires { spec.axis.has_value(); }) {
-      return axis_problem(spec.axis, context);
+      return needed_axis_problem(spec.axis, context);
     } else if constexpr (requires { spec.axis.norm(); }) {
       return axis_problem(spec.axis);
     } else if constexpr (requires { spec.on; }) {
@@ -135,153 +82,19 @@ Finding alternative_problem(const Variant& kind, const ReadContext& context,
 
 }  // namespace
 
+Finding axis_problem(const Eigen::Vector3d& axis) {
+  if (axis.norm() > 0.0) return std::nullopt;
+  return Problem{"axis", "an axis cannot be [0, 0, 0]; give its direction"};
+}
+
+Finding under(const char* key, const Finding& finding) {
+  if (!finding) return finding;
+  return Problem{std::string(key) + "." + finding->key, finding->text};
+}
+
 Finding problem(const TableLawSpec& spec, const ReadContext&) {
   if (spec.table.empty() != spec.file.empty()) return std::nullopt;
   return Problem{"", "exactly one of the keys table and file is needed"};
-}
-
-Finding problem(const fem::DampingSpec& spec, const ReadContext&) {
-  if (spec.ratio.has_value() != spec.at.has_value()) {
-    return Problem{spec.ratio ? "ratio" : "at",
-                   "\"ratio\" and \"at\" belong together: {ratio: 2 %, at: [10 Hz, 200 Hz]}"};
-  }
-  if (!spec.ratio) return std::nullopt;
-  if (spec.mass != 0 || spec.stiffness != 0) {
-    return Problem{"ratio", "give either \"ratio\" and \"at\", or \"mass\" and \"stiffness\""};
-  }
-  if ((*spec.at)[0] >= (*spec.at)[1]) {
-    return Problem{"at", "the second frequency must be higher than the first"};
-  }
-  return std::nullopt;
-}
-
-Finding problem(const fem::TubeSpec& spec, const ReadContext&) {
-  if (spec.thickness.has_value() == spec.inner_diameter.has_value()) {
-    return Problem{"", "exactly one of the keys thickness and inner-diameter is needed"};
-  }
-  if (spec.inner() > 0 && spec.inner() < spec.outer_diameter) return std::nullopt;
-  return Problem{spec.thickness ? "thickness" : "inner-diameter",
-                 fmt::format("the inner diameter would be {:g} m, the outer one is {:g} m; it must "
-                             "lie between 0 and that (a solid section is a circle)",
-                             spec.inner(), spec.outer_diameter)};
-}
-
-Finding problem(const fem::BoxSpec& spec, const ReadContext&) {
-  if (2 * spec.thickness < std::min(spec.width, spec.height)) return std::nullopt;
-  return Problem{"thickness", "the wall is thicker than half of the box; use a rectangle"};
-}
-
-Finding problem(const fem::PointMassSpec& spec, const ReadContext&) {
-  return inertia_problem(spec.inertia);
-}
-
-Finding problem(const fem::BeamSpec& spec, const ReadContext&) {
-  const double length = (spec.to - spec.from).norm();
-  if (!(length > 0)) {
-    return Problem{"to", "the beam has the length zero: \"from\" and \"to\" are the same point"};
-  }
-  for (const auto& mass : spec.masses) {
-    if (mass.at != "start" && mass.at != "mid" && mass.at != "end") {
-      return Problem{"masses",
-                     fmt::format("unknown place \"{}\"; a beam has start, mid and end", mass.at)};
-    }
-    if (mass.at == "mid" && spec.elements % 2 != 0) {
-      return Problem{"elements", fmt::format("a mass at mid needs an even number of elements, "
-                                             "not {}",
-                                             spec.elements)};
-    }
-  }
-  return up_problem(spec.up, spec.to - spec.from);
-}
-
-Finding problem(const fem::BarMemberSpec& spec, const ReadContext&) {
-  if (spec.section.has_value() != spec.area.has_value()) return std::nullopt;
-  return Problem{"", "exactly one of the keys section and area is needed"};
-}
-
-namespace {
-
-/// Finding about the ends of a beam or bar between nodes.
-template <class Member>
-Finding member_problem(const fem::StructureSpec& spec, const Member& member, const char* list,
-                       std::size_t index) {
-  const std::string key = fmt::format("{}.{}", list, index);
-  std::array<const fem::NodeSpec*, 2> ends{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    ends[i] = base::find_named(spec.nodes, member.between[i]);
-    if (ends[i] != nullptr) continue;
-    return Problem{key + ".between",
-                   fmt::format("unknown node \"{}\".{}", member.between[i],
-                               base::suggestion(member.between[i], names_of(spec.nodes)))};
-  }
-  const Vector3d along = ends[1]->position - ends[0]->position;
-  if (!(along.norm() > 0)) {
-    return Problem{key + ".between", fmt::format("the member has the length zero: its nodes \"{}\" "
-                                                 "and \"{}\" are the same point",
-                                                 member.between[0], member.between[1])};
-  }
-  if constexpr (requires { member.up; }) return under(key.c_str(), up_problem(member.up, along));
-  return std::nullopt;
-}
-
-}  // namespace
-
-Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
-  if (spec.beams.empty() && spec.bars.empty()) {
-    return Problem{"", "a structure needs beams or bars"};
-  }
-  for (const auto& node : spec.nodes) {
-    if (node.name == "origin" || node.name == "com") {
-      return Problem{"nodes",
-                     fmt::format("the name \"{}\" is predefined; choose another", node.name)};
-    }
-  }
-  for (std::size_t i = 0; i < spec.beams.size(); ++i) {
-    if (Finding found = member_problem(spec, spec.beams[i], "beams", i)) return found;
-  }
-  for (std::size_t i = 0; i < spec.bars.size(); ++i) {
-    if (Finding found = member_problem(spec, spec.bars[i], "bars", i)) return found;
-  }
-  for (std::size_t i = 0; i < spec.masses.size(); ++i) {
-    const std::string& at = spec.masses[i].at;
-    if (base::find_named(spec.nodes, at) != nullptr) continue;
-    return Problem{
-        fmt::format("masses.{}.at", i),
-        fmt::format("unknown node \"{}\".{}", at, base::suggestion(at, names_of(spec.nodes)))};
-  }
-  return std::nullopt;
-}
-
-Finding problem(const body::OrientationSpec& spec, const ReadContext&) {
-  if (spec.axis.has_value() != spec.angle.has_value()) {
-    return Problem{spec.axis ? "axis" : "angle", "\"axis\" and \"angle\" belong together"};
-  }
-  const int ways = (spec.axis ? 1 : 0) + (spec.euler ? 1 : 0) + (spec.quaternion ? 1 : 0);
-  if (ways != 1) {
-    return Problem{"", "give the orientation in one way: axis and angle, euler, or quaternion"};
-  }
-  if (spec.axis) return axis_problem(*spec.axis);
-  if (spec.quaternion && std::all_of(spec.quaternion->begin(), spec.quaternion->end(),
-                                     [](double q) { return q == 0.0; })) {
-    return Problem{"quaternion", "a quaternion cannot be zero"};
-  }
-  return std::nullopt;
-}
-
-Finding problem(const body::MarkerSpec& spec, const ReadContext&) {
-  if (spec.position.has_value() == spec.at.empty()) return std::nullopt;
-  return Problem{"", "exactly one of the keys position and at is needed"};
-}
-
-Finding problem(const body::RigidSpec& spec, const ReadContext&) {
-  return inertia_problem(spec.inertia);
-}
-
-Finding problem(const body::BodySpec& spec, const ReadContext&) {
-  if (spec.frames != 1) {
-    return Problem{"frames", "more than one frame per body is not available yet; write 1"};
-  }
-  return std::nullopt;
 }
 
 Finding problem(const joints::JointSpec& spec, const ReadContext& context) {

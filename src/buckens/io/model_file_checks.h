@@ -18,6 +18,12 @@ struct Problem {
 
 using Finding = std::optional<Problem>;
 
+/// Puts "key." before the key of a finding.
+Finding under(const char* key, const Finding& finding);
+
+/// Directions have a length.
+Finding axis_problem(const Eigen::Vector3d& axis);
+
 /// Most specs have no rules beyond those of their fields.
 template <class T>
 Finding problem(const T& /*spec*/, const ReadContext& /*context*/) {

@@ -137,6 +137,16 @@ void expect_scalar(const ReadPlace& place, const std::string& expected) {
   fail(place, fmt::format("{} stands here; expected is {}", given, expected));
 }
 
+/// A quantity without an expression in it; most are, and need no parser.
+std::optional<double> plain_quantity(const ReadPlace& place, const FieldNote& note) {
+  if (!place.node.is_scalar()) return std::nullopt;
+  if (const auto number = base::parse_number(place.node.text)) return number;
+  const base::QuantityText split = base::split_quantity(place.node.text);
+  const auto number = base::parse_number(split.formula);
+  if (!number || split.unit.empty()) return std::nullopt;
+  return *number * unit_scale(place, note, split.unit);
+}
+
 }  // namespace
 
 void fail(const ReadPlace& place, const std::string& message) {
@@ -233,8 +243,9 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
     fail(place, fmt::format("{} stands here; expected is {}, an expression of t, or a table",
                             place.node.description(), expectation(note)));
   }
-  if (const auto number = base::parse_number(place.node.text)) {
-    return base::TimeLaw::constant(*number);
+  if (const auto plain = plain_quantity(place, note)) {
+    if (!std::isfinite(*plain)) fail(place, place.node.text + " is beyond the range of numbers");
+    return base::TimeLaw::constant(*plain);
   }
   Formula formula = read_formula(place, note, {"t"}, context);
   // Every run needs the value at its beginning, so a bad one is bad input.
