@@ -109,8 +109,10 @@ void check_range(const ReadPlace& place, const FieldNote& note, double value) {
 }
 
 /// Words and look-alikes of numbers that another program would read its own way.
-void refuse_look_alikes(const ReadPlace& place, const FieldNote& note) {
+void refuse_look_alikes(const ReadPlace& place, const FieldNote& note,
+                        const base::Parameters& parameters) {
   const std::string& text = place.node.text;
+  if (parameters.contains(text)) return;
   const std::string digits = text.substr(text.find_first_not_of("+-") == 1 ? 1 : 0);
   const bool is_all_digits =
       !digits.empty() && digits.find_first_not_of("0123456789.eE+-") == std::string::npos;
@@ -119,13 +121,13 @@ void refuse_look_alikes(const ReadPlace& place, const FieldNote& note) {
     fail(place, fmt::format("{} could be meant as an octal number; write {}", text,
                             digits.substr(significant)));
   }
-  static const std::vector<std::string> words = {"yes", "no",   "on",   "off",  "true", "false",
-                                                 "y",   "n",    "null", "~",    "nan",  ".nan",
-                                                 "inf", ".inf", "-inf", "-.inf"};
+  static const std::vector<std::string> words = {"yes",   "no",   "on",   "off",  "true",
+                                                 "false", "null", "~",    "nan",  ".nan",
+                                                 "inf",   ".inf", "-inf", "-.inf"};
   std::string lower = text;
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(words.begin(), words.end(), lower) != words.end() && text != "y") {
+  if (std::find(words.begin(), words.end(), lower) != words.end()) {
     fail(place, fmt::format("\"{}\" is not a number; expected is {}", text, expectation(note)));
   }
 }
@@ -164,7 +166,7 @@ std::string expectation(const FieldNote& note) {
 Formula read_formula(const ReadPlace& place, const FieldNote& note,
                      const std::vector<std::string>& variables, const ReadContext& context) {
   expect_scalar(place, expectation(note));
-  refuse_look_alikes(place, note);
+  refuse_look_alikes(place, note, context.parameters);
   const base::QuantityText split = base::split_quantity(place.node.text);
   const double scale = unit_scale(place, note, split.unit);
   if (split.unit.empty()) {

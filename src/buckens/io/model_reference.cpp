@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kIntroduction = R"(# The model file
 
 <!-- Written by the program from the field lists of its input. Do not edit: run
-     `buckens schema --reference > docs/reference/model-file.md`. -->
+     `buckens reference > docs/reference/model-file.md`. -->
 
 A model file is YAML (JSON, being a subset, works too). `buckens check MODEL.yaml` says what is wrong
 with it, with line and column; `buckens schema` prints a JSON Schema with which editors complete and

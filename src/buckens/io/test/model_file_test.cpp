@@ -159,6 +159,16 @@ TEST(ModelFile, OverridesChangeTheTree) {
   EXPECT_EQ(sample().source, kSampleModel);
 }
 
+TEST(ModelFile, ParametersMayHaveAnyFreeName) {
+  const ModelDescription m = read_model_text(
+      "buckens: 1\nparameters: {n: 3, no: n + 1, m: 2 kg, N: 7}\n"
+      "bodies: {a: {rigid: {mass: no}}, b: {rigid: {mass: n}}, c: {rigid: {mass: m*N g}}}\n",
+      "p.yaml");
+  EXPECT_EQ(std::get<body::RigidSpec>(m.bodies[0].kind).mass, 4);
+  EXPECT_EQ(std::get<body::RigidSpec>(m.bodies[1].kind).mass, 3);
+  EXPECT_EQ(std::get<body::RigidSpec>(m.bodies[2].kind).mass, 0.014);
+}
+
 class ModelFileOnDisk : public testing::Test {
  protected:
   void SetUp() override {

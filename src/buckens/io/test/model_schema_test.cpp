@@ -29,7 +29,7 @@ TEST(ModelReference, CommittedFilesAreCurrent) {
   EXPECT_EQ(file_text("schema/model.schema.json"), model_schema_json())
       << "run: buckens schema > schema/model.schema.json";
   EXPECT_EQ(file_text("docs/reference/model-file.md"), model_reference_markdown())
-      << "run: buckens schema --reference > docs/reference/model-file.md";
+      << "run: buckens reference > docs/reference/model-file.md";
 }
 
 TEST(ModelReference, ItsExampleCanBeRead) {
