@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace buckens::cli {
+
+/// What the program says to the shell; documented in docs/reference/command-line.md.
+enum class ExitCode : int {
+  ok = 0,
+  internal = 1,       ///< a mistake of Buckens itself
+  input = 2,          ///< model file or command line
+  model = 3,          ///< readable, but the mechanism cannot be built or solved
+  numerical = 4,      ///< a calculation failed, or memory ran out
+  io = 5,             ///< a file cannot be read or written
+  interrupted = 130,  ///< Ctrl-C, SIGTERM or SIGHUP; what was computed is complete
+};
+
+}  // namespace buckens::cli

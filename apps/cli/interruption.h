@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <csignal>
+
+namespace buckens::cli {
+
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only asks the program to stop; the
+/// second one ends it at once.
+///
+/// Signals that were ignored when the program started (nohup, background jobs) stay ignored. Only
+/// one object at a time.
+class Interruption {
+ public:
+  /// @param announce say on the standard error stream that the request has been seen
+  explicit Interruption(bool announce);
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  bool requested() const;
+
+ private:
+  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> before_ = {};
+};
+
+/// Failed writes are reported by the calls themselves, not by signals that end the program: broken
+/// pipes (SIGPIPE) and the limit of file sizes (SIGXFSZ).
+void ignore_write_signals();
+
+}  // namespace buckens::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/run_journal.h"
+
+#include "buckens/io/run_directory.h"
+#include "buckens/results/record_sink.h"
+
+namespace buckens::cli {
+
+/// Passes records on to a run directory, counts them, and puts the summary into the log before the
+/// directory is completed.
+class JournaledSink : public results::RecordSink {
+ public:
+  JournaledSink(io::RunDirectory& directory, RunJournal& journal)
+      : directory_(directory), journal_(journal) {}
+
+  void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
+  void write(const results::Record& record) override;
+  void finish(const results::RunSummary& summary) override;
+
+  /// Completes the directory of a run that failed, if the simulation has not done it: `reason` is
+  /// what its summary names. Never throws; the failure itself is what the user has to learn.
+  void abandon(const std::string& reason) noexcept;
+
+  long num_records() const { return num_records_; }
+  double last_time() const { return last_time_; }  ///< of a record [s]
+
+ private:
+  io::RunDirectory& directory_;
+  RunJournal& journal_;
+  long num_records_ = 0;
+  double last_time_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace buckens::cli

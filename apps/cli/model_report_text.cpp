@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/model_report_text.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/output.h"
+#include "cli/text_table.h"
+
+namespace buckens::cli {
+
+namespace {
+
+using analysis::BodyReport;
+using analysis::ModelReport;
+using Json = nlohmann::ordered_json;
+
+/// Columns of the frequency list; the rest stands in the JSON output.
+constexpr std::size_t kFrequenciesShown = 6;
+
+std::string number(double value) { return fmt::format("{:.5g}", value); }
+
+std::string triple(double x, double y, double z) {
+  return fmt::format("{:.5g}, {:.5g}, {:.5g}", x, y, z);
+}
+
+std::string bodies_table(const ModelReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"body", "mass [kg]", "mass centre [m]",
+                                                 "principal inertia [kg m^2]", "nodes", "elements",
+                                                 "nodal DOF", "frame"}};
+  for (const BodyReport& body : report.bodies) {
+    const auto& inertia = body.principal_inertia;
+    const auto mesh = [&](int count) {
+      return body.is_flexible ? fmt::to_string(count) : std::string("-");
+    };
+    rows.push_back({body.name, number(body.mass), triple(body.com.x(), body.com.y(), body.com.z()),
+                    triple(inertia[0], inertia[1], inertia[2]), mesh(body.nodes),
+                    mesh(body.elements), mesh(body.dof), fmt::to_string(body.frame_coordinates)});
+  }
+  return text_table(rows);
+}
+
+std::string frequencies_text(const ModelReport& report) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const BodyReport& body : report.bodies) {
+    if (body.frequencies.empty()) continue;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(body.frequencies.size(), kFrequenciesShown); ++i) {
+      list += fmt::format("{}{:.5g}", i == 0 ? "" : ", ", body.frequencies[i]);
+    }
+    entries.emplace_back(body.name, list + " Hz");
+  }
+  return entries.empty() ? "" : "lowest free-free frequencies\n" + text_list(entries);
+}
+
+std::string markers_text(const ModelReport& report) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const BodyReport& body : report.bodies) {
+    std::string list;
+    for (const std::string& name : body.markers) list += (list.empty() ? "" : ", ") + name;
+    if (!list.empty()) entries.emplace_back(body.name, list);
+  }
+  return entries.empty() ? "" : "markers\n" + text_list(entries);
+}
+
+Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json json_of(const Eigen::Matrix3d& matrix) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
+  return rows;
+}
+
+Json json_of(const BodyReport& body) {
+  return {{"flexible", body.is_flexible},
+          {"mass", body.mass},
+          {"com", json_of(body.com)},
+          {"inertia", json_of(body.inertia)},
+          {"principal_inertia", body.principal_inertia},
+          {"nodes", body.nodes},
+          {"elements", body.elements},
+          {"dof", body.dof},
+          {"frame_coordinates", body.frame_coordinates},
+          {"frequencies", body.frequencies},
+          {"markers", body.markers}};
+}
+
+}  // namespace
+
+std::string report_text(const std::string& title, const ModelReport& report) {
+  std::string out = title.empty() ? "" : title + '\n';
+  out += bodies_table(report) + frequencies_text(report) + markers_text(report);
+  out += "mechanism\n";
+  std::vector<std::pair<std::string, std::string>> entries = {
+      {"joints", fmt::format("{} with {}, {} redundant", counted(report.joints, "joint"),
+                             counted(report.constraint_rows, "equation"), report.redundant_rows)},
+      {"loads", fmt::to_string(report.loads)},
+      {"degrees of freedom", fmt::format("{} (bodies taken as rigid)", report.degrees_of_freedom)},
+      {"gap left by assembly", fmt::format("{:.2g}", report.assembly_gap)}};
+  if (report.step > 0) entries.emplace_back("step", fmt::format("{:.6g} s", report.step));
+  if (report.highest_frequency > 0) {
+    entries.emplace_back("highest frequency excited by loads",
+                         fmt::format("{:.5g} Hz", report.highest_frequency));
+  }
+  out += text_list(entries);
+  for (const std::string& text : report.redundant) out += "redundant: " + text + '\n';
+  for (const std::string& text : report.notes) out += "note: " + text + '\n';
+  for (const std::string& text : report.warnings) out += "warning: " + text + '\n';
+  return out;
+}
+
+std::string report_json(const std::string& title, const ModelReport& report) {
+  Json bodies = Json::object();
+  for (const BodyReport& body : report.bodies) bodies[body.name] = json_of(body);
+  return to_text({{"title", title},
+                  {"bodies", std::move(bodies)},
+                  {"joints", report.joints},
+                  {"loads", report.loads},
+                  {"constraint_rows", report.constraint_rows},
+                  {"redundant_rows", report.redundant_rows},
+                  {"redundant", report.redundant},
+                  {"degrees_of_freedom", report.degrees_of_freedom},
+                  {"assembly_gap", report.assembly_gap},
+                  {"step", report.step},
+                  {"highest_frequency", report.highest_frequency},
+                  {"notes", report.notes},
+                  {"warnings", report.warnings}});
+}
+
+}  // namespace buckens::cli

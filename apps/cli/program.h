@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace buckens::cli {
+
+/// The whole program: reads the command line, does what it says, reports errors.
+/// @return exit code
+int run_program(int argc, const char* const* argv);
+
+}  // namespace buckens::cli

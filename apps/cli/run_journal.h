@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "cli/progress_display.h"
+
+#include "buckens/base/log.h"
+#include "buckens/io/run_directory.h"
+
+namespace buckens::cli {
+
+/// What a run says on its way: all of it to log.txt, what the user wants to see to the terminal.
+///
+/// Takes the messages of the library while it lives. Lines that come before there is a run
+/// directory are kept for it.
+class RunJournal {
+ public:
+  /// @param lowest messages below this level go to the log only
+  RunJournal(ProgressDisplay& display, base::LogLevel lowest);
+  ~RunJournal();
+  RunJournal(const RunJournal&) = delete;
+  RunJournal& operator=(const RunJournal&) = delete;
+
+  /// From here on lines go to log.txt of this directory, those so far first.
+  void open(io::RunDirectory& directory);
+  /// The directory's log ends; later lines go to the terminal only.
+  void close();
+
+  void say(base::LogLevel level, const std::string& message);
+  /// Lines for the log alone.
+  void record(const std::string& lines);
+
+  /// Wall time since the journal was begun [s].
+  double seconds() const;
+
+ private:
+  void append(const std::string& line);
+
+  ProgressDisplay& display_;
+  base::LogLevel lowest_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  std::vector<std::string> kept_;
+  io::RunDirectory* directory_ = nullptr;
+};
+
+}  // namespace buckens::cli

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/summary_text.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/text_table.h"
+
+namespace buckens::cli {
+
+namespace {
+
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+std::string headline(const results::RunSummary& summary) {
+  const double stepping = summary.wall_seconds.stepping;
+  const std::string rate =
+      stepping > 0 && summary.steps > 0
+          ? fmt::format(", {:.4g} steps/s", static_cast<double>(summary.steps) / stepping)
+          : "";
+  const std::string line = fmt::format(
+      "{}{} to t = {:.6g} s in {:.3g} s{}\n", summary.title.empty() ? "" : summary.title + ": ",
+      counted(summary.steps, "step"), summary.end_time, summary.wall_seconds.total, rate);
+  if (summary.finished) return line;
+  return line + fmt::format("NOT FINISHED: {}\n", summary.interrupted);
+}
+
+std::string bodies_table(const results::RunSummary& summary) {
+  std::vector<std::vector<std::string>> rows = {
+      {"body", "nodal DOF", "factorisations", "solves", "solves/step"}};
+  for (const results::BodyEffort& body : summary.bodies) {
+    if (body.dof == 0) {
+      rows.push_back({body.name, "rigid"});
+      continue;
+    }
+    const std::string per_step = summary.steps > 0
+                                     ? fmt::format("{:.2f}", static_cast<double>(body.solves) /
+                                                                 static_cast<double>(summary.steps))
+                                     : "-";
+    rows.push_back({body.name, fmt::to_string(body.dof), fmt::to_string(body.factorisations),
+                    fmt::to_string(body.solves), per_step});
+  }
+  return text_table(rows);
+}
+
+std::string wall_text(const results::WallSeconds& wall) {
+  std::string out = fmt::format("{:.3g} s = set-up {:.3g} + stepping {:.3g}", wall.total,
+                                wall.setup, wall.stepping);
+  std::string phases;
+  for (const auto& [name, seconds] : wall.phases) {
+    phases += fmt::format("{}{} {:.3g}", phases.empty() ? "" : ", ", name, seconds);
+  }
+  return phases.empty() ? out : out + " (" + phases + ")";
+}
+
+std::string join(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : "; ") + text;
+  return out;
+}
+
+}  // namespace
+
+std::string summary_text(const results::RunSummary& summary) {
+  std::string out = headline(summary);
+  if (!summary.bodies.empty()) out += bodies_table(summary);
+  Entries entries = {
+      {"solves before the first step", fmt::to_string(summary.setup_solves)},
+      {"Newton iterations",
+       fmt::format("{:.2f} per step, most {}", summary.newton_iterations.per_step_mean,
+                   summary.newton_iterations.max)},
+      {"constraint residual, position", fmt::format("{:.2g} at most", summary.residuals.position)},
+      {"constraint residual, velocity", fmt::format("{:.2g} at most", summary.residuals.velocity)},
+      {"sieve residual |P'd|",
+       fmt::format("{:.2g} at most, relative to the body", summary.residuals.sieve)},
+      {"energy balance", fmt::format("off by {:.2g} of its scale", summary.energy_error)},
+      {"wall time", wall_text(summary.wall_seconds)},
+      {"trust", summary.trust.empty() ? "ok" : join(summary.trust)}};
+  for (const auto& [name, value] : summary.measures) {
+    entries.emplace_back(name, fmt::format("{:.4g}", value));
+  }
+  out += text_list(entries);
+  for (const std::string& text : summary.redundant_constraints) out += "redundant: " + text + '\n';
+  for (const std::string& text : summary.warnings) out += "warning: " + text + '\n';
+  return out;
+}
+
+}  // namespace buckens::cli
