@@ -107,6 +107,7 @@ class Mechanism {
     joints::Placement placement;
     placement.R_WF = world_pose(first).R();
     placement.R_WM = world_pose(second).R();
+    placement.r_F = world_pose(first).inverse() * world_pose(second).p;
     placement.axis_F = axis_F;
     placement.planar = model_.planar;
     placement.law = std::move(law);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/spatial/marker_motion.h"
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::test {
+
+/// A marker frame that moves with constant acceleration of its origin and of its rotation vector:
+/// the path along which rates are checked by finite differences. Exact derivatives at t = 0.
+struct MarkerPath {
+  Eigen::Vector3d p, v, a;
+  Eigen::Matrix3d R;
+  Eigen::Vector3d w, alpha;
+
+  spatial::MarkerMotion at(double t) const {
+    spatial::MarkerMotion out;
+    const Eigen::Vector3d psi = t * w + 0.5 * t * t * alpha;
+    out.p = p + t * v + 0.5 * t * t * a;
+    out.v = v + t * a;
+    out.R = spatial::exp_rotation(psi).toRotationMatrix() * R;
+    out.w = spatial::left_jacobian(psi) * (w + t * alpha);
+    return out;
+  }
+
+  /// Some frame in general position; `seed` tells frames apart.
+  static MarkerPath some(int seed) {
+    const double s = seed;
+    MarkerPath out;
+    out.p << 0.3 + 0.2 * s, -0.5 * s, 0.8 - 0.1 * s;
+    out.v << 1.1 - s, 0.4, -0.6 + 0.5 * s;
+    out.a << -0.7, 2.0 * s, 0.9;
+    out.R = spatial::exp_rotation({0.5 - 0.2 * s, 0.3 * s, -0.8}).toRotationMatrix();
+    out.w << 0.9, -1.2 + s, 0.4 * s;
+    out.alpha << 0.5 * s, 1.3, -0.6;
+    return out;
+  }
+};
+
+/// First derivative at zero, fourth order.
+template <class F>
+auto derivative(F f, double h = 1e-3) {
+  const auto near = f(h) - f(-h);
+  const auto far = f(2 * h) - f(-2 * h);
+  return decltype(f(0.0))((8.0 * near - far) / (12.0 * h));
+}
+
+/// Second derivative at zero, fourth order.
+template <class F>
+auto second_derivative(F f, double h = 2e-3) {
+  const auto middle = f(0.0);
+  const auto near = f(h) + f(-h) - 2.0 * middle;
+  const auto far = f(2 * h) + f(-2 * h) - 2.0 * middle;
+  return decltype(f(0.0))((16.0 * near - far) / (12.0 * h * h));
+}
+
+}  // namespace buckens::test
