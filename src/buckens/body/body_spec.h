@@ -134,7 +134,9 @@ struct RigidSpec {
 /// A second body with the mesh or mass properties of another one.
 struct LikeSpec {
   static constexpr const char* kKey = "like";
-  static constexpr const char* kDoc = "the same as another body, placed elsewhere";
+  static constexpr const char* kDoc =
+      "mesh or mass properties, markers and damping of a body that stands "
+      "above; placed and coupled on its own";
   SourceLocation where;
   std::string body;
 
