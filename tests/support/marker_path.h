@@ -40,18 +40,20 @@ struct MarkerPath {
 /// First derivative at zero, fourth order.
 template <class F>
 auto derivative(F f, double h = 1e-3) {
-  const auto near = f(h) - f(-h);
-  const auto far = f(2 * h) - f(-2 * h);
-  return decltype(f(0.0))((8.0 * near - far) / (12.0 * h));
+  using Value = decltype(f(0.0));  // not `auto`: Eigen's differences refer to their operands
+  const Value near = f(h) - f(-h);
+  const Value far = f(2 * h) - f(-2 * h);
+  return Value((8.0 * near - far) / (12.0 * h));
 }
 
 /// Second derivative at zero, fourth order.
 template <class F>
 auto second_derivative(F f, double h = 2e-3) {
-  const auto middle = f(0.0);
-  const auto near = f(h) + f(-h) - 2.0 * middle;
-  const auto far = f(2 * h) + f(-2 * h) - 2.0 * middle;
-  return decltype(f(0.0))((16.0 * near - far) / (12.0 * h * h));
+  using Value = decltype(f(0.0));
+  const Value middle = f(0.0);
+  const Value near = f(h) + f(-h) - 2.0 * middle;
+  const Value far = f(2 * h) + f(-2 * h) - 2.0 * middle;
+  return Value((16.0 * near - far) / (12.0 * h * h));
 }
 
 }  // namespace buckens::test

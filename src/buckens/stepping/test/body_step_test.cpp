@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// One step of a flexible body: the sieve against explicit multipliers, and how much it costs.
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "tests/support/example_models.h"
+
+#include "buckens/body/rigid_modes.h"
+#include "buckens/stepping/body_step_operator.h"
+#include "buckens/stepping/stepper.h"
+
+namespace buckens::stepping {
+namespace {
+
+using linalg::Matrix;
+using linalg::Vector;
+
+test::BeamConstants damped_beam() {
+  test::BeamConstants beam;
+  beam.EA = 1e4;
+  beam.EIy = 60;
+  beam.alpha = 0.5;
+  beam.beta = 1e-4;
+  return beam;
+}
+
+Vector some(Eigen::Index n, double seed) {
+  Vector out(n);
+  for (Eigen::Index k = 0; k < n; ++k) out[k] = std::sin(seed + 1.7 * static_cast<double>(k));
+  return out;
+}
+
+/// Sieved nodal variables and rates in general position.
+model::BodyState some_state(const body::FlexiblePart& part) {
+  const Eigen::Index n = part.num_dofs();
+  model::BodyState state;
+  state.d = 0.01 * some(n, 0.3);
+  state.d_dot = some(n, 1.1);
+  state.d_ddot = 100 * some(n, 2.0);
+  state.d_alg = 90 * some(n, 2.1);
+  for (Vector* v : {&state.d, &state.d_dot, &state.d_ddot, &state.d_alg}) part.sieve.apply(*v);
+  return state;
+}
+
+/// Solution of [K̂ P; Pᵀ 0][x; Λ] = [f; 0], dense.
+Vector bordered(const body::FlexiblePart& part, const Matrix& K_hat, const Vector& f) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& node : part.fe.nodes) positions.push_back(node.position);
+  const Matrix P = part.fe.M * body::rigid_modes(positions, part.fe.dofs, part.fe.shape.com);
+  const Eigen::Index n = K_hat.rows();
+  Matrix A = Matrix::Zero(n + 6, n + 6);
+  A.topLeftCorner(n, n) = K_hat;
+  A.topRightCorner(n, 6) = P;
+  A.bottomLeftCorner(6, n) = P.transpose();
+  Vector b = Vector::Zero(n + 6);
+  b.head(n) = f;
+  return A.fullPivLu().solve(b).head(n);
+}
+
+double energy_norm(const Matrix& K_hat, const Vector& x) { return std::sqrt(x.dot(K_hat * x)); }
+
+TEST(BodyStepOperator, SieveEqualsMultiplier) {
+  const model::Model model = test::spatial_beam_pendulum(damped_beam());
+  const body::FlexiblePart& part = *model.bodies[0].flexible;
+  const model::BodyState state = some_state(part);
+  const Vector load = 50 * some(part.num_dofs(), 4.0);
+  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+    const Scheme scheme(method, 1e-3, 0.9);
+    BodyStepOperator op(part, scheme);
+    const auto history = scheme.history(state.d_dot, state.d_ddot, state.d_alg);
+    const Vector f = 30 * some(op.compliance().rows(), 5.0);
+    Vector fast;
+    op.free_response(state, history, load, fast);
+    op.complete(f, Eigen::Matrix<double, 6, 1>::Zero(), Vector::Zero(f.size()), fast);
+
+    // The same step by its increment: K̂ Δ + PΛ = c (F − M ẍ₀ − C ẋ₀ − K d).
+    const Matrix K_hat = op.K_hat();
+    const Vector interface = op.N().transpose() * f;
+    const Vector rest = load + interface - part.fe.M * history.acceleration -
+                        part.C * history.mean_velocity - part.fe.K * state.d;
+    const Vector slow = state.d + bordered(part, K_hat, scheme.force * rest);
+    EXPECT_LE(energy_norm(K_hat, fast - slow), 1e-12 * energy_norm(K_hat, slow))
+        << to_string(method);
+    EXPECT_LE(part.sieve.rigid_part(fast).norm(), 1e-15 * fast.norm() * 10);
+  }
+}
+
+TEST(BodyStepOperator, CorrectionsMoveStrainButNotInertia) {
+  const model::Model model = test::spatial_beam_pendulum(damped_beam());
+  const body::FlexiblePart& part = *model.bodies[0].flexible;
+  const Scheme scheme(Method::generalized_alpha, 1e-3, 0.9);
+  const BodyStepOperator op(part, scheme);
+  const Vector e = some(op.compliance().rows(), 1.0);
+  const Matrix K_hat = op.K_hat();
+  const Vector eta = bordered(part, K_hat, op.N().transpose() * e);
+  EXPECT_LE(energy_norm(K_hat, op.correction(e) - eta), 1e-12 * energy_norm(K_hat, eta));
+  Vector x = Vector::Zero(part.num_dofs());
+  op.complete(Vector::Zero(e.size()), Eigen::Matrix<double, 6, 1>::Zero(), e, x);
+  // K̂ Δ + PΛ = −k K η, x = Δ + η.
+  const Vector expected = eta + bordered(part, K_hat, -scheme.stiffness * (part.fe.K * eta));
+  EXPECT_LE(energy_norm(K_hat, x - expected), 1e-12 * energy_norm(K_hat, eta));
+}
+
+TEST(Stepper, OneFactorisationAndOneLargeSolvePerStepWithoutCoupling) {
+  const model::Model model =
+      test::planar_beam_pendulum(test::BeamConstants{}, body::CouplingLevel::none);
+  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+    StepSettings settings;
+    settings.method = method;
+    Stepper stepper(model, settings, {0, 1});
+    const long setup = stepper.counts(0).setup_solves;
+    model::State state = model::placed_state(model);
+    for (int k = 0; k < 50; ++k) EXPECT_EQ(stepper.step(state).large_solve_rounds, 1);
+    const SolveCounts counts = stepper.counts(0);
+    EXPECT_EQ(counts.factorisations, 1);
+    EXPECT_EQ(counts.solves, 50);
+    EXPECT_EQ(counts.setup_solves, setup);  // nothing more while stepping
+  }
+}
+
+TEST(Stepper, FullCouplingTakesOneOrTwoSolvesPerStep) {
+  const model::Model model = test::planar_beam_pendulum(test::BeamConstants{});
+  StepSettings settings;
+  settings.step = 1e-4;
+  Stepper stepper(model, settings, {0, 1});
+  model::State state = model::placed_state(model);
+  long rounds = 0;
+  for (int k = 0; k < 200; ++k) rounds += stepper.step(state).large_solve_rounds;
+  const SolveCounts counts = stepper.counts(0);
+  EXPECT_EQ(counts.factorisations, 1);
+  // A round may leave the load as it was and change moments of the frame only.
+  EXPECT_LE(counts.solves, rounds);
+  EXPECT_GE(counts.solves, 200);
+  EXPECT_LE(counts.solves, 400);
+  // Two patterns per interface row (force, correction) and six centrifugal ones.
+  EXPECT_EQ(counts.setup_solves, 2 * model.bodies[0].num_interface_rows() + 6);
+}
+
+TEST(Stepper, RigidBodiesCostNoLargeSolves) {
+  const model::Model model = test::rigid_double_pendulum(true);
+  Stepper stepper(model, StepSettings{}, {0, 1, 2, 3});
+  model::State state = model::placed_state(model);
+  const StepReport report = stepper.step(state);
+  EXPECT_GE(report.newton_iterations, 1);
+  EXPECT_LE(report.position_residual, 1e-12);
+  EXPECT_LE(report.velocity_residual, 1e-9);
+  EXPECT_EQ(stepper.counts(0).factorisations, 0);
+  EXPECT_EQ(stepper.counts(1).solves, 0);
+}
+
+}  // namespace
+}  // namespace buckens::stepping
