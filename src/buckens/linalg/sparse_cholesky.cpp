@@ -21,6 +21,7 @@ struct SparseCholesky::Backend {
   Backend() {
     cholmod_start(&common);
     common.print = 0;
+    common.final_ll = 1;  // L Lᵀ also for small matrices: L D Lᵀ would accept indefinite ones
   }
   ~Backend() {
     cholmod_free_dense(&solution, &common);
