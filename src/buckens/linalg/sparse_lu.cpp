@@ -48,11 +48,11 @@ bool SparseLu::factorise(const SparseMatrix& A) {
   double* values = const_cast<double*>(A.valuePtr());
   klu_common* common = &backend_->common;
   if (backend_->numeric != nullptr) {
-    const bool refactored =
+    const bool is_good =
         klu_refactor(outer, inner, values, backend_->symbolic, backend_->numeric, common) != 0 &&
         klu_rgrowth(outer, inner, values, backend_->symbolic, backend_->numeric, common) != 0 &&
-        common->rgrowth > kSmallestGrowth;
-    if (refactored) return pivot_ratio() > kSingular;
+        common->rgrowth > kSmallestGrowth && pivot_ratio() > kSingular;
+    if (is_good) return true;
     klu_free_numeric(&backend_->numeric, common);
   }
   backend_->numeric = klu_factor(outer, inner, values, backend_->symbolic, common);
