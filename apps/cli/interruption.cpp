@@ -13,8 +13,12 @@ namespace {
 volatile std::sig_atomic_t stop_requested = 0;
 volatile std::sig_atomic_t announce_request = 0;
 
-extern "C" void request_stop(int) {
+extern "C" void request_stop(int number) {
   const int saved = errno;
+  if (stop_requested != 0) {  // asked before: now at once
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+  }
   stop_requested = 1;
   if (announce_request != 0) {
     constexpr std::string_view text =
@@ -32,8 +36,7 @@ Interruption::Interruption(bool announce) {
   struct sigaction action = {};
   action.sa_handler = request_stop;
   sigemptyset(&action.sa_mask);
-  // Back to the default after the first signal. SA_RESTART: no half-done system calls.
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  action.sa_flags = SA_RESTART;  // no half-done system calls
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);
     if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);

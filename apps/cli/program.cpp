@@ -27,10 +27,10 @@ constexpr char kDescription[] =
 
 constexpr char kFooter[] = R"(
 Begin with:
-  buckens check examples/slider_crank/slider_crank.yaml     what the model is
-  buckens run examples/slider_crank/slider_crank.yaml -o out    simulate it
-  buckens view out                                          make a page that shows it
-  buckens run --help                                        every verb explains itself
+  buckens check examples/slider_crank/slider_crank.yaml        what the model is
+  buckens run examples/slider_crank/slider_crank.yaml -o out   simulate it
+  buckens view out                                             make a page that shows it
+  buckens run --help                                           every verb explains itself
 
 Exit codes:
   0    done
@@ -51,8 +51,6 @@ void describe(CLI::App& app) {
   app.set_version_flag("--version", fmt::format("buckens {}", kVersion), "Print the version");
   app.get_formatter()->column_width(24);
   app.get_formatter()->label("SUBCOMMAND", "VERB");
-  app.get_formatter()->label("Subcommands", "Verbs");
-  app.get_formatter()->label("OPTIONS", "OPTIONS");
 }
 
 /// Verb that was probably meant, as the ending of a message.
@@ -95,6 +93,7 @@ int run_program(int argc, const char* const* argv) {
     add_schema_verb(app, invocation);
     add_reference_verb(app, invocation);
     add_version_verb(app, invocation);
+    for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) verb->group("Verbs");
     app.require_subcommand(0, 1);
     try {
       app.parse(argc, argv);

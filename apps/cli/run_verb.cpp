@@ -155,8 +155,8 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<RunArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
   verb.add_option("-o,--out", arguments->out,
-                  "Directory for the results; without it the model's name with .out in place of "
-                  "its ending, in the current directory")
+                  "Directory for the results; without it the model's name with .out in\n"
+                  "place of its ending, in the current directory")
       ->type_name("OUT");
   verb.add_flag("-q,--quiet", arguments->quiet,
                 "No progress and no summary; warnings and errors only");

@@ -5,7 +5,7 @@ namespace buckens::cli {
 
 void add_json_option(CLI::App& verb, Invocation& invocation) {
   verb.add_flag("--json", invocation.json,
-                "Print one JSON object to the standard output and nothing else there; errors, too");
+                "One JSON object on the standard output and nothing else; errors, too");
 }
 
 void add_model_options(CLI::App& verb, std::string& model, std::vector<std::string>& overrides) {
