@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Calling the program the way a user does, and models to call it with."""
+
+import ctypes
+import json
+import os
+import pathlib
+import signal
+import subprocess
+
+import pytest
+
+SOURCE = pathlib.Path(os.environ.get("BUCKENS_SOURCE_DIR", pathlib.Path(__file__).parents[1]))
+BINARY = pathlib.Path(os.environ.get("BUCKENS_BINARY_DIR", SOURCE / "build" / "release"))
+PROGRAM = os.environ.get("BUCKENS_PROGRAM", str(BINARY / "bin" / "buckens"))
+MODELS = SOURCE / "tests" / "models"
+
+PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH = 24, 1, 2
+
+
+def heed_permissions():
+    """For the child process: file permissions hold for root, too."""
+    if os.geteuid() == 0:
+        libc = ctypes.CDLL(None, use_errno=True)
+        for capability in (CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH):
+            if libc.prctl(PR_CAPBSET_DROP, capability, 0, 0, 0) != 0:
+                raise OSError(ctypes.get_errno(), "prctl")
+
+
+def default_signals():
+    """Shells let background jobs ignore SIGINT, and children inherit that."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+class Result:
+    def __init__(self, process):
+        self.code, self.out, self.err = process.returncode, process.stdout, process.stderr
+
+    @property
+    def json(self):
+        return json.loads(self.out)
+
+    def must(self, code, *words):
+        """The exit code and, in the error message, all the words."""
+        assert self.code == code, f"exit code {self.code}\n{self.out}\n{self.err}"
+        for word in words:
+            assert word in self.err, f"no {word!r} in\n{self.err}"
+        return self
+
+
+@pytest.fixture
+def buckens(tmp_path):
+    """Runs the program in a directory of its own until its end."""
+
+    def call(*arguments, **options):
+        options.setdefault("cwd", tmp_path)
+        options.setdefault("preexec_fn", default_signals)
+        options.setdefault("timeout", 300)
+        options.setdefault("stdout", subprocess.PIPE)
+        return Result(subprocess.run([PROGRAM, *map(str, arguments)], text=True,
+                                     stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, **options))
+
+    return call
+
+
+@pytest.fixture
+def start(tmp_path):
+    """Starts the program and leaves it running; what still runs at the end of the test is killed."""
+    running = []
+
+    def call(*arguments, **options):
+        options.setdefault("cwd", tmp_path)
+        options.setdefault("preexec_fn", default_signals)
+        options.setdefault("stdout", subprocess.PIPE)
+        options.setdefault("stderr", subprocess.PIPE)
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], text=True,
+                                   stdin=subprocess.DEVNULL, **options)
+        running.append(process)
+        return process
+
+    yield call
+    for process in running:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def models():
+    return MODELS

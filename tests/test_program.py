@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Verbs that need no simulation, help, and the command line itself."""
+
+import os
+import re
+
+import pytest
+
+from conftest import SOURCE
+
+VERBS = ["run", "check", "view", "schema", "reference", "version"]
+
+
+def test_version_is_that_of_the_file(buckens):
+    version = (SOURCE / "VERSION").read_text().strip()
+    assert buckens("version").must(0).out == f"buckens {version}\n"
+    assert buckens("version", "--json").must(0).json == {"program": "buckens", "version": version}
+    assert version in buckens("--version").must(0).out
+
+
+def test_schema_is_json_schema(buckens):
+    schema = buckens("schema").must(0).json
+    assert schema["$schema"].startswith("https://json-schema.org/")
+    assert {"bodies", "joints", "simulation"} <= set(schema["properties"])
+    assert buckens("schema", "--json").must(0).json == schema
+
+
+def test_reference_is_markdown(buckens):
+    page = buckens("reference").must(0).out
+    assert page.startswith("#") and "revolute" in page
+    assert buckens("reference", "--json").must(0).json["reference"] == page
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_explains_itself(buckens, verb):
+    page = buckens(verb, "--help").must(0).out
+    assert "--json" in page
+    if verb != "version":
+        assert f"buckens {verb}" in page, "a worked example"
+
+
+def test_help_names_verbs_and_exit_codes(buckens):
+    page = buckens("--help").must(0).out
+    for verb in VERBS:
+        assert re.search(rf"^  {verb}\b", page, re.MULTILINE), verb
+    for code in ["0", "1", "2", "3", "4", "5", "130"]:
+        assert re.search(rf"^  {code} ", page, re.MULTILINE), code
+    assert "docs/reference/command-line.md" in page
+
+
+def test_without_a_verb_the_help_is_shown(buckens):
+    assert buckens().must(2).out == buckens("--help").out
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["rnu"], ["no verb", '"rnu"', '"run"']),
+    (["run"], ["MODEL", "buckens run --help"]),
+    (["run", "a.yaml", "--sett", "x=1"], ["--sett", "buckens run --help"]),
+    (["check", "a.yaml", "b.yaml"], ["b.yaml"]),
+    (["view"], ["OUT"]),
+    (["view", "x", "--frames", "1"], ["--frames"]),
+])
+def test_wrong_command_line(buckens, arguments, words):
+    buckens(*arguments).must(2, "buckens: error:", *words)
+    error = buckens(*arguments, "--json").must(2).json["error"]
+    assert error["kind"] == "usage"
+    assert error["file"] is None and error["line"] is None and error["column"] is None
+
+
+def test_full_disk_behind_the_standard_output(buckens):
+    with open("/dev/full", "w") as full:
+        buckens("schema", stdout=full).must(5, "standard output", "No space left")
+
+
+def test_closed_pipe_is_an_error_not_a_crash(buckens):
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        buckens("schema", stdout=writer).must(5, "standard output", "Broken pipe")
+    finally:
+        os.close(writer)
+
+
+def test_check_tells_what_the_model_is(buckens, models):
+    page = buckens("check", models / "pendulum.yaml").must(0).out
+    for word in ["Test pendulum", "rod", "1 joint", "degrees of freedom"]:
+        assert word in page
+    report = buckens("check", models / "pendulum.yaml", "--json").must(0).json
+    rod = report["bodies"]["rod"]
+    assert rod["mass"] == 2
+    assert rod["com"] == [0.5, 0, 0]
+    assert not rod["flexible"]
+    assert {"pin", "tip"} <= set(rod["markers"])
+    assert report["constraint_rows"] == 2 and report["redundant_rows"] == 0
+    assert report["degrees_of_freedom"] == 1
+    assert report["step"] == 1e-3
+
+
+def test_check_of_a_beam(buckens, models):
+    report = buckens("check", models / "beam.yaml", "--json").must(0).json
+    beam = report["bodies"]["beam"]
+    # ρ A L; exact up to rounding.
+    assert beam["mass"] == pytest.approx(7870 * 0.02 * 0.004 * 0.5, rel=1e-12)
+    assert beam["elements"] == 8 and beam["nodes"] == 9 and beam["dof"] == 27
+    assert beam["frame_coordinates"] == 3
+    assert beam["com"] == pytest.approx([0.25, 0, 0], abs=1e-15)
+    # First free-free bending frequency of an Euler-Bernoulli beam, βL = 4.73004; eight elements are
+    # good to 1e-4. Bending in the plane is about the axis in which the section is 20 mm wide or
+    # 4 mm high, whichever `up` makes it.
+    bending = [4.730040744862704 ** 2 / (2 * 3.141592653589793 * 0.5 ** 2)
+               * (200e9 / 7870) ** 0.5 * height / 12 ** 0.5 for height in (0.02, 0.004)]
+    assert any(beam["frequencies"][0] == pytest.approx(f, rel=1e-4) for f in bending)
+    page = buckens("check", models / "beam.yaml").must(0).out
+    assert "Hz" in page and "27" in page
+
+
+def test_check_writes_nothing(buckens, models, tmp_path):
+    buckens("check", models / "beam.yaml").must(0)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_check_names_redundant_joints(buckens):
+    model = SOURCE / "examples" / "door" / "door.yaml"
+    report = buckens("check", model, "--json").must(0).json
+    assert report["constraint_rows"] == 10 and report["redundant_rows"] == 5
+    assert any("hinge" in text for text in report["redundant"])
+    assert report["degrees_of_freedom"] == 1
+
+
+def test_set_replaces_values(buckens, models):
+    report = buckens("check", models / "pendulum.yaml", "--json", "--set", "bodies.rod.rigid.mass=3 kg",
+                     "--set", "parameters.L=4 m").must(0).json
+    assert report["bodies"]["rod"]["mass"] == 3
+    assert report["bodies"]["rod"]["com"] == [2, 0, 0]
+
+
+@pytest.mark.parametrize("assignment, words", [
+    ("bodies.rod.rigid.mas=3", ["mas", "mass"]),
+    ("bodies.rud.rigid.mass=3", ["rud", "rod"]),
+    ("parameters.M=3", ["M"]),
+    ("simulation.step", ["simulation.step"]),
+    ("simulation.step=1 kg", ["step", "kg"]),
+])
+def test_set_refuses_what_does_not_exist(buckens, models, assignment, words):
+    buckens("check", models / "pendulum.yaml", "--set", assignment).must(2, *words)
+
+
+def test_errors_as_json_name_the_place(buckens, tmp_path):
+    model = tmp_path / "bad.yaml"
+    model.write_text("buckens: 1\nbodies:\n  a: {rigid: {mass: -1 kg}}\n")
+    error = buckens("check", model, "--json").must(2).json["error"]
+    assert set(error) == {"kind", "message", "file", "line", "column"}
+    assert error["kind"] == "input"
+    assert error["file"] == str(model) and error["line"] == 3 and error["column"] > 0
+    assert f"{model}:3:{error['column']}" in error["message"]
