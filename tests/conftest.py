@@ -65,7 +65,7 @@ def buckens(tmp_path):
 
 @pytest.fixture
 def start(tmp_path):
-    """Starts the program and leaves it running; what still runs at the end of the test is killed."""
+    """Starts the program and leaves it running; it is killed at the end of the test."""
     running = []
 
     def call(*arguments, **options):

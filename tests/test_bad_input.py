@@ -96,8 +96,9 @@ def test_negative_mass(run, model):
 
 
 def test_zero_length_beam(run):
-    text = ("buckens: 1\nmaterials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870}}\nbodies:\n  rod:\n    "
-            + BEAM.replace("1 m", "0") + "\nsimulation: {duration: 1 s, step: 1 ms}\n")
+    text = ("buckens: 1\nmaterials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870}}\n"
+            "bodies:\n  rod:\n    " + BEAM.replace("1 m", "0")
+            + "\nsimulation: {duration: 1 s, step: 1 ms}\n")
     run(text).must(2, "model.yaml:5:", "length")
 
 
@@ -112,8 +113,8 @@ def test_unknown_marker(run, model):
 
 
 def test_unknown_material(run):
-    text = ("buckens: 1\nmaterials: {stele: {E: 200 GPa, nu: 0.3, rho: 7870}}\nbodies:\n  rod:\n    "
-            + BEAM + "\nsimulation: {duration: 1 s, step: 1 ms}\n")
+    text = ("buckens: 1\nmaterials: {stele: {E: 200 GPa, nu: 0.3, rho: 7870}}\n"
+            "bodies:\n  rod:\n    " + BEAM + "\nsimulation: {duration: 1 s, step: 1 ms}\n")
     run(text).must(2, "model.yaml:5:", "material", "steel", "stele")
 
 

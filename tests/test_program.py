@@ -128,7 +128,8 @@ def test_check_names_redundant_joints(buckens):
 
 
 def test_set_replaces_values(buckens, models):
-    report = buckens("check", models / "pendulum.yaml", "--json", "--set", "bodies.rod.rigid.mass=3 kg",
+    report = buckens("check", models / "pendulum.yaml", "--json",
+                     "--set", "bodies.rod.rigid.mass=3 kg",
                      "--set", "parameters.L=4 m").must(0).json
     assert report["bodies"]["rod"]["mass"] == 3
     assert report["bodies"]["rod"]["com"] == [2, 0, 0]

@@ -29,8 +29,8 @@ def test_run_directory_is_complete(buckens, models, tmp_path):
     result = buckens("run", models / "pendulum.yaml", "-o", "out").must(0)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "log.txt", "model.yaml", "results.h5", "sensors.csv", "summary.json"]
-    for word in ["Test pendulum", "100 steps", "t = 0.1 s", "Newton iterations", "residual, position",
-                 "residual, velocity", "sieve", "energy", "set-up", "stepping", "trust",
+    for word in ["Test pendulum", "100 steps", "t = 0.1 s", "Newton iterations",
+                 "residual, position", "residual, velocity", "sieve", "energy", "set-up", "stepping", "trust",
                  "buckens view out"]:
         assert word in result.out, word
     log = (tmp_path / "out" / "log.txt").read_text()
@@ -101,7 +101,8 @@ def test_sensors_have_names_units_and_17_digits(buckens, models, tmp_path):
 
 def test_two_runs_give_the_same_numbers(buckens, models, tmp_path):
     for out in ("one", "two"):
-        buckens("run", models / "beam.yaml", "-o", out, "--set", "bodies.beam.coupling=full").must(0)
+        buckens("run", models / "beam.yaml", "-o", out,
+                "--set", "bodies.beam.coupling=full").must(0)
     assert ((tmp_path / "one" / "sensors.csv").read_bytes()
             == (tmp_path / "two" / "sensors.csv").read_bytes())
 
@@ -119,7 +120,8 @@ def test_a_second_run_replaces_the_first(buckens, models, tmp_path):
 def test_a_model_with_a_mistake_leaves_the_earlier_run(buckens, models, tmp_path):
     buckens("run", models / "pendulum.yaml", "-o", "out").must(0)
     before = (tmp_path / "out" / "summary.json").read_bytes()
-    buckens("run", models / "pendulum.yaml", "-o", "out", "--set", "bodies.rod.rigid.mass=-1").must(2)
+    buckens("run", models / "pendulum.yaml", "-o", "out",
+            "--set", "bodies.rod.rigid.mass=-1").must(2)
     assert (tmp_path / "out" / "summary.json").read_bytes() == before
 
 
@@ -145,8 +147,8 @@ def test_set_changes_the_run_and_is_recorded(buckens, models, tmp_path):
 
 
 def test_the_pendulum_swings_as_it_should(buckens, models, tmp_path):
-    """θ'' = -m g s cos θ / I from θ = 0, s = L/2 = 0.5 m, I = 0.2 + 2*0.25 kg m²; integrated here by
-    Runge-Kutta with steps whose error is far below the tolerance."""
+    """θ'' = -m g s cos θ / I from θ = 0, s = L/2 = 0.5 m, I = 0.2 + 2*0.25 kg m²; integrated here
+    by Runge-Kutta with steps whose error is far below the tolerance."""
     buckens("run", models / "pendulum.yaml", "-o", "out").must(0)
 
     def slope(y):
@@ -165,7 +167,8 @@ def test_the_pendulum_swings_as_it_should(buckens, models, tmp_path):
 
 
 def test_a_step_that_is_too_long_gets_advice(buckens, models, tmp_path):
-    result = buckens("run", models / "beam.yaml", "-o", "out", "--set", "simulation.step=10 ms").must(0)
+    result = buckens("run", models / "beam.yaml", "-o", "out",
+                     "--set", "simulation.step=10 ms").must(0)
     advice = summary_of(tmp_path / "out")["warnings"]
     assert any("beam" in text and "step of" in text for text in advice), advice
     assert "warning: " + advice[0] in result.out
@@ -198,8 +201,8 @@ def test_plain_lines_tell_how_far_it_is(start, models, tmp_path):
     time.sleep(7)  # a line comes every five seconds
     process.terminate()
     _, err = process.communicate(timeout=60)
-    assert re.search(r"t = \S+ of 1e\+06 s \(\d+ %\), step \d+ of 1000000000, \S+ steps/s, ETA [\d:]+",
-                     err), err
+    line = r"t = \S+ of 1e\+06 s \(\d+ %\), step \d+ of 1000000000, \S+ steps/s, ETA [\d:]+"
+    assert re.search(line, err), err
     assert "\r" not in err and "\033" not in err
 
 
@@ -225,6 +228,7 @@ def test_a_terminal_gets_a_bar(start, models):
 
 @pytest.mark.parametrize("method", ["generalized-alpha", "newmark"])
 def test_both_methods_run(buckens, models, tmp_path, method):
-    buckens("run", models / "beam.yaml", "-o", "out", "--set", f"simulation.method={method}").must(0)
+    buckens("run", models / "beam.yaml", "-o", "out",
+            "--set", f"simulation.method={method}").must(0)
     beam = summary_of(tmp_path / "out")["bodies"]["beam"]
     assert beam["factorisations"] == 1 and beam["solves"] == 100

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`buckens view`: where it finds its page and what it writes. The page itself is tested in viewer/."""
+"""`buckens view`: where it finds its page and what it writes; viewer/ tests the page itself."""
 
 import os
 import pathlib
