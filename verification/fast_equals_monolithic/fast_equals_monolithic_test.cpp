@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/example_models.h"
-
+#include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/stepper.h"
 

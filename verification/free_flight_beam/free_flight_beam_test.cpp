@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/simulate.h"
-
 #include "buckens/dynamics/energy.h"
+#include "buckens/stepping/test/simulate.h"
 
 namespace buckens::verification {
 namespace {

@@ -4,10 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/example_models.h"
-#include "tests/support/simulate.h"
-
 #include "buckens/body/free_modes.h"
+#include "buckens/dynamics/test/example_models.h"
+#include "buckens/stepping/test/simulate.h"
 
 namespace buckens::verification {
 namespace {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/example_models.h"
-#include "tests/support/simulate.h"
+#include "buckens/dynamics/test/example_models.h"
+#include "buckens/stepping/test/simulate.h"
 
 namespace buckens::verification {
 namespace {

@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/marker_path.h"
-
 #include "buckens/body/body.h"
+#include "buckens/spatial/test/marker_path.h"
 
 namespace buckens::body {
 namespace {

@@ -4,10 +4,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "tests/support/mechanism.h"
-
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/mass_metric.h"
+#include "buckens/dynamics/test/mechanism.h"
 
 namespace buckens::dynamics {
 namespace {

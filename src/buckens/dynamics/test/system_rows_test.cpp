@@ -5,13 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/example_models.h"
-#include "tests/support/marker_path.h"
-
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/dynamics/test/example_models.h"
+#include "buckens/spatial/test/marker_path.h"
 
 namespace buckens::dynamics {
 namespace {

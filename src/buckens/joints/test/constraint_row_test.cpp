@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/marker_path.h"
+#include "buckens/spatial/test/marker_path.h"
 
 namespace buckens::joints {
 namespace {

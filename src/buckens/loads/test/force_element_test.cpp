@@ -9,12 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/marker_path.h"
-
 #include "buckens/base/errors.h"
 #include "buckens/loads/applied_load.h"
 #include "buckens/loads/bushing.h"
 #include "buckens/loads/spring_damper.h"
+#include "buckens/spatial/test/marker_path.h"
 
 namespace buckens::loads {
 namespace {

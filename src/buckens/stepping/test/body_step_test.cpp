@@ -5,9 +5,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "tests/support/example_models.h"
-
 #include "buckens/body/rigid_modes.h"
+#include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/body_step_operator.h"
 #include "buckens/stepping/stepper.h"
 

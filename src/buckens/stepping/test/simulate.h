@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "tests/support/mechanism.h"
-
+#include "buckens/dynamics/test/mechanism.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::test {

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "tests/support/mechanism.h"
-
+#include "buckens/dynamics/test/mechanism.h"
 #include "buckens/loads/bushing.h"
 #include "buckens/loads/spring_damper.h"
 
