@@ -27,8 +27,8 @@ inline Running start(const std::string& text, double step) {
   run.prepared = analysis::prepare(*run.built, *run.metric);
   stepping::StepSettings settings;
   settings.step = step;
-  run.stepper = std::make_unique<stepping::Stepper>(run.built->model, settings,
-                                                    run.prepared.rows_in_use);
+  run.stepper =
+      std::make_unique<stepping::Stepper>(run.built->model, settings, run.prepared.rows_in_use);
   return run;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Step time of beam bodies against one solve with the same factor, and of rigid chains. Quote ratios
-// of one run: the machines that run this are shared.
+// Step time of beam bodies against one solve with the same factor, and of rigid chains. Quote
+// ratios of one run: the machines that run this are shared.
 
 #include <benchmark/benchmark.h>
 
-#include "buckens/stepping/body_step_operator.h"
 #include "models.h"
+
+#include "buckens/stepping/body_step_operator.h"
 
 namespace {
 
