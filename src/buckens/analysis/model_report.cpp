@@ -2,13 +2,12 @@
 #include "buckens/analysis/model_report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
-#include <fmt/format.h>
 
 #include "buckens/analysis/prepare.h"
+#include "buckens/analysis/step_advice.h"
 #include "buckens/body/free_modes.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/recovery.h"
@@ -18,27 +17,9 @@ namespace buckens::analysis {
 namespace {
 
 constexpr int kModes = 10;
-// A mode counts as excited if it gives more than this share of a body's interface compliance.
-constexpr double kExcitedShare = 0.01;
-constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// Highest frequency among the lowest modes that loads on the interface excite visibly [rad/s].
-double highest_excited(const body::Body& body, const body::FreeModes& modes) {
-  const auto N = body.flexible->rows.topRows(body.num_interface_rows());
-  const linalg::Matrix at_interface = N * modes.shapes;
-  linalg::Vector share(modes.omega.size());
-  for (Eigen::Index k = 0; k < share.size(); ++k) {
-    share[k] = at_interface.col(k).squaredNorm() / (modes.omega[k] * modes.omega[k]);
-  }
-  const double total = share.sum();
-  double highest = 0;
-  for (Eigen::Index k = 0; k < share.size(); ++k) {
-    if (share[k] > kExcitedShare * total) highest = std::max(highest, modes.omega[k]);
-  }
-  return highest;
-}
-
-BodyReport report_body(const body::Body& body, double& highest) {
+BodyReport report_body(const body::Body& body) {
   BodyReport out;
   out.name = body.name;
   out.is_flexible = body.is_flexible();
@@ -59,9 +40,8 @@ BodyReport report_body(const body::Body& body, double& highest) {
   out.elements = static_cast<int>(fem::line_elements(fe).size());
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), kModes);
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
-    out.frequencies.push_back(modes.omega[k] / (2.0 * std::numbers::pi));
+    out.frequencies.push_back(modes.omega[k] / kTurn);
   }
-  if (body.num_interface_rows() > 0) highest = std::max(highest, highest_excited(body, modes));
   return out;
 }
 
@@ -70,10 +50,14 @@ BodyReport report_body(const body::Body& body, double& highest) {
 ModelReport report_model(const model::BuiltModel& built) {
   const model::Model& model = built.model;
   ModelReport out;
-  double highest = 0;
+  if (built.description.simulation) out.step = built.description.simulation->step;
   int coordinates = 0;
   for (const body::Body& body : model.bodies) {
-    out.bodies.push_back(report_body(body, highest));
+    out.bodies.push_back(report_body(body));
+    const ExcitedBand band = excited_band(body);
+    out.highest_frequency = std::max(out.highest_frequency, band.highest / kTurn);
+    const std::string advice = judge_step(body.name, band, out.step);
+    if (!advice.empty()) out.warnings.push_back(advice);
     coordinates += out.bodies.back().frame_coordinates;
   }
   const dynamics::MassMetric metric(model);
@@ -97,17 +81,6 @@ ModelReport report_model(const model::BuiltModel& built) {
   out.degrees_of_freedom =
       coordinates - static_cast<int>(metric.split(rigid_rows).independent.size());
 
-  out.highest_frequency = highest / (2.0 * std::numbers::pi);
-  if (!built.description.simulation) return out;
-  out.step = built.description.simulation->step;
-  if (highest * out.step > kResolved) {
-    out.warnings.push_back(
-        fmt::format("joints and loads excite vibrations up to about {:.4g} Hz, the step {:.3g} s "
-                    "resolves {:.4g} "
-                    "Hz; use a step of {:.2g} s to follow them, or keep it to have them damped",
-                    out.highest_frequency, out.step,
-                    kResolved / (2.0 * std::numbers::pi * out.step), kResolved / highest));
-  }
   return out;
 }
 

@@ -39,7 +39,8 @@ void RunStatistics::add_step(const stepping::StepReport& report) {
 }
 
 void RunStatistics::add_record(const model::State& state, double balance, double scale) {
-  if (scale > 0.0) energy_error_ = std::max(energy_error_, std::abs(balance) / scale);
+  largest_balance_ = std::max(largest_balance_, std::abs(balance));
+  energy_scale_ = std::max(energy_scale_, scale);
   for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
     const body::Body& body = built_.model.bodies[b];
     if (!body.is_flexible()) continue;
@@ -59,7 +60,8 @@ void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& 
   summary.newton_iterations.per_step_mean =
       steps_ > 0 ? static_cast<double>(iterations_) / static_cast<double>(steps_) : 0.0;
   summary.residuals = residuals_;
-  summary.energy_error = energy_error_;
+  const double energy_error = energy_scale_ > 0.0 ? largest_balance_ / energy_scale_ : 0.0;
+  summary.energy_error = energy_error;
   summary.measures.emplace_back(
       "steps_with_repeated_solve",
       steps_ > 0 ? static_cast<double>(repeated_solves_) / static_cast<double>(steps_) : 0.0);
@@ -83,10 +85,10 @@ void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& 
           body.name, largest_rotation_[b], kLargeRotation));
     }
   }
-  if (energy_error_ > kLargeEnergyError) {
+  if (energy_error > kLargeEnergyError) {
     summary.trust.push_back(fmt::format(
         "the energy balance is open by {:.2g} of the energy involved; use a smaller step",
-        energy_error_));
+        energy_error));
   }
 }
 

@@ -18,7 +18,8 @@ class RunStatistics {
 
   void add_step(const stepping::StepReport& report);
   /// At each record: residual of the sieve, rotations inside bodies, energy error.
-  /// @param balance E − E₀ − W + D [J], @param scale energy against which it counts [J]
+  /// @param balance E − E₀ − W + D [J], @param scale energy at work so far [J]; the largest balance
+  ///        counts against the largest scale of the run
   void add_record(const model::State& state, double balance, double scale);
 
   /// Fills counts, residuals, energy error and trust.
@@ -31,7 +32,8 @@ class RunStatistics {
   long most_iterations_ = 0;
   long repeated_solves_ = 0;  // steps with more than one large solve
   results::Residuals residuals_;
-  double energy_error_ = 0;
+  double largest_balance_ = 0;
+  double energy_scale_ = 0;
   std::vector<double> largest_rotation_;  // per body, relative to its frame [rad]
 };
 

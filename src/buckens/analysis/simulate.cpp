@@ -10,6 +10,7 @@
 #include "buckens/analysis/step_advice.h"
 #include "buckens/analysis/work_account.h"
 #include "buckens/base/errors.h"
+#include "buckens/base/log.h"
 #include "buckens/base/version.h"
 #include "buckens/results/recorder.h"
 #include "buckens/results/state_interpolation.h"
@@ -21,6 +22,7 @@ namespace {
 
 // About this many records where the model file does not say `every`.
 constexpr double kDefaultRecords = 500;
+constexpr Eigen::Index kAdvisedDofs = 600;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -89,8 +91,14 @@ class Simulation {
     statistics_.emplace(built_);
     summary_.redundant_constraints = prepared_->redundant_text;
     summary_.warnings = prepared_->notes;
-    for (std::string& advice : judge_step(built_.model, *stepper_)) {
-      summary_.warnings.push_back(std::move(advice));
+    for (const body::Body& body : built_.model.bodies) {
+      // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
+      if (body.num_dofs() > kAdvisedDofs) continue;
+      const std::string advice = judge_step(body.name, excited_band(body), stepper_->scheme().h);
+      if (!advice.empty()) summary_.warnings.push_back(advice);
+    }
+    for (const std::string& warning : summary_.warnings) {
+      base::log(base::LogLevel::warning, warning);
     }
     sink_.begin(recorder_->layout(), recorder_->geometry());
   }

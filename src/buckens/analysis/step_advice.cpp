@@ -1,31 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/step_advice.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "buckens/body/free_modes.h"
+
 namespace buckens::analysis {
 
 namespace {
-// About twelve steps per period: phase error of a few percent per period.
-constexpr double kResolved = 0.5;
+constexpr int kModes = 10;
+constexpr double kExcitedShare = 0.01;
+constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
+constexpr double kTurn = 2.0 * std::numbers::pi;
 }  // namespace
 
-std::vector<std::string> judge_step(const model::Model& model, stepping::Stepper& stepper) {
-  std::vector<std::string> advice;
-  const double h = stepper.scheme().h;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const double omega = stepper.lowest_excited_frequency(b);
-    if (omega * h <= kResolved) continue;
-    advice.push_back(fmt::format(
-        "step {:.3g} s is too long for the elastic vibration of body \"{}\" (lowest about {:.4g} "
-        "Hz, {:.1f} steps per period); it is damped rather than followed. To follow it use a step "
-        "of {:.2g} s",
-        h, model.bodies[b].name, omega / (2.0 * std::numbers::pi),
-        2.0 * std::numbers::pi / (omega * h), 2.0 * std::numbers::pi / (20.0 * omega)));
+ExcitedBand excited_band(const body::Body& body) {
+  if (!body.is_flexible() || body.num_interface_rows() == 0) return {};
+  const fem::FeModel& fe = body.flexible->fe;
+  const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), kModes);
+  if (modes.omega.size() == 0) return {};
+  const linalg::Matrix at_interface =
+      body.flexible->rows.topRows(body.num_interface_rows()) * modes.shapes;
+  linalg::Vector share(modes.omega.size());
+  for (Eigen::Index k = 0; k < share.size(); ++k) {
+    share[k] = at_interface.col(k).squaredNorm() / (modes.omega[k] * modes.omega[k]);
   }
-  return advice;
+  const double total = share.sum();
+  ExcitedBand band;
+  for (Eigen::Index k = 0; k < share.size(); ++k) {
+    if (share[k] <= kExcitedShare * total) continue;
+    if (band.lowest == 0.0) band.lowest = modes.omega[k];
+    band.highest = std::max(band.highest, modes.omega[k]);
+  }
+  return band;
+}
+
+std::string judge_step(const std::string& body, const ExcitedBand& band, double h) {
+  if (h * band.highest <= kResolved) return {};
+  const double followed = kResolved / (kTurn * h);
+  if (h * band.lowest > kResolved) {
+    return fmt::format(
+        "step {:.3g} s is too long for every elastic vibration of body \"{}\" (lowest {:.4g} Hz; "
+        "followed up to {:.4g} Hz): it is damped, not followed; use a step of {:.2g} s",
+        h, body, band.lowest / kTurn, followed, kResolved / band.lowest);
+  }
+  return fmt::format(
+      "step {:.3g} s follows vibrations of body \"{}\" up to {:.4g} Hz; those excited above, up to "
+      "{:.4g} Hz, are damped; use a step of {:.2g} s if they matter",
+      h, body, followed, band.highest / kTurn, kResolved / band.highest);
 }
 
 }  // namespace buckens::analysis

@@ -5,13 +5,22 @@
 #include <vector>
 
 #include "buckens/model/model.h"
-#include "buckens/stepping/stepper.h"
 
 namespace buckens::analysis {
 
-/// Judges the step before a run: compares it with the lowest elastic vibration that joints and
-/// loads of each flexible body excite. One sentence of advice per body whose step is too long,
-/// empty if all is well. Costs a few solves with the existing factor, no further factorisation.
-std::vector<std::string> judge_step(const model::Model& model, stepping::Stepper& stepper);
+/// Elastic vibrations of a flexible body that joints and loads excite [rad/s].
+struct ExcitedBand {
+  double lowest = 0;
+  double highest = 0;
+};
+
+/// From the ten lowest free vibrations: a mode counts as excited if it gives more than 1 % of the
+/// compliance that these modes have at the interface. Zero for bodies without interface.
+/// Cost: one dense eigenproblem up to 600 DOF, a few factorisations of its own above.
+ExcitedBand excited_band(const body::Body& body);
+
+/// What to say of a step h [s]: whether a band is followed (about twelve steps per period), damped
+/// in its upper part, or not followed at all. Empty if all is well.
+std::string judge_step(const std::string& body, const ExcitedBand& band, double h);
 
 }  // namespace buckens::analysis

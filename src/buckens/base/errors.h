@@ -20,6 +20,10 @@ class Error : public std::runtime_error {
 
   /// Empty if the place is not known.
   const SourceLocation& where() const { return where_; }
+  /// The message without the place, for messages that go on to say more.
+  std::string text() const {
+    return where_.empty() ? what() : std::string(what()).substr(where_.text().size() + 2);
+  }
 
  private:
   SourceLocation where_;

@@ -60,7 +60,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     try {
       action = load.element->evaluate(t, first.motion, second.motion);
     } catch (const NumericalError& error) {
-      throw NumericalError(fmt::format("load \"{}\": {}", load.name, error.what()));
+      throw NumericalError(error.where(), fmt::format("load \"{}\": {}", load.name, error.text()));
     }
     add_wrench(model, load.first, first, action.on_first, out);
     add_wrench(model, load.second, second, action.on_second, out);

@@ -20,6 +20,12 @@ namespace buckens::io {
 
 namespace {
 
+/// The summary of a run, null where a crash has damaged it.
+nlohmann::json parse_summary(const std::string& text) {
+  nlohmann::json summary = nlohmann::json::parse(text, nullptr, false);
+  return summary.is_discarded() ? nlohmann::json() : summary;
+}
+
 using Json = nlohmann::ordered_json;
 using results::Channel;
 using results::GeometryBody;
@@ -193,7 +199,7 @@ Json page_json(const RunReader& run, const FrameReader& reader) {
           {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
           {"sensors", curves_json(run, reader, "sensors/", true)},
           {"energies", curves_json(run, reader, "energies/", false)},
-          {"summary", Json::parse(run.summary_text(), nullptr, false)}};
+          {"summary", parse_summary(run.summary_text())}};
 }
 
 /// JSON that may stand inside a <script> element: a name like "</script>" must not end it. These

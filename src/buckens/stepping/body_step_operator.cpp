@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step_operator.h"
 
-#include <cmath>
-
 namespace buckens::stepping {
 
 using linalg::Matrix;
@@ -79,20 +77,6 @@ void BodyStepOperator::complete(const Vector& interface_load,
     x.noalias() += Gc_ * (scheme_.force * centrifugal);
   }
   if (!correction.isZero(0.0)) x.noalias() += D_ * correction;
-}
-
-double BodyStepOperator::lowest_excited_frequency() {
-  if (G_.cols() == 0) return 0.0;
-  Vector x = G_.rowwise().sum();
-  if (x.isZero(0.0)) return 0.0;
-  for (int iteration = 0; iteration < 8; ++iteration) {
-    x = part_->fe.M * (x / x.norm());
-    factor_.solve_in_place(x);
-    part_->sieve.apply(x);
-    ++setup_solves_;
-  }
-  const double kinetic = x.dot(part_->fe.M * x);
-  return kinetic > 0.0 ? std::sqrt(x.dot(part_->fe.K * x) / kinetic) : 0.0;
 }
 
 }  // namespace buckens::stepping

@@ -38,11 +38,6 @@ class BodyStepOperator {
   /// First `num_interface_rows` rows of N.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
-  /// Estimate of the lowest elastic ω [rad/s] that interface loads excite: inverse iteration
-  /// x ← Y K̂⁻¹ M x from the sum of the interface columns, Rayleigh quotient with K and M. Accurate
-  /// where the step is coarse for this ω, an upper bound elsewhere. Eight setup solves.
-  double lowest_excited_frequency();
-
   const linalg::SparseMatrix& K_hat() const { return K_hat_; }
   double factor_entries() const { return factor_.num_factor_entries(); }
   long solves() const { return solves_; }

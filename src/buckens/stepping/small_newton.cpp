@@ -9,6 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/frame_equation.h"
+#include "buckens/linalg/row_rank.h"
 
 namespace buckens::stepping {
 
@@ -143,8 +144,30 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
         static_cast<int>(bodies.size()), pattern);
   }
   if (!condensation_->factorise(test_rows_, force_rows_, compliance_, soft_compliance)) {
-    fail(t, {}, "its joint equations have become dependent (a singular position)");
+    StepReport report;
+    report.worst_row = dependent_row();
+    report.position_residual = constraints_end_.g.cwiseAbs().maxCoeff();
+    fail(t, report, "joint equations have become dependent (a singular position)");
   }
+}
+
+int SmallNewton::dependent_row() const {
+  std::vector<linalg::Triplet> entries;
+  for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
+    for (const dynamics::BodyRow* part : {&test_rows_[k].first, &test_rows_[k].second}) {
+      if (part->body == model::kGround) continue;
+      for (int c = 0; c < 6; ++c) {
+        const double scale = c < 3 ? 1.0 / model_.length : 1.0;
+        entries.emplace_back(static_cast<int>(k), 6 * part->body + c, scale * part->frame[c]);
+      }
+    }
+  }
+  linalg::SparseMatrix J(static_cast<int>(rows_in_use_.size()),
+                         6 * static_cast<int>(model_.bodies.size()));
+  J.setFromTriplets(entries.begin(), entries.end());
+  const linalg::RowRank rank = linalg::split_rows(J, 1e-6);
+  return rank.dependent.empty() ? 0
+                                : rows_in_use_[static_cast<std::size_t>(rank.dependent.front())];
 }
 
 void SmallNewton::residual_step(const std::vector<BodyStep>& bodies) {

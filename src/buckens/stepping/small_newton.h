@@ -54,6 +54,8 @@ class SmallNewton {
   void record_residuals(StepReport& report) const;
   const dynamics::Constraints& at_evaluation() const;
   bool corrects_positions() const;
+  /// A row of λ that follows from others at the predicted configuration, for messages.
+  int dependent_row() const;
   [[noreturn]] void fail(double t, const StepReport& report, const char* what) const;
 
   const model::Model& model_;

@@ -234,8 +234,4 @@ SolveCounts Stepper::counts(std::size_t body) const {
   return {1, operators_[body]->solves(), operators_[body]->setup_solves()};
 }
 
-double Stepper::lowest_excited_frequency(std::size_t body) {
-  return operators_[body] ? operators_[body]->lowest_excited_frequency() : 0.0;
-}
-
 }  // namespace buckens::stepping

@@ -36,9 +36,6 @@ class Stepper {
 
   SolveCounts counts(std::size_t body) const;
   const Scheme& scheme() const { return scheme_; }
-  /// Estimate of the lowest elastic ω that interface loads of a body excite [rad/s], 0 for rigid
-  /// bodies; see BodyStepOperator.
-  double lowest_excited_frequency(std::size_t body);
 
  private:
   struct Large;  // n-sized vectors of one flexible body
