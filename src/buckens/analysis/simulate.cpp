@@ -65,9 +65,7 @@ class Simulation {
     }
     summary_.wall_seconds.stepping = seconds_since(stepping_start);
     summary_.wall_seconds.total = seconds_since(start);
-    summary_.wall_seconds.phases.emplace_back("recording", recording_seconds_);
-    summary_.wall_seconds.phases.emplace_back("steps",
-                                              summary_.wall_seconds.stepping - recording_seconds_);
+    split_wall_time();
     summary_.end_time = prepared_->state.t;
     statistics_->fill(*stepper_, summary_);
     sink_.finish(summary_);
@@ -76,6 +74,17 @@ class Simulation {
   }
 
  private:
+  void split_wall_time() {
+    const stepping::StepSeconds& s = stepper_->seconds();
+    const double rest = summary_.wall_seconds.stepping - s.large_solves - s.newton - s.completion -
+                        recording_seconds_;
+    summary_.wall_seconds.phases = {{"large_solves", s.large_solves},
+                                    {"newton", s.newton},
+                                    {"completion", s.completion},
+                                    {"recording", recording_seconds_},
+                                    {"coupling_and_rest", rest}};
+  }
+
   void set_up() {
     summary_.title = built_.model.title;
     summary_.version = kVersion;

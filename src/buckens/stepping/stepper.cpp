@@ -2,6 +2,7 @@
 #include "buckens/stepping/stepper.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -159,7 +160,9 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
     coupling_motion_ = std::max({coupling_motion_, moved, turned});
     large.load_changed = load_change > settings_.outer_tolerance;
     if (large.load_changed || frame_relative > settings_.outer_tolerance) settled = false;
-    report.coupling_change = std::max({report.coupling_change, load_change, frame_relative});
+    const double change = std::max(load_change, frame_relative);
+    if (!(change <= report.coupling_change)) least_settled_ = b;
+    report.coupling_change = std::max(report.coupling_change, change);
   }
   return settled;
 }
@@ -192,38 +195,55 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
   return next;
 }
 
+void Stepper::take_over_coupling() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!large_[b] || model_.bodies[b].flexible->coupling == body::CouplingLevel::none) continue;
+    if (large_[b]->load_changed) {
+      large_[b]->used = large_[b]->evaluated;
+    } else {
+      large_[b]->used.moments = large_[b]->evaluated.moments;
+    }
+    bodies_[b].moments = large_[b]->used.moments;
+  }
+}
+
+void Stepper::compute_round(const model::State& state, bool is_first, Vector& lambda,
+                            StepReport& report) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  const auto start = Clock::now();
+  free_responses(state, is_first);
+  const auto solved = Clock::now();
+  if (is_first) newton_->prepare(bodies_, state.t);
+  newton_->iterate(bodies_, state.t, lambda, report);
+  const auto iterated = Clock::now();
+  complete(state);
+  ++report.large_solve_rounds;
+  seconds_.large_solves += seconds(solved - start);
+  seconds_.newton += seconds(iterated - solved);
+  seconds_.completion += seconds(Clock::now() - iterated);
+}
+
 StepReport Stepper::step(model::State& state) {
   StepReport report;
   Vector lambda = state.lambda;
   start_bodies(state);
   double before = HUGE_VAL;
   for (int round = 0;; ++round) {
-    free_responses(state, round == 0);
-    if (round == 0) newton_->prepare(bodies_, state.t);
-    newton_->iterate(bodies_, state.t, lambda, report);
-    complete(state);
-    ++report.large_solve_rounds;
+    compute_round(state, round == 0, lambda, report);
     if (coupling_settled(state, report)) break;
     const double change = report.coupling_change;
     const bool is_rounding = change <= kCouplingRounding || coupling_motion_ <= kPositionRounding;
     if (is_rounding && change > 0.5 * before) break;
     before = change;
-    if (round + 1 >= settings_.max_outer || !std::isfinite(report.coupling_change)) {
+    if (round + 1 >= settings_.max_outer || !std::isfinite(change)) {
       throw NumericalError(fmt::format(
-          "step at t = {:.6g} s failed: the inertial coupling of a flexible body does not settle "
+          "step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not settle "
           "(relative change {:.3g} after {} solves); the deformation is too large for linear "
           "elasticity in one frame, or the step {:.3g} s is too long",
-          state.t, report.coupling_change, round + 1, scheme_.h));
+          state.t, model_.bodies[least_settled_].name, change, round + 1, scheme_.h));
     }
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      if (!large_[b] || model_.bodies[b].flexible->coupling == body::CouplingLevel::none) continue;
-      if (large_[b]->load_changed) {
-        large_[b]->used = large_[b]->evaluated;
-      } else {
-        large_[b]->used.moments = large_[b]->evaluated.moments;
-      }
-      bodies_[b].moments = large_[b]->used.moments;
-    }
+    take_over_coupling();
   }
   state = next_state(state, lambda);
   return report;

@@ -18,6 +18,13 @@ struct SolveCounts {
   long setup_solves = 0;  ///< for interface columns
 };
 
+/// Wall time of all steps so far, by phase [s].
+struct StepSeconds {
+  double large_solves = 0;  ///< right-hand sides, solves, sieve
+  double newton = 0;        ///< frames and multipliers
+  double completion = 0;    ///< thin products
+};
+
 /// Advances a mechanism by steps of one length with one factorisation per flexible body.
 ///
 /// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the
@@ -35,6 +42,7 @@ class Stepper {
   StepReport step(model::State& state);
 
   SolveCounts counts(std::size_t body) const;
+  const StepSeconds& seconds() const { return seconds_; }
   const Scheme& scheme() const { return scheme_; }
 
  private:
@@ -42,6 +50,9 @@ class Stepper {
   void start_bodies(const model::State& state);
   void free_responses(const model::State& state, bool first_round);
   void complete(const model::State& state);
+  void take_over_coupling();
+  void compute_round(const model::State& state, bool is_first, linalg::Vector& lambda,
+                     StepReport& report);
   bool coupling_settled(const model::State& state, StepReport& report);
   model::State next_state(const model::State& state, const linalg::Vector& lambda) const;
 
@@ -52,6 +63,8 @@ class Stepper {
   std::unique_ptr<SmallNewton> newton_;
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<Large>> large_;
+  std::size_t least_settled_ = 0;  // body with the largest change of coupling
+  StepSeconds seconds_;
   double coupling_motion_ = 0;  // caused by the last change of coupling loads, relative to L
 };
 
