@@ -22,11 +22,12 @@ ExcitedBand excited_band(const body::Body& body) {
   const fem::FeModel& fe = body.flexible->fe;
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), kModes);
   if (modes.omega.size() == 0) return {};
-  const linalg::Matrix at_interface =
-      body.flexible->rows.topRows(body.num_interface_rows()) * modes.shapes;
-  linalg::Vector share(modes.omega.size());
-  for (Eigen::Index k = 0; k < share.size(); ++k) {
-    share[k] = at_interface.col(k).squaredNorm() / (modes.omega[k] * modes.omega[k]);
+  linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
+  for (const body::Marker& marker : body.markers) {
+    if (!marker.follows_mesh() || marker.translation_row >= body.num_interface_rows()) continue;
+    const linalg::Matrix moved =
+        body.flexible->rows.middleRows(marker.translation_row, 3) * modes.shapes;
+    share += moved.colwise().squaredNorm().transpose().cwiseQuotient(modes.omega.cwiseAbs2());
   }
   const double total = share.sum();
   ExcitedBand band;

@@ -15,8 +15,8 @@ struct ExcitedBand {
 };
 
 /// From the ten lowest free vibrations: a mode counts as excited if it gives more than 1 % of the
-/// compliance that these modes have at the interface. Zero for bodies without interface.
-/// Cost: one dense eigenproblem up to 600 DOF, a few factorisations of its own above.
+/// compliance against forces that these modes have at the interface. Zero for bodies without
+/// interface. Cost: one dense eigenproblem up to 600 DOF, a few factorisations of its own above.
 ExcitedBand excited_band(const body::Body& body);
 
 /// What to say of a step h [s]: whether a band is followed (about twelve steps per period), damped
