@@ -106,6 +106,7 @@ class Builder {
       body.com = fe.shape.com;
       body.J0 = fe.shape.J0;
       body.flexible = std::make_unique<body::FlexiblePart>(spec.name, std::move(fe), spec.coupling);
+      refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,
