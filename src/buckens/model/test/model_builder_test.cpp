@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/model_builder.h"
+
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/model/state.h"
+#include "buckens/model/test/described.h"
+
+namespace buckens::model {
+namespace {
+
+using Eigen::Vector3d;
+using test::Described;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing::ThrowsMessage;
+
+TEST(ModelBuilder, PlacesBodiesByTheirModelAxes) {
+  Described m;
+  body::BodySpec& spec = m.rigid("disk", 2, {0.5, 0, 0}, {1, 2, 3});
+  spec.at.position = {1, 2, 3};
+  spec.at.orientation.emplace();
+  spec.at.orientation->axis = Vector3d::UnitZ();
+  spec.at.orientation->angle = std::numbers::pi / 2;
+  const auto built = m.build();
+  const body::Body& body = built->model.bodies[0];
+  EXPECT_EQ(body.mass, 2);
+  EXPECT_EQ(body.J0.diagonal(), Vector3d(1, 2, 3));
+  // Turned by 90° about z the mass centre lies along world y of the origin. Rounding only.
+  EXPECT_NEAR((built->model.placed[0].p - Vector3d(1, 2.5, 3)).norm(), 0, 1e-15);
+  EXPECT_EQ(body.rotation_basis.cols(), 3);
+  EXPECT_EQ(body.translation_basis.cols(), 3);
+  EXPECT_THAT(built->model.notes, testing::IsEmpty());
+}
+
+TEST(ModelBuilder, UnknownNamesAreRefusedWithTheNearest) {
+  Described m;
+  m.rigid("crank", 1, {0, 0, 0}, {1, 1, 1}).markers = {Described::marker("pin", {1, 0, 0})};
+  m.joint<joints::SphericalSpec>("ball", "ground", "cranc/pin");
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<InputError>(
+                  AllOf(StartsWith("test.yaml:99:1"), HasSubstr("\"cranc\""), HasSubstr("crank"))));
+  m.d.joints.clear();
+  m.joint<joints::SphericalSpec>("ball", "ground", "crank/pim");
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(AllOf(
+                                      HasSubstr("\"pim\""), HasSubstr("did you mean \"pin\"?"))));
+}
+
+TEST(ModelBuilder, JointsAndSpringsNeedTwoBodies) {
+  Described m;
+  m.rigid("rod", 1, {0, 0, 0}, {1, 1, 1}).markers = {Described::marker("a", {1, 0, 0}),
+                                                     Described::marker("b", {2, 0, 0})};
+  m.joint<joints::SphericalSpec>("ball", "rod/a", "rod/b");
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<ModelError>(AllOf(StartsWith("test.yaml:50:1"), HasSubstr("\"ball\""),
+                                              HasSubstr("body \"rod\" with itself"))));
+  m.d.joints.clear();
+  m.load<loads::SpringDamperSpec>("spring").between = {test::at_marker("ground"),
+                                                       test::at_marker("ground")};
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(HasSubstr("the ground with itself")));
+}
+
+TEST(ModelBuilder, LoadsOnTheGroundAreRefused) {
+  Described m;
+  m.rigid("rod", 1, {0, 0, 0}, {1, 1, 1});
+  m.force("push", "ground", {1, 0, 0});
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(HasSubstr("acts on the ground")));
+}
+
+TEST(ModelBuilder, AForceOnTheFrameOfAFlexibleBodyIsRefused) {
+  Described m;
+  m.beam("rod", {0, 0, 0}, {1, 0, 0}, 2);
+  m.force("push", "rod", {1, 0, 0});
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:99:1"), HasSubstr("\"rod\""),
+                                              HasSubstr("start, end, mid"))));
+  // A sensor may look at it.
+  m.d.loads.clear();
+  m.sensor_of<PositionSensor>("middle", "rod");
+  EXPECT_NO_THROW(m.build());
+}
+
+TEST(ModelBuilder, BarsCarryNoMoment) {
+  Described m;
+  m.truss("truss", {{"a", {0, 0, 0}}, {"b", {1, 0, 0}}, {"c", {0, 1, 0}}},
+          {{"a", "b"}, {"b", "c"}, {"c", "a"}});
+  m.d.planar = spatial::Plane::xy;
+  m.torque("twist", "truss/b", {0, 0, 1});
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<ModelError>(AllOf(StartsWith("test.yaml:60:1"), HasSubstr("\"twist\""),
+                                              HasSubstr("cannot carry a moment"))));
+  m.d.loads.clear();
+  m.joint<joints::FixedSpec>("weld", "ground", "truss/a");
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<ModelError>(AllOf(HasSubstr("\"weld\""), HasSubstr("moment"))));
+  m.d.joints.clear();
+  // A planar hinge and a force need no moment.
+  m.joint<joints::RevoluteSpec>("hinge", "ground", "truss/a");
+  m.force("push", "truss/b", {0, 1, 0});
+  EXPECT_NO_THROW(m.build());
+}
+
+TEST(ModelBuilder, BarsInARowAreRefusedAsAMechanism) {
+  const std::vector<std::pair<std::string, Vector3d>> nodes = {
+      {"a", {0, 0, 0}}, {"b", {1, 0, 0}}, {"c", {2, 0, 0}}};
+  for (const bool planar : {false, true}) {
+    Described m;
+    if (planar) m.d.planar = spatial::Plane::xy;
+    m.truss("chain", nodes, {{"a", "b"}, {"b", "c"}});
+    EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(
+                                        AllOf(StartsWith("test.yaml:10:1"), HasSubstr("\"chain\""),
+                                              HasSubstr("mechanism"), HasSubstr("node \""))))
+        << (planar ? "planar" : "in space");
+  }
+  // One bar alone and a triangle in its plane are stiff; a triangle of bars in space, too.
+  Described stiff;
+  stiff.truss("bar", {{"a", {0, 0, 0}}, {"b", {1, 0, 0}}}, {{"a", "b"}});
+  stiff.truss("triangle", {{"a", {0, 0, 0}}, {"b", {1, 0, 0}}, {"c", {0, 1, 0}}},
+              {{"a", "b"}, {"b", "c"}, {"c", "a"}});
+  EXPECT_NO_THROW(stiff.build());
+}
+
+TEST(ModelBuilder, ASquareOfBarsIsAMechanismUntilItIsBraced) {
+  Described m;
+  m.d.planar = spatial::Plane::xy;
+  m.truss("square", {{"a", {0, 0, 0}}, {"b", {1, 0, 0}}, {"c", {1, 1, 0}}, {"d", {0, 1, 0}}},
+          {{"a", "b"}, {"b", "c"}, {"c", "d"}, {"d", "a"}});
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(HasSubstr("mechanism")));
+  auto& structure = std::get<fem::StructureSpec>(m.d.bodies[0].kind);
+  structure.bars.push_back(structure.bars[0]);
+  structure.bars.back().between = {"a", "c"};
+  EXPECT_NO_THROW(m.build());
+}
+
+TEST(ModelBuilder, PlanarModelsRefuseWhatLeavesThePlane) {
+  Described m;
+  m.d.planar = spatial::Plane::xy;
+  m.d.gravity = {0, -9.81, 0.1};
+  m.rigid("rod", 1, {0, 0, 0}, {0, 0, 1});
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(HasSubstr("gravity")));
+
+  m.d.gravity = {0, -9.81, 0};
+  m.d.bodies[0].at.orientation.emplace();
+  m.d.bodies[0].at.orientation->axis = Vector3d::UnitX();
+  m.d.bodies[0].at.orientation->angle = 0.1;
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:10:1"), HasSubstr("\"rod\""),
+                                              HasSubstr("turned out of the plane"))));
+
+  m.d.bodies[0].at.orientation->axis = Vector3d::UnitZ();
+  m.joint<joints::RevoluteSpec>("hinge", "ground", "rod").axis = Vector3d::UnitX();
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<ModelError>(AllOf(StartsWith("test.yaml:50:1"), HasSubstr("\"hinge\""),
+                                              HasSubstr("normal"))));
+  // Without an axis the normal of the plane is meant: two rows hold the point.
+  std::get<joints::RevoluteSpec>(m.d.joints[0].kind).axis.reset();
+  const auto built = m.build();
+  EXPECT_EQ(built->model.num_constraint_rows(), 2);
+  EXPECT_EQ(built->model.bodies[0].rotation_basis.cols(), 1);
+  EXPECT_EQ(built->model.bodies[0].translation_basis.cols(), 2);
+}
+
+TEST(ModelBuilder, AxesMustBeGivenInSpace) {
+  Described m;
+  m.rigid("rod", 1, {0, 0, 0}, {1, 1, 1});
+  m.joint<joints::RevoluteSpec>("hinge", "ground", "rod");
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("\"hinge\""), HasSubstr("`axis`"))));
+}
+
+TEST(ModelBuilder, PointMassesDropTheirRotations) {
+  Described m;
+  m.rigid("ball", 1, {0, 0, 0}, {0, 0, 0});
+  m.rigid("needle", 1, {0, 0, 0}, {0, 1, 1});
+  const auto built = m.build();
+  EXPECT_EQ(built->model.bodies[0].rotation_basis.cols(), 0);
+  ASSERT_EQ(built->model.bodies[1].rotation_basis.cols(), 2);
+  EXPECT_NEAR(built->model.bodies[1].rotation_basis.row(0).norm(), 0, 1e-15);
+  // One note per axis.
+  ASSERT_EQ(built->model.notes.size(), 4U);
+  EXPECT_THAT(built->model.notes[0], AllOf(HasSubstr("\"ball\""), HasSubstr("no rotary inertia")));
+  EXPECT_THAT(built->model.notes[3], HasSubstr("\"needle\""));
+}
+
+TEST(ModelBuilder, BodiesWithoutMassAreRefused) {
+  Described m;
+  m.rigid("ghost", 0, {0, 0, 0}, {0, 0, 0});
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<ModelError>(AllOf(StartsWith("test.yaml:10:1"), HasSubstr("\"ghost\""),
+                                              HasSubstr("no mass"))));
+}
+
+TEST(ModelBuilder, RowsOfJointsFollowEachOther) {
+  Described m;
+  m.rigid("a", 1, {0, 0, 0}, {1, 1, 1});
+  m.rigid("b", 1, {0, 0, 0}, {1, 1, 1});
+  m.joint<joints::RevoluteSpec>("hinge", "ground", "a").axis = Vector3d::UnitZ();
+  m.joint<joints::SphericalSpec>("ball", "a", "b");
+  m.joint<joints::FixedSpec>("weld", "ground", "b");
+  const auto built = m.build();
+  const Model& model = built->model;
+  EXPECT_EQ(model.num_constraint_rows(), 5 + 3 + 6);
+  EXPECT_EQ(model.owner_of_row(0).first->name, "hinge");
+  EXPECT_EQ(model.owner_of_row(4), std::make_pair(&model.joints[0], 4));
+  EXPECT_EQ(model.owner_of_row(5), std::make_pair(&model.joints[1], 0));
+  EXPECT_EQ(model.owner_of_row(13), std::make_pair(&model.joints[2], 5));
+}
+
+TEST(ModelBuilder, BushingsBecomeLoads) {
+  Described m;
+  m.rigid("a", 1, {0, 0, 0}, {1, 1, 1});
+  m.joint<joints::BushingSpec>("mount", "ground", "a").stiffness = {1e3, 1e3, 1e3};
+  const auto built = m.build();
+  EXPECT_TRUE(built->model.joints.empty());
+  ASSERT_EQ(built->model.loads.size(), 1U);
+  EXPECT_EQ(built->model.loads[0].name, "mount");
+  EXPECT_EQ(built->model.loads[0].element->num_soft_rows(), 6);
+}
+
+TEST(ModelBuilder, SectionsExistOnFlexibleBodiesOnly) {
+  Described m;
+  m.rigid("block", 1, {0, 0, 0}, {1, 1, 1});
+  m.beam("rod", {0, 0, 0}, {1, 0, 0}, 4);
+  m.sensor_of<SectionForceSensor>("s", "block");
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(AllOf(HasSubstr("\"block\""),
+                                                                  HasSubstr("not on a flexible"))));
+  m.d.output.sensors.clear();
+  m.sensor_of<StressSensor>("s", "rod").element = 5;
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(HasSubstr("has 4 elements, not 5")));
+}
+
+TEST(ModelBuilder, SectionsAreFoundByMarkerOrNumber) {
+  Described m;
+  m.beam("rod", {0, 0, 0}, {1, 0, 0}, 4).markers = {Described::marker("p", {0.6, 0, 0})};
+  m.sensor_of<SectionForceSensor>("start", "rod/start");
+  m.sensor_of<SectionForceSensor>("mid", "rod/mid");
+  m.sensor_of<SectionForceSensor>("end", "rod/end");
+  m.sensor_of<SectionForceSensor>("inside", "rod/p");
+  m.sensor_of<SectionForceSensor>("third", "rod").element = 3;
+  m.sensor_of<StressSensor>("all", "rod");
+  const auto built = m.build();
+  const auto expect = [&](std::size_t k, int element, int end) {
+    EXPECT_EQ(built->sensors[k].body, 0) << k;
+    EXPECT_EQ(built->sensors[k].element, element) << k;
+    EXPECT_EQ(built->sensors[k].end, end) << k;
+  };
+  expect(0, 0, 0);
+  expect(1, 1, 1);  // the first element that touches the middle, its second end
+  expect(2, 3, 1);
+  expect(3, 2, 0);
+  expect(4, 2, 0);
+  expect(5, -1, 0);
+}
+
+TEST(ModelBuilder, LengthIsTheDiagonalOfEverythingPlaced) {
+  Described m;
+  m.beam("rod", {0, 0, 0}, {3, 0, 0}, 2);
+  m.rigid("ball", 1, {0, 0, 0}, {1, 1, 1}).at.position = {0, 4, 0};
+  EXPECT_NEAR(m.build()->model.length, 5, 1e-14);
+  Described point;
+  point.rigid("ball", 1, {0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(point.build()->model.length, 1);
+}
+
+TEST(ModelBuilder, PlacedStateIsAtRest) {
+  Described m;
+  m.beam("rod", {0, 0, 0}, {1, 0, 0}, 3).at.position = {0, 0, 7};
+  m.joint<joints::SphericalSpec>("ball", "ground", "rod/start");
+  const auto built = m.build();
+  const State state = placed_state(built->model);
+  ASSERT_EQ(state.bodies.size(), 1U);
+  EXPECT_NEAR((state.bodies[0].frame.X_WB.p - Vector3d(0.5, 0, 7)).norm(), 0, 1e-15);
+  EXPECT_EQ(state.bodies[0].frame.v, Vector3d::Zero());
+  EXPECT_EQ(state.bodies[0].d, linalg::Vector::Zero(24));
+  EXPECT_EQ(state.lambda, linalg::Vector::Zero(3));
+}
+
+}  // namespace
+}  // namespace buckens::model
