@@ -31,6 +31,12 @@ void set_velocities(const model::BuiltModel& built, model::State& state) {
     };
     s.frame.v = keep(body.translation_basis, spec.velocity);
     s.frame.w = keep(body.rotation_basis, spec.angular_velocity);
+    if ((s.frame.v - spec.velocity).norm() + (s.frame.w - spec.angular_velocity).norm() > 0.0 &&
+        built.model.planar) {
+      throw InputError(spec.where, fmt::format("initial: body \"{}\" cannot leave the plane of the "
+                                               "planar model; set the other components to zero",
+                                               spec.name));
+    }
     if (!spec.nodal_velocity) continue;
     if (!body.is_flexible()) {
       throw InputError(spec.where, fmt::format("initial: body \"{}\" is rigid, it has no nodal "

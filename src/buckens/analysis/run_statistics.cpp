@@ -11,6 +11,9 @@ namespace {
 // Beyond this rotation inside one frame linear elasticity errs by about 1 %.
 constexpr double kLargeRotation = 0.1;
 constexpr double kLargeEnergyError = 0.05;
+// |ω|/ω₁: effects of the missing stiffening grow with its square.
+constexpr double kFastSpin = 0.1;
+constexpr double kTooFastSpin = 0.3;
 
 double largest_rotation(const body::Body& body, const linalg::Vector& d) {
   double largest = 0;
@@ -27,9 +30,15 @@ double largest_rotation(const body::Body& body, const linalg::Vector& d) {
 }  // namespace
 
 RunStatistics::RunStatistics(const model::BuiltModel& built)
-    : built_(built), largest_rotation_(built.model.bodies.size(), 0.0) {}
+    : built_(built),
+      lowest_frequency_(built.model.bodies.size(), 0.0),
+      largest_spin_(built.model.bodies.size(), 0.0),
+      largest_rotation_(built.model.bodies.size(), 0.0) {}
 
-void RunStatistics::add_step(const stepping::StepReport& report) {
+void RunStatistics::add_step(const stepping::StepReport& report, const model::State& state) {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    largest_spin_[b] = std::max(largest_spin_[b], state.bodies[b].frame.w.norm());
+  }
   ++steps_;
   iterations_ += report.newton_iterations;
   most_iterations_ = std::max<long>(most_iterations_, report.newton_iterations);
@@ -39,6 +48,7 @@ void RunStatistics::add_step(const stepping::StepReport& report) {
 }
 
 void RunStatistics::add_record(const model::State& state, double balance, double scale) {
+  if (!std::isfinite(balance)) is_finite_ = false;
   largest_balance_ = std::max(largest_balance_, std::abs(balance));
   energy_scale_ = std::max(energy_scale_, scale);
   for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
@@ -51,6 +61,19 @@ void RunStatistics::add_record(const model::State& state, double balance, double
     residuals_.sieve = std::max(residuals_.sieve, size);
     largest_rotation_[b] = std::max(largest_rotation_[b], largest_rotation(body, d));
   }
+}
+
+void RunStatistics::judge_spin(std::size_t b, results::RunSummary& summary) const {
+  if (lowest_frequency_[b] <= 0.0) return;
+  const double ratio = largest_spin_[b] / lowest_frequency_[b];
+  summary.bodies.back().measures.emplace_back("spin_over_lowest_frequency", ratio);
+  if (ratio <= kFastSpin) return;
+  const std::string text = fmt::format(
+      "body \"{}\" spins at up to {:.2g} of its lowest elastic frequency; linear elasticity in one "
+      "frame knows no centrifugal stiffening: divide it into several bodies",
+      built_.model.bodies[b].name, ratio);
+  summary.warnings.push_back(text);
+  if (ratio > kTooFastSpin) summary.trust.push_back(text);
 }
 
 void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& summary) const {
@@ -78,12 +101,17 @@ void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& 
     }
     summary.setup_solves += counts.setup_solves;
     summary.bodies.push_back(std::move(effort));
+    judge_spin(b, summary);
     if (largest_rotation_[b] > kLargeRotation) {
       summary.trust.push_back(fmt::format(
           "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
           "linear elasticity bears; divide it into several bodies",
           body.name, largest_rotation_[b], kLargeRotation));
     }
+  }
+  if (!is_finite_) {
+    summary.trust.push_back(
+        "an energy is too large to be a number; check units of masses, loads and velocities");
   }
   if (energy_error > kLargeEnergyError) {
     summary.trust.push_back(fmt::format(

@@ -16,7 +16,10 @@ class RunStatistics {
  public:
   explicit RunStatistics(const model::BuiltModel& built);
 
-  void add_step(const stepping::StepReport& report);
+  /// Lowest elastic ω of a body [rad/s]; without it the body's spin is not judged.
+  void set_lowest_frequency(std::size_t body, double omega) { lowest_frequency_[body] = omega; }
+
+  void add_step(const stepping::StepReport& report, const model::State& state);
   /// At each record: residual of the sieve, rotations inside bodies, energy error.
   /// @param balance E − E₀ − W + D [J], @param scale energy at work so far [J]; the largest balance
   ///        counts against the largest scale of the run
@@ -26,14 +29,20 @@ class RunStatistics {
   void fill(const stepping::Stepper& stepper, results::RunSummary& summary) const;
 
  private:
+  /// Warns where |ω| is no longer small against the lowest elastic frequency.
+  void judge_spin(std::size_t b, results::RunSummary& summary) const;
+
   const model::BuiltModel& built_;
   long steps_ = 0;
   long iterations_ = 0;
   long most_iterations_ = 0;
   long repeated_solves_ = 0;  // steps with more than one large solve
   results::Residuals residuals_;
+  bool is_finite_ = true;  // of all energies so far
   double largest_balance_ = 0;
   double energy_scale_ = 0;
+  std::vector<double> lowest_frequency_;  // per body [rad/s], 0 where unknown
+  std::vector<double> largest_spin_;      // per body, |ω| [rad/s]
   std::vector<double> largest_rotation_;  // per body, relative to its frame [rad]
 };
 

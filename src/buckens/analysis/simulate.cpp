@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/run_statistics.h"
 #include "buckens/analysis/step_advice.h"
@@ -22,6 +24,7 @@ namespace {
 
 // About this many records where the model file does not say `every`.
 constexpr double kDefaultRecords = 500;
+constexpr double kMostRecords = 1e7;
 constexpr Eigen::Index kAdvisedDofs = 600;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -61,6 +64,7 @@ class Simulation {
       take_steps();
     } catch (const NumericalError& error) {
       summary_.interrupted = error.what();
+      summary_.trust.push_back("the run ended early by a numerical failure");
       failure = std::current_exception();
     }
     summary_.wall_seconds.stepping = seconds_since(stepping_start);
@@ -95,15 +99,25 @@ class Simulation {
     stepper_.emplace(built_.model, step_settings(spec_, steps_), prepared_->rows_in_use);
     every_ = built_.description.output.every.value_or(
         std::max(spec_.duration / kDefaultRecords, stepper_->scheme().h));
+    if (spec_.duration / every_ > kMostRecords) {
+      throw InputError(
+          built_.description.output.where,
+          fmt::format("output: `every` asks for {:.3g} records, more than {:.0e}; use a "
+                      "longer time than {:.3g} s",
+                      spec_.duration / every_, kMostRecords, every_));
+    }
     recorder_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
     work_.emplace(built_.model, prepared_->state);
     statistics_.emplace(built_);
     summary_.redundant_constraints = prepared_->redundant_text;
     summary_.warnings = prepared_->notes;
-    for (const body::Body& body : built_.model.bodies) {
+    for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
+      const body::Body& body = built_.model.bodies[b];
       // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
       if (body.num_dofs() > kAdvisedDofs) continue;
-      const std::string advice = judge_step(body.name, excited_band(body), stepper_->scheme().h);
+      const ExcitedBand band = excited_band(body);
+      statistics_->set_lowest_frequency(b, band.first);
+      const std::string advice = judge_step(body.name, band, stepper_->scheme().h);
       if (!advice.empty()) summary_.warnings.push_back(advice);
     }
     for (const std::string& warning : summary_.warnings) {
@@ -118,7 +132,8 @@ class Simulation {
     if (!report_progress(0)) return;
     for (long step = 1; step <= steps_; ++step) {
       model::State before = state;
-      statistics_->add_step(stepper_->step(state));
+      const stepping::StepReport report = stepper_->step(state);
+      statistics_->add_step(report, state);
       // Counting avoids the drift of summed steps.
       state.t = step == steps_ ? spec_.duration : static_cast<double>(step) * h;
       work_->add(state);

@@ -18,7 +18,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 }  // namespace
 
 ExcitedBand excited_band(const body::Body& body) {
-  if (!body.is_flexible() || body.num_interface_rows() == 0) return {};
+  if (!body.is_flexible()) return {};
   const fem::FeModel& fe = body.flexible->fe;
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), kModes);
   if (modes.omega.size() == 0) return {};
@@ -31,6 +31,7 @@ ExcitedBand excited_band(const body::Body& body) {
   }
   const double total = share.sum();
   ExcitedBand band;
+  band.first = modes.omega[0];
   for (Eigen::Index k = 0; k < share.size(); ++k) {
     if (share[k] <= kExcitedShare * total) continue;
     if (band.lowest == 0.0) band.lowest = modes.omega[k];

@@ -10,6 +10,7 @@ namespace buckens::analysis {
 
 /// Elastic vibrations of a flexible body that joints and loads excite [rad/s].
 struct ExcitedBand {
+  double first = 0;  ///< lowest of all elastic vibrations, excited or not
   double lowest = 0;
   double highest = 0;
 };

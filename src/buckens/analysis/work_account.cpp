@@ -16,8 +16,8 @@ WorkAccount::Powers WorkAccount::powers(const model::State& state) const {
   const auto motions = dynamics::motions_of(model_, state);
   dynamics::Forces forces;
   dynamics::evaluate_forces(model_, motions, state.t, forces);
-  out.active = forces.active_power;
-  out.damping = dynamics::damping_power(model_, state);
+  out.active = forces.active_power + forces.dissipation;
+  out.damping = dynamics::damping_power(model_, state) + forces.dissipation;
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model_, motions, state.t, constraints);
   out.g_t = constraints.g_t;

@@ -22,8 +22,8 @@ class WorkAccount {
 
  private:
   struct Powers {
-    double active = 0;   ///< loads and dampers [W]
-    double damping = 0;  ///< structural [W]
+    double active = 0;   ///< of loads [W]
+    double damping = 0;  ///< of meshes and dampers [W]
     linalg::Vector g_t;  ///< ∂g/∂t of the joints
   };
   Powers powers(const model::State& state) const;

@@ -48,6 +48,7 @@ void Forces::reset(const model::Model& model) {
   }
   stored_energy = 0;
   active_power = 0;
+  dissipation = 0;
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
@@ -66,6 +67,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     add_wrench(model, load.second, second, action.on_second, out);
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
+    out.dissipation += action.dissipation;
   }
 }
 

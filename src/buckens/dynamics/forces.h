@@ -15,6 +15,7 @@ struct Forces {
   std::vector<Eigen::VectorXd> interface;
   double stored_energy = 0;  ///< in springs [J]
   double active_power = 0;   ///< of loads and dampers [W], not counting stored energy
+  double dissipation = 0;    ///< taken by dampers, contained in active_power with minus [W]
 
   void reset(const model::Model& model);
 };

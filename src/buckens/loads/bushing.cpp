@@ -36,7 +36,8 @@ Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
   action.on_second = {torque, force};
   action.on_first = {-torque - arm.cross(force), -force};
   action.stored_energy = 0.5 * (r.dot(elastic_force) + theta.dot(elastic_moment));
-  action.active_power = -r_dot.dot(viscous_force) - w.dot(viscous_torque);
+  action.dissipation = r_dot.dot(viscous_force) + w.dot(viscous_torque);
+  action.active_power = -action.dissipation;
   return action;
 }
 

@@ -13,6 +13,7 @@ struct Action {
   spatial::Wrench on_second;  ///< on the second marker, world components
   double stored_energy = 0;   ///< of its springs [J]
   double active_power = 0;    ///< power given to the system beyond −d(stored_energy)/dt [W]
+  double dissipation = 0;     ///< power taken by dampers, contained in active_power with minus [W]
 };
 
 /// A direction in which a force element resists: the generalised displacement x with ẋ = J V meets

@@ -92,7 +92,8 @@ struct SpringDamperSpec {
 
 struct TorsionalSpringSpec {
   static constexpr const char* kKey = "torsional-spring";
-  static constexpr const char* kDoc = "linear torsional spring and damper about an axis";
+  static constexpr const char* kDoc =
+      "linear torsional spring and damper about an axis, for angles up to 3 rad either way";
   std::array<base::MarkerRef, 2> between;
   std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
   double stiffness = 0;                 ///< [N m/rad]

@@ -11,10 +11,6 @@ namespace buckens::loads {
 using Eigen::Vector3d;
 using spatial::MarkerMotion;
 
-namespace {
-constexpr double kLargestAngle = 3.0;  // rad; the measured angle jumps at π
-}
-
 SpringDamper::SpringDamper(double stiffness, double damping, double free_length,
                            std::optional<base::TimeLaw> tension)
     : stiffness_(stiffness),
@@ -43,6 +39,7 @@ Action SpringDamper::evaluate(double t, const MarkerMotion& first,
   action.on_first.force = tension * n;
   action.on_second.force = -tension * n;
   action.active_power = -active * length_rate;
+  action.dissipation = damping_ * length_rate * length_rate;
   return action;
 }
 
@@ -88,6 +85,7 @@ Action TorsionalSpring::evaluate(double /*t*/, const MarkerMotion& first,
   action.on_second.torque = -torque * axis;
   action.stored_energy = 0.5 * stiffness_ * twist * twist;
   action.active_power = -damping_ * rate * rate;
+  action.dissipation = damping_ * rate * rate;
   return action;
 }
 

@@ -38,6 +38,8 @@ class SpringDamper final : public ForceElement {
 /// ±3 rad, beyond which the element refuses (a spring wound further needs a bearing model).
 class TorsionalSpring final : public ForceElement {
  public:
+  static constexpr double kLargestAngle = 3.0;  ///< [rad]; the measured angle jumps at π
+
   /// @param axis_F unit vector in the first marker
   /// @param R_FM_placed orientation of the second marker in the first as placed
   /// @param stiffness k [N m/rad] ≥ 0

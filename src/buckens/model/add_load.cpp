@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/add_load.h"
 
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,6 +35,25 @@ class LoadBuilder {
   }
 
  private:
+  /// Forces act in the plane, torques about its normal; anything else would be dropped silently.
+  void require_in_plane(const std::array<base::TimeLaw, 3>& value, bool moment, const Load& load,
+                        const SourceLocation& where) {
+    const int normal = spatial::normal_index(*find_.model().planar);
+    for (int axis = 0; axis < 3; ++axis) {
+      const base::TimeLaw& law = value[static_cast<std::size_t>(axis)];
+      const bool may_act = (axis == normal) == moment;
+      if (may_act || (law.is_constant() && law.value(0) == 0.0)) continue;
+      throw InputError(
+          where,
+          fmt::format(
+              "load \"{}\": in a planar model a {}; set component {} to zero, or leave "
+              "`planar` out",
+              load.name,
+              moment ? "torque acts about the normal of the plane" : "force acts in the plane",
+              "xyz"[axis]));
+    }
+  }
+
   template <class Spec>
   void add_applied(const Spec& kind, loads::AppliedLoad::Kind what, Load& load,
                    const SourceLocation& where) {
@@ -46,6 +67,9 @@ class LoadBuilder {
     if (moment || kind.axes == loads::LoadAxes::following) {
       find_.require_moment(load.first, fmt::format("load \"{}\"", load.name), where);
     }
+    if (find_.model().planar && kind.axes == loads::LoadAxes::fixed) {
+      require_in_plane(kind.value, moment, load, where);
+    }
     load.element = std::make_unique<loads::AppliedLoad>(what,
                                                         kind.axes == loads::LoadAxes::following
                                                             ? loads::AppliedLoad::Axes::following
@@ -58,6 +82,12 @@ class LoadBuilder {
     load.second = find_.marker(kind.between[1], true);
     find_.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
     const double distance = (find_.placed(load.second).p - find_.placed(load.first).p).norm();
+    if (distance == 0.0 && (kind.length.value_or(0.0) > 0.0 || kind.force)) {
+      throw InputError(where,
+                       fmt::format("load \"{}\": its markers coincide as placed, so its force "
+                                   "has no direction; place them apart or use a bushing",
+                                   load.name));
+    }
     load.element = std::make_unique<loads::SpringDamper>(
         kind.stiffness, kind.damping, kind.length.value_or(distance), kind.force);
   }
@@ -72,6 +102,12 @@ class LoadBuilder {
     find_.require_moment(load.second, what, where);
     joints::Placement p = find_.placement(load.first, load.second);
     p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
+    if (std::abs(kind.angle) >= loads::TorsionalSpring::kLargestAngle) {
+      throw InputError(where,
+                       fmt::format("{}: a torsional spring measures up to {} rad from the "
+                                   "position as placed, its free angle {:.4g} rad lies beyond",
+                                   what, loads::TorsionalSpring::kLargestAngle, kind.angle));
+    }
     load.element =
         std::make_unique<loads::TorsionalSpring>(joints::unit_axis(p), p.R_WF.transpose() * p.R_WM,
                                                  kind.stiffness, kind.damping, kind.angle);

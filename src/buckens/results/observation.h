@@ -12,8 +12,8 @@ namespace buckens::results {
 
 /// Work done on the mechanism since its start [J].
 struct WorkBalance {
-  double external = 0;    ///< by loads, drives and dampers between bodies
-  double dissipated = 0;  ///< by structural damping
+  double external = 0;    ///< by loads and drives
+  double dissipated = 0;  ///< by structural damping and dampers
   double balance = 0;     ///< E − E₀ − external + dissipated
 };
 

@@ -50,6 +50,9 @@ double system_change(const dynamics::SystemRow& row, const std::vector<Vector6>&
   return out;
 }
 
+/// The larger number; not-a-number wins, so that it cannot hide.
+double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
+
 }  // namespace
 
 SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
@@ -234,15 +237,16 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
   Change change;
   const double L = model_.length;
   const auto size = [&](const Vector6& u) {
-    return std::max(L * u.head<3>().cwiseAbs().maxCoeff(), u.tail<3>().cwiseAbs().maxCoeff());
+    return larger(L * u.head<3>().cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+                  u.tail<3>().cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     BodyStep& step = bodies[b];
     const Vector6 du = residual_frame_[b] + step.compliance * response_[b].frame_load;
     step.u += du;
     step.correction += correction_u_[b];
-    change.size = std::max(change.size, size(du) + size(correction_u_[b]));
-    change.motion = std::max(change.motion, size(step.u));
+    change.size = larger(change.size, size(du) + size(correction_u_[b]));
+    change.motion = larger(change.motion, size(step.u));
     if (!(change.size < HUGE_VAL)) return change;
     if (operators_[b] == nullptr || step.y_end.size() == 0) continue;
     const BodyStepOperator& op = *operators_[b];
@@ -251,7 +255,7 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
                         op.correction_compliance() * e - op.compliance() * e;
     step.y_end += dy;
     step.correction_load += e;
-    change.size = std::max(change.size, dy.cwiseAbs().maxCoeff());
+    change.size = larger(change.size, dy.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     lambda[rows_in_use_[k]] += X_[static_cast<Eigen::Index>(k)] / scheme_.force;

@@ -53,6 +53,38 @@ struct Stepper::Large {
   }
 };
 
+namespace {
+
+std::unique_ptr<BodyStepOperator> factorised(const body::Body& body, const Scheme& scheme) {
+  if (!body.is_flexible()) return nullptr;
+  try {
+    return std::make_unique<BodyStepOperator>(*body.flexible, scheme);
+  } catch (const NumericalError& error) {
+    throw NumericalError(
+        fmt::format("body \"{}\": {}; a mesh far finer than its sections also comes to this: use "
+                    "fewer elements",
+                    body.name, error.what()));
+  }
+}
+
+/// @throws NumericalError naming the body whose motion is no longer a number
+void refuse_infinite(const model::Model& model, const model::State& state) {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const model::BodyState& s = state.bodies[b];
+    const bool is_finite = s.frame.X_WB.p.allFinite() && s.frame.X_WB.q.coeffs().allFinite() &&
+                           s.frame.v.allFinite() && s.frame.w.allFinite() && s.v_dot.allFinite() &&
+                           s.w_dot.allFinite() && s.d.allFinite() && s.d_dot.allFinite() &&
+                           s.d_ddot.allFinite();
+    if (is_finite) continue;
+    throw NumericalError(fmt::format(
+        "the motion of body \"{}\" is no longer finite at t = {:.6g} s; a load, a velocity or a "
+        "deformation has grown beyond any sense: check their units, or use a smaller step",
+        model.bodies[b].name, state.t));
+  }
+}
+
+}  // namespace
+
 Stepper::Stepper(const model::Model& model, const StepSettings& settings,
                  std::vector<int> rows_in_use)
     : model_(model),
@@ -61,8 +93,7 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       bodies_(model.bodies.size()) {
   std::vector<const BodyStepOperator*> views;
   for (const body::Body& body : model.bodies) {
-    operators_.push_back(
-        body.is_flexible() ? std::make_unique<BodyStepOperator>(*body.flexible, scheme_) : nullptr);
+    operators_.push_back(factorised(body, scheme_));
     large_.push_back(body.is_flexible() ? std::make_unique<Large>(*operators_.back()) : nullptr);
     views.push_back(operators_.back().get());
   }
@@ -146,7 +177,7 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
                               body::InertiaInvariants::centrifugal_weights(w);
     const double load_size = large.norm(large.evaluated.load + undeformed);
     const double load_change =
-        load_size > 0.0 ? large.norm(large.evaluated.load - large.used.load) / load_size : 0.0;
+        load_size != 0.0 ? large.norm(large.evaluated.load - large.used.load) / load_size : 0.0;
     const Vector3d frame_change =
         (dynamics::frame_inertia(body, large.evaluated.moments, w, w_dot, Vector3d::Zero()) -
          dynamics::frame_inertia(body, large.used.moments, w, w_dot, Vector3d::Zero()))
@@ -245,7 +276,9 @@ StepReport Stepper::step(model::State& state) {
     }
     take_over_coupling();
   }
-  state = next_state(state, lambda);
+  model::State next = next_state(state, lambda);
+  refuse_infinite(model_, next);
+  state = std::move(next);
   return report;
 }
 
