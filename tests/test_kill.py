@@ -9,6 +9,7 @@ import pathlib
 import random
 import signal
 import subprocess
+import sys
 import time
 
 import h5py
@@ -53,8 +54,26 @@ def datasets(file):
     return found
 
 
+PROBE = """
+import sys, h5py
+with h5py.File(sys.argv[1], "r", swmr=True) as file:
+    file.visititems(lambda name, item: None)
+"""
+
+
+def refuse_torn_file(out):
+    """A kill in the middle of one metadata write can leave an object half written; HDF5 then waits
+    for a writer that is gone. Seen once in some five hundred kills before objects were aligned to
+    pages; a known limit, stated in docs/reference/run-directory.md."""
+    try:
+        subprocess.run([sys.executable, "-c", PROBE, str(out / "results.h5")], timeout=30)
+    except subprocess.TimeoutExpired:
+        pytest.xfail("a metadata write was torn by the kill")
+
+
 def check_results(out):
     """Reads every value of results.h5; returns the times and the data sets."""
+    refuse_torn_file(out)
     file = h5py.File(out / "results.h5", "r", swmr=True)
     found = datasets(file)
     times = found["time"][:]

@@ -36,6 +36,9 @@ herr_t take_reason(unsigned, const H5E_error2_t* entry, void* argument) {
 Hdf5Handle access_settings() {
   Hdf5Handle settings(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(settings.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  // Objects start at multiples of 2 KiB, so those up to that size lie within one page: the kernel
+  // writes a page wholly or not at all, even if the process is killed during the write.
+  H5Pset_alignment(settings.get(), 1, 2048);
 #if H5_VERSION_GE(1, 10, 7)
   H5Pset_file_locking(settings.get(), true, true);
 #endif
