@@ -13,14 +13,17 @@ struct FreeModes {
 
 /// Solves (K − ω²M) d = 0 with Pᵀd = 0, P = MΦ, FM (27); rigid motion never appears.
 ///
-/// Up to 600 DOF: dense, on an orthonormal basis of {d : Pᵀd = 0}. Above: shift–invert Lanczos on
-/// Y (K + μM)⁻¹ M, FM (31), the shift μ > 0 near the lowest ω² found by sieved inverse iteration; a
-/// handful of sparse factorisations. Theory: docs/theory/04-free-vibration.md.
+/// Up to 600 DOF: dense, on an orthonormal basis of {d : Pᵀd = 0}. Above: simultaneous inverse
+/// iteration on Y (K + μM)⁻¹M, FM (31), two to four sparse factorisations; free_free_modes(), which
+/// knows the mesh, needs one as a rule. Theory: docs/theory/04-free-vibration.md.
 /// @param M positive definite on {d : Pᵀd = 0}, n×n
 /// @param Phi rigid modes, n×r; zero and dependent columns allowed
 /// @param count modes wanted; fewer come back where the body has fewer
 /// @throws NumericalError if the iteration does not converge or M is not positive definite
 FreeModes free_modes(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                      const linalg::Matrix& Phi, int count);
+
+/// Whether the dense way is the faster one: up to 600 DOF, or where many modes are wanted.
+bool is_dense_better(Eigen::Index num_dofs, Eigen::Index count);
 
 }  // namespace buckens::body

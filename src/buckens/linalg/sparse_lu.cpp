@@ -72,4 +72,19 @@ void SparseLu::solve_in_place(Vector& x) const {
             &backend_->common);
 }
 
+void SparseLu::solve_in_place(Matrix& X) const {
+  if (backend_->symbolic == nullptr) return;
+  klu_solve(backend_->symbolic, backend_->numeric, static_cast<int>(X.rows()),
+            static_cast<int>(X.cols()), X.data(), &backend_->common);
+}
+
+double SparseLu::predicted_entries() const {
+  return backend_->symbolic == nullptr ? 0.0 : backend_->symbolic->lnz + backend_->symbolic->unz;
+}
+
+double SparseLu::num_factor_entries() const {
+  if (backend_->numeric == nullptr) return 0.0;
+  return static_cast<double>(backend_->numeric->lnz) + static_cast<double>(backend_->numeric->unz);
+}
+
 }  // namespace buckens::linalg

@@ -26,6 +26,12 @@ class SparseLu {
   double pivot_ratio() const;
   /// x ← A⁻¹ x with the last factorisation.
   void solve_in_place(Vector& x) const;
+  /// The same for each column.
+  void solve_in_place(Matrix& X) const;
+  /// Entries of L and U that the ordering promises, before factorising.
+  double predicted_entries() const;
+  /// Entries of L and U of the last factorisation.
+  double num_factor_entries() const;
 
  private:
   struct Backend;

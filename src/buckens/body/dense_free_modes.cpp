@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/dense_free_modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::body {
+
+using linalg::Matrix;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+/// Orthonormal columns Z with PᵀZ = 0, rigid motions without mass left out, too. Rows are scaled.
+Matrix complement(const Matrix& Phi, const Sieve& sieve, const Vector& scale) {
+  const Matrix P = scale.asDiagonal() * sieve.P();
+  Matrix massless = Phi;
+  sieve.apply(massless);
+  Matrix excluded(P.rows(), P.cols() + Phi.cols());
+  excluded << P.colwise().normalized(), scale.cwiseInverse().asDiagonal() * massless;
+  for (Eigen::Index k = 0; k < Phi.cols(); ++k) {
+    const double size = scale.cwiseInverse().cwiseProduct(Phi.col(k)).norm();
+    if (size > 0.0) excluded.col(P.cols() + k) /= size;
+  }
+  Eigen::ColPivHouseholderQR<Matrix> qr(excluded);
+  qr.setThreshold(1e-8);  // rounding leaves 1e-14, a motion without mass 1
+  const Eigen::Index free = P.rows() - qr.rank();
+  Matrix Z = Matrix::Zero(P.rows(), free);
+  Z.bottomRows(free).setIdentity();
+  return qr.householderQ().setLength(qr.rank()) * Z;
+}
+
+/// Few variables without mass: (M − ν K) x = 0 with ν = 1/ω², the massless motions at ν = 0.
+FreeModes solve_with_massless(const Matrix& M, const Matrix& K) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(M, K);
+  if (eigen.info() != Eigen::Success) {
+    throw NumericalError(
+        "free vibration: the body has motions with neither mass nor stiffness; give its nodes "
+        "mass");
+  }
+  const Vector nu = eigen.eigenvalues().reverse();
+  Eigen::Index count = 0;
+  while (count < nu.size() && nu[count] > 1e-14 * nu[0]) ++count;
+  FreeModes modes;
+  modes.omega = nu.head(count).cwiseSqrt().cwiseInverse();
+  modes.shapes = eigen.eigenvectors().rowwise().reverse().leftCols(count) *
+                 modes.omega.asDiagonal();  // K-orthonormal → M-orthonormal
+  return modes;
+}
+
+}  // namespace
+
+Vector variable_scale(const SparseMatrix& M, const SparseMatrix& K) {
+  const Vector m = M.diagonal();
+  const Vector k = K.diagonal();
+  const double ratio = m.maxCoeff() / std::max(k.maxCoeff(), 1e-300);
+  Vector scale(m.size());
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double size = m[i] > 0.0 ? m[i] : ratio * k[i];
+    scale[i] = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;
+  }
+  return scale;
+}
+
+FreeModes dense_free_modes(const SparseMatrix& M, const SparseMatrix& K, const Matrix& Phi,
+                           const Sieve& sieve) {
+  const Vector scale = variable_scale(M, K);
+  const Matrix Z = scale.asDiagonal() * complement(Phi, sieve, scale);
+  const Matrix Mz = Z.transpose() * (M * Z);
+  const Matrix Kz = Z.transpose() * (K * Z);
+  FreeModes modes;
+  const Eigen::LLT<Matrix> cholesky(Mz);
+  if (cholesky.info() == Eigen::Success && cholesky.rcond() > 1e-12) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(Kz, Mz);
+    modes.omega = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    modes.shapes = eigen.eigenvectors();
+  } else {
+    modes = solve_with_massless(Mz, Kz);
+  }
+  modes.shapes = (Z * modes.shapes).eval();
+  return modes;
+}
+
+}  // namespace buckens::body

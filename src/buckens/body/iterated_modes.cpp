@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/iterated_modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Spectra/SymGEigsShiftSolver.h>
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/body/dense_free_modes.h"
+
+namespace buckens::body {
+
+using linalg::Matrix;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+// A shift more than this many times the lowest ω² slows the iteration down.
+constexpr double kSlow = 30.0;
+constexpr double kOverRounding = 1e-13;  // μ against the largest ω²
+constexpr int kMostShifts = 12;
+constexpr int kRestarts = 300;  // of Lanczos
+// Rigid modes of the penalty form hold all of their inertia in rigid motion, others none.
+constexpr double kRigidShare = 0.5;
+
+linalg::InverseIterationSettings settings_for(int count, double tolerance) {
+  linalg::InverseIterationSettings settings;
+  settings.count = count;
+  settings.tolerance = tolerance;
+  return settings;
+}
+
+/// Takes ω and shapes from the eigenpairs, without rigid ones.
+FreeModes elastic_modes(const linalg::InversePairs& pairs, const Sieve& sieve,
+                        const ModeOperator& op, int count) {
+  std::vector<Eigen::Index> kept;
+  const Vector rigid = (sieve.P().transpose() * pairs.shapes).colwise().squaredNorm().transpose();
+  for (Eigen::Index k = 0; k < pairs.theta.size(); ++k) {
+    if (static_cast<int>(kept.size()) < count && rigid[k] < kRigidShare) kept.push_back(k);
+  }
+  FreeModes modes{Vector(static_cast<Eigen::Index>(kept.size())),
+                  Matrix(pairs.shapes.rows(), static_cast<Eigen::Index>(kept.size()))};
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const auto to = static_cast<Eigen::Index>(k);
+    modes.omega[to] = std::sqrt(std::max(0.0, 1.0 / pairs.theta[kept[k]] - op.shift));
+    modes.shapes.col(to) = pairs.shapes.col(kept[k]);
+  }
+  return modes;
+}
+
+void check_complete(const linalg::InversePairs& pairs, int count) {
+  if (pairs.is_complete) return;
+  throw NumericalError(fmt::format(
+      "free vibration: the {} lowest modes did not converge in {} sweeps; ask for fewer modes",
+      count, pairs.sweeps));
+}
+
+/// The operator in the shape that Spectra calls.
+struct SpectraInverse {
+  using Scalar = double;
+  const ModeOperator* op;
+  Eigen::Index size;
+  long* solves;
+
+  Eigen::Index rows() const { return size; }
+  Eigen::Index cols() const { return size; }
+  void set_shift(double /*sigma*/) {}
+  void perform_op(const double* x, double* y) const {
+    Matrix work = Eigen::Map<const Vector>(x, size);
+    op->inverse(work);
+    Eigen::Map<Vector>(y, size) = work;
+    ++*solves;
+  }
+};
+
+struct SpectraMass {
+  using Scalar = double;
+  const SparseMatrix* M;
+
+  Eigen::Index rows() const { return M->rows(); }
+  Eigen::Index cols() const { return M->cols(); }
+  void perform_op(const double* x, double* y) const {
+    Eigen::Map<Vector>(y, rows()).noalias() = *M * Eigen::Map<const Vector>(x, rows());
+  }
+};
+
+}  // namespace
+
+double highest_square(const SparseMatrix& M, const SparseMatrix& K) {
+  const Vector scale = variable_scale(M, K);
+  return K.diagonal().cwiseProduct(scale.cwiseAbs2()).maxCoeff();
+}
+
+double cautious_shift(const SparseMatrix& M, const SparseMatrix& K) {
+  return 1e-9 * highest_square(M, K);
+}
+
+IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOperator op, int count,
+                            double tolerance) {
+  // Where many of all modes are wanted the rigid ones of the penalty form may come among them.
+  const int rigid = op.penalty > 0.0 && 20 * count > M.rows() ? static_cast<int>(sieve.rank()) : 0;
+  const linalg::InversePairs pairs = linalg::largest_inverse_pairs(
+      M, op.inverse, Matrix(M.rows(), 0), settings_for(count + rigid, tolerance));
+  check_complete(pairs, count);
+  IteratedModes out{elastic_modes(pairs, sieve, op, count), std::move(op), pairs.sweeps,
+                    pairs.solves, 1};
+  return out;
+}
+
+IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
+                                 double first_shift, int count, double tolerance) {
+  const double least = kOverRounding * highest_square(M, K);
+  double shift = std::max(first_shift, least);
+  double drowned = 0.0;  // largest shift that did not work
+  long solves = 0;
+  linalg::InverseIterationSettings settings = settings_for(count, tolerance);
+  for (int attempt = 1; attempt <= kMostShifts; ++attempt) {
+    std::optional<ModeOperator> op;
+    try {
+      op = sieved_operator(M, K, sieve, shift);
+    } catch (const NumericalError&) {
+      if (attempt == kMostShifts) throw;
+      drowned = shift;
+      shift *= 30.0;
+      continue;
+    }
+    double next = 0.0;
+    const double lowest_useful = std::max(least, 10.0 * drowned);
+    settings.is_worthwhile = [&](double theta) {
+      const double square = 1.0 / theta - shift;
+      if (square * kSlow > shift || shift <= lowest_useful) return true;
+      next = std::max(lowest_useful, std::max(0.3 * square, 1e-3 * shift));
+      return false;
+    };
+    if (attempt == kMostShifts) settings.is_worthwhile = nullptr;
+    const linalg::InversePairs pairs =
+        linalg::largest_inverse_pairs(M, op->inverse, Matrix(M.rows(), 0), settings);
+    solves += pairs.solves;
+    if (next > 0.0) {
+      shift = next;
+      continue;
+    }
+    check_complete(pairs, count);
+    return {elastic_modes(pairs, sieve, *op, count), std::move(*op), pairs.sweeps, solves, attempt};
+  }
+  throw NumericalError("free vibration: no shift makes K + μM positive definite; check the masses");
+}
+
+IteratedModes lanczos_modes(const SparseMatrix& M, ModeOperator op, int count, double tolerance) {
+  IteratedModes out;
+  out.op = std::move(op);
+  out.factorisations = 1;
+  SpectraInverse inverse{&out.op, M.rows(), &out.solves};
+  SpectraMass mass{&M};
+  const auto basis = std::min(M.rows(), std::max<Eigen::Index>(2 * count + 8, 24));
+  Spectra::SymGEigsShiftSolver<SpectraInverse, SpectraMass, Spectra::GEigsMode::ShiftInvert> solver(
+      inverse, mass, count, basis, -out.op.shift);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, kRestarts, std::min(1e-10, tolerance),
+                 Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful) {
+    throw NumericalError(fmt::format(
+        "free vibration: the {} lowest modes did not converge in {} Lanczos restarts; ask for "
+        "fewer modes or use the method subspace",
+        count, kRestarts));
+  }
+  out.sweeps = static_cast<int>(solver.num_iterations());
+  out.modes = {solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(), solver.eigenvectors()};
+  return out;
+}
+
+}  // namespace buckens::body

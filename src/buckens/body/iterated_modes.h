@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/body/free_modes.h"
+#include "buckens/body/mode_operator.h"
+
+namespace buckens::body {
+
+/// Modes from an iteration, with the operator that gave them and its cost.
+struct IteratedModes {
+  FreeModes modes;
+  ModeOperator op;
+  int sweeps = 0;
+  long solves = 0;
+  int factorisations = 0;
+};
+
+/// Simultaneous inverse iteration with an operator; rigid motion that it lets through is left out.
+/// @throws NumericalError if it does not converge
+IteratedModes iterate_modes(const linalg::SparseMatrix& M, const Sieve& sieve, ModeOperator op,
+                            int count, double tolerance);
+
+/// The same on Y (K + μM)⁻¹M, FM (31), with μ as needed: it begins with `first_shift`; where the
+/// lowest ω² turns out to lie far below, it begins anew with that, and a shift that drowns in the
+/// rounding of K is raised.
+IteratedModes iterate_with_shift(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
+                                 const Sieve& sieve, double first_shift, int count,
+                                 double tolerance);
+
+/// Lanczos with implicit restarts of the Spectra library.
+/// @throws NumericalError if it does not converge
+IteratedModes lanczos_modes(const linalg::SparseMatrix& M, ModeOperator op, int count,
+                            double tolerance);
+
+/// First shift where nothing is known: far above rounding, below most ω² [1/s²].
+double cautious_shift(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K);
+/// Upper bound of ω² or nearly so: the largest of K_ii/M_ii [1/s²].
+double highest_square(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K);
+
+}  // namespace buckens::body

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/mode_operator.h"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/linalg/sparse_cholesky.h"
+#include "buckens/linalg/sparse_lu.h"
+
+namespace buckens::body {
+
+using linalg::Matrix;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+constexpr Eigen::Index kFullPenalty = 1500;
+constexpr double kMostEntries = 1.5e8;  // 1.2 GB of factor, 1.8 with its indices
+constexpr int kPowerIterations = 20;
+
+Vector unit_diagonal(const Vector& diagonal) {
+  return diagonal.unaryExpr([](double a) { return a > 0.0 ? 1.0 / std::sqrt(a) : 1.0; });
+}
+
+/// [K −P; −Pᵀ 0] with P scaled to the size of K.
+SparseMatrix bordered(const SparseMatrix& K, const Matrix& P) {
+  std::vector<linalg::Triplet> entries;
+  entries.reserve(static_cast<std::size_t>(K.nonZeros() + 2 * P.size()));
+  for (int j = 0; j < K.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(K, j); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.row()), j, it.value());
+    }
+  }
+  const int n = static_cast<int>(K.rows());
+  for (int k = 0; k < static_cast<int>(P.cols()); ++k) {
+    for (int i = 0; i < n; ++i) {
+      if (P(i, k) == 0.0) continue;
+      entries.emplace_back(i, n + k, -P(i, k));
+      entries.emplace_back(n + k, i, -P(i, k));
+    }
+  }
+  const int size = n + static_cast<int>(P.cols());
+  SparseMatrix out(size, size);
+  out.setFromTriplets(entries.begin(), entries.end());
+  out.makeCompressed();
+  return out;
+}
+
+double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen::Index size) {
+  Vector x = linalg::scattered_block(size, 1, 3);
+  double norm = 0.0;
+  for (int k = 0; k < kPowerIterations; ++k) {
+    x /= x.norm();
+    x = apply(x);
+    norm = x.norm();
+    if (!(norm > 0.0)) return 0.0;
+  }
+  return norm;
+}
+
+}  // namespace
+
+ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
+                             double shift) {
+  const auto A = std::make_shared<SparseMatrix>(K + shift * M);
+  const auto factor = std::make_shared<linalg::SparseCholesky>(*A);
+  ModeOperator op;
+  op.shift = shift;
+  op.factor_entries = factor->num_factor_entries();
+  // Yᵀ and Y commute with K + μM; both are applied so that rigid motion never grows to a size
+  // that rounding cannot remove.
+  op.inverse = [factor, &sieve](Matrix& F) {
+    F -= sieve.P() * (sieve.Phi().transpose() * F);
+    F = factor->solve(F);
+    sieve.apply(F);
+  };
+  op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
+  op.solve = [factor](const Vector& b) -> Vector {
+    Vector x = b;
+    factor->solve_in_place(x);
+    return x;
+  };
+  op.scale = unit_diagonal(A->diagonal());
+  return op;
+}
+
+ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
+  const Eigen::Index n = K.rows();
+  const double size = K.diagonal().cwiseAbs().maxCoeff() / sieve.P().cwiseAbs().maxCoeff();
+  const auto A = std::make_shared<SparseMatrix>(bordered(K, size * sieve.P()));
+  const auto factor = std::make_shared<linalg::SparseLu>(*A);
+  if (factor->predicted_entries() > kMostEntries) {
+    throw ModelError(
+        fmt::format("method augmented: the factor of the bordered matrix of {} variables would "
+                    "have {:.2g} entries, more than {:.2g}; use the method subspace",
+                    n, factor->predicted_entries(), kMostEntries));
+  }
+  if (!factor->factorise(*A)) {
+    throw NumericalError(
+        "method augmented: the bordered matrix is singular to working precision; does the mesh "
+        "have parts that hang together loosely?");
+  }
+  ModeOperator op;
+  op.factor_entries = factor->num_factor_entries();
+  const Eigen::Index border = sieve.P().cols();
+  op.inverse = [factor, n, border](Matrix& F) {
+    Matrix X = Matrix::Zero(n + border, F.cols());
+    X.topRows(n) = F;
+    factor->solve_in_place(X);
+    F = X.topRows(n);
+  };
+  op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
+  op.solve = [factor](const Vector& b) -> Vector {
+    Vector x = b;
+    factor->solve_in_place(x);
+    return x;
+  };
+  // The zero block has no diagonal: its columns get the length one.
+  op.scale.resize(n + border);
+  op.scale.head(n) = unit_diagonal(K.diagonal());
+  for (Eigen::Index k = 0; k < border; ++k) {
+    op.scale[n + k] = 1.0 / (size * op.scale.head(n).cwiseProduct(sieve.P().col(k)).norm());
+  }
+  return op;
+}
+
+namespace {
+
+ModeOperator full_penalty_operator(const SparseMatrix& K, const Matrix& P, double penalty) {
+  const auto A = std::make_shared<Matrix>(Matrix(K) + penalty * P * P.transpose());
+  const auto factor = std::make_shared<Eigen::LLT<Matrix>>(*A);
+  if (factor->info() != Eigen::Success) {
+    throw NumericalError("method penalty: K + c PPᵀ is not positive definite; check the mesh");
+  }
+  ModeOperator op;
+  const auto n = static_cast<double>(K.rows());
+  op.factor_entries = 0.5 * n * (n + 1.0);
+  op.inverse = [factor](Matrix& F) { factor->solveInPlace(F); };
+  op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
+  op.solve = [factor](const Vector& b) -> Vector { return factor->solve(b); };
+  op.scale = unit_diagonal(A->diagonal());
+  return op;
+}
+
+ModeOperator woodbury_penalty_operator(const SparseMatrix& M, const SparseMatrix& K,
+                                       const Sieve& sieve, double penalty, double shift) {
+  const auto A = std::make_shared<SparseMatrix>(K + shift * M);
+  const auto factor = std::make_shared<linalg::SparseCholesky>(*A);
+  const auto P = std::make_shared<Matrix>(sieve.P());
+  const auto Z = std::make_shared<Matrix>(factor->solve(*P));
+  const Matrix small = Matrix::Identity(P->cols(), P->cols()) / penalty + P->transpose() * *Z;
+  const auto inner = std::make_shared<Eigen::LDLT<Matrix>>(small);
+  const auto solve = [factor, P, Z, inner](const Matrix& F) -> Matrix {
+    Matrix X = factor->solve(F);
+    X -= *Z * inner->solve(P->transpose() * X);
+    return X;
+  };
+  ModeOperator op;
+  op.shift = shift;
+  op.factor_entries = factor->num_factor_entries() + static_cast<double>(P->size() + Z->size());
+  op.inverse = [solve](Matrix& F) { F = solve(F); };
+  op.multiply = [A, P, penalty](const Vector& x) -> Vector {
+    return *A * x + penalty * (*P * (P->transpose() * x));
+  };
+  op.solve = [solve](const Vector& b) -> Vector { return solve(b); };
+  op.scale = unit_diagonal(A->diagonal() + penalty * P->rowwise().squaredNorm());
+  return op;
+}
+
+}  // namespace
+
+ModeOperator penalty_operator(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
+                              double penalty, double shift) {
+  ModeOperator op = K.rows() <= kFullPenalty
+                        ? full_penalty_operator(K, sieve.P(), penalty)
+                        : woodbury_penalty_operator(M, K, sieve, penalty, shift);
+  op.penalty = penalty;
+  return op;
+}
+
+double estimate_condition(const ModeOperator& op) {
+  const Vector& s = op.scale;
+  const double largest = largest_by_power(
+      [&](const Vector& x) -> Vector { return s.cwiseProduct(op.multiply(s.cwiseProduct(x))); },
+      s.size());
+  const double inverse = largest_by_power(
+      [&](const Vector& x) -> Vector { return op.solve(x.cwiseQuotient(s)).cwiseQuotient(s); },
+      s.size());
+  return largest * inverse;
+}
+
+}  // namespace buckens::body

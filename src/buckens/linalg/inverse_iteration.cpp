@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/inverse_iteration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+
+namespace buckens::linalg {
+
+namespace {
+
+// Columns shorter than this against the longest of their origin are rounding.
+constexpr double kNothing = 1e-13;
+// The same for a fresh block of unit length: what is left of it where the basis holds all there is.
+constexpr double kNothingNew = 1e-9;
+// A fresh block says nothing about missing pairs before it has gone through this many sweeps.
+constexpr int kSearchSweeps = 3;
+constexpr int kJudgedAfter = 2;
+
+/// The growing basis V with M-orthonormal columns and T = VᵀM A⁻¹M V.
+class Subspace {
+ public:
+  Subspace(const SparseMatrix& M, const InverseOperator& inverse, const Matrix& deflated,
+           const InverseIterationSettings& settings)
+      : M_(M), inverse_(inverse), settings_(settings), deflated_(deflated), MD_(M * deflated) {}
+
+  InversePairs run();
+
+ private:
+  void start(unsigned seed);
+  void sweep();
+  void solve_projected();
+  void restart(Eigen::Index keep);
+  Matrix orthonormalise(Matrix W, double nothing, Matrix* coefficients);
+  void remove_known(Matrix& W) const;
+  Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
+  bool is_converged(Eigen::Index count) const;
+  bool is_nothing_missed() const;
+  bool is_changed(const Vector& before) const;
+  bool search(bool is_exhausted);
+  InversePairs result(bool is_complete) const;
+
+  Eigen::Index basis_limit() const {
+    return std::max<Eigen::Index>(2 * settings_.count + 2 * settings_.block,
+                                  settings_.count + 10 * settings_.block);
+  }
+
+  const SparseMatrix& M_;
+  const InverseOperator& inverse_;
+  const InverseIterationSettings settings_;
+  const Matrix& deflated_;
+  Matrix MD_;
+  Matrix V_, MV_;       // basis, n×m, and its product with M
+  Matrix T_;            // m×m
+  Matrix block_;        // next block, M-orthonormal to V
+  Matrix coupling_;     // A⁻¹M V's share along the next block, b×(width of the last block)
+  Vector theta_;        // Ritz values, largest magnitude first
+  Matrix Z_;            // their coordinates in V
+  Vector residual_;     // ‖A⁻¹M x − θ x‖_M
+  double longest_ = 0;  // ‖A⁻¹M v‖_M of all columns so far
+  double rounding_ = 0;
+  int sweeps_ = 0;
+  int searches_ = 0;
+  int search_from_ = -1;  // sweep after which the fresh block is on its way
+  Vector found_;          // wanted θ at that sweep
+  long solves_ = 0;
+};
+
+void Subspace::remove_known(Matrix& W) const {
+  if (deflated_.cols() > 0) W -= deflated_ * (MD_.transpose() * W);
+  if (V_.cols() > 0) W -= V_ * (MV_.transpose() * W);
+}
+
+/// M-orthonormal basis of the span of W without what V holds, directions shorter than `nothing`
+/// left out; W = basis · coefficients.
+Matrix Subspace::orthonormalise(Matrix W, double nothing, Matrix* coefficients) {
+  if (coefficients != nullptr) *coefficients = Matrix::Identity(W.cols(), W.cols());
+  for (int pass = 0; pass < 3 && W.cols() > 0; ++pass) {
+    remove_known(W);
+    const Matrix G = W.transpose() * (M_ * W);
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (G + G.transpose()));
+    const double least = pass == 0 ? nothing : 0.1;
+    Eigen::Index dropped = 0;
+    while (dropped < W.cols() &&
+           !(eigen.eigenvalues()[dropped] > std::max(least * least, 1e-290))) {
+      ++dropped;
+    }
+    const Eigen::Index kept = W.cols() - dropped;
+    const Matrix U = eigen.eigenvectors().rightCols(kept);
+    const Vector size = eigen.eigenvalues().tail(kept).cwiseSqrt();
+    W = (W * (U * size.cwiseInverse().asDiagonal())).eval();
+    if (coefficients != nullptr) {
+      *coefficients = (size.asDiagonal() * U.transpose() * *coefficients).eval();
+    }
+  }
+  return W;
+}
+
+void Subspace::start(unsigned seed) {
+  const auto columns = std::min<Eigen::Index>(settings_.block, M_.rows());
+  Matrix X = scattered_block(M_.rows(), columns, seed);
+  for (int k = 0; k < 2; ++k) {  // twice: into the range of A⁻¹M, and smooth
+    X = (M_ * X).eval();
+    inverse_(X);
+    solves_ += X.cols();
+    const Matrix MX = M_ * X;
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      const double size = std::sqrt(std::max(0.0, X.col(j).dot(MX.col(j))));
+      if (size > 0.0) X.col(j) /= size;
+    }
+  }
+  block_ = orthonormalise(std::move(X), kNothingNew, nullptr);
+}
+
+void Subspace::sweep() {
+  const Eigen::Index before = V_.cols();
+  const Eigen::Index width = block_.cols();
+  V_.conservativeResize(M_.rows(), before + width);
+  V_.rightCols(width) = block_;
+  MV_.conservativeResize(M_.rows(), before + width);
+  MV_.rightCols(width) = M_ * block_;
+  Matrix W = MV_.rightCols(width);
+  inverse_(W);
+  solves_ += width;
+  ++sweeps_;
+  const Matrix MW = M_ * W;
+  for (Eigen::Index j = 0; j < width; ++j) {
+    longest_ = std::max(longest_, std::sqrt(std::max(0.0, W.col(j).dot(MW.col(j)))));
+  }
+  const Matrix H = MV_.transpose() * W;
+  const Matrix square = H.bottomRows(width);
+  if (longest_ > 0.0) {
+    rounding_ = std::max(rounding_, (square - square.transpose()).norm() / longest_);
+  }
+  T_.conservativeResize(before + width, before + width);
+  T_.rightCols(width) = H;
+  T_.bottomRows(width) = H.transpose();
+  block_ = orthonormalise(std::move(W), kNothing * longest_, &coupling_);
+}
+
+void Subspace::solve_projected() {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (T_ + T_.transpose()));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(T_.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::abs(eigen.eigenvalues()[a]) > std::abs(eigen.eigenvalues()[b]);
+  });
+  theta_.resize(T_.rows());
+  Z_.resize(T_.rows(), T_.rows());
+  for (Eigen::Index k = 0; k < T_.rows(); ++k) {
+    theta_[k] = eigen.eigenvalues()[order[static_cast<std::size_t>(k)]];
+    Z_.col(k) = eigen.eigenvectors().col(order[static_cast<std::size_t>(k)]);
+  }
+  residual_ = Vector::Zero(theta_.size());
+  if (block_.cols() > 0) {
+    residual_ = (coupling_ * Z_.bottomRows(coupling_.cols())).colwise().norm().transpose();
+  }
+}
+
+void Subspace::restart(Eigen::Index keep) {
+  const Matrix Z = Z_.leftCols(keep);
+  V_ = (V_ * Z).eval();
+  MV_ = (MV_ * Z).eval();
+  T_ = theta_.head(keep).asDiagonal();
+}
+
+bool Subspace::is_converged(Eigen::Index count) const {
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double floor = 10.0 * rounding_ * std::abs(theta_[0]);
+    if (residual_[k] > std::max(settings_.tolerance * std::abs(theta_[k]), floor)) return false;
+  }
+  return true;
+}
+
+bool Subspace::is_nothing_missed() const {
+  // The fresh block's best candidate comes right after the wanted pairs: it must be smaller for
+  // certain, or converged itself.
+  const Eigen::Index next = wanted();
+  if (next >= theta_.size()) return block_.cols() == 0;
+  const double bound = std::abs(theta_[next]) + residual_[next];
+  return bound < std::abs(theta_[next - 1]) || is_converged(next + 1);
+}
+
+InversePairs Subspace::result(bool is_complete) const {
+  InversePairs out;
+  Eigen::Index count = wanted();
+  while (count > 0 && std::abs(theta_[count - 1]) <= kNothing * std::abs(theta_[0])) --count;
+  out.theta = theta_.head(count);
+  out.shapes = V_ * Z_.leftCols(count);
+  out.residual = residual_.head(count).cwiseQuotient(out.theta.cwiseAbs());
+  out.sweeps = sweeps_;
+  out.solves = solves_;
+  out.rounding = rounding_;
+  out.is_complete = is_complete;
+  return out;
+}
+
+/// Whether the fresh block has changed what is wanted: more of its kind may be missing then.
+bool Subspace::is_changed(const Vector& before) const {
+  if (before.size() != wanted()) return true;
+  const double floor = 10.0 * rounding_ * std::abs(theta_[0]);
+  for (Eigen::Index k = 0; k < before.size(); ++k) {
+    const double tolerance = std::max(settings_.tolerance * std::abs(before[k]), floor);
+    if (std::abs(theta_[k] - before[k]) > tolerance) return true;
+  }
+  return false;
+}
+
+/// Keeps what is there and goes on with a fresh block. @return false if there is nothing else
+bool Subspace::search(bool is_exhausted) {
+  ++searches_;
+  restart(is_exhausted ? theta_.size() : wanted());
+  found_ = theta_.head(wanted());
+  search_from_ = sweeps_;
+  start(1U + static_cast<unsigned>(searches_));
+  if (block_.cols() > 0) return true;
+  coupling_.resize(0, 0);
+  solve_projected();
+  return false;
+}
+
+InversePairs Subspace::run() {
+  start(1);
+  if (block_.cols() == 0) return result(true);
+  while (true) {
+    sweep();
+    solve_projected();
+    if (sweeps_ == kJudgedAfter && settings_.is_worthwhile && !settings_.is_worthwhile(theta_[0])) {
+      return result(false);
+    }
+    const bool is_exhausted = block_.cols() == 0;
+    if (is_exhausted || (theta_.size() >= settings_.count && is_converged(settings_.count))) {
+      if (search_from_ < 0) {
+        if (!search(is_exhausted)) return result(true);
+        continue;
+      }
+      if (is_exhausted || (sweeps_ >= search_from_ + kSearchSweeps && is_nothing_missed())) {
+        if (!is_changed(found_) || !search(is_exhausted)) return result(true);
+        continue;
+      }
+    }
+    if (sweeps_ >= settings_.max_sweeps) return result(false);
+    if (V_.cols() + block_.cols() > basis_limit()) {
+      restart(std::min(theta_.size(), std::max<Eigen::Index>(settings_.count + settings_.block,
+                                                             basis_limit() / 2 - settings_.block)));
+    }
+  }
+}
+
+}  // namespace
+
+Matrix scattered_block(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  Matrix out(rows, columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      out(i, j) = 2.0 * (static_cast<double>(engine() >> 11U) * 0x1p-53) - 1.0;
+    }
+  }
+  return out;
+}
+
+InversePairs largest_inverse_pairs(const SparseMatrix& M, const InverseOperator& inverse,
+                                   const Matrix& deflated,
+                                   const InverseIterationSettings& settings) {
+  if (settings.count <= 0 || M.rows() == 0) return {Vector(0), Matrix(M.rows(), 0), Vector(0)};
+  return Subspace(M, inverse, deflated, settings).run();
+}
+
+}  // namespace buckens::linalg

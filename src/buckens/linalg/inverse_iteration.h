@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// F ← A⁻¹F, column by column, perhaps followed by a projection; symmetric in the sense that
+/// xᵀM A⁻¹M y = yᵀM A⁻¹M x.
+using InverseOperator = std::function<void(Matrix&)>;
+
+struct InverseIterationSettings {
+  int count = 10;  ///< eigenpairs wanted
+  int block = 6;   ///< vectors that are iterated at the same time
+  /// Of ‖A⁻¹M x − θ x‖_M / |θ|: error of the vector; the error of θ is about its square.
+  double tolerance = 1e-9;
+  int max_sweeps = 400;
+  /// Asked once after two sweeps with the largest |θ| so far; `false` ends the iteration there.
+  std::function<bool(double)> is_worthwhile = {};
+};
+
+/// Eigenpairs of A⁻¹M, largest |θ| first.
+struct InversePairs {
+  Vector theta;
+  Matrix shapes;    ///< n×count, M-orthonormal
+  Vector residual;  ///< ‖A⁻¹M x − θ x‖_M / |θ| as the subspace tells it
+  int sweeps = 0;
+  long solves = 0;          ///< columns passed through A⁻¹
+  double rounding = 0;      ///< relative asymmetry of A⁻¹M found: no residual can be smaller
+  bool is_complete = true;  ///< all wanted pairs converged, and none was missed
+};
+
+/// Simultaneous inverse iteration with projection onto the subspace of all sweeps.
+///
+/// Each sweep takes a block X to A⁻¹M X and solves the eigenproblem in the span of all blocks so
+/// far (Rayleigh–Ritz); new blocks are kept M-orthogonal to all earlier ones, twice over. When the
+/// basis is full it restarts with the best Ritz vectors and goes on where it was (thick restart).
+/// Compared with an iteration that forgets earlier sweeps, the number of solves falls from one per
+/// vector and power of θ_k/θ_j to about its square root.
+///
+/// Multiple eigenvalues: a block of b finds b equal ones. Afterwards a fresh block, orthogonal to
+/// what was found, is iterated until it can hold nothing among the wanted pairs; what turns up
+/// joins in and the search goes on. Thus any multiplicity is complete.
+///
+/// M may be singular (massless variables): all vectors lie in the range of A⁻¹M.
+/// @param M symmetric, positive semidefinite, n×n
+/// @param deflated M-orthonormal vectors to stay orthogonal to, n×k, k ≥ 0
+/// @return fewer pairs than wanted where there are no more
+InversePairs largest_inverse_pairs(const SparseMatrix& M, const InverseOperator& inverse,
+                                   const Matrix& deflated,
+                                   const InverseIterationSettings& settings);
+
+/// n×columns numbers in (−1, 1), the same on every call.
+Matrix scattered_block(Eigen::Index rows, Eigen::Index columns, unsigned seed);
+
+}  // namespace buckens::linalg
