@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "buckens/body/nodal_inertia.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::body {
@@ -30,7 +31,7 @@ Vector3d axial(const Matrix3d& T) {
 /// Weights A with Σ A_ab W_ab = Σ w_a H_a.
 Matrix3d gyroscopic_weights(const Vector3d& w) { return -spatial::skew(w); }
 
-/// T_ab = xᵀ W_ab y for all nine pairs, from the stored six.
+/// T_ab = xᵀ W_ab y for all nine pairs, from the stored six and the scalar mass matrix.
 Matrix3d bilinear(const fem::ShapeIntegrals& shape, const Vector& x, const Vector& y) {
   Matrix3d T = Matrix3d::Zero();
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
@@ -42,6 +43,8 @@ Matrix3d bilinear(const fem::ShapeIntegrals& shape, const Vector& x, const Vecto
     const Vector Wx = shape.W[k] * x;
     T(b, a) = y.dot(Wx);
   }
+  const NodalInertia nodal(shape.nodal);
+  if (!nodal.empty()) T += nodal.times_mass(x) * nodal.by_node(y).transpose();
   return T;
 }
 
@@ -97,6 +100,13 @@ DeformedMoments InertiaInvariants::moments(const Vector& d, const Vector& d_dot,
     T_d_rate(b, a) = right.dot(d_dot);
     T_d_acceleration(b, a) = right.dot(d_ddot);
   }
+  const NodalInertia nodal(shape_->nodal);
+  if (!nodal.empty()) {
+    const Eigen::Matrix3Xd weighted = nodal.times_mass(d);
+    T_dd += weighted * nodal.by_node(d).transpose();
+    T_d_rate += weighted * nodal.by_node(d_dot).transpose();
+    T_d_acceleration += weighted * nodal.by_node(d_ddot).transpose();
+  }
   DeformedMoments out;
   out.J = shape_->J0 + to_inertia(S1 + S1.transpose() + T_dd);
   out.J_dot = to_inertia(S1_dot + S1_dot.transpose() + T_d_rate + T_d_rate.transpose());
@@ -113,6 +123,8 @@ void InertiaInvariants::add_weighted(const Matrix3d& A, const Vector& x, Vector&
     if (A(a, b) != 0.0) y.noalias() += A(a, b) * (W * x);
     if (a != b && A(b, a) != 0.0) y.noalias() += A(b, a) * (W.transpose() * x);
   }
+  const NodalInertia nodal(shape_->nodal);
+  if (!nodal.empty() && !A.isZero(0.0)) nodal.add(A * nodal.times_mass(x), y);
 }
 
 Vector InertiaInvariants::deformation_load(const Vector& d, const Vector& d_dot, const Vector3d& w,

@@ -25,7 +25,8 @@ class InertiaInvariants {
  public:
   explicit InertiaInvariants(const fem::ShapeIntegrals& shape);
 
-  /// Rotary inertia of the deformed body [kg m²]. Cost: six sparse products.
+  /// Rotary inertia of the deformed body [kg m²]. Cost: six sparse products; one with the scalar
+  /// mass matrix for solids, also below.
   Eigen::Matrix3d rotary_inertia(const linalg::Vector& d) const;
 
   /// l = Σ dᵀH_a ḋ e_a [N m s].

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/assemble.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ void check_node_numbers(const Structure& structure, const Blocks& blocks) {
   const int num_nodes = static_cast<int>(structure.nodes.size());
   for (const auto& block : blocks) {
     for (int e = 0; e < block->num_elements(); ++e) {
-      for (const int node : block->ends(e)) {
+      for (const int node : block->nodes(e)) {
         if (node >= 0 && node < num_nodes) continue;
         throw ModelError(
             fmt::format("an element refers to node {}, but there are {} nodes", node, num_nodes));
@@ -30,7 +31,7 @@ void check_node_numbers(const Structure& structure, const Blocks& blocks) {
   }
 }
 
-/// Refuses nodes without line elements and meshes in several pieces.
+/// Refuses nodes without elements that hold them and meshes in several pieces.
 void check_connected(const std::vector<Node>& nodes, const Blocks& blocks) {
   std::vector<int> parent(nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -44,21 +45,24 @@ void check_connected(const std::vector<Node>& nodes, const Blocks& blocks) {
     return node;
   };
   for (const auto& block : blocks) {
-    for (int e = 0; block->is_line() && e < block->num_elements(); ++e) {
-      const auto [a, b] = block->ends(e);
-      used[static_cast<std::size_t>(a)] = used[static_cast<std::size_t>(b)] = true;
-      parent[static_cast<std::size_t>(root(a))] = root(b);
+    if (!block->is_line() && !block->is_solid()) continue;
+    for (int e = 0; e < block->num_elements(); ++e) {
+      const auto of_element = block->nodes(e);
+      for (const int node : of_element) {
+        used[static_cast<std::size_t>(node)] = true;
+        parent[static_cast<std::size_t>(root(node))] = root(of_element.front());
+      }
     }
   }
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const int node = static_cast<int>(k);
     if (!used[k]) {
       throw ModelError(node_label(nodes, node) +
-                       " is connected to no element; remove it or join a beam or bar to it");
+                       " is connected to no element; remove it or join an element to it");
     }
     if (root(node) != root(0)) {
       throw ModelError(fmt::format(
-          "{} and {} belong to parts that nothing holds together; join them by a beam or bar, or "
+          "{} and {} belong to parts that nothing holds together; join them by an element, or "
           "make two bodies",
           node_label(nodes, 0), node_label(nodes, node)));
     }
@@ -82,10 +86,13 @@ DofMap number_dofs(std::size_t num_nodes, const Blocks& blocks,
   std::vector<bool> turns(num_nodes, false);
   for (const auto& block : blocks) {
     for (int e = 0; block->has_rotations() && e < block->num_elements(); ++e) {
-      for (const int node : block->ends(e)) turns[static_cast<std::size_t>(node)] = true;
+      for (const int node : block->nodes(e)) turns[static_cast<std::size_t>(node)] = true;
     }
   }
-  const std::array<bool, 6> kept = kept_variables(planar);
+  const bool has_solids = std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
+    return block->is_solid() && block->num_elements() > 0;
+  });
+  const std::array<bool, 6> kept = kept_variables(has_solids ? std::nullopt : planar);
   DofMap dofs;
   dofs.node_dofs.resize(num_nodes);
   for (std::size_t node = 0; node < num_nodes; ++node) {
@@ -121,6 +128,29 @@ double common_mass_damping(const Blocks& blocks) {
   return alpha.value_or(0.0);
 }
 
+/// Ms ⊗ 1 over the DOF.
+std::vector<Triplet> expand(const NodalMass& nodal) {
+  std::vector<Triplet> out;
+  out.reserve(static_cast<std::size_t>(3 * nodal.Ms.nonZeros()));
+  for (int column = 0; column < nodal.Ms.outerSize(); ++column) {
+    const auto& to = nodal.dofs[static_cast<std::size_t>(column)];
+    for (SparseMatrix::InnerIterator it(nodal.Ms, column); it; ++it) {
+      const auto& from = nodal.dofs[static_cast<std::size_t>(it.row())];
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (from[a] >= 0 && to[a] >= 0) out.emplace_back(from[a], to[a], it.value());
+      }
+    }
+  }
+  return out;
+}
+
+NodalMass nodal_mass(const MeshView& mesh, const std::vector<Triplet>& entries) {
+  NodalMass out;
+  out.Ms = to_sparse(static_cast<int>(mesh.nodes.size()), entries);
+  for (const auto& node : mesh.dofs.node_dofs) out.dofs.push_back({node[0], node[1], node[2]});
+  return out;
+}
+
 void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
   MassMoment moment;
   for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
@@ -142,6 +172,10 @@ void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) 
   fe.M = shape.W[0] + shape.W[1];
   fe.M += shape.W[2];
   fe.M += to_sparse(n, sum.M_flywheel);
+  if (!sum.nodal.empty()) {
+    shape.nodal = nodal_mass(mesh, sum.nodal);
+    fe.M += to_sparse(n, expand(shape.nodal));
+  }
   fe.M.makeCompressed();
 }
 
@@ -151,7 +185,8 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   FeModel fe;
   fe.blocks = {std::make_shared<BeamBlock>(structure.beams),
                std::make_shared<BarBlock>(structure.bars),
-               std::make_shared<PointMassBlock>(structure.masses)};
+               std::make_shared<PointMassBlock>(structure.masses),
+               std::make_shared<Hex8Block>(structure.solids)};
   check_node_numbers(structure, fe.blocks);
   check_connected(structure.nodes, fe.blocks);
   fe.nodes = structure.nodes;

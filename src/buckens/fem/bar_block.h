@@ -17,7 +17,7 @@ class BarBlock final : public ElementBlock {
   int add(int node_a, int node_b, const Material& material, const Section& section);
 
   int num_elements() const override { return static_cast<int>(elements_.size()); }
-  std::array<int, 2> ends(int element) const override { return at(element).ends; }
+  std::span<const int> nodes(int element) const override { return at(element).ends; }
   bool is_line() const override { return true; }
   bool has_rotations() const override { return false; }
   const Material* material(int element) const override { return &at(element).material; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,6 +24,7 @@ struct MassMoment {
 struct InertiaSum {
   std::array<std::vector<linalg::Triplet>, 6> W;  ///< order of ShapeIntegrals::W
   std::vector<linalg::Triplet> M_flywheel;        ///< what is in M but not in Σ W_aa
+  std::vector<linalg::Triplet> nodal;             ///< NodalMass::Ms, by node numbers
   linalg::Matrix c;                               ///< n×9
   Eigen::Matrix3d C0 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d J0_flywheel = Eigen::Matrix3d::Zero();
@@ -54,10 +56,17 @@ class ElementBlock {
   virtual ~ElementBlock() = default;
 
   virtual int num_elements() const = 0;
-  /// The two end nodes; twice the same for a point mass.
-  virtual std::array<int, 2> ends(int element) const = 0;
+  /// The nodes of an element; those of a line from end to end.
+  virtual std::span<const int> nodes(int element) const = 0;
+  /// First and last node; twice the same for a point mass.
+  std::array<int, 2> ends(int element) const {
+    const auto all = nodes(element);
+    return {all.front(), all.back()};
+  }
   /// Whether the elements extend along a line (beams, bars), or sit on a node.
   virtual bool is_line() const = 0;
+  /// Whether the elements fill a volume.
+  virtual bool is_solid() const { return false; }
   /// Whether the elements give rotations to their nodes.
   virtual bool has_rotations() const = 0;
   /// Null for elements without material or section.
@@ -79,6 +88,14 @@ class ElementBlock {
                               std::vector<linalg::Triplet>& rows) const = 0;
   /// @param xi 0 at the first end, 1 at the second
   virtual PointRows point_rows(const MeshView& mesh, int element, double xi) const = 0;
+
+  /// Stresses σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx at the centres of solid elements, model axes, as
+  /// rows over d: rows 6 e + (0…5) with e counted from `first_element`.
+  virtual void add_stress_rows(const MeshView& /*mesh*/, int /*first_element*/,
+                               std::vector<linalg::Triplet>& /*rows*/) const {}
+  /// Faces of a solid element, nodes counter-clockwise seen from outside; −1 in place of the fourth
+  /// node of a triangle.
+  virtual std::vector<std::array<int, 4>> faces(int /*element*/) const { return {}; }
 };
 
 }  // namespace buckens::fem

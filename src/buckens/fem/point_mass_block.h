@@ -18,9 +18,7 @@ class PointMassBlock final : public ElementBlock {
   int add(int node, double mass, const Eigen::Matrix3d& inertia = Eigen::Matrix3d::Zero());
 
   int num_elements() const override { return static_cast<int>(elements_.size()); }
-  std::array<int, 2> ends(int element) const override {
-    return {at(element).node, at(element).node};
-  }
+  std::span<const int> nodes(int element) const override { return {&at(element).node, 1}; }
   bool is_line() const override { return false; }
   bool has_rotations() const override { return false; }
   const Material* material(int /*element*/) const override { return nullptr; }

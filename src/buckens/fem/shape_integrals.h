@@ -2,10 +2,20 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::fem {
+
+/// Inertia of those elements whose three displacement components share scalar shape functions
+/// (solids): W_ab = Ms ⊗ E_ab node by node, nine times fewer entries than the six matrices W_ab.
+struct NodalMass {
+  linalg::SparseMatrix Ms;               ///< scalar mass matrix, N×N over all nodes [kg]
+  std::vector<std::array<int, 3>> dofs;  ///< per node the DOF of its translations
+
+  bool empty() const { return Ms.nonZeros() == 0; }
+};
 
 /// Inertia integrals of a body over its undeformed shape s0 (from the mass centre, model axes) and
 /// its shape vectors g: the displacement of a material point is g(d) = Σ g_k d_k, FM (1).
@@ -19,7 +29,9 @@ struct ShapeIntegrals {
   /// Rotary inertia about the mass centre: tr(C0) 1 − C0 and what is in M only [kg m²], FM (40).
   Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();
   /// W_11, W_22, W_33, W_12, W_13, W_23 with W_ab = ∫ g_a g_bᵀ dm, n×n; W_ba = W_abᵀ.
+  /// Without what `nodal` holds.
   std::array<linalg::SparseMatrix, 6> W;
+  NodalMass nodal;
   /// n×9, column 3a+b (from zero) is c_ab = ∫ s0_a g_b dm, FM (53).
   linalg::Matrix c;
 };

@@ -7,18 +7,20 @@
 #include "buckens/fem/bar_block.h"
 #include "buckens/fem/beam_block.h"
 #include "buckens/fem/dof_map.h"
+#include "buckens/fem/hex8_block.h"
 #include "buckens/fem/point_mass_block.h"
 
 namespace buckens::fem {
 
 /// The mesh of one body before assembly: nodes and elements in model axes.
 ///
-/// Elements are numbered through all kinds: beams first, then bars, then point masses.
+/// Elements are numbered through all kinds: beams first, then bars, point masses, solids.
 struct Structure {
   std::vector<Node> nodes;
   BeamBlock beams;
   BarBlock bars;
   PointMassBlock masses;
+  Hex8Block solids;
 };
 
 /// Elements and nodes made from one beam.

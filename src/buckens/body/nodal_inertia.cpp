@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/nodal_inertia.h"
+
+namespace buckens::body {
+
+using Eigen::Matrix3Xd;
+using linalg::Vector;
+
+Matrix3Xd NodalInertia::by_node(const Vector& x) const {
+  Matrix3Xd X(3, static_cast<Eigen::Index>(mass_->dofs.size()));
+  for (std::size_t node = 0; node < mass_->dofs.size(); ++node) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int dof = mass_->dofs[node][a];
+      X(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(node)) = dof >= 0 ? x[dof] : 0.0;
+    }
+  }
+  return X;
+}
+
+Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * mass_->Ms; }
+
+void NodalInertia::add(const Matrix3Xd& by_node, Vector& y) const {
+  for (std::size_t node = 0; node < mass_->dofs.size(); ++node) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int dof = mass_->dofs[node][a];
+      if (dof >= 0)
+        y[dof] += by_node(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(node));
+    }
+  }
+}
+
+}  // namespace buckens::body

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "buckens/fem/fe_model.h"
+
+namespace buckens::fem {
+
+/// A face on the surface of a mesh of solids.
+struct SurfaceFace {
+  std::array<int, 4> nodes;  ///< counter-clockwise seen from outside; fourth −1 for triangles
+  int element = 0;           ///< to which it belongs, counted among the solid elements
+};
+
+/// The faces that only one solid element has, in the order of the elements.
+std::vector<SurfaceFace> surface_faces(const FeModel& fe);
+
+/// Whether every solid element hangs together with all others by common faces: then a mesh of
+/// solids alone is no mechanism.
+bool solids_join_by_faces(const FeModel& fe);
+
+/// Number of solid elements.
+int num_solids(const FeModel& fe);
+
+/// The solid elements that have each node, counted among the solid elements.
+std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe);
+
+/// Stresses of all solid elements at once, at their centres: there those of trilinear elements are
+/// most accurate.
+class SolidRecovery {
+ public:
+  explicit SolidRecovery(const FeModel& fe);
+
+  int num_elements() const { return static_cast<int>(rows_.rows()) / 6; }
+
+  /// @param d nodal variables
+  /// @return 7×(number of elements): σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx in model axes, then the von
+  ///         Mises stress [Pa]. Cost: one sparse product.
+  linalg::Matrix stresses(const linalg::Vector& d) const;
+
+ private:
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
+};
+
+}  // namespace buckens::fem
