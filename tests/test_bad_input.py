@@ -196,7 +196,7 @@ def test_disk_full(buckens, models, tmp_path):
 
     def limit():
         default_signals()
-        resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, 400_000))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
 
     result = buckens("run", models / "endless.yaml", "-o", "out", preexec_fn=limit).must(
         5, "out/", "kept in out")

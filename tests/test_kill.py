@@ -62,9 +62,8 @@ with h5py.File(sys.argv[1], "r", swmr=True) as file:
 
 
 def refuse_torn_file(out):
-    """A kill in the middle of one metadata write can leave an object half written; HDF5 then waits
-    for a writer that is gone. Seen once in some five hundred kills before objects were aligned to
-    pages. That breaks the promise, so it fails the test, but it must not hang it."""
+    """A write cut off in the middle leaves HDF5 waiting for a writer that is gone. The process that
+    carries out the writes is there to prevent this; should it ever fail to, the test must not hang."""
     try:
         subprocess.run([sys.executable, "-c", PROBE, str(out / "results.h5")], timeout=30)
     except subprocess.TimeoutExpired:

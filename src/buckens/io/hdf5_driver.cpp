@@ -24,12 +24,19 @@ struct HeldWrite {
   std::vector<std::uint8_t> bytes;
 };
 
+/// What the property list of a file hands on to the driver.
+struct DriverSettings {
+  WriteProcess* writer;
+  Hdf5WriteFault* fault;
+};
+
 /// An open file. HDF5 knows it by its first member.
 struct DriverFile {
   H5FD_t base;
   int descriptor;
   haddr_t allocated;  // HDF5: eoa
   haddr_t end;        // HDF5: eof
+  WriteProcess* writer;
   Hdf5WriteFault* fault;
   std::vector<HeldWrite> held;
 };
@@ -37,19 +44,23 @@ struct DriverFile {
 DriverFile& file_of(H5FD_t* base) { return *reinterpret_cast<DriverFile*>(base); }
 const DriverFile& file_of(const H5FD_t* base) { return *reinterpret_cast<const DriverFile*>(base); }
 
-void end_writing(DriverFile& file) {
-  if (!file.fault->ended) file.fault->error = errno;
+void end_writing(DriverFile& file, int error) {
+  if (!file.fault->ended) file.fault->error = error;
   file.fault->ended = true;
 }
 
 H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
-  auto* fault = *static_cast<Hdf5WriteFault* const*>(H5Pget_driver_info(access));
+  const DriverSettings settings = *static_cast<const DriverSettings*>(H5Pget_driver_info(access));
   const int descriptor = ::open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) {
-    fault->error = errno;
+    settings.fault->error = errno;
     return nullptr;
   }
-  auto* file = new (std::nothrow) DriverFile{{}, descriptor, 0, 0, fault, {}};
+  settings.fault->error = settings.writer->take_file(descriptor);
+  auto* file = settings.fault->error != 0
+                   ? nullptr
+                   : new (std::nothrow)
+                         DriverFile{{}, descriptor, 0, 0, settings.writer, settings.fault, {}};
   if (file == nullptr) {
     ::close(descriptor);
     return nullptr;
@@ -59,7 +70,7 @@ H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
 
 herr_t close_file(H5FD_t* base) {
   DriverFile& file = file_of(base);
-  if (::close(file.descriptor) != 0 && errno != EINTR) end_writing(file);
+  if (::close(file.descriptor) != 0 && errno != EINTR) end_writing(file, errno);
   delete &file;
   return 0;
 }
@@ -113,26 +124,15 @@ herr_t read_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t s
   return 0;
 }
 
-bool write_to_disk(const DriverFile& file, haddr_t address, std::size_t size,
-                   const std::uint8_t* bytes) {
-  while (size > 0) {
-    const ssize_t count = ::pwrite(file.descriptor, bytes, size, static_cast<off_t>(address));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    const auto written = static_cast<std::size_t>(count);
-    address += written;
-    bytes += written;
-    size -= written;
-  }
-  return true;
-}
-
 herr_t write_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
                   const void* buffer) {
   DriverFile& file = file_of(base);
   const auto* bytes = static_cast<const std::uint8_t*>(buffer);
   file.end = std::max<haddr_t>(file.end, address + size);
-  if (!file.fault->ended && !write_to_disk(file, address, size, bytes)) end_writing(file);
+  if (!file.fault->ended) {
+    const int error = file.writer->write(address, bytes, size);
+    if (error != 0) end_writing(file, error);
+  }
   if (file.fault->ended) {
     try {
       file.held.push_back({address, {bytes, bytes + size}});
@@ -147,7 +147,7 @@ herr_t truncate_file(H5FD_t* base, hid_t, hbool_t) {
   DriverFile& file = file_of(base);
   if (file.allocated == file.end) return 0;
   if (!file.fault->ended && ::ftruncate(file.descriptor, static_cast<off_t>(file.allocated)) != 0) {
-    end_writing(file);
+    end_writing(file, errno);
   }
   file.end = file.allocated;
   return 0;
@@ -171,7 +171,7 @@ H5FD_class_t driver_class() {
   driver.name = "buckens";
   driver.maxaddr = (haddr_t{1} << 62U) - 1;
   driver.fc_degree = H5F_CLOSE_WEAK;
-  driver.fapl_size = sizeof(Hdf5WriteFault*);
+  driver.fapl_size = sizeof(DriverSettings);
   driver.open = open_file;
   driver.close = close_file;
   driver.cmp = compare;
@@ -201,10 +201,10 @@ hid_t driver_id() {
 
 }  // namespace
 
-bool set_write_driver(hid_t access, Hdf5WriteFault& fault) {
+bool set_write_driver(hid_t access, WriteProcess& writer, Hdf5WriteFault& fault) {
   const hid_t id = driver_id();
-  const Hdf5WriteFault* pointer = &fault;
-  return id >= 0 && H5Pset_driver(access, id, static_cast<const void*>(&pointer)) >= 0;
+  const DriverSettings settings{&writer, &fault};
+  return id >= 0 && H5Pset_driver(access, id, &settings) >= 0;
 }
 
 }  // namespace buckens::io

@@ -3,6 +3,8 @@
 
 #include <hdf5.h>
 
+#include "buckens/io/write_process.h"
+
 namespace buckens::io {
 
 /// What the file driver for writing reports to the owner of the file.
@@ -18,9 +20,13 @@ struct Hdf5WriteFault {
 /// and holds that write and all later ones in memory, so that HDF5 carries on undisturbed until the
 /// owner closes the file. On disk stays what was there: as if the program had been killed at the
 /// failed write, which files in SWMR mode are made for.
+///
+/// All writes are carried out by a second process, so that SIGKILL tears none of them: a reader
+/// that meets half an object of HDF5's own bookkeeping waits for a writer that is gone.
 /// @param access  file access property list
+/// @param writer  carries out the writes; must outlive the file
 /// @param fault   must outlive the file
 /// @return false if HDF5 refuses
-bool set_write_driver(hid_t access, Hdf5WriteFault& fault);
+bool set_write_driver(hid_t access, WriteProcess& writer, Hdf5WriteFault& fault);
 
 }  // namespace buckens::io

@@ -36,9 +36,6 @@ herr_t take_reason(unsigned, const H5E_error2_t* entry, void* argument) {
 Hdf5Handle access_settings() {
   Hdf5Handle settings(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(settings.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
-  // Objects start at multiples of 2 KiB, so those up to that size lie within one page: the kernel
-  // writes a page wholly or not at all, even if the process is killed during the write.
-  H5Pset_alignment(settings.get(), 1, 2048);
 #if H5_VERSION_GE(1, 10, 7)
   H5Pset_file_locking(settings.get(), true, true);
 #endif
@@ -77,13 +74,13 @@ std::string hdf5_reason() {
   return reason.empty() ? "unknown reason" : reason;
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+Hdf5File Hdf5File::create(const std::filesystem::path& path, WriteProcess& writer) {
   const Hdf5Quiet quiet;
   Hdf5File file;
   file.path_ = path;
   file.fault_ = std::make_unique<Hdf5WriteFault>();
   const Hdf5Handle access = access_settings();
-  if (!set_write_driver(access.get(), *file.fault_)) file.fail("create the file");
+  if (!set_write_driver(access.get(), writer, *file.fault_)) file.fail("create the file");
   const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
   file.file_ = Hdf5Handle(file.check(id, "create the file"), H5Fclose);
   return file;

@@ -57,8 +57,9 @@ std::string hdf5_reason();
 class Hdf5File {
  public:
   Hdf5File() = default;
-  /// Creates the file, replacing an old one. @throws IoError
-  static Hdf5File create(const std::filesystem::path& path);
+  /// Creates the file, replacing an old one. All writes go through `writer`, which must outlive the
+  /// file. @throws IoError
+  static Hdf5File create(const std::filesystem::path& path, WriteProcess& writer);
   /// Opens a file that is complete, still being written by another process, or left behind by a
   /// killed one. @throws IoError
   static Hdf5File open_for_reading(const std::filesystem::path& path);

@@ -20,10 +20,11 @@ std::filesystem::path unfinished(std::filesystem::path path) {
 
 }  // namespace
 
-Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, const results::RecordLayout& layout,
-                           const results::Geometry& geometry, const std::string& title,
-                           const std::string& version, const FlushRule& rule)
-    : rule_(rule), file_(Hdf5File::create(unfinished(path))) {
+Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, WriteProcess& writer,
+                           const results::RecordLayout& layout, const results::Geometry& geometry,
+                           const std::string& title, const std::string& version,
+                           const FlushRule& rule)
+    : rule_(rule), file_(Hdf5File::create(unfinished(path), writer)) {
   try {
     write_attribute(file_, "/", "program", std::string("buckens"));
     write_attribute(file_, "/", "format", kFormat);

@@ -32,11 +32,12 @@ struct FlushRule {
 /// computed. The file appears under its name when it can be read.
 class Hdf5Recorder {
  public:
+  /// @param writer  carries out the writes; must outlive this
   /// @param title, version  attributes of the file
   /// @throws IoError
-  Hdf5Recorder(const std::filesystem::path& path, const results::RecordLayout& layout,
-               const results::Geometry& geometry, const std::string& title,
-               const std::string& version, const FlushRule& rule);
+  Hdf5Recorder(const std::filesystem::path& path, WriteProcess& writer,
+               const results::RecordLayout& layout, const results::Geometry& geometry,
+               const std::string& title, const std::string& version, const FlushRule& rule);
   /// Writes what waits, as far as that is possible.
   ~Hdf5Recorder();
   Hdf5Recorder(const Hdf5Recorder&) = delete;

@@ -31,6 +31,8 @@ std::string remedy(int error) {
     case EPERM:
     case EROFS:
       return " Choose a place where you may write (-o).";
+    case EPIPE:
+      return " The process that takes the data has ended; perhaps the memory was exhausted.";
     default:
       return "";
   }

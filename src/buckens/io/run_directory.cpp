@@ -119,8 +119,8 @@ void RunDirectory::write_status(std::string_view json) const {
 
 void RunDirectory::begin(const results::RecordLayout& layout, const results::Geometry& geometry) {
   num_values_ = layout.num_values();
-  recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, layout, geometry, options_.title,
-                                             kVersion, options_.flush);
+  recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
+                                             options_.title, kVersion, options_.flush);
   sensors_ = SensorsCsv(path_ / kSensorsName, layout);
   write_status(status_json(RunStatus::running, options_.title, kVersion, started_));
 }

@@ -61,7 +61,8 @@ class RunDirectory : public results::RecordSink {
   std::filesystem::path path_;
   RunDirectoryOptions options_;
   std::string started_;
-  OutputFile log_;  // its lock marks the directory as taken
+  OutputFile log_;       // its lock marks the directory as taken
+  WriteProcess writer_;  // outlives the recorder
   SensorsCsv sensors_;
   std::unique_ptr<Hdf5Recorder> recorder_;
   std::size_t num_values_ = 0;

@@ -45,16 +45,22 @@ class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
     ::getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limited{bytes, before_.rlim_max};
     handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    ::setrlimit(RLIMIT_FSIZE, &limited);
+    set({bytes, before_.rlim_max});
   }
   ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
+    set(before_);
     std::signal(SIGXFSZ, handler_);
   }
 
  private:
+  /// For this process and those that write for it.
+  static void set(const rlimit& limit) {
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::ifstream children("/proc/thread-self/children");
+    for (pid_t child = 0; children >> child;) ::prlimit(child, RLIMIT_FSIZE, &limit, nullptr);
+  }
+
   rlimit before_{};
   void (*handler_)(int) = nullptr;
 };
