@@ -9,7 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/frame_equation.h"
-#include "buckens/linalg/row_rank.h"
+#include "buckens/stepping/row_selection.h"
 
 namespace buckens::stepping {
 
@@ -18,6 +18,13 @@ using Eigen::VectorXd;
 using linalg::Vector;
 
 namespace {
+
+// Pivots this much smaller than when the rows were chosen: others may have become the better
+// choice.
+constexpr double kPivotDrop = 1e-3;
+// A row that follows from others stays closed to rounding; beyond this share of the model's length
+// it no longer follows.
+constexpr double kOpenRow = 1e-9;
 
 /// Inverse of W restricted to the span of the basis, zero elsewhere.
 Matrix3d restricted_inverse(const Matrix3d& W,
@@ -120,6 +127,23 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
                                    constraints_evaluation_);
   }
   dynamics::evaluate_soft_rows(model_, evaluation_, soft_);
+  bool is_closed = condense();
+  const double pivots = condensation_->pivot_ratio();
+  if (!is_closed || has_open_rows_ || pivots < kPivotDrop * trusted_pivots_) {
+    if (select_rows_anew()) is_closed = condense();
+    trusted_pivots_ = condensation_->pivot_ratio();
+  } else {
+    trusted_pivots_ = std::max(trusted_pivots_, pivots);
+  }
+  if (is_closed) return;
+  StepReport report;
+  report.worst_row = rows_in_use_.empty() ? 0 : rows_in_use_.front();
+  if (!dependent_.empty()) report.worst_row = dependent_.front();
+  report.position_residual = constraints_end_.g.cwiseAbs().maxCoeff();
+  fail(t, report, "joint equations have become dependent (a singular position)");
+}
+
+bool SmallNewton::condense() {
   test_rows_.clear();
   force_rows_.clear();
   for (const int row : rows_in_use_) {
@@ -144,33 +168,40 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     std::copy(soft_.rows.begin(), soft_.rows.end(),
               pattern.begin() + static_cast<std::ptrdiff_t>(rows_in_use_.size()));
     condensation_ = std::make_unique<dynamics::MultiplierCondensation>(
-        static_cast<int>(bodies.size()), pattern);
+        static_cast<int>(model_.bodies.size()), pattern);
   }
-  if (!condensation_->factorise(test_rows_, force_rows_, compliance_, soft_compliance)) {
-    StepReport report;
-    report.worst_row = dependent_row();
-    report.position_residual = constraints_end_.g.cwiseAbs().maxCoeff();
-    fail(t, report, "joint equations have become dependent (a singular position)");
-  }
+  return condensation_->factorise(test_rows_, force_rows_, compliance_, soft_compliance);
 }
 
-int SmallNewton::dependent_row() const {
-  std::vector<linalg::Triplet> entries;
-  for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
-    for (const dynamics::BodyRow* part : {&test_rows_[k].first, &test_rows_[k].second}) {
-      if (part->body == model::kGround) continue;
-      for (int c = 0; c < 6; ++c) {
-        const double scale = c < 3 ? 1.0 / model_.length : 1.0;
-        entries.emplace_back(static_cast<int>(k), 6 * part->body + c, scale * part->frame[c]);
-      }
-    }
+bool SmallNewton::select_rows_anew() {
+  has_open_rows_ = false;
+  linalg::RowRank rank = select_rows(constraints_end_.rows, compliance_);
+  dependent_ = std::move(rank.dependent);
+  // Fewer rows mean a dead centre: the step goes on with those it has, or fails and says so.
+  if (rank.independent == rows_in_use_ || rank.independent.size() < rows_in_use_.size()) {
+    return false;
   }
-  linalg::SparseMatrix J(static_cast<int>(rows_in_use_.size()),
-                         6 * static_cast<int>(model_.bodies.size()));
-  J.setFromTriplets(entries.begin(), entries.end());
-  const linalg::RowRank rank = linalg::split_rows(J, 1e-6);
-  return rank.dependent.empty() ? 0
-                                : rows_in_use_[static_cast<std::size_t>(rank.dependent.front())];
+  rows_in_use_ = std::move(rank.independent);
+  condensation_.reset();
+  ++num_selections_;
+  return true;
+}
+
+void SmallNewton::leave_to_rows_in_use(Vector& lambda) const {
+  if (rows_in_use_.size() == static_cast<std::size_t>(lambda.size())) return;
+  const Vector all = lambda;
+  lambda.setZero();
+  for (const int row : rows_in_use_) lambda[row] = all[row];
+}
+
+void SmallNewton::watch_rows_not_in_use() {
+  if (rows_in_use_.size() == static_cast<std::size_t>(constraints_end_.g.size())) return;
+  Vector open = constraints_end_.g;
+  for (const int row : rows_in_use_) open[row] = 0.0;
+  const double gap = open.cwiseAbs().maxCoeff();
+  if (gap <= std::max(kOpenRow * model_.length, 2.0 * largest_gap_)) return;
+  largest_gap_ = gap;
+  has_open_rows_ = true;
 }
 
 void SmallNewton::residual_step(const std::vector<BodyStep>& bodies) {
@@ -282,6 +313,7 @@ void SmallNewton::record_residuals(StepReport& report) const {
 
 void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                           StepReport& report) {
+  leave_to_rows_in_use(lambda);
   Change change;
   Change before;
   for (int iteration = 0;; ++iteration) {
@@ -305,6 +337,7 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
     if (!(change.size < HUGE_VAL)) fail(t, report, "the motion is no longer finite");
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].load = forces_.interface[b];
+  watch_rows_not_in_use();
 }
 
 void SmallNewton::fail(double t, const StepReport& report, const char* what) const {

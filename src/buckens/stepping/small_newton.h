@@ -39,6 +39,8 @@ class SmallNewton {
   const dynamics::Forces& forces() const { return forces_; }
   const std::vector<dynamics::BodyMotion>& motions_at_end() const { return end_; }
   const std::vector<int>& rows_in_use() const { return rows_in_use_; }
+  /// How often other rows were taken into use because pivots dropped or a row opened.
+  int num_selections() const { return num_selections_; }
 
  private:
   struct Change {
@@ -54,8 +56,14 @@ class SmallNewton {
   void record_residuals(StepReport& report) const;
   const dynamics::Constraints& at_evaluation() const;
   bool corrects_positions() const;
-  /// A row of λ that follows from others at the predicted configuration, for messages.
-  int dependent_row() const;
+  /// Assembles and factorises S for the rows in use. @return false if it is singular
+  bool condense();
+  /// Asks again which rows are independent. @return true if others are used from now on
+  bool select_rows_anew();
+  /// Multipliers of rows that were given up are zero.
+  void leave_to_rows_in_use(linalg::Vector& lambda) const;
+  /// Notes a row not in use that no longer follows from the others.
+  void watch_rows_not_in_use();
   [[noreturn]] void fail(double t, const StepReport& report, const char* what) const;
 
   const model::Model& model_;
@@ -63,6 +71,11 @@ class SmallNewton {
   StepSettings settings_;
   std::vector<const BodyStepOperator*> operators_;
   std::vector<int> rows_in_use_;
+  std::vector<int> dependent_;  // at the last selection
+  double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
+  double largest_gap_ = 0;      // of rows not in use
+  bool has_open_rows_ = false;
+  int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
 
   std::vector<dynamics::BodyMotion> end_, evaluation_;

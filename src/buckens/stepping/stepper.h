@@ -44,6 +44,8 @@ class Stepper {
   SolveCounts counts(std::size_t body) const;
   const StepSeconds& seconds() const { return seconds_; }
   const Scheme& scheme() const { return scheme_; }
+  /// How often the joint equations in use were chosen anew.
+  int num_row_selections() const { return newton_->num_selections(); }
 
  private:
   struct Large;  // n-sized vectors of one flexible body

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/row_selection.h"
+
+#include <cmath>
+
+namespace buckens::stepping {
+
+using Eigen::RowVectorXd;
+
+namespace {
+
+// Images of rows shrink with the square of a lever arm: 1e-9 here is an arm of 3e-5 of the body.
+constexpr double kTolerance = 1e-9;
+
+/// Motion of the body that a unit multiplier causes: frame coordinates, then interface values.
+RowVectorXd image(const dynamics::BodyRow& row, const dynamics::BodyCompliance& compliance) {
+  const Eigen::Index values = compliance.interface ? compliance.interface->rows() : 0;
+  RowVectorXd out = RowVectorXd::Zero(6 + values);
+  out.head<6>() = (compliance.frame * row.frame.transpose()).transpose();
+  if (values == 0 || row.translation_row < 0) return out;
+  out.tail(values) = row.interface.head<3>() *
+                     compliance.interface->middleCols<3>(row.translation_row).transpose();
+  if (row.rotation_row >= 0) {
+    out.tail(values) +=
+        row.interface.tail<3>() * compliance.interface->middleCols<3>(row.rotation_row).transpose();
+  }
+  return out;
+}
+
+}  // namespace
+
+linalg::RowRank select_rows(const std::vector<dynamics::SystemRow>& rows,
+                            const std::vector<dynamics::BodyCompliance>& compliance) {
+  std::vector<int> first_column;
+  int columns = 0;
+  for (const dynamics::BodyCompliance& body : compliance) {
+    first_column.push_back(columns);
+    columns += 6 + (body.interface ? static_cast<int>(body.interface->rows()) : 0);
+  }
+  std::vector<linalg::Triplet> entries;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::size_t begin = entries.size();
+    double square = 0;
+    for (const dynamics::BodyRow* part : {&rows[r].first, &rows[r].second}) {
+      if (part->body == model::kGround) continue;
+      const auto b = static_cast<std::size_t>(part->body);
+      const RowVectorXd values = image(*part, compliance[b]);
+      square += values.squaredNorm();
+      for (Eigen::Index c = 0; c < values.size(); ++c) {
+        if (values[c] == 0.0) continue;
+        entries.emplace_back(static_cast<int>(r), first_column[b] + static_cast<int>(c), values[c]);
+      }
+    }
+    const double scale = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+    for (std::size_t k = begin; k < entries.size(); ++k) {
+      entries[k] = {entries[k].row(), entries[k].col(), scale * entries[k].value()};
+    }
+  }
+  linalg::SparseMatrix J(static_cast<int>(rows.size()), columns);
+  J.setFromTriplets(entries.begin(), entries.end());
+  return linalg::split_rows(J, kTolerance);
+}
+
+}  // namespace buckens::stepping
