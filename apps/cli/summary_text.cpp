@@ -64,6 +64,7 @@ std::string join(const std::vector<std::string>& texts) {
 }  // namespace
 
 std::string summary_text(const results::RunSummary& summary) {
+  if (summary.static_path) return static_path_text(summary);
   std::string out = headline(summary);
   if (!summary.bodies.empty()) out += bodies_table(summary);
   Entries entries = {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/static_state.h"
 #include "buckens/base/errors.h"
 #include "buckens/spatial/rotation.h"
 
@@ -48,37 +49,9 @@ StaticDescent::StaticDescent(const model::Model& model, const dynamics::MassMetr
   sigma_ = 10.0 * reference_;
 }
 
-double StaticDescent::strongest_load(const StaticPoint& point) const {
-  double largest = 0.0;
-  const auto count = [&](const spatial::Wrench& wrench) {
-    largest = std::max({largest, wrench.force.norm(), wrench.torque.norm() / model_.length});
-  };
-  std::vector<dynamics::BodyMotion> motions(model_.bodies.size());
-  for (std::size_t b = 0; b < motions.size(); ++b) {
-    largest = std::max(largest, model_.bodies[b].mass * model_.gravity.norm());
-    motions[b].frame.X_WB = point.poses[b];
-    motions[b].y = motions[b].y_dot = Vector::Zero(model_.bodies[b].num_rows());
-    motions[b].y.head(point.y[b].size()) = point.y[b];
-  }
-  for (const model::Load& load : model_.loads) {
-    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-    const loads::Action action = load.element->evaluate(t_, first.motion, second.motion);
-    count(action.on_first);
-    count(action.on_second);
-  }
-  for (const model::Joint& joint : model_.joints) {
-    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
-      const double lambda = std::abs(point.lambda[joint.first_row + static_cast<int>(k)]);
-      largest = std::max(largest, joint.rows[k].is_length() ? lambda : lambda / model_.length);
-    }
-  }
-  return largest;
-}
-
 void StaticDescent::set_scales() {
   const double L = model_.length;
-  force_ = start_force_ = strongest_load(point_);
+  force_ = start_force_ = strongest_load(model_, point_, t_);
   double softest = 0.0;
   for (const ElasticCompliance* compliance : compliance_) {
     if (compliance == nullptr || compliance->interface().size() == 0) continue;
@@ -126,7 +99,7 @@ void StaticDescent::choose_rows() {
 void StaticDescent::evaluate() {
   balance_ = system_->balance(point_);
   residual_ = system_->residual(point_, balance_);
-  largest_force_ = std::max(start_force_, strongest_load(point_));
+  largest_force_ = std::max(start_force_, strongest_load(model_, point_, t_));
 }
 
 double StaticDescent::force_residual() const {
@@ -321,6 +294,11 @@ void StaticDescent::refuse(const std::string& motion) const {
 std::optional<StaticModes> StaticDescent::modes() {
   system_->linearise(point_, balance_);
   return static_modes(*system_, reference_);
+}
+
+std::optional<StaticModes> StaticDescent::softest() {
+  system_->linearise(point_, balance_);
+  return softest_mode(*system_, reference_);
 }
 
 void StaticDescent::push(const Vector& shape, double amount, double stiffness) {

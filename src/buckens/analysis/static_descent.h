@@ -28,6 +28,8 @@ class StaticDescent {
   void run();
   /// Stiffness of the configuration along its free motions.
   std::optional<StaticModes> modes();
+  /// The softest of them, however many there are.
+  std::optional<StaticModes> softest();
   /// Leaves a saddle along `shape` so that the largest rotation or relative displacement is
   /// `amount`.
   /// @param stiffness κ < 0 of this motion [1/s²]
@@ -38,11 +40,12 @@ class StaticDescent {
   int iterations() const { return iterations_; }
   double force_residual() const;
   double largest_force() const { return largest_force_; }
+  /// σ that matters [1/s²]: the square of the rate at which the start would leave its place.
+  double reference() const { return reference_; }
 
  private:
   void choose_rows();
   void set_scales();
-  double strongest_load(const StaticPoint& point) const;
   void evaluate();
   bool is_balanced() const;
   double misfit() const;

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include "buckens/analysis/static_descent.h"
 #include "buckens/analysis/static_stability.h"
+#include "buckens/analysis/static_state.h"
 #include "buckens/base/errors.h"
 
 namespace buckens::analysis {
@@ -18,43 +18,7 @@ using linalg::Vector;
 namespace {
 
 constexpr int kMostPushes = 8;
-constexpr double kPush = 0.1;                  // rad, or of the model's length
-constexpr double kLargestNodalRotation = 0.1;  // rad; beyond it linear elements are a stretch
-
-/// Factors and columns of all flexible bodies.
-struct Compliances {
-  std::vector<std::unique_ptr<ElasticCompliance>> owned;
-  std::vector<const ElasticCompliance*> of_body;
-
-  explicit Compliances(const model::Model& model) {
-    for (const body::Body& body : model.bodies) {
-      if (body.is_flexible()) owned.push_back(std::make_unique<ElasticCompliance>(body));
-      of_body.push_back(body.is_flexible() ? owned.back().get() : nullptr);
-    }
-  }
-};
-
-void stop_motion(model::State& state) {
-  for (model::BodyState& s : state.bodies) {
-    for (Eigen::Vector3d* rate : {&s.frame.w, &s.frame.v, &s.w_dot, &s.v_dot, &s.w_alg, &s.v_alg}) {
-      rate->setZero();
-    }
-    for (Vector* rate : {&s.d_dot, &s.d_ddot, &s.d_alg}) rate->setZero(s.d.size());
-  }
-  state.history = 0;
-  state.lambda_time = state.t;
-}
-
-StaticPoint start_point(const model::Model& model, const model::State& state) {
-  StaticPoint point;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const body::Body& body = model.bodies[b];
-    point.poses.push_back(state.bodies[b].frame.X_WB);
-    point.y.push_back(body.row_values(state.bodies[b].d).head(body.num_interface_rows()));
-  }
-  point.lambda = Vector::Zero(model.num_constraint_rows());
-  return point;
-}
+constexpr double kPush = 0.1;  // rad, or of the model's length
 
 void note_laws_of_time(const model::Model& model, double t, std::vector<std::string>& notes) {
   for (const model::Load& load : model.loads) {
@@ -77,13 +41,7 @@ void note_laws_of_time(const model::Model& model, double t, std::vector<std::str
 void note_large_rotations(const model::Model& model, const model::State& state,
                           std::vector<std::string>& notes) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!model.bodies[b].is_flexible()) continue;
-    double largest = 0.0;
-    for (const auto& node : model.bodies[b].flexible->fe.dofs.node_dofs) {
-      for (std::size_t k = 3; k < 6; ++k) {
-        if (node[k] >= 0) largest = std::max(largest, std::abs(state.bodies[b].d[node[k]]));
-      }
-    }
+    const double largest = largest_nodal_rotation(model.bodies[b], state.bodies[b].d);
     if (largest <= kLargestNodalRotation) continue;
     notes.push_back(fmt::format(
         "body \"{}\" is bent by {:.3g} rad in its equilibrium; linear elasticity holds up to about "
@@ -92,8 +50,9 @@ void note_large_rotations(const model::Model& model, const model::State& state,
   }
 }
 
-/// Descends until the equilibrium is stable as far as can be told.
-void settle(const model::Model& model, StaticDescent& descent, StaticReport& report) {
+}  // namespace
+
+void settle_statically(const model::Model& model, StaticDescent& descent, StaticReport& report) {
   for (int push = 0;; ++push) {
     descent.run();
     const auto modes = descent.modes();
@@ -116,27 +75,18 @@ void settle(const model::Model& model, StaticDescent& descent, StaticReport& rep
   }
 }
 
-}  // namespace
-
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
                                      model::State& state) {
   StaticReport report;
   const Compliances compliances(model);
   report.factorisations = static_cast<int>(compliances.owned.size());
   note_laws_of_time(model, state.t, report.notes);
-  StaticDescent descent(model, metric, compliances.of_body, state.t, start_point(model, state));
-  settle(model, descent, report);
+  StaticDescent descent(model, metric, compliances.of_body, state.t, static_point(model, state));
+  settle_statically(model, descent, report);
   const StaticPoint& point = descent.point();
   const StaticBalance balance = descent.system().balance(point);
-  stop_motion(state);
-  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-    state.bodies[b].frame.X_WB = point.poses[b];
-    if (const ElasticCompliance* compliance = compliances.of_body[b]) {
-      state.bodies[b].d = compliance->columns() * balance.forces.interface[b];
-      report.solves += compliance->num_solves();
-    }
-  }
-  state.lambda = point.lambda;
+  set_static_state(point, balance.forces, compliances, state);
+  for (const auto& compliance : compliances.owned) report.solves += compliance->num_solves();
   note_large_rotations(model, state, report.notes);
   report.iterations = descent.iterations();
   report.force_residual = descent.force_residual();

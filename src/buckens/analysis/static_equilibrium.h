@@ -45,4 +45,11 @@ StaticReport find_static_equilibrium(const model::Model& model, model::State& st
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
                                      model::State& state);
 
+class StaticDescent;
+
+/// Descends until the equilibrium is stable as far as can be told; fills lowest_stiffness and
+/// notes.
+/// @throws ModelError, NumericalError as find_static_equilibrium()
+void settle_statically(const model::Model& model, StaticDescent& descent, StaticReport& report);
+
 }  // namespace buckens::analysis

@@ -78,6 +78,38 @@ std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma
   return modes;
 }
 
+std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma) {
+  constexpr int kRounds = 30;
+  const SparseMatrix A = system.tangent(sigma);
+  const SparseMatrix W = system.mass();
+  linalg::SparseLu lu(A);
+  if (!lu.factorise(A)) return std::nullopt;
+  // No two entries alike, so that no symmetric motion is missed.
+  Vector x(system.size());
+  for (int k = 0; k < system.size(); ++k) x[k] = 1.0 + std::sin(1.0 + 7.0 * k);
+  double mobility = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    const Vector load = W * x;
+    const double size = x.dot(load);
+    if (!(size > 0.0)) return std::nullopt;
+    Vector next = load;
+    lu.solve_in_place(next);
+    if (!next.allFinite()) return std::nullopt;
+    mobility = next.dot(load) / size;
+    x = next / std::sqrt(next.dot(W * next));
+  }
+  double stiffest = 0.0;
+  for (int k = 0; k < system.size(); ++k) {
+    const double mass = W.coeff(k, k);
+    if (mass > 0.0) stiffest = std::max(stiffest, std::abs(A.coeff(k, k) / mass - sigma));
+  }
+  StaticModes modes;
+  modes.tolerance = 1e-6 * sigma + kZeroStiffness * stiffest;
+  modes.stiffness = Vector::Constant(1, 1.0 / mobility - sigma);
+  modes.shapes = x;
+  return modes;
+}
+
 std::string direction_text(const Vector3d& direction) {
   const Vector3d n = direction.normalized();
   const auto clean = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };

@@ -23,6 +23,11 @@ struct StaticModes {
 /// @return nothing above 600 frame coordinates, or where A + σW is singular
 std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma);
 
+/// The softest of these motions alone, by inverse iteration: for any number of frame coordinates.
+/// Good to a few digits, which tells a mechanism from a soft spring.
+/// @return nothing where A + σW is singular
+std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma);
+
 /// "(0, 0, 1)": a unit vector to three digits.
 std::string direction_text(const Eigen::Vector3d& direction);
 

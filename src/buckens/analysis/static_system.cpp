@@ -147,7 +147,7 @@ StaticBalance StaticSystem::balance(const StaticPoint& point) const {
   }
   StaticBalance out;
   dynamics::evaluate_constraints(model_, motions, t_, out.constraints);
-  dynamics::evaluate_forces(model_, motions, t_, out.forces);
+  dynamics::evaluate_forces(model_, motions, t_, out.forces, point.load_factor);
   dynamics::add_joint_forces(out.constraints, point.lambda, out.forces);
   return out;
 }
@@ -287,6 +287,17 @@ Vector6 StaticSystem::frame_step(std::size_t body, const Vector& step) const {
   u << b.rotation_basis * own.head(rotations),
       b.translation_basis * own.tail(own.size() - rotations);
   return u;
+}
+
+std::size_t StaticSystem::body_at(int index) const {
+  return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), index) -
+                                  first_.begin()) -
+         1;
+}
+
+const model::Joint& StaticSystem::joint_at(int index) const {
+  const auto k = static_cast<std::size_t>(index - first_multiplier_);
+  return *model_.owner_of_row(rows_in_use_[k]).first;
 }
 
 double StaticSystem::largest(const Vector& scaled, Share share) const {

@@ -13,6 +13,7 @@ struct StaticPoint {
   std::vector<spatial::Pose> poses;  ///< X_WB
   std::vector<Eigen::VectorXd> y;    ///< interface values of the flexible bodies, empty: rigid
   linalg::Vector lambda;             ///< multipliers of all joint rows; unused rows are zero
+  double load_factor = 1;            ///< of applied forces and torques
 };
 
 /// Everything that acts in a configuration.
@@ -58,6 +59,10 @@ class StaticSystem {
   enum class Share { frame, elastic, joint };
   /// To which equation (and unknown) an index belongs.
   Share share(int index) const { return shares_[static_cast<std::size_t>(index)]; }
+  /// Body of a frame or elastic index.
+  std::size_t body_at(int index) const;
+  /// Joint of a joint index.
+  const model::Joint& joint_at(int index) const;
   /// Largest magnitude of a scaled vector over one kind of equation or unknown.
   double largest(const linalg::Vector& scaled, Share share) const;
   /// Motion of a body's frame in a step: rotation in body axes [rad], translation [m].

@@ -52,7 +52,7 @@ void Forces::reset(const model::Model& model) {
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     Forces& out) {
+                     Forces& out, double load_factor) {
   out.reset(model);
   for (const model::Load& load : model.loads) {
     const auto first = evaluate_marker(model, load.first, motions);
@@ -62,6 +62,13 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
       action = load.element->evaluate(t, first.motion, second.motion);
     } catch (const NumericalError& error) {
       throw NumericalError(error.where(), fmt::format("load \"{}\": {}", load.name, error.text()));
+    }
+    if (load_factor != 1.0 && load.element->is_applied()) {
+      for (spatial::Wrench* wrench : {&action.on_first, &action.on_second}) {
+        wrench->torque *= load_factor;
+        wrench->force *= load_factor;
+      }
+      action.active_power *= load_factor;
     }
     add_wrench(model, load.first, first, action.on_first, out);
     add_wrench(model, load.second, second, action.on_second, out);

@@ -22,9 +22,10 @@ struct Forces {
 
 /// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load lies in the span
 /// of P, which the sieve removes.
+/// @param load_factor multiplies applied forces and torques, neither gravity nor springs
 /// @throws NumericalError naming the load whose law fails
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     Forces& out);
+                     Forces& out, double load_factor = 1.0);
 
 /// Adds Gᵀλ.
 void add_joint_forces(const Constraints& constraints, const linalg::Vector& lambda, Forces& out);

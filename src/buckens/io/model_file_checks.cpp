@@ -11,6 +11,7 @@ namespace buckens::io {
 namespace {
 
 constexpr double kMostSteps = 1e10;
+constexpr int kMostStaticPoints = 1000000;
 
 Finding needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
                             const ReadContext& context) {
@@ -56,6 +57,9 @@ struct AlternativeRules {
       return needed_axis_problem(spec.axis, context);
     } else if constexpr (requires { spec.axis.norm(); }) {
       return axis_problem(spec.axis);
+    } else if constexpr (requires { spec.along; }) {
+      if (!spec.along || spec.along->norm() > 0.0) return std::nullopt;
+      return Problem{"along", "[0, 0, 0] is no direction; give for example [0, -1, 0]"};
     } else if constexpr (requires { spec.on; }) {
       if (!spec.on.is_ground()) return std::nullopt;
       return Problem{"on", "a load on the ground has no effect; name a body"};
@@ -118,6 +122,21 @@ Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
     return Problem{"step", fmt::format("{:.3g} steps are more than can be counted; choose a longer "
                                        "step",
                                        spec.duration / spec.step)};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const model::StaticSpec& spec, const ReadContext&) {
+  const double first = spec.load_factor[0];
+  const double last = spec.load_factor[1];
+  if (first == last) {
+    return Problem{"load-factor", fmt::format("first and last load factor are both {:g}; give two "
+                                              "different ones, for example [0, 1]",
+                                              first)};
+  }
+  if (spec.steps > kMostStaticPoints || spec.max_points > kMostStaticPoints) {
+    return Problem{spec.steps > kMostStaticPoints ? "steps" : "max-points",
+                   fmt::format("more than {} points of a path are refused", kMostStaticPoints)};
   }
   return std::nullopt;
 }

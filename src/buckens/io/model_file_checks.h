@@ -45,6 +45,7 @@ Finding problem(const body::BodySpec& spec, const ReadContext& context);
 Finding problem(const joints::JointSpec& spec, const ReadContext& context);
 Finding problem(const loads::LoadSpec& spec, const ReadContext& context);
 Finding problem(const model::SimulationSpec& spec, const ReadContext& context);
+Finding problem(const model::StaticSpec& spec, const ReadContext& context);
 Finding problem(const model::SensorSpec& spec, const ReadContext& context);
 Finding problem(const model::ModelDescription& spec, const ReadContext& context);
 

@@ -52,6 +52,17 @@ Json wall_json(const results::WallSeconds& wall) {
           {"phases", by_name(wall.phases)}};
 }
 
+Json static_path_json(const results::StaticPathSummary& path) {
+  Json points = Json::array();
+  for (const results::CriticalPoint& point : path.critical_points) {
+    points.push_back({{"kind", point.kind},
+                      {"load_factor", point.load_factor},
+                      {"t", point.position},
+                      {"sensors", by_name(point.sensors)}});
+  }
+  return {{"load_factor", path.load_factor}, {"critical_points", std::move(points)}};
+}
+
 }  // namespace
 
 std::string to_string(RunStatus status) {
@@ -95,6 +106,7 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
   json["trust"] = summary.trust.empty() ? Json("ok") : Json(summary.trust);
   json["warnings"] = summary.warnings;
   json["redundant_constraints"] = summary.redundant_constraints;
+  if (summary.static_path) json["static_path"] = static_path_json(*summary.static_path);
   if (!summary.measures.empty()) json["measures"] = by_name(summary.measures);
   return dump(json);
 }

@@ -20,6 +20,7 @@ class AppliedLoad final : public ForceElement {
 
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
+  bool is_applied() const override { return true; }
   bool is_constant() const override;
 
  private:

@@ -40,6 +40,9 @@ class ForceElement {
                                 const spatial::MarkerMotion& /*second*/,
                                 std::vector<SoftRow>& /*rows*/) const {}
 
+  /// True for loads that come from outside: a static path multiplies them by its load factor.
+  virtual bool is_applied() const { return false; }
+
   /// False if the load changes with time by a law; a static start takes its value at t = 0.
   virtual bool is_constant() const { return true; }
 };

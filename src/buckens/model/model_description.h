@@ -18,6 +18,7 @@
 #include "buckens/model/initial_spec.h"
 #include "buckens/model/sensor_spec.h"
 #include "buckens/model/simulation_spec.h"
+#include "buckens/model/static_spec.h"
 #include "buckens/spatial/plane.h"
 
 namespace buckens::spatial {
@@ -58,6 +59,7 @@ struct ModelDescription {
   std::vector<loads::LoadSpec> loads;
   InitialSpec initial;
   std::optional<SimulationSpec> simulation;  ///< absent: the model can be checked, not run
+  std::optional<StaticSpec> static_path;     ///< absent: as StaticSpec begins
   OutputSpec output;
   SourceLocation where;  ///< the file
   std::string source;    ///< text of the file with overrides as a comment
@@ -82,6 +84,8 @@ struct ModelDescription {
     visit(base::field("initial", initial, "how the motion begins").otherwise("at rest, as placed"));
     visit(base::field("simulation", simulation, "how far and how finely to simulate")
               .otherwise("the model can be checked but not run"));
+    visit(base::field("static", static_path, "equilibria over a load factor, for `buckens static`")
+              .otherwise("the factor goes from 0 to 1"));
     visit(base::field("output", output, "what is recorded"));
   }
 };

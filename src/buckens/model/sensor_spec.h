@@ -17,7 +17,8 @@ namespace buckens::model {
 /// A vector quantity of one marker.
 struct MarkerSensor {
   base::MarkerRef of;
-  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+  std::optional<base::MarkerRef> in;     ///< axes of the components; default: world
+  std::optional<Eigen::Vector3d> along;  ///< record the component along it only; any length
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -25,6 +26,9 @@ struct MarkerSensor {
     visit(base::field("in", in, "marker whose axes the components refer to")
               .like("rod")
               .otherwise("world axes"));
+    visit(base::field("along", along, "direction along which the one component is recorded")
+              .like("[0, -1, 0]")
+              .otherwise("all three components"));
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,20 @@ struct Residuals {
   double sieve = 0;     ///< ‖S⁻¹Pᵀd‖ relative to the body's size
 };
 
+/// A point of a static path at which equilibrium changes its kind.
+struct CriticalPoint {
+  std::string kind;                                     ///< "limit point" or "bifurcation"
+  double load_factor = 0;                               ///< there
+  double position = 0;                                  ///< time stamp of its record
+  std::vector<std::pair<std::string, double>> sensors;  ///< columns by name, SI
+};
+
+/// What a static path adds to the summary.
+struct StaticPathSummary {
+  double load_factor = 0;  ///< reached
+  std::vector<CriticalPoint> critical_points;
+};
+
 /// What a run reports about itself at its end; the content of summary.json.
 struct RunSummary {
   std::string title;        ///< of the model
@@ -55,6 +70,7 @@ struct RunSummary {
   std::vector<std::string> trust;  ///< reasons to doubt the results; empty: none
   std::vector<std::string> warnings;
   std::vector<std::string> redundant_constraints;  ///< rows found redundant, by joint
+  std::optional<StaticPathSummary> static_path;    ///< of `buckens static`
   /// Further figures of the run, by name.
   std::vector<std::pair<std::string, double>> measures;
 };

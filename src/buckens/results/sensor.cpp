@@ -47,16 +47,21 @@ enum class MarkerQuantity { position, displacement, velocity, acceleration, rota
 
 class MarkerSensor final : public Sensor {
  public:
-  MarkerSensor(Channel channel, MarkerQuantity quantity, MarkerId of, Axes axes)
+  /// @param along unit vector of the one component that is recorded, if any
+  MarkerSensor(Channel channel, MarkerQuantity quantity, MarkerId of, Axes axes,
+               std::optional<Vector3d> along)
       : channel_(std::move(channel)),
         quantity_(quantity),
         of_(std::move(of)),
-        axes_(std::move(axes)) {}
+        axes_(std::move(axes)),
+        along_(std::move(along)) {}
 
   std::vector<Channel> channels() const override { return {channel_}; }
   void start(const Observation& now) override { start_ = observe_marker(now, of_).motion; }
   void append(const Observation& now, std::vector<double>& values) override {
-    push(axes_.components(now, value(observe_marker(now, of_))), values);
+    const Vector3d components = axes_.components(now, value(observe_marker(now, of_)));
+    if (along_) return values.push_back(along_->dot(components));
+    push(components, values);
   }
 
  private:
@@ -82,6 +87,7 @@ class MarkerSensor final : public Sensor {
   MarkerQuantity quantity_;
   MarkerId of_;
   Axes axes_;
+  std::optional<Vector3d> along_;
   spatial::MarkerMotion start_;
 };
 
@@ -371,9 +377,14 @@ class Maker {
   }
   std::unique_ptr<Sensor> marker(const model::MarkerSensor& s, MarkerQuantity quantity,
                                  const char* unit, const char* what) const {
-    return std::make_unique<MarkerSensor>(
-        vector_channel(spec_.name, unit, fmt::format("{} of {}", what, s.of.text)), quantity,
-        place_.markers[0], axes(1));
+    Channel channel = vector_channel(spec_.name, unit, fmt::format("{} of {}", what, s.of.text));
+    std::optional<Vector3d> along;
+    if (s.along) {
+      along = s.along->normalized();
+      channel.shape.clear();
+      channel.components.clear();
+    }
+    return std::make_unique<MarkerSensor>(channel, quantity, place_.markers[0], axes(1), along);
   }
   std::unique_ptr<Sensor> joint(const model::JointForceSensor& s, bool torque) const {
     const auto& joints = built_.model.joints;
