@@ -87,3 +87,28 @@ def test_dampers_dissipate(run, tmp_path):
         last = list(csv.reader(file))[-1]
     # v = 3 exp(−4 t): 4.5 (1 − exp(−0.8)) J; the trapezoidal rule errs by h²·4²/12.
     assert float(last[1]) == pytest.approx(4.5 * (1 - 2.718281828459045 ** -0.8), rel=1e-5)
+
+
+def test_planar_gravity_out_of_the_plane(run):
+    text = BLOCK.replace("planar: xy\n", "planar: xy\ngravity: [0, 0, -9.81 m/s^2]\n") + SPAN
+    run(text).must(2, "model.yaml:3:", "gravity", "plane")
+
+
+def test_assembly_gap_names_the_place_of_the_joint(run):
+    text = (BLOCK.rstrip("}\n") + "}, markers: {m: {position: [1 m, 0, 0]}}}\n"
+            "joints:\n  pin: {revolute: {between: [ground, a/origin]}}\n"
+            "  far: {revolute: {between: [{ground: [0, 3 m, 0]}, a/m]}}\n" + SPAN)
+    run(text).must(3, "model.yaml:7:", "far", "cannot be assembled")
+
+
+def test_missing_table_names_the_place_of_its_name(run):
+    text = BLOCK + ("joints:\n  pin: {revolute: {between: [ground, a/origin]}}\n"
+                    "  turn: {prescribed-rotation: {between: [ground, a/origin], angle: "
+                    "{file: none.csv}}}\n") + SPAN
+    run(text).must(5, "model.yaml:7:", "none.csv", "no such file")
+
+
+def test_notes_are_said_once_on_each_stream(run):
+    result = run(BLOCK.replace(", inertia: [0, 0, 1]", "") + SPAN)
+    note = "has no rotary inertia"
+    assert result.err.count(note) == 1, result.err

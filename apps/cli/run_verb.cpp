@@ -115,7 +115,6 @@ ExitCode run(const RunArguments& arguments, bool json) {
   journal.record(fmt::format("buckens {}, model {}", kVersion, arguments.model));
   for (const std::string& text : arguments.overrides) journal.record("--set " + text);
   const auto built = read_and_build(arguments);
-  for (const std::string& text : built->model.notes) journal.say(LogLevel::info, text);
 
   io::RunDirectory directory(path, {built->description.title, built->description.source, {}});
   journal.open(directory);

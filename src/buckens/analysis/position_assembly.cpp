@@ -72,10 +72,13 @@ class LeastMotion {
   std::vector<BodyResponse> responses_;
 };
 
-std::string describe_gap(const model::Model& model, const Vector& residual, const char* rate) {
+const model::Joint* worst_joint(const model::Model& model, const Vector& residual) {
   Eigen::Index worst = 0;
   residual.cwiseAbs().maxCoeff(&worst);
-  const auto [joint, row] = model.owner_of_row(static_cast<int>(worst));
+  return model.owner_of_row(static_cast<int>(worst)).first;
+}
+
+std::string describe_gap(const model::Joint* joint, const Vector& residual, const char* rate) {
   const Vector own =
       residual.segment(joint->first_row, static_cast<Eigen::Index>(joint->rows.size()));
   double gap = 0.0;
@@ -149,9 +152,12 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
   }
   const double gap = constraints.g.cwiseAbs().maxCoeff();
   if (gap <= kAcceptedGap * model.length) return gap;
-  throw ModelError("the mechanism cannot be assembled; closest approach leaves " +
-                   describe_gap(model, constraints.g, "") +
-                   "; correct the placement (`at`), the lengths of the bodies, or remove a joint");
+  const model::Joint* joint = worst_joint(model, constraints.g);
+  throw ModelError(
+      joint->where,
+      "the mechanism cannot be assembled; closest approach leaves " +
+          describe_gap(joint, constraints.g, "") +
+          "; correct the placement (`at`), the lengths of the bodies, or remove a joint");
 }
 
 double project_velocities(const model::Model& model, const dynamics::MassMetric& metric,
@@ -181,9 +187,10 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
     const double left = constraints.g_dot.cwiseAbs().maxCoeff();
     if (left <= kAcceptedGap * scale) return left;
   }
-  throw ModelError("initial velocities contradict the joints; left over at " +
-                   describe_gap(model, constraints.g_dot, "/s") +
-                   "; correct `initial` or the law of motion of the drive");
+  const model::Joint* joint = worst_joint(model, constraints.g_dot);
+  throw ModelError(joint->where, "initial velocities contradict the joints; left over at " +
+                                     describe_gap(joint, constraints.g_dot, "/s") +
+                                     "; correct `initial` or the law of motion of the drive");
 }
 
 }  // namespace buckens::analysis

@@ -146,6 +146,11 @@ Finding problem(const model::ModelDescription& spec, const ReadContext&) {
     return Problem{"buckens", fmt::format("this program reads format 1, not {}", spec.format)};
   }
   if (spec.bodies.empty()) return Problem{"bodies", "a model needs at least one body"};
+  if (spec.planar && spec.gravity.dot(spatial::normal(*spec.planar)) != 0.0) {
+    return Problem{"gravity",
+                   "gravity of a planar model must lie in its plane; set the component "
+                   "normal to it to zero"};
+  }
   return std::nullopt;
 }
 

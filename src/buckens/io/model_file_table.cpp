@@ -78,7 +78,12 @@ base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note
       columns.values.push_back(value);
     }
   } else {
-    columns = read_csv_columns(context.directory / spec.file, spec.column);
+    try {
+      columns = read_csv_columns(context.directory / spec.file, spec.column);
+    } catch (const IoError& error) {
+      throw IoError(place.node.find("file")->where,
+                    fmt::format("{}.file: {}", place.path, error.what()));
+    }
   }
   if (!spec.unit.empty()) {
     const auto unit = base::parse_unit(spec.unit);

@@ -65,6 +65,7 @@ class JointBuilder {
         find_.require_moment(joint.second, what, spec.where);
       }
     }
+    joint.where = spec.where;
     joint.first_row = find_.model().num_constraint_rows();
     find_.model().joints.push_back(std::move(joint));
   }

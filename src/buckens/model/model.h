@@ -31,7 +31,8 @@ struct Joint {
   MarkerId first, second;
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
   std::vector<joints::ConstraintRow> rows;
-  int first_row = 0;  ///< of λ
+  int first_row = 0;     ///< of λ
+  SourceLocation where;  ///< in the model file
 };
 
 /// Load or force law between two markers.
