@@ -19,7 +19,8 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/buckensConfigVersion.cma
                                  COMPATIBILITY SameMinorVersion)
 install(
   FILES "${PROJECT_BINARY_DIR}/buckensConfig.cmake" "${PROJECT_BINARY_DIR}/buckensConfigVersion.cmake"
-        cmake/FindSuiteSparse.cmake cmake/FindOpenBLAS.cmake cmake/FindHDF5Serial.cmake
+        cmake/FindSuiteSparse.cmake cmake/FindOpenBLAS.cmake cmake/FindMETIS.cmake
+        cmake/FindHDF5Serial.cmake
   DESTINATION "${package_dir}")
 install(FILES LICENSE NOTICE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
