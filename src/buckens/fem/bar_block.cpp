@@ -54,6 +54,17 @@ int BarBlock::add(int node_a, int node_b, const Material& material, const Sectio
   return num_elements() - 1;
 }
 
+BarBlock BarBlock::subset(const std::vector<int>& elements,
+                          const std::vector<int>& node_numbers) const {
+  BarBlock out;
+  for (const int e : elements) {
+    const Element& bar = at(e);
+    out.add(node_numbers.at(static_cast<std::size_t>(bar.ends[0])),
+            node_numbers.at(static_cast<std::size_t>(bar.ends[1])), bar.material, bar.section);
+  }
+  return out;
+}
+
 void BarBlock::check(const MeshView& mesh) const {
   for (const Element& element : elements_) {
     const std::string where =

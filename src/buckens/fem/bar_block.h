@@ -23,6 +23,10 @@ class BarBlock final : public ElementBlock {
   const Material* material(int element) const override { return &at(element).material; }
   const Section* section(int element) const override { return &at(element).section; }
 
+  /// Some of the elements, in the given order.
+  /// @param node_numbers new number of each node
+  BarBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
+
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;
   void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,

@@ -66,6 +66,20 @@ int BeamBlock::add(int node_a, int node_b, int properties) {
   return num_elements() - 1;
 }
 
+BeamBlock BeamBlock::subset(const std::vector<int>& elements,
+                            const std::vector<int>& node_numbers) const {
+  BeamBlock out;
+  std::vector<int> number(properties_.size(), -1);
+  for (const int e : elements) {
+    const auto& [ends, properties] = at(e);
+    int& own = number[static_cast<std::size_t>(properties)];
+    if (own < 0) own = out.add_properties(properties_[static_cast<std::size_t>(properties)]);
+    out.add(node_numbers.at(static_cast<std::size_t>(ends[0])),
+            node_numbers.at(static_cast<std::size_t>(ends[1])), own);
+  }
+  return out;
+}
+
 LineFrame BeamBlock::frame(const std::vector<Node>& nodes, const Element& element) const {
   return line_frame(nodes[static_cast<std::size_t>(element.ends[0])].position,
                     nodes[static_cast<std::size_t>(element.ends[1])].position, of(element).up);

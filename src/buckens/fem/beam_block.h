@@ -45,6 +45,10 @@ class BeamBlock final : public ElementBlock {
   const Section* section(int element) const override { return &of(at(element)).section; }
   const BeamProperties& properties(int element) const { return of(at(element)); }
 
+  /// Some of the elements, in the given order.
+  /// @param node_numbers new number of each node
+  BeamBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
+
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;
   void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,

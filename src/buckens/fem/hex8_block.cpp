@@ -68,6 +68,20 @@ Hex8Corners Hex8Block::corners(const std::vector<Node>& nodes, const Element& el
   return out;
 }
 
+Hex8Block Hex8Block::subset(const std::vector<int>& elements,
+                            const std::vector<int>& node_numbers) const {
+  Hex8Block out;
+  std::vector<int> number(materials_.size(), -1);
+  for (const int e : elements) {
+    Element element = at(e);
+    int& own = number[static_cast<std::size_t>(element.material)];
+    if (own < 0) own = out.add_material(materials_[static_cast<std::size_t>(element.material)]);
+    for (int& node : element.nodes) node = node_numbers.at(static_cast<std::size_t>(node));
+    out.add(element.nodes, own);
+  }
+  return out;
+}
+
 void Hex8Block::check(const MeshView& mesh) const {
   for (int e = 0; e < num_elements(); ++e) {
     const Element& element = at(e);

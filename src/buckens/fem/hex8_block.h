@@ -32,6 +32,10 @@ class Hex8Block final : public ElementBlock {
   }
   const Section* section(int /*element*/) const override { return nullptr; }
 
+  /// Some of the elements, in the given order.
+  /// @param node_numbers new number of each node
+  Hex8Block subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
+
   /// @throws ModelError naming an element that is turned inside out or squashed flat
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;

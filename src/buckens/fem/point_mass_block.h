@@ -23,6 +23,8 @@ class PointMassBlock final : public ElementBlock {
   bool has_rotations() const override { return false; }
   const Material* material(int /*element*/) const override { return nullptr; }
   const Section* section(int /*element*/) const override { return nullptr; }
+  double mass(int element) const { return at(element).mass; }
+  const Eigen::Matrix3d& inertia(int element) const { return at(element).inertia; }
 
   /// @throws ModelError also for an inertia on a node without rotations
   void check(const MeshView& mesh) const override;

@@ -22,24 +22,44 @@ int add_node(Structure& structure, const std::string& name, const Eigen::Vector3
   return static_cast<int>(structure.nodes.size()) - 1;
 }
 
-BeamDivision add_beam(Structure& structure, int node_a, int node_b, int divisions,
-                      const BeamProperties& properties) {
+namespace {
+
+/// Nodes on the line between two nodes, both included; those between are made.
+std::vector<int> divide_line(Structure& structure, const char* what, int node_a, int node_b,
+                             int divisions) {
   const int num_nodes = static_cast<int>(structure.nodes.size());
   if (divisions < 1) {
-    throw ModelError(fmt::format("beam: {} elements; give at least one", divisions));
+    throw ModelError(fmt::format("{}: {} elements; give at least one", what, divisions));
   }
   if (node_a < 0 || node_b < 0 || node_a >= num_nodes || node_b >= num_nodes) {
-    throw ModelError(fmt::format("beam between nodes {} and {}: there are only {} nodes", node_a,
-                                 node_b, num_nodes));
+    throw ModelError(fmt::format("{} between nodes {} and {}: there are only {} nodes", what,
+                                 node_a, node_b, num_nodes));
   }
   const Eigen::Vector3d a = structure.nodes[static_cast<std::size_t>(node_a)].position;
   const Eigen::Vector3d b = structure.nodes[static_cast<std::size_t>(node_b)].position;
-  BeamDivision division{structure.beams.num_elements(), divisions, {node_a}};
+  std::vector<int> nodes = {node_a};
   for (int k = 1; k < divisions; ++k) {
-    division.nodes.push_back(
-        add_node(structure, "", a + static_cast<double>(k) / divisions * (b - a)));
+    nodes.push_back(add_node(structure, "", a + static_cast<double>(k) / divisions * (b - a)));
   }
-  division.nodes.push_back(node_b);
+  nodes.push_back(node_b);
+  return nodes;
+}
+
+}  // namespace
+
+void add_bar(Structure& structure, int node_a, int node_b, int divisions, const Material& material,
+             const Section& section) {
+  const std::vector<int> nodes = divide_line(structure, "bar", node_a, node_b, divisions);
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    structure.bars.add(nodes[k], nodes[k + 1], material, section);
+    if (k > 0) structure.straight_nodes.push_back(nodes[k]);
+  }
+}
+
+BeamDivision add_beam(Structure& structure, int node_a, int node_b, int divisions,
+                      const BeamProperties& properties) {
+  BeamDivision division{structure.beams.num_elements(), divisions,
+                        divide_line(structure, "beam", node_a, node_b, divisions)};
   const int number = structure.beams.add_properties(properties);
   for (std::size_t k = 0; k + 1 < division.nodes.size(); ++k) {
     structure.beams.add(division.nodes[k], division.nodes[k + 1], number);

@@ -21,6 +21,8 @@ struct Structure {
   BarBlock bars;
   PointMassBlock masses;
   Hex8Block solids;
+  /// Nodes that only divide a bar. Bars there keep one direction although they are hinged.
+  std::vector<int> straight_nodes;
 };
 
 /// Elements and nodes made from one beam.
@@ -39,6 +41,11 @@ int add_node(Structure& structure, const std::string& name, const Eigen::Vector3
 /// @throws ModelError if `divisions` < 1 or a node does not exist
 BeamDivision add_beam(Structure& structure, int node_a, int node_b, int divisions,
                       const BeamProperties& properties);
+
+/// Divides a bar between two nodes into equal elements; the nodes between become straight nodes.
+/// @throws ModelError if `divisions` < 1 or a node does not exist
+void add_bar(Structure& structure, int node_a, int node_b, int divisions, const Material& material,
+             const Section& section);
 
 /// Index of the node with this name, −1 if there is none.
 int find_node(const Structure& structure, const std::string& name);

@@ -146,18 +146,23 @@ struct BeamMemberSpec : BeamPropertySpec {
   }
 };
 
-/// A bar (axial stiffness only) between two named nodes. It is one element: more would be a
-/// mechanism. Exactly one of section and area is given.
+/// A bar (axial stiffness only) between two named nodes. More than one element needs a frame each
+/// (`frames: per-element`), which hold one direction; in one frame they would be a mechanism.
+/// Exactly one of section and area is given.
 struct BarMemberSpec {
   SourceLocation where;
   std::array<std::string, 2> between;
   std::optional<base::Reference<SectionSpec>> section;
   std::optional<double> area;  ///< [m²]
   base::Reference<MaterialSpec> material;
+  int elements = 1;
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("between", between, "the two nodes").required().like("[a, b]"));
+    visit(base::field("elements", elements,
+                      "number of elements; more than one needs `frames: per-element`")
+              .positive());
     visit(
         base::field("section", section, "cross-section: a name from `sections` or written in place")
             .like("{circle: {diameter: 6 mm}}")
