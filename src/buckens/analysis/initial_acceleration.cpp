@@ -119,6 +119,9 @@ class Accelerations {
     double change = 0.0;
     double size = 1e-300;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      // In equilibrium joints cancel what loads would do alone: that is the scale of rounding.
+      size = std::max(size, frame[b].cwiseAbs().maxCoeff());
+      if (nodal[b].size() > 0) size = std::max(size, nodal[b].cwiseAbs().maxCoeff());
       frame[b] += compliance_[b].frame * responses[b].frame_load;
       change = std::max(change, (frame[b] - bodies_[b].frame).cwiseAbs().maxCoeff());
       size = std::max(size, frame[b].cwiseAbs().maxCoeff());
