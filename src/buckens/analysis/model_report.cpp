@@ -9,6 +9,7 @@
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/step_advice.h"
 #include "buckens/body/free_modes.h"
+#include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/recovery.h"
 
@@ -19,28 +20,54 @@ namespace {
 constexpr int kModes = 10;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-BodyReport report_body(const body::Body& body) {
-  BodyReport out;
-  out.name = body.name;
-  out.is_flexible = body.is_flexible();
-  out.mass = body.mass;
-  out.com = body.com;
-  out.inertia = body.J0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body.J0);
+/// What mesh and mass properties say; `fe` is null for rigid bodies.
+void describe(const fem::FeModel* fe, const linalg::Matrix& Phi, BodyReport& out) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(out.inertia);
   for (std::size_t k = 0; k < 3; ++k) {
     out.principal_inertia[k] = principal.eigenvalues()[static_cast<Eigen::Index>(k)];
   }
-  out.dof = static_cast<int>(body.num_dofs());
-  out.frame_coordinates =
-      static_cast<int>(body.rotation_basis.cols() + body.translation_basis.cols());
-  for (const body::Marker& marker : body.markers) out.markers.push_back(marker.name);
-  if (!body.is_flexible()) return out;
-  const fem::FeModel& fe = body.flexible->fe;
-  out.nodes = static_cast<int>(fe.nodes.size());
-  out.elements = static_cast<int>(fem::line_elements(fe).size());
-  const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), kModes);
+  if (fe == nullptr) return;
+  out.is_flexible = true;
+  out.nodes = static_cast<int>(fe->nodes.size());
+  out.elements = static_cast<int>(fem::line_elements(*fe).size());
+  const body::FreeModes modes = body::free_modes(fe->M, fe->K, Phi, kModes);
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
     out.frequencies.push_back(modes.omega[k] / kTurn);
+  }
+}
+
+void add_body(const body::Body& body, BodyReport& out) {
+  out.dof += static_cast<int>(body.num_dofs());
+  out.frame_coordinates +=
+      static_cast<int>(body.rotation_basis.cols() + body.translation_basis.cols());
+  for (const body::Marker& marker : body.markers) {
+    if (!marker.name.starts_with('#')) out.markers.push_back(marker.name);
+  }
+}
+
+BodyReport report_body(const model::Model& model, const model::WholeBody& whole) {
+  BodyReport out;
+  out.name = whole.name;
+  out.frames = whole.count;
+  out.mass = whole.mass;
+  out.com = whole.com;
+  for (int b = whole.first; b < whole.first + whole.count; ++b) {
+    add_body(model.bodies[static_cast<std::size_t>(b)], out);
+  }
+  if (whole.is_divided()) {
+    const fem::FeModel& fe = *whole.mesh;
+    std::vector<Eigen::Vector3d> positions;
+    for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
+    out.inertia = fe.shape.J0;
+    describe(&fe, body::rigid_modes(positions, fe.dofs, fe.shape.com), out);
+    return out;
+  }
+  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
+  out.inertia = body.J0;
+  if (body.is_flexible()) {
+    describe(&body.flexible->fe, body.flexible->sieve.Phi(), out);
+  } else {
+    describe(nullptr, {}, out);
   }
   return out;
 }
@@ -52,17 +79,20 @@ ModelReport report_model(const model::BuiltModel& built) {
   ModelReport out;
   if (built.description.simulation) out.step = built.description.simulation->step;
   int coordinates = 0;
-  for (const body::Body& body : model.bodies) {
-    out.bodies.push_back(report_body(body));
-    const ExcitedBand band = excited_band(body);
+  for (const model::WholeBody& whole : model.wholes) {
+    out.bodies.push_back(report_body(model, whole));
+    const ExcitedBand band =
+        whole.is_divided() ? excited_band(model, whole)
+                           : excited_band(model.bodies[static_cast<std::size_t>(whole.first)]);
     out.highest_frequency = std::max(out.highest_frequency, band.highest / kTurn);
-    const std::string advice = judge_step(body.name, band, out.step);
+    const std::string advice = judge_step(whole.name, band, out.step);
     if (!advice.empty()) out.warnings.push_back(advice);
     coordinates += out.bodies.back().frame_coordinates;
   }
   const dynamics::MassMetric metric(model);
   const Prepared prepared = prepare(built, metric);
-  out.joints = static_cast<int>(model.joints.size());
+  out.joints = static_cast<int>(std::count_if(model.joints.begin(), model.joints.end(),
+                                              [](const auto& joint) { return !joint.is_tie; }));
   out.loads = static_cast<int>(model.loads.size());
   out.constraint_rows = model.num_constraint_rows();
   out.redundant_rows = static_cast<int>(prepared.redundant_rows.size());

@@ -13,6 +13,7 @@ namespace buckens::analysis {
 struct BodyReport {
   std::string name;
   bool is_flexible = false;
+  int frames = 1;                           ///< body frames that carry it
   double mass = 0;                          ///< [kg]
   Eigen::Vector3d com;                      ///< mass centre in model axes [m]
   Eigen::Matrix3d inertia;                  ///< about the mass centre, model axes [kg m²]

@@ -166,7 +166,12 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
   Constraints constraints;
   std::vector<Eigen::Matrix3d> J;
   for (const body::Body& body : model.bodies) J.push_back(body.J0);
+  // Of the rates: velocities that fit already leave rounding of their own size.
   double scale = 0.0;
+  for (const model::BodyState& body : state.bodies) {
+    scale = std::max({scale, body.frame.v.cwiseAbs().maxCoeff(),
+                      body.frame.w.cwiseAbs().maxCoeff() * std::max(1.0, model.length)});
+  }
   for (const bool with_mesh : {false, true}) {
     dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
     LeastMotion motion(model, with_mesh ? metric.full(J) : metric.rigid(), constraints.rows);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/initial_acceleration.h"
+#include "buckens/analysis/initial_velocity.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/base/errors.h"
@@ -13,49 +14,7 @@
 
 namespace buckens::analysis {
 
-using Eigen::Vector3d;
-
 namespace {
-
-/// Velocities as the model file gives them, before joints are considered.
-void set_velocities(const model::BuiltModel& built, model::State& state) {
-  for (const model::InitialBodySpec& spec : built.description.initial.bodies) {
-    const int index = built.model.find_body(spec.name);
-    if (index == model::kGround) {
-      throw InputError(spec.where, fmt::format("initial: there is no body \"{}\"", spec.name));
-    }
-    const body::Body& body = built.model.bodies[static_cast<std::size_t>(index)];
-    model::BodyState& s = state.bodies[static_cast<std::size_t>(index)];
-    const auto keep = [](const auto& basis, const Vector3d& v) -> Vector3d {
-      return basis * (basis.transpose() * v);
-    };
-    s.frame.v = keep(body.translation_basis, spec.velocity);
-    s.frame.w = keep(body.rotation_basis, spec.angular_velocity);
-    if ((s.frame.v - spec.velocity).norm() + (s.frame.w - spec.angular_velocity).norm() > 0.0 &&
-        built.model.planar) {
-      throw InputError(spec.where, fmt::format("initial: body \"{}\" cannot leave the plane of the "
-                                               "planar model; set the other components to zero",
-                                               spec.name));
-    }
-    if (!spec.nodal_velocity) continue;
-    if (!body.is_flexible()) {
-      throw InputError(spec.where, fmt::format("initial: body \"{}\" is rigid, it has no nodal "
-                                               "velocities; give `velocity` instead",
-                                               spec.name));
-    }
-    const model::NodalVelocitySpec& field = *spec.nodal_velocity;
-    const model::PositionLaw* laws[6] = {&field.x,  &field.y,  &field.z,
-                                         &field.rx, &field.ry, &field.rz};
-    const fem::FeModel& fe = body.flexible->fe;
-    for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
-      for (std::size_t k = 0; k < 6; ++k) {
-        const int dof = fe.dofs.node_dofs[node][k];
-        if (dof >= 0) s.d_dot[dof] = (*laws[k])(fe.nodes[node].position);
-      }
-    }
-    body.flexible->sieve.apply(s.d_dot);
-  }
-}
 
 std::vector<std::string> describe_redundancy(const model::Model& model,
                                              const std::vector<int>& dependent) {
@@ -94,7 +53,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     out.setup_factorisations = report.factorisations;
     out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
   }
-  set_velocities(built, out.state);
+  set_initial_velocities(built, out.state);
 
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, out.state), out.state.t,

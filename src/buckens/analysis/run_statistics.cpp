@@ -63,17 +63,51 @@ void RunStatistics::add_record(const model::State& state, double balance, double
   }
 }
 
+double RunStatistics::spin_ratio(std::size_t b) const {
+  return lowest_frequency_[b] > 0.0 ? largest_spin_[b] / lowest_frequency_[b] : 0.0;
+}
+
 void RunStatistics::judge_spin(std::size_t b, results::RunSummary& summary) const {
+  const double ratio = spin_ratio(b);
   if (lowest_frequency_[b] <= 0.0) return;
-  const double ratio = largest_spin_[b] / lowest_frequency_[b];
   summary.bodies.back().measures.emplace_back("spin_over_lowest_frequency", ratio);
   if (ratio <= kFastSpin) return;
   const std::string text = fmt::format(
       "body \"{}\" spins at up to {:.2g} of its lowest elastic frequency; linear elasticity in one "
-      "frame knows no centrifugal stiffening: divide it into several bodies",
+      "frame knows no centrifugal stiffening: give the body more `frames`",
       built_.model.bodies[b].name, ratio);
   summary.warnings.push_back(text);
   if (ratio > kTooFastSpin) summary.trust.push_back(text);
+}
+
+void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Stepper& stepper,
+                              results::RunSummary& summary) const {
+  results::BodyEffort effort;
+  effort.name = whole.name;
+  const auto first = static_cast<std::size_t>(whole.first);
+  std::size_t bent = first;  // the part with the largest rotation
+  std::size_t fast = first;  // the part that spins fastest relative to its lowest frequency
+  for (std::size_t b = first; b < first + static_cast<std::size_t>(whole.count); ++b) {
+    const stepping::SolveCounts counts = stepper.counts(b);
+    effort.dof += static_cast<int>(built_.model.bodies[b].num_dofs());
+    effort.factorisations += counts.factorisations;
+    effort.solves += counts.solves;
+    summary.setup_solves += counts.setup_solves;
+    if (largest_rotation_[b] > largest_rotation_[bent]) bent = b;
+    if (spin_ratio(b) > spin_ratio(fast)) fast = b;
+  }
+  if (whole.is_divided()) effort.measures.emplace_back("frames", whole.count);
+  if (built_.model.bodies[first].is_flexible()) {
+    effort.measures.emplace_back("largest_rotation_rad", largest_rotation_[bent]);
+  }
+  summary.bodies.push_back(std::move(effort));
+  judge_spin(fast, summary);
+  if (largest_rotation_[bent] > kLargeRotation) {
+    summary.trust.push_back(fmt::format(
+        "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
+        "linear elasticity bears; divide it into several bodies or give it more `frames`",
+        built_.model.bodies[bent].name, largest_rotation_[bent], kLargeRotation));
+  }
 }
 
 void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& summary) const {
@@ -88,27 +122,7 @@ void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& 
   summary.measures.emplace_back(
       "steps_with_repeated_solve",
       steps_ > 0 ? static_cast<double>(repeated_solves_) / static_cast<double>(steps_) : 0.0);
-  for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
-    const body::Body& body = built_.model.bodies[b];
-    const stepping::SolveCounts counts = stepper.counts(b);
-    results::BodyEffort effort;
-    effort.name = body.name;
-    effort.dof = static_cast<int>(body.num_dofs());
-    effort.factorisations = counts.factorisations;
-    effort.solves = counts.solves;
-    if (body.is_flexible()) {
-      effort.measures.emplace_back("largest_rotation_rad", largest_rotation_[b]);
-    }
-    summary.setup_solves += counts.setup_solves;
-    summary.bodies.push_back(std::move(effort));
-    judge_spin(b, summary);
-    if (largest_rotation_[b] > kLargeRotation) {
-      summary.trust.push_back(fmt::format(
-          "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
-          "linear elasticity bears; divide it into several bodies",
-          body.name, largest_rotation_[b], kLargeRotation));
-    }
-  }
+  for (const model::WholeBody& whole : built_.model.wholes) add_whole(whole, stepper, summary);
   if (!is_finite_) {
     summary.trust.push_back(
         "an energy is too large to be a number; check units of masses, loads and velocities");

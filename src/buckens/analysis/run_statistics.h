@@ -31,6 +31,10 @@ class RunStatistics {
  private:
   /// Warns where |ω| is no longer small against the lowest elastic frequency.
   void judge_spin(std::size_t b, results::RunSummary& summary) const;
+  double spin_ratio(std::size_t b) const;
+  /// One entry per body of the model file; the parts of a divided body are summed up.
+  void add_whole(const model::WholeBody& whole, const stepping::Stepper& stepper,
+                 results::RunSummary& summary) const;
 
   const model::BuiltModel& built_;
   long steps_ = 0;

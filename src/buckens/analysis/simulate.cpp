@@ -111,19 +111,32 @@ class Simulation {
     statistics_.emplace(built_);
     summary_.redundant_constraints = prepared_->redundant_text;
     summary_.warnings = prepared_->notes;
-    for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
-      const body::Body& body = built_.model.bodies[b];
-      // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
-      if (body.num_dofs() > kAdvisedDofs) continue;
-      const ExcitedBand band = excited_band(body);
-      statistics_->set_lowest_frequency(b, band.first);
-      const std::string advice = judge_step(body.name, band, stepper_->scheme().h);
-      if (!advice.empty()) summary_.warnings.push_back(advice);
-    }
+    advise_on_step();
     for (const std::string& warning : summary_.warnings) {
       base::log(base::LogLevel::warning, warning);
     }
     sink_.begin(recorder_->layout(), recorder_->geometry());
+  }
+
+  void advise_on_step() {
+    for (const model::WholeBody& whole : built_.model.wholes) {
+      for (int b = whole.first; b < whole.first + whole.count; ++b) {
+        const body::Body& body = built_.model.bodies[static_cast<std::size_t>(b)];
+        // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
+        if (body.num_dofs() > kAdvisedDofs) continue;
+        const ExcitedBand band = excited_band(body);
+        statistics_->set_lowest_frequency(static_cast<std::size_t>(b), band.first);
+        if (!whole.is_divided()) advise(whole.name, band);
+      }
+      if (whole.is_divided() && whole.mesh->M.rows() <= kAdvisedDofs) {
+        advise(whole.name, excited_band(built_.model, whole));
+      }
+    }
+  }
+
+  void advise(const std::string& body, const ExcitedBand& band) {
+    const std::string advice = judge_step(body, band, stepper_->scheme().h);
+    if (!advice.empty()) summary_.warnings.push_back(advice);
   }
 
   void take_steps() {

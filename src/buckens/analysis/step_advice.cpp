@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/body/free_modes.h"
+#include "buckens/body/rigid_modes.h"
 
 namespace buckens::analysis {
 
@@ -15,20 +16,18 @@ constexpr int kModes = 10;
 constexpr double kExcitedShare = 0.01;
 constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
 constexpr double kTurn = 2.0 * std::numbers::pi;
-}  // namespace
 
-ExcitedBand excited_band(const body::Body& body) {
-  if (!body.is_flexible()) return {};
-  const fem::FeModel& fe = body.flexible->fe;
-  const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), kModes);
-  if (modes.omega.size() == 0) return {};
-  linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
-  for (const body::Marker& marker : body.markers) {
-    if (!marker.follows_mesh() || marker.translation_row >= body.num_interface_rows()) continue;
-    const linalg::Matrix moved =
-        body.flexible->rows.middleRows(marker.translation_row, 3) * modes.shapes;
-    share += moved.colwise().squaredNorm().transpose().cwiseQuotient(modes.omega.cwiseAbs2());
-  }
+/// Lowest free vibrations, M-orthonormal.
+body::FreeModes lowest_modes(const fem::FeModel& fe, const linalg::Matrix& Phi) {
+  return body::free_modes(fe.M, fe.K, Phi, kModes);
+}
+
+/// Adds the compliance that each mode gives to a point.
+void add_share(const body::FreeModes& modes, const linalg::Matrix& moved, linalg::Vector& share) {
+  share += moved.colwise().squaredNorm().transpose().cwiseQuotient(modes.omega.cwiseAbs2());
+}
+
+ExcitedBand band_of(const body::FreeModes& modes, const linalg::Vector& share) {
   const double total = share.sum();
   ExcitedBand band;
   band.first = modes.omega[0];
@@ -38,6 +37,55 @@ ExcitedBand excited_band(const body::Body& body) {
     band.highest = std::max(band.highest, modes.omega[k]);
   }
   return band;
+}
+
+}  // namespace
+
+ExcitedBand excited_band(const body::Body& body) {
+  if (!body.is_flexible()) return {};
+  const body::FreeModes modes = lowest_modes(body.flexible->fe, body.flexible->sieve.Phi());
+  if (modes.omega.size() == 0) return {};
+  linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
+  for (const body::Marker& marker : body.markers) {
+    if (!marker.follows_mesh() || marker.translation_row >= body.num_interface_rows()) continue;
+    add_share(modes, body.flexible->rows.middleRows(marker.translation_row, 3) * modes.shapes,
+              share);
+  }
+  return band_of(modes, share);
+}
+
+ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole) {
+  const fem::FeModel& fe = *whole.mesh;
+  std::vector<Eigen::Vector3d> positions;
+  for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
+  const body::FreeModes modes =
+      lowest_modes(fe, body::rigid_modes(positions, fe.dofs, fe.shape.com));
+  if (modes.omega.size() == 0) return {};
+  linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
+  const auto add = [&](const model::MarkerId& id) {
+    if (id.body < whole.first || id.body >= whole.first + whole.count) return;
+    const body::Body& part = model.bodies[static_cast<std::size_t>(id.body)];
+    const int node = part.markers[static_cast<std::size_t>(id.marker)].node;
+    for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
+      if (whole.nodes[n].body != id.body || whole.nodes[n].index != node) continue;
+      const auto& dofs = fe.dofs.node_dofs[n];
+      linalg::Matrix moved = linalg::Matrix::Zero(3, modes.omega.size());
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (dofs[k] >= 0) moved.row(static_cast<Eigen::Index>(k)) = modes.shapes.row(dofs[k]);
+      }
+      add_share(modes, moved, share);
+    }
+  };
+  for (const model::Joint& joint : model.joints) {
+    if (joint.is_tie) continue;
+    add(joint.first);
+    add(joint.second);
+  }
+  for (const model::Load& load : model.loads) {
+    add(load.first);
+    add(load.second);
+  }
+  return band_of(modes, share);
 }
 
 std::string judge_step(const std::string& body, const ExcitedBand& band, double h) {

@@ -19,6 +19,8 @@ struct ExcitedBand {
 /// compliance against forces that these modes have at the interface. Zero for bodies without
 /// interface. Cost: one dense eigenproblem up to 600 DOF, a few factorisations of its own above.
 ExcitedBand excited_band(const body::Body& body);
+/// The same of a divided body, with its undivided mesh and the nodes that joints and loads use.
+ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole);
 
 /// What to say of a step h [s]: whether a band is followed (about twelve steps per period), damped
 /// in its upper part, or not followed at all. Empty if all is well.

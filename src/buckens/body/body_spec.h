@@ -11,6 +11,7 @@
 
 #include "buckens/base/field.h"
 #include "buckens/body/coupling_level.h"
+#include "buckens/body/frame_division.h"
 #include "buckens/fem/structure_spec.h"
 
 namespace buckens::body {
@@ -174,7 +175,7 @@ struct BodySpec {
   std::string like;
   PlacementSpec at;
   std::vector<MarkerSpec> markers;
-  int frames = 1;
+  FrameDivision frames;
   CouplingLevel coupling = CouplingLevel::full;
   Reduction reduction = Reduction::none;
   std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
@@ -187,8 +188,10 @@ struct BodySpec {
     visit(base::field("at", at, "where the model axes stand in the world at t = 0"));
     visit(base::field("markers", markers, "named points for joints, loads and sensors")
               .like("{pin: {position: [100 mm, 0, 0]}}"));
-    visit(base::field("frames", frames, "number of body frames that carry the mesh; 1 for now")
-              .positive());
+    visit(base::field("frames", frames,
+                      "number of body frames that carry the mesh, each its own part of it")
+              .positive()
+              .like("8"));
     visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion"));
     visit(base::field("reduction", reduction, "reduced basis of the mesh; only `none` for now"));
     visit(base::field("damping", damping, "Rayleigh damping in place of that of the materials")

@@ -193,8 +193,16 @@ Finding problem(const body::RigidSpec& spec, const ReadContext&) {
 }
 
 Finding problem(const body::BodySpec& spec, const ReadContext&) {
-  if (spec.frames != 1) {
-    return Problem{"frames", "more than one frame per body is not available yet; write 1"};
+  if (spec.is_rigid() && !spec.frames.is_one()) {
+    return Problem{"frames", "a rigid body has one frame; remove the key \"frames\""};
+  }
+  if (const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind)) {
+    for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {
+      if (structure->bars[i].elements == 1) continue;
+      return Problem{fmt::format("structure.bars.{}.elements", i),
+                     "bars in a row are a mechanism in one frame; write `frames: per-element`, or "
+                     "use a beam"};
+    }
   }
   return std::nullopt;
 }

@@ -204,6 +204,8 @@ void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext
     out = read_quantity(place, note, context);
   } else if constexpr (std::is_same_v<T, int>) {
     out = read_integer(place, note, context);
+  } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
+    out = read_frames(place, note, context);
   } else if constexpr (std::is_same_v<T, bool>) {
     out = read_truth(place, note);
   } else if constexpr (std::is_same_v<T, std::string>) {

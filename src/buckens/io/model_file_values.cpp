@@ -200,6 +200,22 @@ double read_quantity(const ReadPlace& place, const FieldNote& note, const ReadCo
   return value;
 }
 
+body::FrameDivision read_frames(const ReadPlace& place, const FieldNote& note,
+                                const ReadContext& context) {
+  const std::string word = body::FrameDivision::kPerElement;
+  const std::string& text = place.node.text;
+  if (place.node.is_scalar() && text == word) return body::FrameDivision::each_element();
+  const bool is_word = place.node.is_scalar() && !text.empty() &&
+                       text.find_first_not_of(
+                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                           "-_ ") == std::string::npos;
+  if (is_word && !context.parameters.contains(text)) {
+    fail(place, fmt::format("\"{}\" is no number of frames; expected is a whole number or {}", text,
+                            word));
+  }
+  return read_integer(place, note, context);
+}
+
 int read_integer(const ReadPlace& place, const FieldNote& note, const ReadContext& context) {
   const double value = read_quantity(place, note, context);
   if (value != std::round(value) || std::abs(value) > kLargestInteger) {

@@ -8,6 +8,7 @@
 #include "buckens/base/expression.h"
 #include "buckens/base/field.h"
 #include "buckens/base/time_law.h"
+#include "buckens/body/frame_division.h"
 #include "buckens/io/yaml_tree.h"
 #include "buckens/model/initial_spec.h"
 
@@ -53,6 +54,9 @@ double read_quantity(const ReadPlace& place, const base::FieldNote& note,
                      const ReadContext& context);
 
 int read_integer(const ReadPlace& place, const base::FieldNote& note, const ReadContext& context);
+/// A whole number or `per-element`.
+body::FrameDivision read_frames(const ReadPlace& place, const base::FieldNote& note,
+                                const ReadContext& context);
 bool read_truth(const ReadPlace& place, const base::FieldNote& note);
 std::string read_text(const ReadPlace& place);
 

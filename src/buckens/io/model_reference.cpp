@@ -90,6 +90,8 @@ std::string type_text(const Shape& shape, const base::FieldNote& note) {
       return quantity_text(note);
     case Shape::Kind::integer:
       return "whole number";
+    case Shape::Kind::frame_division:
+      return fmt::format("whole number or `{}`", shape.choices[0]);
     case Shape::Kind::text:
       return "text";
     case Shape::Kind::truth:

@@ -111,6 +111,11 @@ Json schema_of(const Shape& shape, const base::FieldNote& note) {
       return quantity_schema(note);
     case Shape::Kind::integer:
       return quantity_schema(note, "integer");
+    case Shape::Kind::frame_division: {
+      Json out = quantity_schema(note, "integer");
+      out["examples"] = shape.choices;
+      return out;
+    }
     case Shape::Kind::text:
       return {{"type", {"string", "number"}}};
     case Shape::Kind::truth:

@@ -28,6 +28,8 @@ std::string default_text(const T& value, const base::FieldNote& note) {
     return choices_of<T>()[static_cast<std::size_t>(value)];
   } else if constexpr (std::is_same_v<T, std::string>) {
     return value;
+  } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
+    return fmt::format("{}", value.count);
   } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
     return fmt::format("[{:g}, {:g}, {:g}]", value.x(), value.y(), value.z());
   } else {
@@ -94,6 +96,10 @@ Shape shape_of() {
     return simple(Shape::Kind::quantity);
   } else if constexpr (std::is_same_v<T, int>) {
     return simple(Shape::Kind::integer);
+  } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
+    Shape out = simple(Shape::Kind::frame_division);
+    out.choices = {body::FrameDivision::kPerElement};
+    return out;
   } else if constexpr (std::is_same_v<T, bool>) {
     return simple(Shape::Kind::truth);
   } else if constexpr (std::is_same_v<T, std::string>) {

@@ -17,6 +17,7 @@ struct Shape {
   enum class Kind {
     quantity,
     integer,
+    frame_division,  ///< an integer or one word
     text,
     truth,
     choice,

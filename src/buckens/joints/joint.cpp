@@ -112,6 +112,15 @@ Vector3d unit_axis(const Placement& placement) {
   return placement.axis_F / length;
 }
 
+std::vector<ConstraintRow> make_straight_rows(const Placement& placement) {
+  const Triad f = triad_about(unit_axis(placement), placement);
+  RowCollector rows(placement);
+  rows.points_in_world();
+  rows.perpendicular(f.x, f.z);
+  rows.perpendicular(f.y, f.z);
+  return rows.take();
+}
+
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement) {
   const Vector3d axis = unit_axis(placement);
   check_axis(type, placement, axis);

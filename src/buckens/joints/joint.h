@@ -45,6 +45,10 @@ struct Placement {
 ///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation)
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);
 
+/// Rows that hold two points together and keep the direction `axis_F` common to both markers: what
+/// two bars have where they only divide a longer one.
+std::vector<ConstraintRow> make_straight_rows(const Placement& placement);
+
 /// Joint axis in F, normalised.
 Eigen::Vector3d unit_axis(const Placement& placement);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/marker_finder.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -18,15 +21,30 @@ MarkerId MarkerFinder::marker(const base::MarkerRef& ref, bool needs_mesh) {
     id.X_WF.p = ref.point.value_or(Vector3d::Zero());
     return id;
   }
-  id.body = model_.find_body(ref.body);
-  if (id.body == kGround) {
+  const int whole = model_.find_whole(ref.body);
+  if (whole < 0) {
     std::vector<std::string> names = {"ground"};
-    for (const body::Body& body : model_.bodies) names.push_back(body.name);
+    for (const WholeBody& known : model_.wholes) names.push_back(known.name);
     throw InputError(ref.where, fmt::format("there is no body \"{}\".{}", ref.body,
                                             base::suggestion(ref.body, names)));
   }
+  id.body = body_of(model_.wholes[static_cast<std::size_t>(whole)], ref.marker);
   id.marker = tables_[static_cast<std::size_t>(id.body)]->find(ref, needs_mesh);
   return id;
+}
+
+int MarkerFinder::body_of(const WholeBody& whole, const std::string& marker) const {
+  if (!whole.is_divided()) return whole.first;
+  int nearest = whole.first;
+  double least = HUGE_VAL;
+  for (int b = whole.first; b < whole.first + whole.count; ++b) {
+    const MarkerTable& table = *tables_[static_cast<std::size_t>(b)];
+    if (table.holds(marker)) return b;
+    const double distance = table.distance(marker);
+    if (distance < least) nearest = b;
+    least = std::min(least, distance);
+  }
+  return nearest;
 }
 
 const body::Marker* MarkerFinder::on_body(const MarkerId& id) const {
@@ -52,7 +70,10 @@ void MarkerFinder::require_moment(const MarkerId& id, const std::string& what,
 
 void MarkerFinder::require_two_bodies(const MarkerId& first, const MarkerId& second,
                                       const std::string& what, const SourceLocation& where) const {
-  if (first.body != second.body) return;
+  const bool is_one = first.body == kGround || second.body == kGround
+                          ? first.body == second.body
+                          : model_.whole_of(first.body) == model_.whole_of(second.body);
+  if (!is_one) return;
   throw ModelError(
       where,
       fmt::format(
@@ -61,7 +82,9 @@ void MarkerFinder::require_two_bodies(const MarkerId& first, const MarkerId& sec
           what,
           first.body == kGround
               ? "the ground"
-              : "body \"" + model_.bodies[static_cast<std::size_t>(first.body)].name + "\""));
+              : "body \"" +
+                    model_.wholes[static_cast<std::size_t>(model_.whole_of(first.body))].name +
+                    "\""));
 }
 
 joints::Placement MarkerFinder::placement(const MarkerId& first, const MarkerId& second) const {

@@ -46,6 +46,8 @@ class MarkerFinder {
 
  private:
   const body::Marker* on_body(const MarkerId& id) const;
+  /// Body of the model that holds a marker of a whole body.
+  int body_of(const WholeBody& whole, const std::string& marker) const;
 
   Model& model_;
   const std::vector<std::unique_ptr<MarkerTable>>& tables_;

@@ -20,8 +20,9 @@ namespace {
 constexpr double kOnMesh = 1e-6;
 }  // namespace
 
-MarkerTable::MarkerTable(const body::BodySpec& spec, body::Body& body, const NamedStructure* mesh)
-    : spec_(spec), body_(body), mesh_(mesh) {}
+MarkerTable::MarkerTable(const body::BodySpec& spec, body::Body& body, const NamedStructure* mesh,
+                         const std::optional<Vector3d>& whole_com)
+    : spec_(spec), body_(body), mesh_(mesh), whole_com_(whole_com) {}
 
 std::vector<std::string> MarkerTable::names() const {
   std::vector<std::string> out = {"com", "origin"};
@@ -53,7 +54,10 @@ std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
 }
 
 MarkerTable::Target MarkerTable::named(const std::string& name, const base::MarkerRef& ref) const {
-  if (name.empty() || name == "com") return {body_.com, Eigen::Quaterniond::Identity(), {}};
+  if (name.empty() || name == "com") {
+    if (!whole_com_) return {body_.com, Eigen::Quaterniond::Identity(), {}};
+    return {*whole_com_, Eigen::Quaterniond::Identity(), place_at(*whole_com_)};
+  }
   if (mesh_ != nullptr) {
     if (const auto place = mesh_->find(name)) {
       const fem::FeModel& fe = body_.flexible->fe;
@@ -70,6 +74,44 @@ MarkerTable::Target MarkerTable::named(const std::string& name, const base::Mark
   throw InputError(ref.where,
                    fmt::format("body \"{}\" has no marker \"{}\"{}; markers there: {}", spec_.name,
                                name, suggestion(name), fmt::join(names(), ", ")));
+}
+
+std::optional<MeshPlace> MarkerTable::find_place(const std::string& name) const {
+  if (mesh_ == nullptr) return std::nullopt;
+  if (const body::MarkerSpec* own = base::find_named(spec_.markers, name)) {
+    return own->position ? place_at(*own->position) : find_place(own->at);
+  }
+  if (name.empty() || name == "com") return place_at(whole_com_.value_or(body_.com));
+  if (const auto place = mesh_->find(name)) return place;
+  return name == "origin" ? place_at(Vector3d::Zero()) : std::nullopt;
+}
+
+bool MarkerTable::holds(const std::string& name) const { return find_place(name).has_value(); }
+
+double MarkerTable::distance(const std::string& name) const {
+  const body::MarkerSpec* own = base::find_named(spec_.markers, name);
+  if (own != nullptr && !own->position) return distance(own->at);
+  Vector3d position = Vector3d::Zero();
+  if (own != nullptr) {
+    position = *own->position;
+  } else if (name.empty() || name == "com") {
+    position = whole_com_.value_or(body_.com);
+  } else if (name != "origin") {
+    return HUGE_VAL;
+  }
+  double least = HUGE_VAL;
+  for (const auto& node : mesh_->structure.nodes) {
+    least = std::min(least, (node.position - position).norm());
+  }
+  return least;
+}
+
+int MarkerTable::cut_marker(int node) {
+  const std::string name = fmt::format("#{}", node);
+  const auto known = found_.find(name);
+  if (known != found_.end()) return known->second;
+  const Vector3d position = body_.flexible->fe.nodes.at(static_cast<std::size_t>(node)).position;
+  return add(name, {position, Eigen::Quaterniond::Identity(), MeshPlace{node, -1, 0}});
 }
 
 std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
@@ -123,23 +165,25 @@ std::pair<int, int> MarkerTable::rows_at(const MeshPlace& place) {
   return first;
 }
 
+int MarkerTable::add(const std::string& name, const Target& where) {
+  body::Marker marker;
+  marker.name = name;
+  marker.X_BF = {where.position - body_.com, where.orientation};
+  if (where.place) {
+    std::tie(marker.translation_row, marker.rotation_row) = rows_at(*where.place);
+    marker.node = where.place->node;
+  }
+  const int index = static_cast<int>(body_.markers.size());
+  body_.markers.push_back(marker);
+  found_.emplace(name, index);
+  return index;
+}
+
 int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
   const std::string name = ref.marker.empty() ? "com" : ref.marker;
   const auto known = found_.find(name);
   int index = known == found_.end() ? -1 : known->second;
-  if (index < 0) {
-    const Target where = target(ref);
-    body::Marker marker;
-    marker.name = name;
-    marker.X_BF = {where.position - body_.com, where.orientation};
-    if (where.place) {
-      std::tie(marker.translation_row, marker.rotation_row) = rows_at(*where.place);
-      marker.node = where.place->node;
-    }
-    index = static_cast<int>(body_.markers.size());
-    body_.markers.push_back(marker);
-    found_.emplace(name, index);
-  }
+  if (index < 0) index = add(name, target(ref));
   if (needs_mesh && mesh_ != nullptr &&
       !body_.markers[static_cast<std::size_t>(index)].follows_mesh()) {
     throw InputError(

@@ -19,7 +19,9 @@ namespace buckens::model {
 class MarkerTable {
  public:
   /// @param mesh null for rigid bodies
-  MarkerTable(const body::BodySpec& spec, body::Body& body, const NamedStructure* mesh);
+  /// @param whole_com for one part of a divided body: mass centre of the whole, model axes [m]
+  MarkerTable(const body::BodySpec& spec, body::Body& body, const NamedStructure* mesh,
+              const std::optional<Eigen::Vector3d>& whole_com = std::nullopt);
 
   /// Index into Body::markers.
   /// @param needs_mesh true where a force acts: on flexible bodies the marker must lie on the mesh
@@ -29,6 +31,13 @@ class MarkerTable {
 
   /// Where on the mesh the marker lies; empty if it is fixed to the body frame.
   std::optional<MeshPlace> place(const base::MarkerRef& ref) const;
+
+  /// Whether the named place lies on this mesh: in a divided body it may lie on another part.
+  bool holds(const std::string& name) const;
+  /// Least distance of a node from the named place [m]; HUGE_VAL where the name is unknown.
+  double distance(const std::string& name) const;
+  /// Marker on a node where this part is cut from others.
+  int cut_marker(int node);
 
   /// All names a user can write, for messages and listings.
   std::vector<std::string> names() const;
@@ -47,13 +56,16 @@ class MarkerTable {
   Target target(const base::MarkerRef& ref) const;
   Target named(const std::string& name, const base::MarkerRef& ref) const;
   std::string suggestion(const std::string& name) const;
+  std::optional<MeshPlace> find_place(const std::string& name) const;
   std::optional<MeshPlace> place_at(const Eigen::Vector3d& position) const;
   std::pair<int, int> rows_at(const MeshPlace& place);
+  int add(const std::string& name, const Target& where);
   void add_rows(const std::vector<linalg::Triplet>& entries, int first);
 
   const body::BodySpec& spec_;
   body::Body& body_;
   const NamedStructure* mesh_;
+  std::optional<Eigen::Vector3d> whole_com_;
   std::map<std::string, int> found_;
   std::map<std::tuple<int, int, double>, std::pair<int, int>> rows_of_place_;
   std::vector<linalg::Triplet> entries_;

@@ -24,6 +24,18 @@ int Model::find_body(const std::string& name) const {
   return found == bodies.end() ? kGround : static_cast<int>(found - bodies.begin());
 }
 
+int Model::find_whole(const std::string& name) const {
+  const auto found = std::find_if(wholes.begin(), wholes.end(),
+                                  [&](const WholeBody& w) { return w.name == name; });
+  return found == wholes.end() ? -1 : static_cast<int>(found - wholes.begin());
+}
+
+int Model::whole_of(int body) const {
+  const auto next = std::upper_bound(wholes.begin(), wholes.end(), body,
+                                     [](int b, const WholeBody& w) { return b < w.first; });
+  return static_cast<int>(next - wholes.begin()) - 1;
+}
+
 State placed_state(const Model& model) {
   State state;
   state.bodies.resize(model.bodies.size());

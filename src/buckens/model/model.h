@@ -9,6 +9,7 @@
 #include "buckens/body/body.h"
 #include "buckens/joints/joint.h"
 #include "buckens/loads/force_element.h"
+#include "buckens/model/whole_body.h"
 #include "buckens/spatial/plane.h"
 
 namespace buckens::model {
@@ -32,7 +33,9 @@ struct Joint {
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
   std::vector<joints::ConstraintRow> rows;
   int first_row = 0;     ///< of λ
-  SourceLocation where;  ///< in the model file
+  SourceLocation where;  ///< in the model file; that of the body for ties
+  /// Holds the parts of a divided body together; stands in no model file.
+  bool is_tie = false;
 };
 
 /// Load or force law between two markers.
@@ -48,6 +51,8 @@ struct Model {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²] world
   std::optional<spatial::Plane> planar;
   std::vector<body::Body> bodies;
+  /// The bodies of the model file in its order. Empty in models made without one.
+  std::vector<WholeBody> wholes;
   std::vector<Joint> joints;
   std::vector<Load> loads;
   std::vector<spatial::Pose> placed;  ///< X_WB of each body as placed
@@ -58,6 +63,10 @@ struct Model {
   /// Joint and row within it that own a row of λ.
   std::pair<const Joint*, int> owner_of_row(int row) const;
   int find_body(const std::string& name) const;
+  /// Index into `wholes` of the body with this name, −1 if there is none.
+  int find_whole(const std::string& name) const;
+  /// Index into `wholes` of the whole to which a body belongs.
+  int whole_of(int body) const;
 };
 
 }  // namespace buckens::model

@@ -12,7 +12,9 @@
 #include "buckens/fem/recovery.h"
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
+#include "buckens/model/add_ties.h"
 #include "buckens/model/marker_finder.h"
+#include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
 
 namespace buckens::model {
@@ -40,11 +42,14 @@ class Builder {
     check_gravity();
     add_bodies();
     MarkerFinder find(model_, tables_);
+    for (std::size_t w = 0; w < divisions_.size(); ++w) {
+      if (divisions_[w]) add_ties(model_.wholes[w], *divisions_[w], find);
+    }
     for (const joints::JointSpec& joint : d.joints) add_joint(joint, find);
     for (const loads::LoadSpec& load : d.loads) add_load(load, find);
     close_interfaces();
     for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor, find);
-    add_remaining_markers();
+    add_remaining_markers(find);
     for (std::size_t b = 0; b < tables_.size(); ++b) {
       if (model_.bodies[b].is_flexible()) model_.bodies[b].flexible->rows = tables_[b]->rows();
     }
@@ -65,24 +70,91 @@ class Builder {
 
   void add_bodies() {
     const auto& specs = out_->description.bodies;
-    model_.bodies.resize(specs.size());  // markers tables keep references
     meshes_.resize(specs.size());
-    for (std::size_t b = 0; b < specs.size(); ++b) {
-      try {
-        add_body(b, specs[b]);
-      } catch (const ModelError& error) {
-        if (!error.where().empty()) throw;
-        const std::string what = error.what();
-        const bool is_named = what.find('"' + specs[b].name + '"') != std::string::npos;
-        throw ModelError(specs[b].where,
-                         is_named ? what : fmt::format("body \"{}\": {}", specs[b].name, what));
-      }
+    divisions_.resize(specs.size());
+    int count = 0;
+    for (std::size_t w = 0; w < specs.size(); ++w) {
+      citing(specs[w], [&] { plan_body(w, specs[w]); });
+      model_.wholes[w].first = count;
+      count += model_.wholes[w].count;
+    }
+    model_.bodies.resize(static_cast<std::size_t>(count));  // marker tables keep references
+    for (std::size_t w = 0; w < specs.size(); ++w) {
+      citing(specs[w], [&] { add_body(w, specs[w]); });
     }
   }
 
-  void add_body(std::size_t b, const body::BodySpec& spec) {
-    body::Body& body = model_.bodies[b];
-    body.name = spec.name;
+  /// Puts place and name before what is wrong with a body.
+  template <class Work>
+  static void citing(const body::BodySpec& spec, Work&& work) {
+    try {
+      work();
+    } catch (const ModelError& error) {
+      if (!error.where().empty()) throw;
+      const std::string what = error.what();
+      const bool is_named = what.find('"' + spec.name + '"') != std::string::npos ||
+                            what.find('"' + spec.name + '[') != std::string::npos;
+      throw ModelError(spec.where,
+                       is_named ? what : fmt::format("body \"{}\": {}", spec.name, what));
+    }
+  }
+
+  /// Makes the mesh of a body and divides it among its frames.
+  void plan_body(std::size_t w, const body::BodySpec& spec) {
+    WholeBody& whole = model_.wholes.emplace_back();
+    whole.name = spec.name;
+    whole.where = spec.where;
+    if (std::holds_alternative<body::RigidSpec>(spec.kind)) {
+      if (spec.frames.is_one()) return;
+      throw InputError(spec.where, fmt::format("body \"{}\" is rigid and has one frame; remove "
+                                               "`frames`",
+                                               spec.name));
+    }
+    meshes_[w] = std::make_unique<NamedStructure>(structure_from_spec(spec));
+    if (spec.frames.is_one()) return;
+    // The whole mesh comes first: it finds what is wrong with nodes and elements.
+    auto mesh = std::make_shared<fem::FeModel>(fem::assemble(meshes_[w]->structure, model_.planar));
+    MeshDivision division = divide_mesh(*meshes_[w], spec.frames);
+    if (division.parts.size() == 1) return;
+    whole.count = static_cast<int>(division.parts.size());
+    whole.mesh = std::move(mesh);
+    divisions_[w] = std::make_unique<MeshDivision>(std::move(division));
+  }
+
+  void add_body(std::size_t w, const body::BodySpec& spec) {
+    WholeBody& whole = model_.wholes[w];
+    if (!divisions_[w]) {
+      model_.bodies[static_cast<std::size_t>(whole.first)].name = spec.name;
+      add_part(whole, whole.first, spec, meshes_[w].get());
+      whole.mass = model_.bodies[static_cast<std::size_t>(whole.first)].mass;
+      whole.com = model_.bodies[static_cast<std::size_t>(whole.first)].com;
+      return;
+    }
+    whole.mass = whole.mesh->shape.mass;
+    whole.com = whole.mesh->shape.com;
+    const std::size_t notes = model_.notes.size();
+    for (int k = 0; k < whole.count; ++k) {
+      const int b = whole.first + k;
+      model_.bodies[static_cast<std::size_t>(b)].name = fmt::format("{}[{}]", spec.name, k + 1);
+      add_part(whole, b, spec, &divisions_[w]->parts[static_cast<std::size_t>(k)]);
+    }
+    if (model_.notes.size() > notes + 1) {
+      model_.notes[notes] += fmt::format("; {} more notes of this kind on parts of \"{}\"",
+                                         model_.notes.size() - notes - 1, spec.name);
+      model_.notes.resize(notes + 1);
+    }
+    for (const auto& copies : divisions_[w]->nodes) {
+      whole.nodes.push_back({whole.first + copies.front().part, copies.front().index});
+    }
+    for (const auto& line : divisions_[w]->lines) {
+      whole.lines.push_back({whole.first + line.part, line.index});
+    }
+  }
+
+  /// Adds one body of the model: a rigid one, a mesh, or a part of a mesh.
+  void add_part(const WholeBody& whole, int index, const body::BodySpec& spec,
+                const NamedStructure* mesh) {
+    body::Body& body = model_.bodies[static_cast<std::size_t>(index)];
     const Matrix3d R = spec.at.rotation().toRotationMatrix();
     std::optional<Vector3d> normal_B;
     if (model_.planar) {
@@ -100,24 +172,24 @@ class Builder {
       body.com = rigid->com;
       body.J0 = rigid->inertia_matrix();
     } else {
-      meshes_[b] = std::make_unique<NamedStructure>(structure_from_spec(spec));
-      fem::FeModel fe = fem::assemble(meshes_[b]->structure, model_.planar);
+      fem::FeModel fe = fem::assemble(mesh->structure, model_.planar);
       body.mass = fe.shape.mass;
       body.com = fe.shape.com;
       body.J0 = fe.shape.J0;
-      body.flexible = std::make_unique<body::FlexiblePart>(spec.name, std::move(fe), spec.coupling);
+      body.flexible = std::make_unique<body::FlexiblePart>(body.name, std::move(fe), spec.coupling);
       refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,
                        fmt::format("body \"{}\" has no mass; every body needs inertia, if only a "
                                    "little (merge a massless part with its neighbour)",
-                                   spec.name));
+                                   body.name));
     }
     body::select_frame_coordinates(body, normal_B, model_.notes);
     model_.placed.push_back(spatial::Pose{spec.at.position, spec.at.rotation()} *
                             spatial::Pose{body.com, Eigen::Quaterniond::Identity()});
-    tables_.push_back(std::make_unique<MarkerTable>(spec, body, meshes_[b].get()));
+    tables_.push_back(std::make_unique<MarkerTable>(
+        spec, body, mesh, whole.is_divided() ? std::optional(whole.com) : std::nullopt));
   }
 
   void close_interfaces() {
@@ -172,14 +244,22 @@ class Builder {
     }
     const auto b = static_cast<std::size_t>(found.body);
     const auto lines = fem::line_elements(model_.bodies[b].flexible->fe);
+    const WholeBody& whole = model_.wholes[static_cast<std::size_t>(model_.whole_of(found.body))];
     if (kind.element) {
+      const std::size_t count = whole.is_divided() ? whole.lines.size() : lines.size();
       found.element = *kind.element - 1;
-      if (found.element >= static_cast<int>(lines.size())) {
+      if (found.element >= static_cast<int>(count)) {
         throw InputError(kind.of.where, fmt::format("body \"{}\" has {} elements, not {}",
-                                                    kind.of.body, lines.size(), *kind.element));
+                                                    kind.of.body, count, *kind.element));
+      }
+      if (whole.is_divided()) {
+        const MeshCopy copy = whole.lines[static_cast<std::size_t>(found.element)];
+        found.body = copy.body;
+        found.element = copy.index;
       }
       return;
     }
+    if (whole.is_divided() && kind.of.marker.empty()) return;
     const auto place = tables_[b]->place(kind.of);
     if (!place) return;
     if (place->node < 0) found.element = place->element;
@@ -190,14 +270,14 @@ class Builder {
     }
   }
 
-  void add_remaining_markers() {
-    for (std::size_t b = 0; b < tables_.size(); ++b) {
+  void add_remaining_markers(MarkerFinder& find) {
+    for (const body::BodySpec& spec : out_->description.bodies) {
       base::MarkerRef ref;
-      ref.body = model_.bodies[b].name;
-      for (const body::MarkerSpec& marker : out_->description.bodies[b].markers) {
+      ref.body = spec.name;
+      for (const body::MarkerSpec& marker : spec.markers) {
         ref.marker = marker.name;
         ref.where = marker.where;
-        tables_[b]->find(ref, false);
+        find.marker(ref, false);
       }
     }
   }
@@ -221,7 +301,8 @@ class Builder {
 
   std::unique_ptr<BuiltModel> out_;
   Model& model_;
-  std::vector<std::unique_ptr<NamedStructure>> meshes_;
+  std::vector<std::unique_ptr<NamedStructure>> meshes_;   // one per whole body
+  std::vector<std::unique_ptr<MeshDivision>> divisions_;  // empty unless divided
   std::vector<std::unique_ptr<MarkerTable>> tables_;
 };
 

@@ -13,9 +13,9 @@ namespace buckens::model {
 /// Where a sensor looks.
 struct SensorPlace {
   std::vector<MarkerId> markers;  ///< in the order in which the spec names them
-  int body = kGround;             ///< of section forces and stresses
-  int element = -1;               ///< line element of that body; −1: all of them
-  int end = 0;                    ///< 0 its first end, 1 its second
+  int body = kGround;             ///< of section forces and stresses, index into Model::bodies
+  int element = -1;  ///< line element of that body; −1: all, those of other parts, too
+  int end = 0;       ///< 0 its first end, 1 its second
 };
 
 /// A built model with what the description said beyond the mechanics.

@@ -123,9 +123,9 @@ void Builder::add_structure(const fem::StructureSpec& spec) {
   for (const fem::BarMemberSpec& bar : spec.bars) {
     const fem::Section section =
         bar.section ? make_section(**bar.section) : fem::Section::area(bar.area.value_or(0.0));
-    structure.bars.add(node_called(bar.between[0], bar.where),
-                       node_called(bar.between[1], bar.where), make_material(*bar.material),
-                       section);
+    fem::add_bar(structure, node_called(bar.between[0], bar.where),
+                 node_called(bar.between[1], bar.where), bar.elements, make_material(*bar.material),
+                 section);
   }
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
 }

@@ -27,6 +27,7 @@ struct Observation {
   std::vector<linalg::Matrix> stresses;         ///< 2×E per flexible body [Pa]
   dynamics::Energy energy;
   WorkBalance work;
+  std::vector<body::FrameMotion> wholes;  ///< frame of each whole body, see model::whole_motion
 };
 
 /// Force and torque of each joint on its second marker at the marker's origin.

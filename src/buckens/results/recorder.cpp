@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/recorder.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "buckens/dynamics/constraints.h"
+#include "buckens/results/divided_body.h"
 
 namespace buckens::results {
 
@@ -11,18 +14,64 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// The mesh of a whole body; null for rigid ones.
+const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
+  if (whole.is_divided()) return whole.mesh.get();
+  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
+  return body.is_flexible() ? &body.flexible->fe : nullptr;
+}
+
+/// Number of markers on the parts of a divided body before the one with this index.
+int markers_before(const model::Model& model, const model::WholeBody& whole, int body) {
+  int count = 0;
+  for (int b = whole.first; b < body; ++b) {
+    count += static_cast<int>(model.bodies[static_cast<std::size_t>(b)].markers.size());
+  }
+  return count;
+}
+
 GeometrySide side_of(const model::Model& model, const model::MarkerId& id) {
   GeometrySide side;
-  side.body = id.body == model::kGround ? kGroundBody : id.body;
   if (id.body == model::kGround) {
+    side.body = kGroundBody;
     side.position = id.X_WF.p;
     return side;
   }
-  side.marker = id.marker;
-  side.position = model.bodies[static_cast<std::size_t>(id.body)]
-                      .markers[static_cast<std::size_t>(id.marker)]
-                      .X_BF.p;
+  side.body = model.whole_of(id.body);
+  const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(side.body)];
+  side.marker = markers_before(model, whole, id.body) + id.marker;
+  side.position = DividedBody(model, whole).place(id);
   return side;
+}
+
+/// Node of the whole mesh that a marker of a part sits on, or is nearest to.
+int whole_node(const model::WholeBody& whole, int body, const body::Marker& marker,
+               const Vector3d& position) {
+  int nearest = 0;
+  double least = HUGE_VAL;
+  for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
+    const model::MeshCopy& copy = whole.nodes[n];
+    if (copy.body == body && copy.index == marker.node) return static_cast<int>(n);
+    const double distance = (whole.mesh->nodes[n].position - whole.com - position).norm();
+    if (distance < least) nearest = static_cast<int>(n);
+    least = std::min(least, distance);
+  }
+  return nearest;
+}
+
+/// Markers of all parts, in the frame of the whole.
+std::vector<GeometryMarker> markers_of(const model::Model& model, const model::WholeBody& whole) {
+  std::vector<GeometryMarker> out;
+  for (int b = whole.first; b < whole.first + whole.count; ++b) {
+    const body::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    for (const body::Marker& marker : body.markers) {
+      out.push_back({marker.name, marker.node, marker.X_BF});
+      if (!whole.is_divided()) continue;
+      out.back().X_BF.p += body.com - whole.com;
+      out.back().node = whole_node(whole, b, marker, out.back().X_BF.p);
+    }
+  }
+  return out;
 }
 
 /// A direction given in a marker's axes, in those of its body.
@@ -54,9 +103,9 @@ Recorder::Recorder(const model::BuiltModel& built, const dynamics::MassMetric& m
 Recorder::~Recorder() = default;
 
 void Recorder::add_channels() {
-  for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
-    const body::Body& body = built_.model.bodies[b];
-    const std::string path = "bodies/" + body.name;
+  const model::Model& model = built_.model;
+  for (const model::WholeBody& whole : model.wholes) {
+    const std::string path = "bodies/" + whole.name;
     layout_.add({path + "/pose",
                  "m, 1",
                  {7},
@@ -64,14 +113,22 @@ void Recorder::add_channels() {
                  {"x", "y", "z", "qw", "qx", "qy", "qz"}});
     layout_.add({path + "/velocity", "m/s", {3}, "of the body frame's origin, world axes", kXyz});
     layout_.add({path + "/angular_velocity", "rad/s", {3}, "of the body frame, body axes", kXyz});
-    if (!body.is_flexible()) continue;
-    const int nodes = static_cast<int>(body.flexible->fe.nodes.size());
-    const int elements = recoveries_[b]->num_elements();
+    const fem::FeModel* mesh = mesh_of(model, whole);
+    if (mesh == nullptr) continue;
+    const int nodes = static_cast<int>(mesh->nodes.size());
+    const int elements = static_cast<int>(fem::line_elements(*mesh).size());
     layout_.add({path + "/displacement",
                  "m, rad",
                  {nodes, 6},
                  "nodal translations and rotations in body axes",
                  {"x", "y", "z", "rx", "ry", "rz"}});
+    if (whole.is_divided()) {
+      layout_.add({path + "/cut_force",
+                   "N, N m",
+                   {static_cast<int>(DividedBody(model, whole).ties().size()), 6},
+                   "force and torque between the parts, on the later one, axes of the earlier",
+                   {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}});
+    }
     if (elements == 0) continue;
     layout_.add({path + "/section_force",
                  "N, N m",
@@ -85,7 +142,8 @@ void Recorder::add_channels() {
                  "largest axial and von Mises stress",
                  {"axial", "mises"}});
   }
-  for (const model::Joint& joint : built_.model.joints) {
+  for (const model::Joint& joint : model.joints) {
+    if (joint.is_tie) continue;
     layout_.add(
         {"joints/" + joint.name + "/force", "N", {3}, "on the second marker, world axes", kXyz});
     layout_.add({"joints/" + joint.name + "/torque",
@@ -109,21 +167,18 @@ Geometry Recorder::geometry() const {
   out.gravity = model.gravity;
   if (model.planar)
     out.planar = choice_names(*model.planar)[static_cast<std::size_t>(*model.planar)];
-  for (const body::Body& body : model.bodies) {
+  for (const model::WholeBody& whole : model.wholes) {
     GeometryBody shape;
-    shape.name = body.name;
-    for (const body::Marker& marker : body.markers) {
-      shape.markers.push_back({marker.name, marker.node, marker.X_BF});
-    }
-    if (body.is_flexible()) {
+    shape.name = whole.name;
+    shape.markers = markers_of(model, whole);
+    if (const fem::FeModel* mesh = mesh_of(model, whole)) {
       shape.kind = BodyKind::beam;
-      const fem::FeModel& fe = body.flexible->fe;
-      shape.nodes.resize(static_cast<Eigen::Index>(fe.nodes.size()), 3);
-      for (std::size_t k = 0; k < fe.nodes.size(); ++k) {
+      shape.nodes.resize(static_cast<Eigen::Index>(mesh->nodes.size()), 3);
+      for (std::size_t k = 0; k < mesh->nodes.size(); ++k) {
         shape.nodes.row(static_cast<Eigen::Index>(k)) =
-            (fe.nodes[k].position - body.com).transpose();
+            (mesh->nodes[k].position - whole.com).transpose();
       }
-      for (const fem::LineElement& line : fem::line_elements(fe)) {
+      for (const fem::LineElement& line : fem::line_elements(*mesh)) {
         shape.elements.push_back({line.a, line.b});
         shape.radius.push_back(line.radius);
       }
@@ -131,6 +186,7 @@ Geometry Recorder::geometry() const {
     out.bodies.push_back(std::move(shape));
   }
   for (const model::Joint& joint : model.joints) {
+    if (joint.is_tie) continue;
     out.joints.push_back({joint.name,
                           joints::to_string(joint.type),
                           {side_of(model, joint.first), side_of(model, joint.second)},
@@ -148,16 +204,26 @@ Geometry Recorder::geometry() const {
 
 void Recorder::append_bodies(const Observation& now, std::vector<double>& values) const {
   const auto push = [&](const Vector3d& v) { values.insert(values.end(), {v.x(), v.y(), v.z()}); };
-  for (std::size_t b = 0; b < now.model.bodies.size(); ++b) {
-    const model::BodyState& s = now.state.bodies[b];
-    push(s.frame.X_WB.p);
-    const Eigen::Quaterniond& q = s.frame.X_WB.q;
+  for (std::size_t w = 0; w < now.model.wholes.size(); ++w) {
+    const model::WholeBody& whole = now.model.wholes[w];
+    const body::FrameMotion& frame = now.wholes[w];
+    push(frame.X_WB.p);
+    const Eigen::Quaterniond& q = frame.X_WB.q;
     values.insert(values.end(), {q.w(), q.x(), q.y(), q.z()});
-    push(s.frame.v);
-    push(s.frame.w);
+    push(frame.v);
+    push(frame.w);
+    if (whole.is_divided()) {
+      const DividedBody divided(now.model, whole);
+      divided.append_displacements(now, values);
+      divided.append_cut_forces(now, values);
+      divided.append_elements(now.section_forces, values);
+      divided.append_elements(now.stresses, values);
+      continue;
+    }
+    const auto b = static_cast<std::size_t>(whole.first);
     if (!recoveries_[b]) continue;
     for (const auto& dofs : now.model.bodies[b].flexible->fe.dofs.node_dofs) {
-      for (const int dof : dofs) values.push_back(dof >= 0 ? s.d[dof] : 0.0);
+      for (const int dof : dofs) values.push_back(dof >= 0 ? now.state.bodies[b].d[dof] : 0.0);
     }
     const auto& forces = now.section_forces[b];
     values.insert(values.end(), forces.data(), forces.data() + forces.size());
@@ -168,7 +234,10 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
 
 Record Recorder::record(const model::State& state, WorkBalance work) {
   const model::Model& model = built_.model;
-  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, work};
+  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, work, {}};
+  for (const model::WholeBody& whole : model.wholes) {
+    now.wholes.push_back(model::whole_motion(model, whole, state));
+  }
   linalg::Vector lambda = state.lambda;
   if (has_redundant_joints_) {
     dynamics::Constraints constraints;
@@ -190,7 +259,9 @@ Record Recorder::record(const model::State& state, WorkBalance work) {
   Record record{state.t, {}};
   record.values.reserve(layout_.num_values());
   append_bodies(now, record.values);
-  for (const spatial::Wrench& wrench : now.joint_wrenches) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (model.joints[j].is_tie) continue;
+    const spatial::Wrench& wrench = now.joint_wrenches[j];
     for (const Vector3d& v : {wrench.force, wrench.torque}) {
       record.values.insert(record.values.end(), {v.x(), v.y(), v.z()});
     }

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/results/divided_body.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::results {
@@ -103,19 +104,24 @@ class DeflectionSensor final : public Sensor {
   }
 
  private:
-  static const body::Marker& marker(const Observation& now, const MarkerId& id) {
-    return now.model.bodies[static_cast<std::size_t>(id.body)]
-        .markers[static_cast<std::size_t>(id.marker)];
+  static DividedBody whole(const Observation& now, const MarkerId& id) {
+    const auto w = static_cast<std::size_t>(now.model.whole_of(id.body));
+    return DividedBody(now.model, now.model.wholes[w]);
   }
   static Vector3d displacement(const Observation& now, const MarkerId& id) {
-    const body::Marker& m = marker(now, id);
+    const auto b = static_cast<std::size_t>(id.body);
+    if (now.model.wholes[static_cast<std::size_t>(now.model.whole_of(id.body))].is_divided()) {
+      return whole(now, id).displacement(now, id);
+    }
+    const body::Marker& m = now.model.bodies[b].markers[static_cast<std::size_t>(id.marker)];
     if (!m.follows_mesh()) return Vector3d::Zero();
-    return now.motions[static_cast<std::size_t>(id.body)].y.segment<3>(m.translation_row);
+    return now.motions[b].y.segment<3>(m.translation_row);
   }
   Vector3d from_chord(const Observation& now) const {
-    const Vector3d p0 = marker(now, markers_[0]).X_BF.p;
-    const Vector3d a0 = marker(now, markers_[1]).X_BF.p;
-    const Vector3d b0 = marker(now, markers_[2]).X_BF.p;
+    const DividedBody body = whole(now, markers_[0]);
+    const Vector3d p0 = body.place(markers_[0]);
+    const Vector3d a0 = body.place(markers_[1]);
+    const Vector3d b0 = body.place(markers_[2]);
     const Vector3d a = a0 + displacement(now, markers_[1]);
     const Vector3d b = b0 + displacement(now, markers_[2]);
     const double share = (p0 - a0).dot(b0 - a0) / (b0 - a0).squaredNorm();
@@ -255,11 +261,19 @@ class StressSensor final : public Sensor {
         {"sensors/" + name_, "Pa", {2}, "largest axial and von Mises stress", {"axial", "mises"}}};
   }
   void append(const Observation& now, std::vector<double>& values) override {
-    const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];
-    for (int k = 0; k < 2; ++k) {
-      values.push_back(place_.element >= 0 ? stresses(k, place_.element)
-                                           : stresses.row(k).maxCoeff());
+    if (place_.element >= 0) {
+      const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];
+      for (int k = 0; k < 2; ++k) values.push_back(stresses(k, place_.element));
+      return;
     }
+    const auto w = static_cast<std::size_t>(now.model.whole_of(place_.body));
+    const model::WholeBody& whole = now.model.wholes[w];
+    Eigen::Vector2d largest = Eigen::Vector2d::Zero();
+    for (int b = whole.first; b < whole.first + whole.count; ++b) {
+      const auto& stresses = now.stresses[static_cast<std::size_t>(b)];
+      largest = largest.cwiseMax(stresses.rowwise().maxCoeff());
+    }
+    values.insert(values.end(), {largest[0], largest[1]});
   }
 
  private:
