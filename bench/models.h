@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,39 @@ joints:
   pin: {{spherical: {{between: [ground, rod/start]}}}}
 )",
                      elements, coupling);
+}
+
+/// The same beam with a frame per element.
+inline std::string divided_beam(int frames) {
+  std::string text = beam_pendulum(frames, "full");
+  return text.replace(text.find("    coupling:"), 0, "    frames: per-element\n");
+}
+
+/// Tree of beams in space with a frame per element: every branch ends in two of 0.7 its length.
+/// @param levels 2^levels − 1 frames
+inline std::string divided_tree(int levels) {
+  std::string nodes = "        n0: [0, 0, 0]\n        n1: [0, 0, 1]\n";
+  std::string beams = "        - {between: [n0, n1], section: pipe, material: steel}\n";
+  std::vector<Eigen::Vector3d> at = {{0, 0, 0}, {0, 0, 1}};
+  std::vector<int> parent = {0, 0};
+  for (std::size_t n = 1; at.size() < (std::size_t{1} << levels); ++n) {
+    const Eigen::Vector3d along = 0.7 * (at[n] - at[static_cast<std::size_t>(parent[n])]);
+    const Eigen::Vector3d side = along.norm() * along.unitOrthogonal();
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::Vector3d end = at[n] + along + 0.5 * sign * side;
+      nodes += fmt::format("        n{}: [{}, {}, {}]\n", at.size(), end.x(), end.y(), end.z());
+      beams += fmt::format("        - {{between: [n{}, n{}], section: pipe, material: steel}}\n", n,
+                           at.size());
+      at.push_back(end);
+      parent.push_back(static_cast<int>(n));
+    }
+  }
+  return "buckens: 1\ngravity: [3, 0, -9.81]\n"
+         "materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850}}\n"
+         "sections: {pipe: {circle: {diameter: 20 mm}}}\n"
+         "bodies:\n  tree:\n    frames: per-element\n    structure:\n      nodes:\n" +
+         nodes + "      beams:\n" + beams +
+         "joints: {foot: {fixed: {between: [ground, tree/n0]}}}\n";
 }
 
 /// Rigid links in space, each on a revolute joint, starting horizontally.

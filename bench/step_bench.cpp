@@ -49,6 +49,28 @@ void rigid_chain_step(benchmark::State& state) {
       static_cast<double>(iterations) / static_cast<double>(state.iterations());
 }
 
+/// A step of one body with many frames; `per frame` is to stay constant.
+void divided_step(benchmark::State& state, const std::string& text) {
+  Running run = buckens::bench::start(text, kStep);
+  long iterations = 0;
+  for (auto _ : state) iterations += run.stepper->step(run.prepared.state).newton_iterations;
+  const auto frames = static_cast<double>(run.built->model.bodies.size());
+  state.counters["frames"] = frames;
+  state.counters["newton/step"] =
+      static_cast<double>(iterations) / static_cast<double>(state.iterations());
+  state.counters["per frame"] =
+      benchmark::Counter(frames * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void divided_beam_step(benchmark::State& state) {
+  divided_step(state, buckens::bench::divided_beam(static_cast<int>(state.range(0))));
+}
+
+void divided_tree_step(benchmark::State& state) {
+  divided_step(state, buckens::bench::divided_tree(static_cast<int>(state.range(0))));
+}
+
 // 16 … 5000 elements: 102 … 30 006 DOF.
 constexpr int kElements[] = {16, 50, 166, 500, 1666, 5000};
 
@@ -61,6 +83,8 @@ BENCHMARK(beam_solve)->Apply(beam_sizes);
 BENCHMARK_CAPTURE(beam_step, none, "none")->Apply(beam_sizes);
 BENCHMARK_CAPTURE(beam_step, full, "full")->Apply(beam_sizes);
 BENCHMARK(rigid_chain_step)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(divided_beam_step)->RangeMultiplier(4)->Range(8, 2048)->Unit(benchmark::kMicrosecond);
+BENCHMARK(divided_tree_step)->DenseRange(3, 11, 2)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 
