@@ -221,6 +221,45 @@ def test_door_on_two_hinges_swings_as_the_spring_says(run):
     assert lower[:, 2] + upper[:, 2] == pytest.approx(m * G, rel=1e-9)
 
 
+def lead_lag_frequency(r):
+    """Frequency of the sine that fits the tip's deflection best."""
+    t, y = r["t"], r["tip.y"]
+
+    def misfit(w):
+        basis = numpy.column_stack([numpy.cos(w * t), numpy.sin(w * t), numpy.ones_like(t)])
+        return numpy.linalg.norm(basis @ numpy.linalg.lstsq(basis, y, rcond=None)[0] - y)
+
+    coarse = min(numpy.arange(2.0, 6.0, 0.01), key=misfit)
+    return min(numpy.arange(coarse - 0.01, coarse + 0.01, 0.0005), key=misfit)
+
+
+def test_rotating_beam_is_stiffened_by_frames(run):
+    # Linearised equations with as many frames; the second mode in the fit costs 0.07 %.
+    eight = run("rotating_beam/rotating_beam")
+    assert lead_lag_frequency(eight) == pytest.approx(4.480, rel=2e-3)
+    assert eight.summary["bodies"]["beam"]["frames"] == 8
+    # Where the sections next to the hub are, the tension is that of the whole beam, less the
+    # half of an element: rho A Omega^2 (L^2 - x^2) / 2.
+    tension = 0.5 * 1.2 * 36.0 * 100.0
+    assert numpy.mean(eight["root.force.N"][50:]) == pytest.approx(tension, rel=5e-3)
+    one = run("rotating_beam/rotating_beam", bodies__beam__frames=1)
+    assert lead_lag_frequency(one) == pytest.approx(3.282, rel=2e-3)
+    assert any("more `frames`" in text for text in one.summary["warnings"])
+
+
+def test_large_bend_reaches_the_known_tip(run):
+    r = run("large_bend/large_bend")
+    tip = r.vector("tip")
+    # Geometrically exact solution, known to 0.05; the polygon of 16 elements adds 0.01.
+    moved = tip[0] - numpy.array([70.7107, 29.2893, 0.0])
+    assert moved == pytest.approx([-23.82, -13.73, 53.61], abs=0.06)
+    # A start in equilibrium stays there.
+    assert numpy.abs(tip - tip[0]).max() < 1e-6
+    # Moment about the clamp: arm times force.
+    assert abs(r["clamp.x"][0]) == pytest.approx(600.0 * tip[0][1], rel=1e-6)
+    assert abs(r["clamp.y"][0]) == pytest.approx(600.0 * tip[0][0], rel=1e-6)
+
+
 def test_model_in_readme_runs(tmp_path):
     text = (SOURCE / "README.md").read_text()
     model = re.search(r"```yaml\n(.*?)```", text, re.DOTALL).group(1)
