@@ -73,6 +73,12 @@ def test_path_ends_where_a_sensor_says(buckens, tmp_path):
     assert w[-1] >= 0.3 > w[-2]
 
 
+def test_path_that_is_too_long_is_not_called_finished(buckens, tmp_path):
+    result = buckens("static", TRUSS, "-o", "path", "--set", "static.max-points=5")
+    assert result.code == 4 and "NOT FINISHED: 5 points" in result.out
+    assert len(columns_of(tmp_path / "path")["w [m]"]) == 5
+
+
 @pytest.mark.parametrize("setting, code, words", [
     ("static.load-factor=[1, 1]", 2, ["load-factor", "[0, 1]"]),
     ("static.load-factor=[0, .inf]", 2, ["load-factor"]),

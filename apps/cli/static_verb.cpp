@@ -27,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using base::LogLevel;
 
+constexpr char kStopped[] = "interrupted by the user";
+
 struct StaticArguments {
   std::string model, out;
   std::vector<std::string> overrides;
@@ -41,7 +43,7 @@ results::RunSummary trace(const model::BuiltModel& built, JournaledSink& sink,
                           const fs::path& directory, RunJournal& journal) {
   const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   analysis::StaticPathOptions options;
-  options.stop_reason = "interrupted by the user";
+  options.stop_reason = kStopped;
   options.on_progress = [&](const analysis::StaticProgress& progress) {
     journal.record(fmt::format("point {}: load factor {:.9g}, step {:.3g}, {} iterations",
                                progress.point, progress.load_factor, progress.step,
@@ -84,9 +86,8 @@ ExitCode run(const StaticArguments& arguments, bool json) {
     print(summary_text(summary) + fmt::format("results: {}; look at them with: buckens view {}\n",
                                               path.string(), path.string()));
   }
-  return summary.finished || summary.interrupted != "interrupted by the user"
-             ? ExitCode::ok
-             : ExitCode::interrupted;
+  if (summary.finished) return ExitCode::ok;
+  return summary.interrupted == kStopped ? ExitCode::interrupted : ExitCode::numerical;
 }
 
 constexpr char kFooter[] = R"(
@@ -102,8 +103,8 @@ as are bifurcations.
 OUT is a run directory as `buckens run` writes it. Its time is the length of the path in steps; the
 load factor is the first column of sensors.csv after it, `load-factor`.
 
-Exit codes: 0 done, 2 bad input, 3 a mechanism or no equilibrium, 4 the path cannot be followed (its
-points are kept), 5 files, 130 interrupted. Details: docs/reference/command-line.md)";
+Exit codes: 0 done, 2 bad input, 3 a mechanism or no equilibrium, 4 the end of the path was not reached
+(its points are kept), 5 files, 130 interrupted. Details: docs/reference/command-line.md)";
 
 }  // namespace
 
