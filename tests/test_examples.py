@@ -260,6 +260,26 @@ def test_large_bend_reaches_the_known_tip(run):
     assert abs(r["clamp.y"][0]) == pytest.approx(600.0 * tip[0][0], rel=1e-6)
 
 
+def test_truss_snaps_through(run):
+    # Static paths of this example and the next: tests/test_static.py.
+    reference = json.loads((SOURCE / "verification/von_mises_truss/reference.json").read_text())
+    table = reference["A"]["dyn"]["Fdot_10000"]
+    for bars in (1, 2):
+        r = run("snap_through/snap_through", parameters__n=bars, parameters__rate="10000 N/s",
+                simulation__duration=table["t"][-1], output__every=table["t"][1])
+        # Step of 10 microseconds: 3e-7 m by order 2 from 7e-8 m at 4.9 microseconds.
+        assert r["w"] == pytest.approx(table[f"n{bars}_full"], abs=4e-7)
+
+
+def test_truss_of_bending_bars_gives_way_earlier(run):
+    slow = run("snap_through_bending/snap_through_bending", parameters__n=4,
+               simulation__duration="0.5 s")
+    straight = run("snap_through/snap_through", simulation__duration="0.5 s")
+    # At 500 N the truss of straight bars, which carries 592 N, still stands.
+    assert straight["w"].max() < 0.1 and slow["w"].max() > 0.3
+    assert numpy.hypot(slow["bow.x"], slow["bow.y"]).max() > 0.01
+
+
 def test_model_in_readme_runs(tmp_path):
     text = (SOURCE / "README.md").read_text()
     model = re.search(r"```yaml\n(.*?)```", text, re.DOTALL).group(1)

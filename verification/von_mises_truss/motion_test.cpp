@@ -18,7 +18,7 @@
 namespace buckens::verification {
 namespace {
 
-constexpr std::array<int, 1> kBars = {1};
+constexpr std::array<int, 2> kBars = {1, 2};
 constexpr std::array<const char*, 2> kVariants = {"full", "none"};
 
 /// One of the tabulated runs.

@@ -51,15 +51,11 @@ struct Truss {
     std::string bodies, joints;
     for (const int side : {-1, 1}) {
       const char* name = side < 0 ? "left" : "right";
-      const std::string mid =
-          bars == 1 ? "" : fmt::format("mid: [{:.17g}, {:.17g}, 0], ", 0.5 * side * b, 0.5 * H);
-      const std::string members = bars == 1 ? "{between: [foot, apex], area: 1, material: bar}"
-                                            : "{between: [foot, mid], area: 1, material: bar}, "
-                                              "{between: [mid, apex], area: 1, material: bar}";
       bodies += fmt::format(
-          "  {}:\n    structure:\n      nodes: {{foot: [{:.17g}, 0, 0], {}apex: [0, {:.17g}, 0]}}\n"
-          "      bars: [{}]\n    frames: {}\n    coupling: {}\n",
-          name, side * b, mid, H, members, bars == 1 ? "1" : "per-element", coupling);
+          "  {}:\n    structure:\n      nodes: {{foot: [{:.17g}, 0, 0], apex: [0, {:.17g}, 0]}}\n"
+          "      bars: [{{between: [foot, apex], elements: {}, area: 1, material: bar}}]\n"
+          "    frames: per-element\n    coupling: {}\n",
+          name, side * b, H, bars, coupling);
       joints += fmt::format(
           "  {0}_foot: {{revolute: {{between: [{{ground: [{1:.17g}, 0, 0]}}, {0}/foot]}}}}\n", name,
           side * b);

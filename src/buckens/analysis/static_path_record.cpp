@@ -178,29 +178,33 @@ void StaticPathRecord::add_critical_point(const PathPoint& at) {
   summary.static_path->critical_points.push_back(std::move(out));
 }
 
-void StaticPathRecord::add_bodies() {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const body::Body& body = model_.bodies[b];
-    results::BodyEffort effort;
-    effort.name = body.name;
-    effort.dof = static_cast<int>(body.num_dofs());
-    if (body.is_flexible()) {
-      effort.factorisations = 1;
-      effort.solves = compliances_.of_body[b]->num_solves();
-      effort.measures.emplace_back("largest_rotation_rad", largest_rotation_[b]);
-    }
-    summary.bodies.push_back(std::move(effort));
-    if (largest_rotation_[b] <= kLargestNodalRotation) continue;
-    summary.trust.push_back(fmt::format(
-        "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
-        "linear elasticity bears; divide it into several bodies",
-        body.name, largest_rotation_[b], kLargestNodalRotation));
+void StaticPathRecord::add_body(const model::WholeBody& whole) {
+  results::BodyEffort effort;
+  effort.name = whole.name;
+  const auto first = static_cast<std::size_t>(whole.first);
+  std::size_t bent = first;  // the part with the largest rotation
+  for (std::size_t b = first; b < first + static_cast<std::size_t>(whole.count); ++b) {
+    effort.dof += static_cast<int>(model_.bodies[b].num_dofs());
+    if (largest_rotation_[b] > largest_rotation_[bent]) bent = b;
+    if (compliances_.of_body[b] == nullptr) continue;
+    ++effort.factorisations;
+    effort.solves += compliances_.of_body[b]->num_solves();
   }
+  if (whole.is_divided()) effort.measures.emplace_back("frames", whole.count);
+  if (effort.dof > 0) {
+    effort.measures.emplace_back("largest_rotation_rad", largest_rotation_[bent]);
+  }
+  summary.bodies.push_back(std::move(effort));
+  if (largest_rotation_[bent] <= kLargestNodalRotation) return;
+  summary.trust.push_back(fmt::format(
+      "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
+      "linear elasticity bears; divide it into several bodies or give it more `frames`",
+      model_.bodies[bent].name, largest_rotation_[bent], kLargestNodalRotation));
 }
 
 void StaticPathRecord::finish(double load_factor) {
   summary.static_path->load_factor = load_factor;
-  add_bodies();
+  for (const model::WholeBody& whole : model_.wholes) add_body(whole);
   results::NewtonEffort& newton = summary.newton_iterations;
   if (summary.steps > 0) {
     newton.per_step_mean = static_cast<double>(newton.total) / static_cast<double>(summary.steps);

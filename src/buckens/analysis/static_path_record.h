@@ -40,7 +40,7 @@ class StaticPathRecord {
   results::WorkBalance add_work(const PathPoint& at);
   void find_stop();
   void watch_stop(double value);
-  void add_bodies();
+  void add_body(const model::WholeBody& whole);
 
   const model::BuiltModel& built_;
   const model::Model& model_;
