@@ -8,8 +8,6 @@
 
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/step_advice.h"
-#include "buckens/body/free_modes.h"
-#include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/recovery.h"
 
@@ -17,11 +15,10 @@ namespace buckens::analysis {
 
 namespace {
 
-constexpr int kModes = 10;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// What mesh and mass properties say; `fe` is null for rigid bodies.
-void describe(const fem::FeModel* fe, const linalg::Matrix& Phi, BodyReport& out) {
+void describe(const fem::FeModel* fe, const body::FreeModes& modes, BodyReport& out) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(out.inertia);
   for (std::size_t k = 0; k < 3; ++k) {
     out.principal_inertia[k] = principal.eigenvalues()[static_cast<Eigen::Index>(k)];
@@ -30,7 +27,6 @@ void describe(const fem::FeModel* fe, const linalg::Matrix& Phi, BodyReport& out
   out.is_flexible = true;
   out.nodes = static_cast<int>(fe->nodes.size());
   out.elements = static_cast<int>(fem::line_elements(*fe).size());
-  const body::FreeModes modes = body::free_modes(fe->M, fe->K, Phi, kModes);
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
     out.frequencies.push_back(modes.omega[k] / kTurn);
   }
@@ -45,7 +41,8 @@ void add_body(const body::Body& body, BodyReport& out) {
   }
 }
 
-BodyReport report_body(const model::Model& model, const model::WholeBody& whole) {
+BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
+                       const body::FreeModes& modes) {
   BodyReport out;
   out.name = whole.name;
   out.frames = whole.count;
@@ -55,20 +52,13 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole)
     add_body(model.bodies[static_cast<std::size_t>(b)], out);
   }
   if (whole.is_divided()) {
-    const fem::FeModel& fe = *whole.mesh;
-    std::vector<Eigen::Vector3d> positions;
-    for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
-    out.inertia = fe.shape.J0;
-    describe(&fe, body::rigid_modes(positions, fe.dofs, fe.shape.com), out);
+    out.inertia = whole.mesh->shape.J0;
+    describe(whole.mesh.get(), modes, out);
     return out;
   }
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   out.inertia = body.J0;
-  if (body.is_flexible()) {
-    describe(&body.flexible->fe, body.flexible->sieve.Phi(), out);
-  } else {
-    describe(nullptr, {}, out);
-  }
+  describe(body.is_flexible() ? &body.flexible->fe : nullptr, modes, out);
   return out;
 }
 
@@ -80,10 +70,9 @@ ModelReport report_model(const model::BuiltModel& built) {
   if (built.description.simulation) out.step = built.description.simulation->step;
   int coordinates = 0;
   for (const model::WholeBody& whole : model.wholes) {
-    out.bodies.push_back(report_body(model, whole));
-    const ExcitedBand band =
-        whole.is_divided() ? excited_band(model, whole)
-                           : excited_band(model.bodies[static_cast<std::size_t>(whole.first)]);
+    const body::FreeModes modes = reported_modes(model, whole);
+    out.bodies.push_back(report_body(model, whole, modes));
+    const ExcitedBand band = excited_band(model, whole, modes);
     out.highest_frequency = std::max(out.highest_frequency, band.highest / kTurn);
     const std::string advice = judge_step(whole.name, band, out.step);
     if (!advice.empty()) out.warnings.push_back(advice);

@@ -6,21 +6,15 @@
 
 #include <fmt/format.h>
 
-#include "buckens/body/free_modes.h"
+#include "buckens/body/free_free_modes.h"
 #include "buckens/body/rigid_modes.h"
 
 namespace buckens::analysis {
 
 namespace {
-constexpr int kModes = 10;
 constexpr double kExcitedShare = 0.01;
 constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
 constexpr double kTurn = 2.0 * std::numbers::pi;
-
-/// Lowest free vibrations, M-orthonormal.
-body::FreeModes lowest_modes(const fem::FeModel& fe, const linalg::Matrix& Phi) {
-  return body::free_modes(fe.M, fe.K, Phi, kModes);
-}
 
 /// Adds the compliance that each mode gives to a point.
 void add_share(const body::FreeModes& modes, const linalg::Matrix& moved, linalg::Vector& share) {
@@ -39,11 +33,7 @@ ExcitedBand band_of(const body::FreeModes& modes, const linalg::Vector& share) {
   return band;
 }
 
-}  // namespace
-
-ExcitedBand excited_band(const body::Body& body) {
-  if (!body.is_flexible()) return {};
-  const body::FreeModes modes = lowest_modes(body.flexible->fe, body.flexible->sieve.Phi());
+ExcitedBand band_of_body(const body::Body& body, const body::FreeModes& modes) {
   if (modes.omega.size() == 0) return {};
   linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
   for (const body::Marker& marker : body.markers) {
@@ -54,12 +44,36 @@ ExcitedBand excited_band(const body::Body& body) {
   return band_of(modes, share);
 }
 
+}  // namespace
+
+body::FreeModes reported_modes(const model::Model& model, const model::WholeBody& whole) {
+  if (whole.is_divided()) {
+    const fem::FeModel& fe = *whole.mesh;
+    std::vector<Eigen::Vector3d> positions;
+    for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
+    return body::free_modes(fe.M, fe.K, body::rigid_modes(positions, fe.dofs, fe.shape.com),
+                            kReportedModes);
+  }
+  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
+  if (!body.is_flexible()) return {};
+  return body::free_free_modes(*body.flexible, kReportedModes);
+}
+
+ExcitedBand excited_band(const body::Body& body) {
+  if (!body.is_flexible()) return {};
+  return band_of_body(body, body::free_free_modes(*body.flexible, kReportedModes));
+}
+
 ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole) {
+  return excited_band(model, whole, reported_modes(model, whole));
+}
+
+ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole,
+                         const body::FreeModes& modes) {
+  if (!whole.is_divided()) {
+    return band_of_body(model.bodies[static_cast<std::size_t>(whole.first)], modes);
+  }
   const fem::FeModel& fe = *whole.mesh;
-  std::vector<Eigen::Vector3d> positions;
-  for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
-  const body::FreeModes modes =
-      lowest_modes(fe, body::rigid_modes(positions, fe.dofs, fe.shape.com));
   if (modes.omega.size() == 0) return {};
   linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
   const auto add = [&](const model::MarkerId& id) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/body/free_modes.h"
 #include "buckens/model/model.h"
 
 namespace buckens::analysis {
@@ -15,12 +16,22 @@ struct ExcitedBand {
   double highest = 0;
 };
 
+/// Number of free vibrations that a report gives and excited_band() judges by.
+inline constexpr int kReportedModes = 10;
+
+/// The lowest free vibrations of a body of the model file, of its undivided mesh; none if rigid.
+/// Cost: one dense eigenproblem up to 600 DOF, a factorisation of its own above.
+body::FreeModes reported_modes(const model::Model& model, const model::WholeBody& whole);
+
 /// From the ten lowest free vibrations: a mode counts as excited if it gives more than 1 % of the
 /// compliance against forces that these modes have at the interface. Zero for bodies without
-/// interface. Cost: one dense eigenproblem up to 600 DOF, a few factorisations of its own above.
+/// interface.
 ExcitedBand excited_band(const body::Body& body);
 /// The same of a divided body, with its undivided mesh and the nodes that joints and loads use.
 ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole);
+/// The same of any body where its reported_modes() are known already.
+ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole,
+                         const body::FreeModes& modes);
 
 /// What to say of a step h [s]: whether a band is followed (about twelve steps per period), damped
 /// in its upper part, or not followed at all. Empty if all is well.
