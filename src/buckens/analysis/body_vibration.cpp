@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/body_vibration.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/strain_energy_groups.h"
+#include "buckens/base/errors.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+// Displacements below this share of rotation × size are rounding.
+constexpr double kNoDisplacement = 1e-6;
+
+}  // namespace
+
+double largest_motion(const fem::FeModel& fe, const linalg::Vector& d, double size) {
+  double displacement = 0.0, rotation = 0.0;
+  for (const std::array<int, 6>& dofs : fe.dofs.node_dofs) {
+    for (std::size_t k = 0; k < 6; k += 3) {
+      double square = 0.0;
+      for (std::size_t a = k; a < k + 3; ++a) square += dofs[a] < 0 ? 0.0 : std::pow(d[dofs[a]], 2);
+      double& largest = k == 0 ? displacement : rotation;
+      largest = std::max(largest, std::sqrt(square));
+    }
+  }
+  const double turned = size * rotation;
+  return displacement > kNoDisplacement * turned ? displacement : turned;
+}
+
+VibrationReport free_body_vibrations(const model::BuiltModel& built, int body,
+                                     const body::FreeModesSettings& settings) {
+  const body::Body& b = built.model.bodies.at(static_cast<std::size_t>(body));
+  if (!b.is_flexible()) {
+    throw ModelError(fmt::format(
+        "body \"{}\" is rigid: it has no free vibrations; choose a flexible body", b.name));
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const body::FreeFreeModes modes = body::free_free_modes(*b.flexible, settings);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+
+  VibrationReport out;
+  out.subject = b.name;
+  out.bodies = {body};
+  out.dof = static_cast<int>(b.num_dofs());
+  out.rigid_modes = static_cast<int>(b.flexible->sieve.rank());
+  out.mass = b.mass;
+  out.position = model::placed_state(built.model);
+  out.work = {body::to_string(modes.method),
+              modes.shift,
+              modes.penalty,
+              modes.sweeps,
+              modes.solves,
+              modes.factorisations,
+              modes.factor_entries,
+              modes.condition,
+              took.count()};
+  const StrainEnergyGroups groups(b.flexible->fe);
+  out.energy_groups = groups.names();
+  for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
+    const linalg::Vector& shape = modes.shapes.col(k);
+    const double largest = largest_motion(b.flexible->fe, shape, b.length_scale());
+    Vibration v;
+    v.square = modes.omega[k] * modes.omega[k];
+    v.frequency = modes.omega[k] / (2.0 * std::numbers::pi);
+    v.generalised_mass = 1.0 / (largest * largest);
+    if (modes.residual.size() > k) v.residual = modes.residual[k];
+    if (modes.error.size() > k) v.error = modes.error[k];
+    v.energy_shares = groups.shares(shape);
+    v.shape.resize(1);
+    v.shape[0].d = shape / largest;
+    out.vibrations.push_back(std::move(v));
+  }
+  return out;
+}
+
+}  // namespace buckens::analysis

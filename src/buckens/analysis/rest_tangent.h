@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/constraints.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// Where the coordinates of one body lie among those that joints and loads can see.
+struct RestBody {
+  int first = 0;         ///< of its coordinates
+  int rotations = 0;     ///< frame rotations along Body::rotation_basis
+  int translations = 0;  ///< frame translations along Body::translation_basis
+  int rows = 0;          ///< interface rows y = N d
+  int momenta = 0;       ///< relative momentum l = Lᵀd of a deformed body: 0 or 3
+
+  int num_frame() const { return rotations + translations; }
+  int size() const { return num_frame() + rows + momenta; }
+};
+
+/// What joints and loads contribute to small motions about a state of rest, in the coordinates s of
+/// all bodies: frames, interface values and momenta, body by body.
+struct RestTangent {
+  std::vector<RestBody> bodies;
+  int size = 0;
+  linalg::SparseMatrix rows;       ///< G: independent joint equations over s, G s = 0
+  linalg::SparseMatrix stiffness;  ///< Γ: loads on s per s, with minus; symmetric
+  double asymmetry = 0;            ///< ‖Γ − Γᵀ‖/‖Γ‖ before it was made symmetric
+};
+
+enum class RestLoads {
+  springs,  ///< stiffness of springs and bushings alone, as if nothing were loaded
+  all       ///< derivative of all loads and joint forces: gravity and preload, too
+};
+
+/// Linearises joints and loads at rest.
+///
+/// `all`: central differences of loads and Gᵀλ with λ held, bodies without common neighbours moved
+/// together; right where the state is an equilibrium.
+/// @param state velocities are taken as zero
+RestTangent rest_tangent(const model::Model& model, const model::State& state,
+                         const std::vector<int>& rows_in_use, RestLoads loads);
+
+}  // namespace buckens::analysis
