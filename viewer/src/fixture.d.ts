@@ -11,7 +11,8 @@ declare module '*/tests/fixture.mjs' {
     | 'no-curves'
     | 'empty'
     | 'broken'
-    | 'spatial',
+    | 'spatial'
+    | 'modes',
     () => unknown
   >;
   export function base64(numbers: number[]): string;

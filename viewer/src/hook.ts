@@ -14,6 +14,10 @@ export interface ViewerState extends ViewOptions {
   drawn: number;
   /** Diagonal of the box around the whole run [m]. */
   size: number;
+  /** Number of the mode shown from 0, null in runs. */
+  mode: number | null;
+  /** Its largest displacement over the model's size, null in runs. */
+  amplitude: number | null;
   /** Time cursor of each panel shown [CSS px from the left end of its axis]. */
   cursors: { name: string; x: number }[];
   /** Pose (position, quaternion w x y z) and place of the mass centre in the view [CSS px]. */

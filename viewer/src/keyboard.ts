@@ -4,6 +4,7 @@ import { modal, nameTable } from './dialog';
 const kKeys: [string, string][] = [
   ['space', 'play, pause'],
   ['← →', 'one stored frame (with shift ten)'],
+  ['↑ ↓', 'another mode, in pages with modes'],
   ['home, end', 'begin, end'],
   ['f', 'fit: the whole run in view'],
   ['o', 'parallel or perspective projection'],

@@ -3,8 +3,10 @@ import './style/view.css';
 import './style/transport.css';
 import './style/curves.css';
 import './style/dialog.css';
+import './style/modes.css';
 import './style/narrow.css';
 import { el } from './dom';
+import { checkModes, ModeShapes } from './modes';
 import { decodeRun, PageDataError } from './run';
 import { Page } from './page';
 import type { PageData } from './page_data';
@@ -38,7 +40,7 @@ function start(app: HTMLElement): void {
       const text = 'The run stored no frame yet. Write the page again once the run is on its way.';
       app.append(refuse(run.title, text));
     } else {
-      new Page(app, run);
+      new Page(app, run, data.modes ? new ModeShapes(run, checkModes(data.modes, run)) : null);
     }
   } catch (error) {
     if (!(error instanceof PageDataError)) throw error;

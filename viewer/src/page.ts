@@ -3,6 +3,7 @@ import { curveChoice } from './curve_choice';
 import { el } from './dom';
 import { header } from './header';
 import { Keyboard } from './keyboard';
+import { ModeList } from './mode_list';
 import { Playback } from './playback';
 import { figure, prefixFor } from './quantity';
 import { Stage } from './stage';
@@ -10,10 +11,14 @@ import { StressLegend } from './stress_legend';
 import { currentTheme, onThemeChange } from './theme';
 import { Toolbar } from './toolbar';
 import { Transport } from './transport';
+import type { ModeShapes } from './modes';
 import type { Run } from './run';
 import type { ViewerState } from './hook';
 import type { Triple } from './page_data';
 import type { ViewOptions } from './view_options';
+
+/** Seconds a person watches one period of a mode. */
+const kPeriodWatch = 2;
 
 /** The page: puts the parts together and keeps them at the same time. */
 export class Page {
@@ -29,14 +34,19 @@ export class Page {
   private readonly keyboard: Keyboard;
   private stage: Stage | null = null;
   private legend: StressLegend | null = null;
+  private readonly modeList: ModeList | null = null;
+  private readonly run: Run;
   private dirty = true;
   private last = 0;
   private drawn = 0;
 
   constructor(
     app: HTMLElement,
-    private readonly run: Run,
+    stored: Run,
+    private readonly shapes: ModeShapes | null = null,
   ) {
+    const run = shapes?.run ?? stored;
+    this.run = run;
     const stressed = run.bodies.some((body) => body.stress?.some((value) => value > 0));
     this.options = {
       frames: false,
@@ -53,14 +63,18 @@ export class Page {
     this.charts = new Charts(run, theme, (t) => this.seek(t));
     this.keyboard = this.keys();
     this.toolbar = new Toolbar(run, this.options, changed);
-    const deformable = run.bodies.some((body) => body.displacement);
+    // The amplitude of a mode takes the place of the deformation scale.
+    const deformable = !shapes && run.bodies.some((body) => body.displacement);
     this.transport = new Transport(this.playback, this.options, deformable, changed);
-    this.side = el(
-      'aside',
-      { class: 'side', 'aria-label': 'Curves' },
-      curveChoice(this.charts),
-      this.charts.root,
-    );
+    if (shapes) this.modeList = new ModeList(shapes, () => this.restart());
+    this.side =
+      this.modeList?.root ??
+      el(
+        'aside',
+        { class: 'side', 'aria-label': 'Curves' },
+        curveChoice(this.charts),
+        this.charts.root,
+      );
     const middle = el('section', { class: 'middle' }, this.view, this.transport.root);
     app.append(
       header(run),
@@ -71,6 +85,7 @@ export class Page {
     this.notice();
     this.charts.layOut();
     this.watch();
+    if (shapes) this.restart();
     this.playback.playing =
       this.playback.canPlay && !matchMedia('(prefers-reduced-motion: reduce)').matches;
     requestAnimationFrame((now) => this.tick(now));
@@ -162,8 +177,16 @@ export class Page {
       toEnd: () => this.seek(playback.end),
       fit: () => this.stage?.fit(),
       project: () => this.project(),
-      other: (key) => this.toolbar.key(key),
+      other: (key) => this.otherKey(key),
     });
+  }
+
+  private otherKey(key: string): boolean {
+    if (this.modeList && (key === 'ArrowUp' || key === 'ArrowDown')) {
+      this.modeList.step(key === 'ArrowUp' ? -1 : 1);
+      return true;
+    }
+    return this.toolbar.key(key);
   }
 
   private project(): void {
@@ -200,6 +223,12 @@ export class Page {
 
   private changed(): void {
     this.dirty = true;
+  }
+
+  /** Another mode or amplitude: its period takes the place of the run. */
+  private restart(): void {
+    this.transport.restart(kPeriodWatch);
+    this.changed();
   }
 
   private tick(now: number): void {
@@ -243,6 +272,8 @@ export class Page {
       drawn: this.drawn,
       size: this.stage?.bounds.size ?? 0,
       cursors: this.charts.cursors(),
+      mode: this.shapes?.index ?? null,
+      amplitude: this.shapes?.amplitude ?? null,
       bodies: (this.stage?.motion.bodies ?? []).map((motion) => ({
         name: motion.body.name,
         pose: [...motion.pose],

@@ -28,6 +28,8 @@ export interface PageBody {
   pose: Base64;
   /** frames × nodes × 6: translations [m] and rotations [rad] in the body frame. */
   displacement: Base64 | null;
+  /** Pages with modes: frames × 6, rotation of the body frame in its axes [rad], translation [m]. */
+  motion?: Base64 | null;
   /** frames × elements: largest |stress| in the element [Pa]. */
   stress: Base64 | null;
 }
@@ -62,6 +64,15 @@ export interface PageEnergy {
   values: Base64;
 }
 
+/** Vibrations: every frame is the shape of one of them, `time` counts them from 1. */
+export interface PageMode {
+  label: string;
+  /** [Hz] */
+  frequency: number;
+  /** Generalised mass of the shape, whose largest displacement is 1 m [kg]. */
+  mass: number;
+}
+
 export interface PageData {
   format: number;
   title: string;
@@ -75,4 +86,6 @@ export interface PageData {
   sensors: PageSensor[];
   energies: PageEnergy[];
   summary: Record<string, unknown>;
+  /** Missing in pages of runs. */
+  modes?: PageMode[] | null;
 }

@@ -11,6 +11,8 @@ export interface Body {
   pose: Float32Array;
   displacement: Float32Array | null;
   stress: Float32Array | null;
+  /** Pages with modes: frames × 6, motion of the frame; null in runs. */
+  motion?: Float32Array | null;
   /** False for bars: no rotation was ever recorded, elements stay straight between their nodes. */
   hasRotations: boolean;
 }
@@ -101,6 +103,7 @@ function decodeBody(body: PageBody, frames: number, where: string): Body {
     stress: body.stress
       ? decodeFloats(body.stress, frames * elements.length, `${where}.stress`)
       : null,
+    motion: body.motion ? decodeFloats(body.motion, frames * 6, `${where}.motion`) : null,
     hasRotations: displacement !== null && anyRotation(displacement),
   };
 }

@@ -46,8 +46,8 @@ export class Transport {
     step: 'any',
     'aria-label': 'Deformation scale, number',
   });
-  private readonly format: TimeFormat;
-  private readonly usualSpeed: number;
+  private format: TimeFormat;
+  private usualSpeed: number;
 
   constructor(
     private readonly playback: Playback,
@@ -108,6 +108,16 @@ export class Transport {
       for (const control of [this.play, this.scrub, this.speed]) control.disabled = true;
     }
     this.update();
+  }
+
+  /** The run has another duration: it is watched for `seconds` at the usual speed. */
+  restart(seconds: number): void {
+    const { playback } = this;
+    const factor = playback.speed / this.usualSpeed;
+    this.format = new TimeFormat(playback.duration);
+    this.usualSpeed = Number((playback.duration / seconds).toPrecision(2));
+    playback.speed = factor * this.usualSpeed;
+    playback.setTime(playback.time);
   }
 
   toggle(): void {

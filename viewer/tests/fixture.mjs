@@ -3,6 +3,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { vibrations } from './modes_fixture.mjs';
 
 const kHere = dirname(fileURLToPath(import.meta.url));
 const kMarker = '/*BUCKENS_DATA*/null';
@@ -261,6 +262,7 @@ export const kVariants = {
   empty: () => null,
   broken: () => ({ ...sliderCrank(), time: { n: 7, f32: base64([1, 2]) } }),
   spatial,
+  modes: () => vibrations(),
 };
 
 /** The built page (BUCKENS_VIEWER_PAGE, else viewer/dist) with `data` in it, as the program writes it. */

@@ -248,6 +248,37 @@ async function syntheticOnly() {
     await opened.tab.close();
   });
 
+  await test('vibrations: a mode and its amplitude are chosen, its shape swings', async () => {
+    const opened = await open(browser, variant('modes'));
+    const modes = opened.tab.locator('[data-mode]');
+    assert.equal(await modes.count(), 3);
+    assert.match(await modes.first().innerText(), /beam 1\s+53\.2 Hz/);
+    assert.equal(await opened.tab.getByLabel('Deformation scale', { exact: true }).count(), 0);
+    await setTime(opened.tab, 0);
+    const still = await pixels(opened.tab);
+    await setTime(opened.tab, 0.25 / 53.2);
+    const bent = await pixels(opened.tab);
+    assert.ok(difference(still, bent) > 100, 'the first mode does not bend the beam');
+    await modes.nth(1).click();
+    assert.equal((await state(opened.tab)).mode, 1);
+    await setTime(opened.tab, 0);
+    const before = (await state(opened.tab)).bodies[0].pose;
+    await setTime(opened.tab, 0.25 / 1.25);
+    const after = await state(opened.tab);
+    assert.ok(after.bodies[0].pose[1] - before[1] > 0.05 * after.size, 'the frame stays');
+    await opened.tab.getByLabel('Amplitude').evaluate((input) => {
+      input.value = 0;
+      input.dispatchEvent(new Event('input'));
+    });
+    assert.equal((await state(opened.tab)).amplitude, 0);
+    assert.deepEqual((await state(opened.tab)).bodies[0].pose, before);
+    await opened.tab.keyboard.press('ArrowDown');
+    assert.match(await opened.tab.locator('[aria-pressed=true][data-mode]').innerText(), /unstable/);
+    assert.deepEqual(await overflows(opened.tab), []);
+    assert.deepEqual(opened.complaints, []);
+    await opened.tab.close();
+  });
+
   const messages = {
     'one-frame': /One stored frame only/,
     'two-frames': /^$/,

@@ -90,7 +90,7 @@ void RunDirectory::take_directory() {
   log_.clear();
   for (const fs::path& name :
        {fs::path(kResultsName), fs::path(std::string(kResultsName) + ".part"),
-        fs::path(kSensorsName)}) {
+        fs::path(kSensorsName), fs::path(kModesName)}) {
     std::error_code error;
     fs::remove(path_ / name, error);
     if (error) {

@@ -19,6 +19,7 @@ inline constexpr char kSensorsName[] = "sensors.csv";
 inline constexpr char kSummaryName[] = "summary.json";
 inline constexpr char kModelName[] = "model.yaml";
 inline constexpr char kLogName[] = "log.txt";
+inline constexpr char kModesName[] = "modes.json";  ///< of `buckens modes` only
 
 struct RunDirectoryOptions {
   std::string title;       ///< of the model

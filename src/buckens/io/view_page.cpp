@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/io/base64.h"
 #include "buckens/io/output_file.h"
+#include "buckens/io/run_directory.h"
 #include "buckens/io/run_reader.h"
 
 namespace buckens::io {
@@ -85,6 +87,21 @@ class FrameReader {
     return values(path);
   }
 
+  /// Motion of a body's frame in a vibration, null in runs.
+  Json motion(const GeometryBody& body) const {
+    const std::string path = fmt::format("bodies/{}/motion", body.name);
+    const Channel* channel = find(path);
+    if (channel == nullptr || channel->size() != kNodeSize) return nullptr;
+    return values(path);
+  }
+
+  /// Values of a scalar channel, empty where it is missing.
+  std::vector<double> scalars(const std::string& path) const {
+    const Channel* channel = find(path);
+    if (channel == nullptr || channel->size() != 1) return {};
+    return run_.read(path, frames_);
+  }
+
   /// Largest magnitude of the stresses of each element, null if not recorded.
   Json stress(const GeometryBody& body) const {
     const std::string path = fmt::format("bodies/{}/stress", body.name);
@@ -136,6 +153,7 @@ Json body_json(const GeometryBody& body, const FrameReader& reader) {
           {"markers", markers_json(body)},
           {"pose", reader.pose(body.name)},
           {"displacement", reader.displacement(body)},
+          {"motion", reader.motion(body)},
           {"stress", reader.stress(body)}};
 }
 
@@ -175,6 +193,30 @@ Json curves_json(const RunReader& run, const FrameReader& reader, std::string_vi
   return all;
 }
 
+/// Vibrations: every frame is one of them. Null for runs.
+Json modes_json(const RunReader& run, const FrameReader& reader) {
+  const std::vector<double> bodies = reader.scalars("modes/body");
+  const std::vector<double> numbers = reader.scalars("modes/number");
+  const std::vector<double> frequencies = reader.scalars("modes/frequency");
+  const std::vector<double> masses = reader.scalars("modes/generalised_mass");
+  const std::size_t count = bodies.size();
+  if (count == 0 || numbers.size() != count || frequencies.size() != count ||
+      masses.size() != count) {
+    return nullptr;
+  }
+  Json all = Json::array();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& known = run.geometry().bodies;
+    const bool is_body = bodies[k] >= 0 && bodies[k] < static_cast<double>(known.size());
+    const std::string name =
+        is_body ? known[static_cast<std::size_t>(bodies[k])].name : std::string("system");
+    all.push_back({{"label", fmt::format("{} {:.0f}", name, numbers[k])},
+                   {"frequency", frequencies[k]},
+                   {"mass", masses[k]}});
+  }
+  return all;
+}
+
 /// How many frames keep the page below the size that browsers take well.
 std::size_t frame_limit(const RunReader& run, const ViewPageOptions& options) {
   std::size_t values = 1;
@@ -199,6 +241,7 @@ Json page_json(const RunReader& run, const FrameReader& reader) {
           {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
           {"sensors", curves_json(run, reader, "sensors/", true)},
           {"energies", curves_json(run, reader, "energies/", false)},
+          {"modes", modes_json(run, reader)},
           {"summary", parse_summary(run.summary_text())}};
 }
 
@@ -242,7 +285,13 @@ ViewPageReport write_view_page(const std::filesystem::path& run_directory,
                     template_html.string(), kMarker));
   }
   const FrameReader reader(run, choose_frames(run.num_records(), frame_limit(run, options)));
-  page.replace(at, kMarker.size(), script_text(page_json(run, reader)));
+  Json content = page_json(run, reader);
+  const std::filesystem::path modes = run_directory / kModesName;
+  std::error_code ignored;
+  if (!content["modes"].is_null() && std::filesystem::exists(modes, ignored)) {
+    content["summary"] = parse_summary(read_text_file(modes));
+  }
+  page.replace(at, kMarker.size(), script_text(content));
   replace_text_file(output_html, page);
   return {run.num_records(), reader.num_frames()};
 }

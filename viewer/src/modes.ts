@@ -1,0 +1,109 @@
+import { runBounds } from './bounds';
+import { rotate } from './motion';
+import { PageDataError, type Run } from './run';
+import type { PageMode } from './page_data';
+
+/** One vibration of the page. */
+export interface Mode {
+  /** "rod 3", "system 1". */
+  label: string;
+  /** [Hz]; 0 where the position is unstable. */
+  frequency: number;
+  /** Of the shape with a largest displacement of 1 m [kg]. */
+  mass: number;
+}
+
+/** The modes of the page's data. Throws PageDataError unless there is one per frame. */
+export function checkModes(modes: PageMode[], run: Run): Mode[] {
+  if (modes.length !== run.times.length) {
+    throw new PageDataError(`modes: ${modes.length} found, ${run.times.length} expected`);
+  }
+  return modes.map(({ label, frequency, mass }) => ({
+    label: label ?? '',
+    frequency: frequency ?? 0,
+    mass: mass ?? 0,
+  }));
+}
+
+/** Pictures of one period. */
+const kFrames = 65;
+
+/** q · exp(w): a rotation vector in body axes after the quaternion w, x, y, z at `at` of q. */
+function turned(q: ArrayLike<number>, at: number, w: number[]): number[] {
+  const angle = Math.hypot(...w);
+  const c = Math.cos(angle / 2);
+  const s = angle > 0 ? Math.sin(angle / 2) / angle : 0;
+  const [x, y, z] = rotate(q, at, [s * w[0]!, s * w[1]!, s * w[2]!]);
+  const [qw, qx, qy, qz] = [q[at]!, q[at + 1]!, q[at + 2]!, q[at + 3]!];
+  // (c, v) · q with v in world axes.
+  return [
+    c * qw - x * qx - y * qy - z * qz,
+    c * qx + x * qw + y * qz - z * qy,
+    c * qy - x * qz + y * qw + z * qx,
+    c * qz + x * qy - y * qx + z * qw,
+  ];
+}
+
+/** Makes a run of one period out of the shape of a mode; the run stays the same object. */
+export class ModeShapes {
+  /** What the page plays. */
+  readonly run: Run;
+  index = 0;
+  /** Largest displacement as a share of the model's size. */
+  amplitude = 0.08;
+  /** Length to which the amplitude refers [m]. */
+  readonly size: number;
+
+  /** `shapes` holds one mode per frame. */
+  constructor(
+    private readonly shapes: Run,
+    readonly modes: Mode[],
+  ) {
+    const still = shapes.bodies.map((body) => ({ ...body, displacement: null }));
+    this.size = runBounds({ ...shapes, bodies: still }).size;
+    this.run = {
+      ...shapes,
+      times: new Float64Array(kFrames),
+      bodies: shapes.bodies.map((body) => ({
+        ...body,
+        pose: new Float32Array(7 * kFrames),
+        displacement: body.displacement && new Float32Array(6 * body.nodes.length * kFrames),
+      })),
+    };
+    this.show(0, this.amplitude);
+  }
+
+  get mode(): Mode {
+    return this.modes[this.index]!;
+  }
+
+  /** Period of the mode shown [s]. */
+  get period(): number {
+    return this.mode.frequency > 0 ? 1 / this.mode.frequency : 1;
+  }
+
+  show(index: number, amplitude: number): void {
+    this.index = Math.min(this.modes.length - 1, Math.max(0, index));
+    this.amplitude = amplitude;
+    for (let k = 0; k < kFrames; k++) {
+      this.run.times[k] = (this.period * k) / (kFrames - 1);
+      this.fill(k, amplitude * this.size * Math.sin((2 * Math.PI * k) / (kFrames - 1)));
+    }
+  }
+
+  /** Writes frame k with the shape times `factor`. */
+  private fill(k: number, factor: number): void {
+    const m = this.index;
+    this.shapes.bodies.forEach((shape, b) => {
+      const body = this.run.bodies[b]!;
+      const move = (i: number) => factor * (shape.motion?.[6 * m + i] ?? 0);
+      for (let i = 0; i < 3; i++) body.pose[7 * k + i] = shape.pose[7 * m + i]! + move(3 + i);
+      body.pose.set(turned(shape.pose, 7 * m + 3, [move(0), move(1), move(2)]), 7 * k + 3);
+      if (!shape.displacement || !body.displacement) return;
+      const row = 6 * body.nodes.length;
+      for (let i = 0; i < row; i++) {
+        body.displacement[row * k + i] = factor * shape.displacement[row * m + i]!;
+      }
+    });
+  }
+}
