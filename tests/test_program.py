@@ -8,7 +8,7 @@ import pytest
 
 from conftest import SOURCE
 
-VERBS = ["run", "check", "view", "schema", "reference", "version"]
+VERBS = ["run", "check", "modes", "view", "schema", "reference", "version"]
 
 
 def test_version_is_that_of_the_file(buckens):

@@ -90,6 +90,7 @@ int run_program(int argc, const char* const* argv) {
     add_run_verb(app, invocation);
     add_static_verb(app, invocation);
     add_check_verb(app, invocation);
+    add_modes_verb(app, invocation);
     add_view_verb(app, invocation);
     add_schema_verb(app, invocation);
     add_reference_verb(app, invocation);

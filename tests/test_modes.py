@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`buckens modes`: what it prints and writes, and the errors of its command line."""
+
+import math
+
+import h5py
+import numpy
+import pytest
+
+from conftest import SOURCE
+
+FORK = SOURCE / "examples" / "tuning_fork" / "tuning_fork.yaml"
+METHODS = ["subspace", "augmented", "penalty", "spectra", "dense"]
+
+
+def frequencies(analysis):
+    return numpy.array([mode["frequency"] for mode in analysis["modes"]])
+
+
+def test_free_modes_of_every_flexible_body(buckens, models):
+    report = buckens("modes", models / "beam.yaml", "--json").must(0).json
+    bodies = [analysis["body"] for analysis in report["analyses"]]
+    checked = buckens("check", models / "beam.yaml", "--json").must(0).json["bodies"]
+    assert bodies == [name for name, body in checked.items() if body["flexible"]]
+    for analysis in report["analyses"]:
+        assert analysis["kind"] == "free"
+        listed = checked[analysis["body"]]["frequencies"]
+        assert frequencies(analysis)[:len(listed)] == pytest.approx(listed, rel=1e-9)
+
+
+def test_all_methods_agree(buckens):
+    found = {}
+    for method in METHODS:
+        analysis = buckens("modes", FORK, "--count", 12, "--method", method, "--json").must(
+            0).json["analyses"][0]
+        assert analysis["work"]["method"] == method
+        assert analysis["rigid_modes"] == 6
+        found[method] = frequencies(analysis)
+        assert len(found[method]) == 12
+        for mode in analysis["modes"]:
+            assert mode["error"] < 1e-7
+            assert sum(mode["energy_shares"].values()) == pytest.approx(1, abs=1e-12)
+    for method in METHODS[1:]:
+        # Rounding of the assembled stiffness, eps (omega_max/omega)^2 = 1e-9 in omega^2.
+        assert found[method] == pytest.approx(found["subspace"], rel=1e-8)
+
+
+def test_a_tuning_fork_sounds_a_and_does_not_feel_the_hand(buckens):
+    free = buckens("modes", FORK, "--json").must(0).json["analyses"][0]
+    held = buckens("modes", FORK, "--system", "--json").must(0).json["analyses"][0]
+    assert held["kind"] == "system" and held["rigid_modes"] == 0
+    # The tines swing against each other: no force on the handle, hence the same free and held.
+    hum = [f for f in frequencies(free) if abs(f - 440) < 5]
+    assert len(hum) == 1
+    assert numpy.min(numpy.abs(frequencies(held) - hum[0])) < 0.01 * hum[0]
+    sums = numpy.sum([mode["effective_mass"] for mode in held["modes"]], axis=0)
+    assert (sums < held["mass"]).all() and sums[0] > 0.5 * held["mass"]
+
+
+def test_shapes_go_to_a_directory_that_can_be_viewed(buckens, tmp_path):
+    result = buckens("modes", FORK, "--count", 4, "-o", "shapes").must(0)
+    assert "buckens view shapes" in result.out and "440" in result.out
+    report = buckens("modes", FORK, "--count", 4, "--json").must(0).json
+    with h5py.File(tmp_path / "shapes" / "results.h5", "r", swmr=True) as file:
+        assert file["modes/frequency"][:] == pytest.approx(frequencies(report["analyses"][0]))
+        shape = file["bodies/fork/displacement"][:]
+        assert shape.shape[0] == 4
+        largest = numpy.linalg.norm(shape[:, :, :3], axis=2).max(axis=1)
+        assert largest == pytest.approx(numpy.ones(4), rel=1e-12)
+    assert (tmp_path / "shapes" / "modes.json").stat().st_size > 0
+    # A run may take the directory over; nothing of the modes stays.
+    buckens("run", SOURCE / "tests" / "models" / "pendulum.yaml", "-o", "shapes").must(0)
+    assert not (tmp_path / "shapes" / "modes.json").exists()
+
+
+def test_small_motions_of_a_pendulum(buckens):
+    model = SOURCE / "examples" / "pendulum" / "pendulum.yaml"
+
+    def about(place):
+        return buckens("modes", model, "--system", "--about", place, "--json").must(
+            0).json["analyses"][0]
+
+    assert about("initial")["rigid_modes"] == 1 and about("initial")["modes"] == []
+    static = about("static")
+    assert static["rigid_modes"] == 0 and len(static["modes"]) == 1
+    exact = math.sqrt(1.5 * 9.81) / (2 * math.pi)  # uniform rod of 1 m about its end
+    assert static["modes"][0]["frequency"] == pytest.approx(exact, rel=1e-8)
+
+
+@pytest.mark.parametrize("arguments, code, words", [
+    (["--body", "frok"], 2, ["--body", '"frok"', 'Did you mean "fork"?']),
+    (["--count", "0"], 2, ["--count"]),
+    (["--method", "guess"], 2, ["--method", "subspace"]),
+    (["--about", "static"], 2, ["--about", "--system"]),
+    (["--system", "--body", "fork"], 2, ["--system", "--body"]),
+    (["--tolerance", "1"], 2, ["--tolerance"]),
+])
+def test_errors_of_the_command_line(buckens, arguments, code, words):
+    buckens("modes", FORK, *arguments).must(code, *words)
+
+
+def test_rigid_bodies_have_no_free_vibrations(buckens, models):
+    buckens("modes", models / "pendulum.yaml").must(3, "all bodies are rigid", "--system")
