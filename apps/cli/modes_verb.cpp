@@ -40,19 +40,20 @@ Choice chosen(const std::string& name) {
   return static_cast<Choice>(found - names.begin());
 }
 
-/// Numbers of the bodies whose free vibrations are wanted.
+/// Indices into Model::wholes of the bodies whose free vibrations are wanted.
 std::vector<int> wanted_bodies(const model::Model& model, const ModesArguments& arguments) {
   if (!arguments.body.empty()) {
-    const int index = model.find_body(arguments.body);
-    if (index != model::kGround) return {index};
+    const int index = model.find_whole(arguments.body);
+    if (index >= 0) return {index};
     std::vector<std::string> names;
-    for (const body::Body& body : model.bodies) names.push_back(body.name);
+    for (const model::WholeBody& whole : model.wholes) names.push_back(whole.name);
     throw InputError(fmt::format("--body: the model has no body \"{}\".{}", arguments.body,
                                  base::suggestion(arguments.body, names)));
   }
   std::vector<int> out;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].is_flexible()) out.push_back(static_cast<int>(b));
+  for (std::size_t k = 0; k < model.wholes.size(); ++k) {
+    const auto first = static_cast<std::size_t>(model.wholes[k].first);
+    if (model.bodies[first].is_flexible()) out.push_back(static_cast<int>(k));
   }
   if (out.empty()) {
     throw ModelError(

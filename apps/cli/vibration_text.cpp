@@ -23,8 +23,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kGroupsShown = 3;
 constexpr double kShareShown = 0.005;
 
-bool is_system(const VibrationReport& report) { return report.subject == "system"; }
-
 /// "rod 93 %, crank 7 %": the groups with most energy first.
 std::string shares_text(const VibrationReport& report, const Vibration& v) {
   std::vector<std::size_t> order(v.energy_shares.size());
@@ -44,7 +42,7 @@ std::string shares_text(const VibrationReport& report, const Vibration& v) {
 
 std::string modes_table(const VibrationReport& report) {
   std::vector<std::vector<std::string>> rows = {{"mode", "frequency [Hz]", "mass [kg]"}};
-  const bool system = is_system(report);
+  const bool system = report.is_system();
   if (system) {
     for (const char* axis : {"x", "y", "z"}) rows[0].push_back(fmt::format("eff. {} [%]", axis));
   }
@@ -75,9 +73,9 @@ std::string modes_table(const VibrationReport& report) {
 
 std::string report_text(const VibrationReport& report) {
   const std::string where =
-      is_system(report) ? "assembled system" : fmt::format("free body \"{}\"", report.subject);
+      report.is_system() ? "assembled system" : fmt::format("free body \"{}\"", report.subject);
   const std::string rigid =
-      is_system(report)
+      report.is_system()
           ? fmt::format("{} without resistance (0 Hz)", counted(report.rigid_modes, "motion"))
           : fmt::format("{}, not listed", counted(report.rigid_modes, "rigid mode"));
   std::string out = fmt::format("{}: {}, {}\n", where, counted(report.dof, "unknown"), rigid);
@@ -105,7 +103,7 @@ Json json_of(const VibrationReport& report, const Vibration& v) {
               {"generalised_mass", v.generalised_mass},
               {"error", v.error},
               {"energy_shares", std::move(shares)}};
-  if (is_system(report)) {
+  if (report.is_system()) {
     out["effective_mass"] = v.effective_mass;
   } else {
     out["residual"] = v.residual;
@@ -117,8 +115,8 @@ Json json_of(const VibrationReport& report) {
   Json modes = Json::array();
   for (const Vibration& v : report.vibrations) modes.push_back(json_of(report, v));
   const auto& work = report.work;
-  return {{"kind", is_system(report) ? "system" : "free"},
-          {"body", is_system(report) ? Json(nullptr) : Json(report.subject)},
+  return {{"kind", report.is_system() ? "system" : "free"},
+          {"body", report.is_system() ? Json(nullptr) : Json(report.subject)},
           {"dof", report.dof},
           {"rigid_modes", report.rigid_modes},
           {"mass", report.mass},

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -34,23 +35,28 @@ double largest_motion(const fem::FeModel& fe, const linalg::Vector& d, double si
   return displacement > kNoDisplacement * turned ? displacement : turned;
 }
 
-VibrationReport free_body_vibrations(const model::BuiltModel& built, int body,
+VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
                                      const body::FreeModesSettings& settings) {
-  const body::Body& b = built.model.bodies.at(static_cast<std::size_t>(body));
+  const model::WholeBody& w = built.model.wholes.at(static_cast<std::size_t>(whole));
+  const body::Body& b = built.model.bodies[static_cast<std::size_t>(w.first)];
   if (!b.is_flexible()) {
     throw ModelError(fmt::format(
-        "body \"{}\" is rigid: it has no free vibrations; choose a flexible body", b.name));
+        "body \"{}\" is rigid: it has no free vibrations; choose a flexible body", w.name));
   }
+  std::optional<body::FlexiblePart> undivided;
+  if (w.is_divided()) undivided.emplace(w.name, *w.mesh, b.flexible->coupling);
+  const body::FlexiblePart& part = undivided ? *undivided : *b.flexible;
+  const double size = std::sqrt(0.5 * part.fe.shape.J0.trace() / w.mass);
   const auto begin = std::chrono::steady_clock::now();
-  const body::FreeFreeModes modes = body::free_free_modes(*b.flexible, settings);
+  const body::FreeFreeModes modes = body::free_free_modes(part, settings);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
 
   VibrationReport out;
-  out.subject = b.name;
-  out.bodies = {body};
-  out.dof = static_cast<int>(b.num_dofs());
-  out.rigid_modes = static_cast<int>(b.flexible->sieve.rank());
-  out.mass = b.mass;
+  out.subject = w.name;
+  out.whole = whole;
+  out.dof = static_cast<int>(part.num_dofs());
+  out.rigid_modes = static_cast<int>(part.sieve.rank());
+  out.mass = w.mass;
   out.position = model::placed_state(built.model);
   out.work = {body::to_string(modes.method),
               modes.shift,
@@ -61,11 +67,11 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int body,
               modes.factor_entries,
               modes.condition,
               took.count()};
-  const StrainEnergyGroups groups(b.flexible->fe);
+  const StrainEnergyGroups groups(part.fe);
   out.energy_groups = groups.names();
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
     const linalg::Vector& shape = modes.shapes.col(k);
-    const double largest = largest_motion(b.flexible->fe, shape, b.length_scale());
+    const double largest = largest_motion(part.fe, shape, size);
     Vibration v;
     v.square = modes.omega[k] * modes.omega[k];
     v.frequency = modes.omega[k] / (2.0 * std::numbers::pi);

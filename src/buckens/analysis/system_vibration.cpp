@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -173,7 +172,15 @@ void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, c
   v.square = 1.0 / theta - out_.work.shift;
   v.frequency = std::sqrt(std::max(0.0, v.square)) / (2.0 * std::numbers::pi);
   v.effective_mass = effective_mass(pencil, x);
-  v.energy_shares = pencil.energies(x);
+  const std::vector<double> energies = pencil.energies(x);
+  for (const model::WholeBody& whole : model_.wholes) {
+    double own = 0.0;
+    for (int b = whole.first; b < whole.first + whole.count; ++b) {
+      own += energies[static_cast<std::size_t>(b)];
+    }
+    v.energy_shares.push_back(own);
+  }
+  v.energy_shares.push_back(energies.back());
   double sum = 0.0;
   for (const double energy : v.energy_shares) sum += energy;
   for (double& energy : v.energy_shares) energy = sum != 0.0 ? energy / sum : 0.0;
@@ -205,13 +212,11 @@ VibrationReport SystemVibrations::run() {
   const auto begin = std::chrono::steady_clock::now();
   out_.subject = "system";
   out_.work.method = "subspace";
-  for (const body::Body& body : model_.bodies) {
-    out_.mass += body.mass;
-    out_.energy_groups.push_back(body.name);
+  for (const model::WholeBody& whole : model_.wholes) {
+    out_.mass += whole.mass;
+    out_.energy_groups.push_back(whole.name);
   }
   out_.energy_groups.emplace_back("joints and loads");
-  out_.bodies.resize(model_.bodies.size());
-  std::iota(out_.bodies.begin(), out_.bodies.end(), 0);
   find_position();
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model_, dynamics::motions_of(model_, out_.position),

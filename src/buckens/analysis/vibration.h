@@ -29,7 +29,8 @@ struct Vibration {
   std::vector<double> energy_shares;  ///< of the potential energy, in the order of the groups
   /// Mass that a support moving along x, y, z sees in this mode [kg]; systems only.
   std::array<double, 3> effective_mass{};
-  std::vector<BodyShape> shape;  ///< one per body of the report
+  /// Of a free body one entry, of a system one per body of the model.
+  std::vector<BodyShape> shape;
 };
 
 /// What the eigenproblem took.
@@ -47,11 +48,13 @@ struct VibrationWork {
 
 /// Vibrations of one free body or of the assembled system.
 struct VibrationReport {
-  std::string subject;      ///< name of the body; "system"
-  std::vector<int> bodies;  ///< numbers of the bodies that move
-  int dof = 0;              ///< unknowns: nodal variables and frame coordinates
-  int rigid_modes = 0;      ///< motions with ω = 0, not among the vibrations
-  double mass = 0;          ///< of all bodies [kg]
+  std::string subject;  ///< name of the body; "system"
+  int whole = -1;       ///< index of the free body into model::Model::wholes, −1: the system
+  int dof = 0;          ///< unknowns: nodal variables and frame coordinates
+  int rigid_modes = 0;  ///< motions with ω = 0, not among the vibrations
+  double mass = 0;      ///< of all bodies [kg]
+  bool is_system() const { return whole < 0; }
+
   std::vector<std::string> energy_groups;
   std::vector<Vibration> vibrations;  ///< ω² ascending
   model::State position;              ///< about which the system vibrates

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/vibration_record.h"
 
-#include <algorithm>
-
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/results/recorder.h"
 
@@ -12,6 +10,13 @@ namespace {
 
 const std::vector<std::string> kXyz = {"x", "y", "z"};
 
+/// The mesh of a whole body; null for rigid ones.
+const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
+  if (whole.is_divided()) return whole.mesh.get();
+  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
+  return body.is_flexible() ? &body.flexible->fe : nullptr;
+}
+
 results::RecordLayout layout_of(const model::Model& model) {
   results::RecordLayout layout;
   layout.add({"modes/body", "1", {}, "number of the free body, -1 for the system", {}});
@@ -20,8 +25,8 @@ results::RecordLayout layout_of(const model::Model& model) {
   layout.add({"modes/generalised_mass", "kg", {}, "of the shape as stored", {}});
   layout.add({"modes/error", "1", {}, "bound of the relative error of omega^2 + shift", {}});
   layout.add({"modes/effective_mass", "kg", {3}, "of the system along world axes", kXyz});
-  for (const body::Body& body : model.bodies) {
-    const std::string path = "bodies/" + body.name;
+  for (const model::WholeBody& whole : model.wholes) {
+    const std::string path = "bodies/" + whole.name;
     layout.add({path + "/pose",
                 "m, 1",
                 {7},
@@ -32,10 +37,11 @@ results::RecordLayout layout_of(const model::Model& model) {
                 {6},
                 "rotation of the frame in body axes, translation in world axes",
                 {"rx", "ry", "rz", "x", "y", "z"}});
-    if (!body.is_flexible()) continue;
+    const fem::FeModel* mesh = mesh_of(model, whole);
+    if (mesh == nullptr) continue;
     layout.add({path + "/displacement",
                 "m, rad",
-                {static_cast<int>(body.flexible->fe.nodes.size()), 6},
+                {static_cast<int>(mesh->nodes.size()), 6},
                 "nodal translations and rotations in body axes",
                 {"x", "y", "z", "rx", "ry", "rz"}});
   }
@@ -53,24 +59,54 @@ void append_displacement(const fem::DofMap& dofs, const linalg::Vector& d,
   }
 }
 
+/// Motion of the nodes of a divided body in the axes of the whole, whose frame rests.
+void append_parts(const model::Model& model, const model::WholeBody& whole,
+                  const VibrationReport& report, const Vibration& v, std::vector<double>& values) {
+  const Eigen::Quaterniond to_whole =
+      model::whole_motion(model, whole, report.position).X_WB.q.conjugate();
+  for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
+    const model::MeshCopy& copy = whole.nodes[n];
+    const auto b = static_cast<std::size_t>(copy.body);
+    const BodyShape& shape = v.shape[b];
+    const auto& dofs =
+        model.bodies[b].flexible->fe.dofs.node_dofs[static_cast<std::size_t>(copy.index)];
+    Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
+    for (int k = 0; k < 6; ++k) {
+      const int dof = dofs[static_cast<std::size_t>(k)];
+      if (dof >= 0) own[k] = shape.d[dof];
+    }
+    const Eigen::Vector3d w = shape.frame.head<3>();
+    const Eigen::Vector3d z = whole.mesh->nodes[n].position - model.bodies[b].com;
+    const Eigen::Quaterniond& q = report.position.bodies[b].frame.X_WB.q;
+    const Eigen::Vector3d u =
+        to_whole * Eigen::Vector3d(shape.frame.tail<3>() + q * (w.cross(z) + own.head<3>()));
+    const Eigen::Vector3d theta = to_whole * (q * Eigen::Vector3d(w + own.tail<3>()));
+    values.insert(values.end(), {u.x(), u.y(), u.z(), theta.x(), theta.y(), theta.z()});
+  }
+}
+
 std::vector<double> values_of(const model::Model& model, const VibrationReport& report,
                               std::size_t number) {
   const Vibration& v = report.vibrations[number];
-  const bool is_system = report.subject == "system";
-  std::vector<double> values = {is_system ? -1.0 : static_cast<double>(report.bodies.front()),
-                                static_cast<double>(number + 1), v.frequency, v.generalised_mass,
-                                v.error};
+  std::vector<double> values = {static_cast<double>(report.whole), static_cast<double>(number + 1),
+                                v.frequency, v.generalised_mass, v.error};
   values.insert(values.end(), v.effective_mass.begin(), v.effective_mass.end());
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    append_pose(report.position.bodies[b].frame.X_WB, values);
-    const auto found = std::find(report.bodies.begin(), report.bodies.end(), static_cast<int>(b));
-    const BodyShape still;
-    const BodyShape& shape = found == report.bodies.end()
-                                 ? still
-                                 : v.shape[static_cast<std::size_t>(found - report.bodies.begin())];
+  for (std::size_t k = 0; k < model.wholes.size(); ++k) {
+    const model::WholeBody& whole = model.wholes[k];
+    append_pose(model::whole_motion(model, whole, report.position).X_WB, values);
+    BodyShape shape;
+    if (report.is_system() && !whole.is_divided()) {
+      shape = v.shape[static_cast<std::size_t>(whole.first)];
+    } else if (report.whole == static_cast<int>(k)) {
+      shape = v.shape.front();
+    }
     values.insert(values.end(), shape.frame.data(), shape.frame.data() + 6);
-    if (model.bodies[b].is_flexible()) {
-      append_displacement(model.bodies[b].flexible->fe.dofs, shape.d, values);
+    const fem::FeModel* mesh = mesh_of(model, whole);
+    if (mesh == nullptr) continue;
+    if (report.is_system() && whole.is_divided()) {
+      append_parts(model, whole, report, v, values);
+    } else {
+      append_displacement(mesh->dofs, shape.d, values);
     }
   }
   return values;

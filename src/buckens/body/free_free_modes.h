@@ -59,7 +59,7 @@ struct FreeFreeModes : FreeModes {
 
 /// The lowest elastic vibrations of a flexible body, M-orthonormal and sieved: ΨᵀMΨ = 1, PᵀΨ = 0.
 ///
-/// Good for thousands of DOF and more: one sparse Cholesky factor as a rule, about four to eight
+/// Good for thousands of DOF and more: one sparse Cholesky factor as a rule, about seven to ten
 /// solves per mode, no mode missing from a multiple frequency. Theory:
 /// docs/theory/04-free-vibration.md.
 /// @throws ModelError if a method that works with full matrices is asked for a body too large

@@ -190,7 +190,7 @@ InversePairs Subspace::result(bool is_complete) const {
   Eigen::Index count = wanted();
   while (count > 0 && std::abs(theta_[count - 1]) <= kNothing * std::abs(theta_[0])) --count;
   out.theta = theta_.head(count);
-  out.shapes = V_ * Z_.leftCols(count);
+  out.shapes = count > 0 ? Matrix(V_ * Z_.leftCols(count)) : Matrix(M_.rows(), 0);
   out.residual = residual_.head(count).cwiseQuotient(out.theta.cwiseAbs());
   out.sweeps = sweeps_;
   out.solves = solves_;

@@ -92,6 +92,31 @@ TEST(SystemVibration, TwoBodiesFixedTogetherAreOne) {
   }
 }
 
+TEST(SystemVibration, SeveralFramesCarryTheSameVibrations) {
+  const auto model = [](int frames) {
+    Mechanism m;
+    m.beam("beam", 2.0, 8);
+    m.description.bodies.back().frames.count = frames;
+    m.joint<joints::FixedSpec>("clamp", at_marker("ground"), at_marker("beam/start"));
+    return m;
+  };
+  const VibrationReport one = vibrate(model(1), 6);
+  const VibrationReport four = vibrate(model(4), 6);
+  ASSERT_EQ(four.vibrations.size(), 6U);
+  EXPECT_EQ(four.energy_groups, one.energy_groups);
+  const auto built = model(4).build();
+  const VibrationReport free_one = free_body_vibrations(*model(1).build(), 0, {.count = 6});
+  const VibrationReport free_four = free_body_vibrations(*built, 0, {.count = 6});
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double f = one.vibrations[k].frequency;
+    EXPECT_NEAR(four.vibrations[k].frequency, f, 1e-8 * f) << k;
+    EXPECT_NEAR(four.vibrations[k].effective_mass[1], one.vibrations[k].effective_mass[1],
+                1e-7 * one.mass);
+    const double g = free_one.vibrations[k].frequency;
+    EXPECT_NEAR(free_four.vibrations[k].frequency, g, 1e-10 * g) << k;
+  }
+}
+
 TEST(SystemVibration, BeamOnTwoHingesHasSineModes) {
   Mechanism m({0, 0, 0});
   m.planar();
