@@ -293,6 +293,16 @@ def test_model_in_readme_runs(tmp_path):
     assert r.summary["trust"] == "ok"
 
 
+def test_tuning_fork_sounds_a():
+    model = (EXAMPLES / "tuning_fork/tuning_fork").with_suffix(".yaml")
+    for options in [[], ["--system"]]:
+        done = subprocess.run([str(PROGRAM), "modes", str(model), "--json", *options],
+                              capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        modes = json.loads(done.stdout)["analyses"][0]["modes"]
+        assert min(abs(mode["frequency"] - 440) for mode in modes) < 0.1
+
+
 def test_every_example_has_a_page_and_a_test():
     tested = pathlib.Path(__file__).read_text()
     for folder in sorted(path for path in EXAMPLES.iterdir() if path.is_dir()):
