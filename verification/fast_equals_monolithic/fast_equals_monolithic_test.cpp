@@ -19,6 +19,8 @@ using stepping::Method;
 using test::Start;
 
 constexpr int kSteps = 200;
+constexpr Method kMethods[] = {Method::generalized_alpha, Method::newmark, Method::hht,
+                               Method::wilson};
 
 /// Largest difference of a quantity between the two routes, and its largest magnitude.
 struct Deviation {
@@ -118,7 +120,7 @@ test::BeamConstants soft_damped_beam() {
 TEST(FastEqualsMonolithic, PlanarFlexiblePendulum) {
   const model::Model model = test::planar_beam_pendulum(test::BeamConstants{});
   const Start start = test::consistent_start(model);
-  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+  for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 1e-3));
   }
 }
@@ -130,7 +132,7 @@ TEST(FastEqualsMonolithic, SpinningDampedBeamOnSphericalJoint) {
     frame.w << 3, -1, 4;
     frame.v = frame.w.cross(frame.X_WB.p);
   });
-  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+  for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 1e-3));
   }
 }
@@ -138,7 +140,7 @@ TEST(FastEqualsMonolithic, SpinningDampedBeamOnSphericalJoint) {
 TEST(FastEqualsMonolithic, DrivenSliderCrank) {
   const model::Model model = test::slider_crank(4);
   const Start start = test::consistent_start(model);
-  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+  for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 2e-5));
   }
 }
@@ -147,7 +149,7 @@ TEST(FastEqualsMonolithic, BushingAndSpringBetweenRigidAndFlexibleBody) {
   // Forces of springs and dampers also weigh the position corrections.
   const model::Model model = test::bushed_beam(soft_damped_beam());
   const Start start = test::consistent_start(model);
-  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+  for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 1e-3));
   }
 }
@@ -160,10 +162,37 @@ TEST(FastEqualsMonolithic, NewmarkWithoutProjection) {
   expect_same(model, start, settings);
 }
 
+TEST(FastEqualsMonolithic, StepsOfChangingLength) {
+  const model::Model model = test::planar_beam_pendulum(soft_damped_beam());
+  const Start start = test::consistent_start(model);
+  for (const Method method : kMethods) {
+    SCOPED_TRACE(stepping::to_string(method));
+    stepping::StepSettings settings = tight(method, 1e-3);
+    stepping::Stepper fast(model, settings, start.rows_in_use);
+    stepping::MonolithicStepper slow(model, settings, start.rows_in_use);
+    settings.step = 5e-4;
+    stepping::Stepper fast_half(model, settings, start.rows_in_use);
+    stepping::MonolithicStepper slow_half(model, settings, start.rows_in_use);
+    model::State a = start.state;
+    model::State b = start.state;
+    Deviations deviations;
+    for (int k = 0; k < 60; ++k) {
+      const bool is_half = k % 3 > 0;
+      (is_half ? fast_half : fast).step(a);
+      (is_half ? slow_half : slow).step(b);
+      deviations.add(a, b);
+    }
+    // As above, over fewer steps.
+    EXPECT_LE(deviations.d.difference, 1e-10 * deviations.d.size);
+    EXPECT_LE(deviations.p.difference, 1e-10 * deviations.p.size);
+    EXPECT_LE(deviations.lambda.difference, 1e-9 * deviations.lambda.size);
+  }
+}
+
 TEST(FastEqualsMonolithic, RigidDoublePendulumInSpace) {
   const model::Model model = test::rigid_double_pendulum(false);
   const Start start = test::consistent_start(model);
-  for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+  for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 1e-3));
   }
 }

@@ -70,9 +70,11 @@ TEST_P(RigidDoublePendulum, FineStepsReachAMillionthRadian) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, RigidDoublePendulum,
-                         testing::Values(Method::generalized_alpha, Method::newmark),
+                         testing::Values(Method::generalized_alpha, Method::newmark, Method::hht),
                          [](const auto& method) {
-                           return method.param == Method::newmark ? "Newmark" : "GeneralizedAlpha";
+                           std::string name = stepping::to_string(method.param);
+                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+                           return name;
                          });
 
 TEST(RigidDoublePendulumMultipliers, ConvergeWithOrderTwoAtTheDefaultMethod) {

@@ -33,6 +33,7 @@ struct State {
   linalg::Vector lambda;   ///< joint multipliers [N, N m]
   double lambda_time = 0;  ///< instant to which λ belongs [s]
   double last_step = 0;    ///< length of the step that led here [s]
+  double step_before = 0;  ///< length of the step before that one [s]
   int history = 0;         ///< number of valid coupling entries: 0, 1, 2
 };
 

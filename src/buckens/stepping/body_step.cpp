@@ -56,12 +56,12 @@ dynamics::BodyMotion BodyStep::motion_at_evaluation(const Scheme& scheme,
                                                     const BodyStepOperator* op) const {
   if (scheme.weight == 1.0) return motion_at_end(scheme, op);
   dynamics::BodyMotion motion;
-  motion.frame.X_WB = moved(before.X_WB, scheme.weight * u);
+  motion.frame.X_WB = moved(before.X_WB, scheme.weight * u + frame.offset);
   const Vector6 rate = scheme.mean_rate * u + frame.mean_velocity;
   motion.frame.w = rate.head<3>();
   motion.frame.v = rate.tail<3>();
   if (op != nullptr) {
-    motion.y = y_before + scheme.weight * (y_end - y_before);
+    motion.y = y_before + scheme.weight * (y_end - y_before) + y.offset;
     motion.y_dot = scheme.mean_rate * (y_end - y_before) + y.mean_velocity;
   }
   return motion;

@@ -13,6 +13,7 @@
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/spatial/rotation.h"
+#include "buckens/stepping/change_of_step.h"
 
 namespace buckens::stepping {
 
@@ -81,10 +82,11 @@ struct MonolithicStepper::Part {
     out.bottomRightCorner<3, 3>() = scheme.mass * body.mass * Eigen::Matrix3d::Identity();
     return out;
   }
-  dynamics::BodyMotion motion(double weight, bool corrected, double rate_factor,
+  dynamics::BodyMotion motion(double weight, bool corrected, bool shifted, double rate_factor,
                               const Vector6& frame_rate, const Vector* nodal_rate) const {
     dynamics::BodyMotion out;
     Vector6 way = weight * u;
+    if (shifted) way += frame_history.offset;
     if (corrected) way += kappa;
     out.frame.X_WB.p = before->frame.X_WB.p + way.tail<3>();
     out.frame.X_WB.q = (before->frame.X_WB.q * spatial::exp_rotation(way.head<3>())).normalized();
@@ -93,6 +95,7 @@ struct MonolithicStepper::Part {
     out.frame.v = rate.tail<3>();
     if (!is_flexible()) return out;
     Vector d = before->d + weight * delta;
+    if (shifted) d += nodal_history.offset;
     if (corrected) d += eta;
     out.y = body.flexible->rows * d;
     out.y_dot = body.flexible->rows * (rate_factor * delta + *nodal_rate);
@@ -110,7 +113,7 @@ MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettin
                                      std::vector<int> rows_in_use)
     : model_(model),
       settings_(settings),
-      scheme_(settings.method, settings.step, settings.rho_inf),
+      scheme_(settings.method, settings.step, settings.method_parameter()),
       rows_in_use_(std::move(rows_in_use)) {
   const auto take = [this](Eigen::Index count) {
     const int first = size_;
@@ -134,7 +137,7 @@ MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettin
 MonolithicStepper::~MonolithicStepper() = default;
 
 bool MonolithicStepper::corrects_positions() const {
-  return scheme_.method != Method::newmark || settings_.position_projection;
+  return scheme_.weight == 1.0 || settings_.position_projection;
 }
 
 void MonolithicStepper::start(const model::State& state) {
@@ -159,7 +162,7 @@ void MonolithicStepper::start(const model::State& state) {
       part.coupling = {dynamics::undeformed_moments(part.body), {}};
     } else if (state.history >= 2) {
       part.coupling =
-          dynamics::extrapolate(s.coupling, s.coupling_before, scheme_.h / state.last_step);
+          dynamics::extrapolate(s.coupling, s.coupling_before, coupling_reach(state, scheme_));
     } else if (state.history == 1) {
       part.coupling = s.coupling;
     } else {
@@ -180,11 +183,11 @@ void MonolithicStepper::evaluate(double t) {
   const bool at_end = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Part& part = *parts_[b];
-    motions_end_[b] = part.motion(1.0, true, scheme_.end_rate, part.frame_history.velocity,
+    motions_end_[b] = part.motion(1.0, true, false, scheme_.end_rate, part.frame_history.velocity,
                                   &part.nodal_history.velocity);
     motions_evaluation_[b] =
-        part.motion(scheme_.weight, at_end, scheme_.mean_rate, part.frame_history.mean_velocity,
-                    &part.nodal_history.mean_velocity);
+        part.motion(scheme_.weight, at_end, scheme_.has_offset(), scheme_.mean_rate,
+                    part.frame_history.mean_velocity, &part.nodal_history.mean_velocity);
   }
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, end_);
@@ -206,6 +209,7 @@ void MonolithicStepper::update_coupling(Part& part) {
   if (!part.is_coupled()) return;
   Vector d = part.before->d + scheme_.weight * part.delta;
   if (scheme_.weight == 1.0) d += part.eta;
+  if (scheme_.has_offset()) d += part.nodal_history.offset;
   const Vector6 w = scheme_.mean_rate * part.u + part.frame_history.mean_velocity;
   const Vector6 w_dot = scheme_.acceleration_rate * part.u + part.frame_history.acceleration;
   part.coupling = dynamics::evaluate_coupling(
@@ -364,6 +368,7 @@ void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {
   if (!part.is_flexible()) return;
   const body::FlexiblePart& mesh = *part.body.flexible;
   Vector load = -(mesh.fe.M * part.nodal_history.acceleration) - mesh.fe.K * part.before->d;
+  if (scheme_.has_offset()) load -= mesh.fe.K * part.nodal_history.offset;
   if (mesh.is_damped()) load -= mesh.C * part.nodal_history.mean_velocity;
   load += mesh.rows.topRows(mesh.num_interface_rows).transpose() * forces_.interface[b];
   if (part.is_coupled()) {
@@ -371,7 +376,9 @@ void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {
                                      body::InertiaInvariants::centrifugal_weights(w);
   }
   r.segment(part.nodal, load.size()) -= scheme_.force * load;
-  r.segment(part.nodal_multiplier, part.P.cols()) += part.P.transpose() * part.before->d;
+  Vector at_rest = part.before->d;  // Pᵀx_e = 0, per θ
+  if (scheme_.has_offset()) at_rest = (at_rest + part.nodal_history.offset) / scheme_.weight;
+  r.segment(part.nodal_multiplier, part.P.cols()) += part.P.transpose() * at_rest;
 }
 
 Vector MonolithicStepper::residual() const {
@@ -451,6 +458,7 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
   next.lambda = lambda_;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
+  next.step_before = state.last_step;
   next.history = std::min(2, state.history + 1);
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Part& part = *parts_[b];
@@ -459,14 +467,15 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
     s.frame = motions_end_[b].frame;
     const Vector6 acceleration =
         scheme_.acceleration_rate * part.u + part.frame_history.acceleration;
-    s.w_dot = acceleration.head<3>();
-    s.v_dot = acceleration.tail<3>();
+    s.w_dot = scheme_.carried_acceleration<Vector3d>(old.w_dot, acceleration.head<3>());
+    s.v_dot = scheme_.carried_acceleration<Vector3d>(old.v_dot, acceleration.tail<3>());
     s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     if (!part.is_flexible()) continue;
     s.d = old.d + part.delta + part.eta;
     s.d_dot = scheme_.end_rate * part.delta + part.nodal_history.velocity;
-    s.d_ddot = scheme_.acceleration_rate * part.delta + part.nodal_history.acceleration;
+    s.d_ddot = scheme_.carried_acceleration<Vector>(
+        old.d_ddot, scheme_.acceleration_rate * part.delta + part.nodal_history.acceleration);
     s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
     if (part.is_coupled()) s.coupling = part.coupling;
     s.coupling_before = old.coupling;
@@ -476,7 +485,9 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
 
 StepReport MonolithicStepper::step(model::State& state) {
   StepReport report;
-  start(state);
+  model::State from = state;
+  if (must_rescale(state, scheme_)) rescale_algorithmic(from, scheme_);
+  start(from);
   predict(state.t);
   iterate(state.t, report);
   if (end_.g.size() > 0) {
@@ -485,7 +496,7 @@ StepReport MonolithicStepper::step(model::State& state) {
     report.velocity_residual = end_.g_dot.cwiseAbs().maxCoeff();
     report.worst_row = static_cast<int>(worst);
   }
-  state = next_state(state);
+  state = next_state(from);
   return report;
 }
 

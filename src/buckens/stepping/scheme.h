@@ -8,14 +8,14 @@
 namespace buckens::stepping {
 
 /// Time integration methods. The names are those of the model file.
-enum class Method { generalized_alpha, newmark };
+enum class Method { generalized_alpha, newmark, hht, wilson };
 
 std::string to_string(Method method);
 
 /// What one coordinate x with rate ẋ knows about the coming step. With Δ the unknown increment:
 ///
-///     x⁺ = x + Δ,   ẋ⁺ = s₁ Δ + velocity,   ẍ_e = s₂ Δ + acceleration,   ẋ_e = s_e Δ +
-///     mean_velocity
+///     x⁺ = x + Δ,            ẋ⁺ = s₁ Δ + velocity,   ẍ_e = s₂ Δ + acceleration,
+///     x_e = x + θ Δ + offset,   ẋ_e = s_e Δ + mean_velocity
 ///
 /// Index e marks the instant at which the equations of motion are satisfied.
 template <class V>
@@ -24,6 +24,7 @@ struct History {
   V acceleration;
   V mean_velocity;
   V predicted;  ///< Δ that the last accelerations suggest
+  V offset;     ///< zero unless Scheme::has_offset()
 };
 
 /// Coefficients of one step of length h.
@@ -31,12 +32,19 @@ struct History {
 /// `newmark` is FM (37): average acceleration (β = 1/4, γ = 1/2) with all forces taken as means
 /// over the step; equations hold at t + h/2. `generalized_alpha` is the method of Chung and Hulbert
 /// in the form of Arnold and Brüls (2007), with algorithmic accelerations; equations hold at t + h.
-/// Both lead to the constant matrix  K̂ = mass·M + damping·C + stiffness·K.
+/// `hht` is that of Hilber, Hughes and Taylor (1977), the same with α_m = 0 and α_f = −α. `wilson`
+/// takes accelerations as linear in time and satisfies the equations at t + θh.
+/// All lead to the constant matrix  K̂ = mass·M + damping·C + stiffness·K.
 class Scheme {
  public:
+  /// Smallest θ for which Wilson's method is stable for every step.
+  static constexpr double kLeastTheta = 1.366;
+
   /// @param h step [s] > 0
-  /// @param rho_inf spectral radius at infinite frequency in [0, 1], generalised-α only
-  Scheme(Method method, double h, double rho_inf);
+  /// @param parameter of the method: spectral radius at infinite frequency in [0, 1] for
+  ///        generalised-α, α in [−1/3, 0] for HHT, θ ≥ 1.366 for Wilson; unused by Newmark
+  /// @throws InputError saying what lies out of its range and why
+  Scheme(Method method, double h, double parameter);
 
   Method method;
   double h;
@@ -45,36 +53,72 @@ class Scheme {
   double end_rate;                  ///< s₁ [1/s]
   double acceleration_rate;         ///< s₂ [1/s²]
   double mean_rate;                 ///< s_e [1/s]
-  double weight;                    ///< θ: x_e = x + θ Δ; 1 or 1/2
+  double weight;                    ///< θ: x_e = x + θ Δ + offset; 1, 1/2 or Wilson's θ³
+  double instant;                   ///< equations hold at t + instant·h; 1, 1/2 or Wilson's θ
 
-  double evaluation_time(double t) const { return t + weight * h; }
+  double evaluation_time(double t) const { return t + instant * h; }
+  /// Whether x_e depends on rate and acceleration at the start beyond Δ.
+  bool has_offset() const { return method == Method::wilson; }
 
   template <class V>
   History<V> history(const V& rate, const V& acceleration, const V& algorithmic) const {
     if (method == Method::newmark) {
-      return {-rate, (-2.0 / h) * rate, 0.0 * rate, h * rate + (0.5 * h * h) * acceleration};
+      return {-rate, (-2.0 / h) * rate, 0.0 * rate, h * rate + (0.5 * h * h) * acceleration,
+              0.0 * rate};
     }
+    if (method == Method::wilson) return linear_acceleration(rate, acceleration);
     const V predicted = h * rate + (h * h * (0.5 - beta_)) * algorithmic;
     const V velocity = rate + (h * (1.0 - gamma_)) * algorithmic - end_rate * predicted;
     const V mixed = (alpha_m_ * algorithmic - alpha_f_ * acceleration) / (1.0 - alpha_f_);
     const V start = mixed - acceleration_rate * predicted;
-    return {velocity, start, velocity, predicted + (beta_ * h * h) * algorithmic};
+    return {velocity, start, velocity, predicted + (beta_ * h * h) * algorithmic, 0.0 * rate};
   }
 
-  /// Algorithmic acceleration at the end of the step from the true one there.
+  /// Acceleration to be carried on: at t + h, for Newmark the mean of the step.
+  /// @param evaluated ẍ_e
+  template <class V>
+  V carried_acceleration(const V& acceleration_before, const V& evaluated) const {
+    if (method != Method::wilson) return evaluated;
+    return acceleration_before + (evaluated - acceleration_before) / instant;
+  }
+
+  /// Algorithmic acceleration at the end of the step from the carried one there.
   template <class V>
   V algorithmic(const V& acceleration_before, const V& algorithmic_before,
                 const V& acceleration) const {
-    if (method == Method::newmark) return acceleration;
+    if (!has_algorithmic()) return acceleration;
     return ((1.0 - alpha_f_) * acceleration + alpha_f_ * acceleration_before -
             alpha_m_ * algorithmic_before) /
            (1.0 - alpha_m_);
   }
 
-  /// Offset of the algorithmic acceleration: it approximates ẍ(t + offset·h).
+  /// Whether accelerations of their own are carried beside the true ones.
+  bool has_algorithmic() const {
+    return method == Method::generalized_alpha || method == Method::hht;
+  }
+  /// Offset of the algorithmic acceleration: it approximates ẍ(t + offset·h). It has to move with h
+  /// when the step changes; see rescale_algorithmic().
   double algorithmic_offset() const { return alpha_m_ - alpha_f_; }
 
+  /// κ: one step errs by κ h³ x‴, in a vibration by this share of displacement or of velocity over
+  /// frequency, whichever is larger.
+  double error_constant() const;
+
  private:
+  template <class V>
+  History<V> linear_acceleration(const V& rate, const V& acceleration) const {
+    const double th = instant;
+    return {
+        -2.0 * rate - (0.5 * h) * acceleration,
+        (1.0 - 3.0 * th) * acceleration - (6.0 * th / h) * rate,
+        (1.0 - 3.0 * th * th) * rate + (h * th * (1.0 - 1.5 * th)) * acceleration,
+        h * rate + (0.5 * h * h) * acceleration,
+        (h * th * (1.0 - th * th)) * rate + (0.5 * h * h * th * th * (1.0 - th)) * acceleration};
+  }
+  void set_average_acceleration();
+  void set_alpha_method();
+  void set_linear_acceleration(double theta);
+
   double alpha_m_ = 0, alpha_f_ = 0, beta_ = 0.25, gamma_ = 0.5;
 };
 

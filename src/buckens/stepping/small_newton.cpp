@@ -10,6 +10,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/stepping/row_selection.h"
+#include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
 
@@ -93,7 +94,7 @@ const dynamics::Constraints& SmallNewton::at_evaluation() const {
 }
 
 bool SmallNewton::corrects_positions() const {
-  return scheme_.method != Method::newmark || settings_.position_projection;
+  return scheme_.weight == 1.0 || settings_.position_projection;
 }
 
 void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector& lambda) {
@@ -276,7 +277,9 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
     const Vector6 du = residual_frame_[b] + step.compliance * response_[b].frame_load;
     step.u += du;
     step.correction += correction_u_[b];
-    change.size = larger(change.size, size(du) + size(correction_u_[b]));
+    const double moved = size(du) + size(correction_u_[b]);
+    if (!(moved <= change.size)) restless_body_ = b;
+    change.size = larger(change.size, moved);
     change.motion = larger(change.motion, size(step.u));
     if (!(change.size < HUGE_VAL)) return change;
     if (operators_[b] == nullptr || step.y_end.size() == 0) continue;
@@ -341,16 +344,16 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
 }
 
 void SmallNewton::fail(double t, const StepReport& report, const char* what) const {
-  std::string joint = "no joint";
+  std::string where = fmt::format("body \"{}\"", model_.bodies[restless_body_].name);
   if (model_.num_constraint_rows() > 0) {
     const auto [owner, row] = model_.owner_of_row(std::max(0, report.worst_row));
-    joint = fmt::format("joint \"{}\"", owner->name);
+    where = fmt::format("joint \"{}\", |g| = {:.3g}; {} moves most", owner->name,
+                        report.position_residual, where);
   }
-  throw NumericalError(fmt::format(
-      "step at t = {:.6g} s failed after {} iterations: {} (worst at {}, |g| = {:.3g}); use a "
-      "smaller "
-      "step than {:.3g} s, or look for a lock-up or a dead centre of the mechanism there",
-      t, report.newton_iterations, what, joint, report.position_residual, scheme_.h));
+  throw StepFailure(fmt::format(
+      "step at t = {:.6g} s failed after {} iterations: {} (worst at {}); use a smaller step than "
+      "{:.3g} s, or look for a lock-up or a dead centre of the mechanism there",
+      t, report.newton_iterations, what, where, scheme_.h));
 }
 
 }  // namespace buckens::stepping

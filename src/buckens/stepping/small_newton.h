@@ -91,6 +91,7 @@ class SmallNewton {
   std::vector<dynamics::BodyResponse> correction_, response_;
   std::vector<Vector6> correction_u_;  // W⁻¹ Gᵀ E
   linalg::Vector E_, X_;
+  std::size_t restless_body_ = 0;  // whose frame moved most in the last iteration
 };
 
 }  // namespace buckens::stepping

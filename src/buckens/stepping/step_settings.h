@@ -10,11 +10,18 @@ struct StepSettings {
   Method method = Method::generalized_alpha;
   double step = 1e-3;               ///< h [s]
   double rho_inf = 0.9;             ///< numerical damping of generalised-α
+  double alpha = -0.1;              ///< numerical damping of HHT, −1/3 … 0
+  double theta = 1.4;               ///< Wilson's θ
   bool position_projection = true;  ///< Newmark: project positions after the velocity-level step
   double newton_tolerance = 1e-10;  ///< change of positions relative to the step's motion
   double outer_tolerance = 1e-6;    ///< relative change of the coupling load
   int max_newton = 40;
   int max_outer = 30;
+
+  /// The parameter that the method takes, for Scheme.
+  double method_parameter() const {
+    return method == Method::hht ? alpha : method == Method::wilson ? theta : rho_inf;
+  }
 };
 
 /// What one step took and how well it closed.

@@ -11,6 +11,8 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
+#include "buckens/stepping/change_of_step.h"
+#include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
 
@@ -76,7 +78,7 @@ void refuse_infinite(const model::Model& model, const model::State& state) {
                            s.w_dot.allFinite() && s.d.allFinite() && s.d_dot.allFinite() &&
                            s.d_ddot.allFinite();
     if (is_finite) continue;
-    throw NumericalError(fmt::format(
+    throw StepFailure(fmt::format(
         "the motion of body \"{}\" is no longer finite at t = {:.6g} s; a load, a velocity or a "
         "deformation has grown beyond any sense: check their units, or use a smaller step",
         model.bodies[b].name, state.t));
@@ -89,7 +91,7 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
                  std::vector<int> rows_in_use)
     : model_(model),
       settings_(settings),
-      scheme_(settings.method, settings.step, settings.rho_inf),
+      scheme_(settings.method, settings.step, settings.method_parameter()),
       bodies_(model.bodies.size()) {
   std::vector<const BodyStepOperator*> views;
   for (const body::Body& body : model.bodies) {
@@ -118,7 +120,7 @@ void Stepper::start_bodies(const model::State& state) {
       large.used = {dynamics::undeformed_moments(body), {}};
     } else if (state.history >= 2) {
       large.used =
-          dynamics::extrapolate(s.coupling, s.coupling_before, scheme_.h / state.last_step);
+          dynamics::extrapolate(s.coupling, s.coupling_before, coupling_reach(state, scheme_));
     } else if (state.history == 1) {
       large.used = s.coupling;
     } else {
@@ -166,9 +168,10 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
     const Vector3d w = rate.head<3>();
     const Vector3d w_dot = acceleration.head<3>();
     // The correction belongs to the evaluated position where the method ends there.
-    const Vector d_e = scheme_.weight == 1.0
-                           ? large.d_end
-                           : Vector(state.bodies[b].d + scheme_.weight * large.increment);
+    Vector d_e = scheme_.weight == 1.0
+                     ? large.d_end
+                     : Vector(state.bodies[b].d + scheme_.weight * large.increment);
+    if (scheme_.has_offset()) d_e += large.history.offset;
     const Vector d_dot = scheme_.mean_rate * large.increment + large.history.mean_velocity;
     large.evaluated =
         dynamics::evaluate_coupling(body, d_e, d_dot, large.acceleration(scheme_), w, w_dot);
@@ -204,6 +207,7 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
   next.lambda = lambda;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
+  next.step_before = state.last_step;
   next.history = std::min(2, state.history + 1);
   next.bodies.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -211,14 +215,14 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
     model::BodyState& s = next.bodies[b];
     s.frame = newton_->motions_at_end()[b].frame;
     const Vector6 acceleration = bodies_[b].frame_acceleration(scheme_);
-    s.w_dot = acceleration.head<3>();
-    s.v_dot = acceleration.tail<3>();
+    s.w_dot = scheme_.carried_acceleration<Vector3d>(old.w_dot, acceleration.head<3>());
+    s.v_dot = scheme_.carried_acceleration<Vector3d>(old.v_dot, acceleration.tail<3>());
     s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     if (!large_[b]) continue;
     s.d = large_[b]->d_end;
     s.d_dot = large_[b]->rate(scheme_);
-    s.d_ddot = large_[b]->acceleration(scheme_);
+    s.d_ddot = scheme_.carried_acceleration(old.d_ddot, large_[b]->acceleration(scheme_));
     s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
     s.coupling = large_[b]->evaluated;
     s.coupling_before = old.coupling;
@@ -256,6 +260,13 @@ void Stepper::compute_round(const model::State& state, bool is_first, Vector& la
 }
 
 StepReport Stepper::step(model::State& state) {
+  if (!must_rescale(state, scheme_)) return take_step(state, state);
+  model::State rescaled = state;
+  rescale_algorithmic(rescaled, scheme_);
+  return take_step(rescaled, state);
+}
+
+StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   Vector lambda = state.lambda;
   start_bodies(state);
@@ -268,7 +279,7 @@ StepReport Stepper::step(model::State& state) {
     if (is_rounding && change > 0.5 * before) break;
     before = change;
     if (round + 1 >= settings_.max_outer || !std::isfinite(change)) {
-      throw NumericalError(fmt::format(
+      throw StepFailure(fmt::format(
           "step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not settle "
           "(relative change {:.3g} after {} solves); the deformation is too large for linear "
           "elasticity in one frame, or the step {:.3g} s is too long",
@@ -278,8 +289,16 @@ StepReport Stepper::step(model::State& state) {
   }
   model::State next = next_state(state, lambda);
   refuse_infinite(model_, next);
-  state = std::move(next);
+  end = std::move(next);
   return report;
+}
+
+double Stepper::factor_entries() const {
+  double sum = 0;
+  for (const auto& op : operators_) {
+    if (op) sum += op->factor_entries();
+  }
+  return sum;
 }
 
 SolveCounts Stepper::counts(std::size_t body) const {

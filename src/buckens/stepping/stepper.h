@@ -37,18 +37,21 @@ class Stepper {
   Stepper(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use);
   ~Stepper();
 
-  /// Advances `state` by one step.
-  /// @throws NumericalError naming joint or body that resists; `state` is then unchanged
+  /// Advances `state` by one step. The step before may have had another length.
+  /// @throws StepFailure naming joint or body that resists; `state` is then unchanged bit for bit
   StepReport step(model::State& state);
 
   SolveCounts counts(std::size_t body) const;
   const StepSeconds& seconds() const { return seconds_; }
+  /// Numbers in the factors of all bodies: what this stepper needs of memory.
+  double factor_entries() const;
   const Scheme& scheme() const { return scheme_; }
   /// How often the joint equations in use were chosen anew.
   int num_row_selections() const { return newton_->num_selections(); }
 
  private:
   struct Large;  // n-sized vectors of one flexible body
+  StepReport take_step(const model::State& state, model::State& end);
   void start_bodies(const model::State& state);
   void free_responses(const model::State& state, bool first_round);
   void complete(const model::State& state);
