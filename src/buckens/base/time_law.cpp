@@ -20,6 +20,8 @@ class TimeLaw::Body {
   virtual double rate(double t) const = 0;
   virtual double acceleration(double t) const = 0;
   virtual bool is_constant() const = 0;
+  virtual std::vector<double> corners() const { return {}; }
+  virtual std::string text() const = 0;
 };
 
 namespace {
@@ -33,6 +35,7 @@ class Formula final : public TimeLaw::Body {
   double rate(double t) const override { return scale_ * differentiate(t, 1); }
   double acceleration(double t) const override { return scale_ * differentiate(t, 2); }
   bool is_constant() const override { return false; }
+  std::string text() const override { return '"' + expression_.text() + '"'; }
 
  private:
   double differentiate(double t, int order) const {
@@ -55,7 +58,10 @@ class Formula final : public TimeLaw::Body {
 class Table final : public TimeLaw::Body {
  public:
   Table(std::vector<double> times, std::vector<double> values, Interpolation interpolation)
-      : t_(std::move(times)), y_(std::move(values)), curvature_(t_.size(), 0.0) {
+      : t_(std::move(times)),
+        y_(std::move(values)),
+        curvature_(t_.size(), 0.0),
+        interpolation_(interpolation) {
     if (interpolation == Interpolation::spline) solve_natural_spline();
   }
 
@@ -84,12 +90,30 @@ class Table final : public TimeLaw::Body {
   bool is_constant() const override {
     return std::all_of(y_.begin(), y_.end(), [this](double y) { return y == y_.front(); });
   }
+  std::string text() const override { return "a table"; }
+
+  std::vector<double> corners() const override {
+    std::vector<double> out;
+    if (interpolation_ != Interpolation::linear) return out;
+    double slope = 0;  // the law is held outside of its range
+    double largest = 0;
+    for (std::size_t i = 0; i + 1 < t_.size(); ++i)
+      largest = std::max(largest, std::abs(slope_of(i)));
+    for (std::size_t i = 0; i < t_.size(); ++i) {
+      const double next = i + 1 < t_.size() ? slope_of(i) : 0.0;
+      if (std::abs(next - slope) > 1e-9 * largest) out.push_back(t_[i]);
+      slope = next;
+    }
+    return out;
+  }
 
  private:
   struct Interval {
     std::size_t i;   // t_[i] ≤ t < t_[i+1]
     double h, a, b;  // its length, and the weights of its ends
   };
+
+  double slope_of(std::size_t i) const { return (y_[i + 1] - y_[i]) / (t_[i + 1] - t_[i]); }
 
   Interval interval(double t) const {
     const auto above = std::upper_bound(t_.begin() + 1, t_.end() - 1, t);
@@ -115,6 +139,7 @@ class Table final : public TimeLaw::Body {
   }
 
   std::vector<double> t_, y_, curvature_;
+  Interpolation interpolation_;
 };
 
 void check_table(const std::vector<double>& times, const std::vector<double>& values) {
@@ -160,6 +185,10 @@ TimeLaw TimeLaw::table(std::vector<double> times, std::vector<double> values,
 double TimeLaw::value(double t) const { return body_ ? body_->value(t) : constant_; }
 double TimeLaw::rate(double t) const { return body_ ? body_->rate(t) : 0.0; }
 double TimeLaw::acceleration(double t) const { return body_ ? body_->acceleration(t) : 0.0; }
+std::vector<double> TimeLaw::corners() const {
+  return body_ ? body_->corners() : std::vector<double>{};
+}
+std::string TimeLaw::text() const { return body_ ? body_->text() : fmt::format("{:g}", constant_); }
 bool TimeLaw::is_constant() const { return !body_ || body_->is_constant(); }
 
 }  // namespace buckens::base

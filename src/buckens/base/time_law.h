@@ -55,6 +55,13 @@ class TimeLaw {
   /// True if the law has the same value at all times.
   bool is_constant() const;
 
+  /// Where the rate jumps because a table is linear: the times of its corners. Expressions are not
+  /// searched.
+  std::vector<double> corners() const;
+
+  /// For messages: the expression, "a table", or the number.
+  std::string text() const;
+
  private:
   explicit TimeLaw(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
 
