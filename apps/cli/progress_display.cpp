@@ -25,7 +25,10 @@ int columns_of(std::FILE* stream) {
 }
 
 double fraction(const analysis::Progress& progress) {
-  if (progress.steps <= 0) return 0;
+  // Where the number of steps is open, time measures the way.
+  if (progress.steps <= 0) {
+    return progress.duration > 0 ? std::clamp(progress.t / progress.duration, 0.0, 1.0) : 0;
+  }
   return std::clamp(static_cast<double>(progress.step) / static_cast<double>(progress.steps), 0.0,
                     1.0);
 }
@@ -39,7 +42,8 @@ Pace pace(const analysis::Progress& progress, double seconds) {
   Pace out;
   if (progress.step <= 0 || seconds <= 0) return out;
   out.steps_per_second = static_cast<double>(progress.step) / seconds;
-  out.remaining = static_cast<double>(progress.steps - progress.step) / out.steps_per_second;
+  const double done = fraction(progress);
+  if (done > 0) out.remaining = seconds * (1 - done) / done;
   return out;
 }
 
@@ -54,9 +58,10 @@ std::string clock_text(double seconds) {
 
 std::string progress_line(const analysis::Progress& progress, double seconds) {
   const Pace now = pace(progress, seconds);
-  return fmt::format("t = {:.4g} of {:.4g} s ({:.0f} %), step {} of {}, {:.4g} steps/s, ETA {}",
-                     progress.t, progress.duration, 100 * fraction(progress), progress.step,
-                     progress.steps, now.steps_per_second, clock_text(now.remaining));
+  const std::string of = progress.steps > 0 ? fmt::format(" of {}", progress.steps) : "";
+  return fmt::format("t = {:.4g} of {:.4g} s ({:.0f} %), step {}{}, {:.4g} steps/s, ETA {}",
+                     progress.t, progress.duration, 100 * fraction(progress), progress.step, of,
+                     now.steps_per_second, clock_text(now.remaining));
 }
 
 std::string progress_bar(const analysis::Progress& progress, double seconds, int columns) {

@@ -59,7 +59,9 @@ class Watch {
     const double now = journal_.seconds();
     if (!first_step_) {
       first_step_ = next_record_ = now;
-      journal_.record(fmt::format("set-up done; {} steps follow", progress.steps));
+      journal_.record(progress.steps > 0
+                          ? fmt::format("set-up done; {} steps follow", progress.steps)
+                          : "set-up done; steps of controlled length follow");
     }
     if (now >= next_record_ + kRecordInterval) {
       journal_.record(progress_line(progress, now - *first_step_));

@@ -80,7 +80,6 @@ ExitCode run(const StaticArguments& arguments, bool json) {
   JournaledSink sink(directory, journal);
   const results::RunSummary summary = trace(*built, sink, path, journal);
 
-  if (!summary.finished) journal.say(LogLevel::warning, "not finished: " + summary.interrupted);
   if (json) {
     print(io::read_text_file(path / io::kSummaryName));
   } else if (!arguments.quiet) {

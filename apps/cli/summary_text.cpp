@@ -55,6 +55,18 @@ std::string wall_text(const results::WallSeconds& wall) {
   return phases.empty() ? out : out + " (" + phases + ")";
 }
 
+/// "1.6e-05 to 0.001 s; 12 undone for their error, 0 for not settling; 1e-3 s: 90 steps, …"
+std::string steps_text(const results::StepControlEffort& control) {
+  std::string out =
+      fmt::format("{:.3g} to {:.3g} s; undone: {} for their error, {} not settled",
+                  control.smallest, control.largest, control.rejected, control.failed);
+  std::string sizes;
+  for (const results::StepSizeEffort& size : control.sizes) {
+    sizes += fmt::format("{}{} of {:.3g} s", sizes.empty() ? "" : ", ", size.steps, size.step);
+  }
+  return out + " (" + sizes + ")";
+}
+
 std::string join(const std::vector<std::string>& texts) {
   std::string out;
   for (const std::string& text : texts) out += (out.empty() ? "" : "; ") + text;
@@ -81,6 +93,10 @@ std::string summary_text(const results::RunSummary& summary) {
       {"trust", summary.trust.empty() ? "ok" : join(summary.trust)}};
   for (const auto& [name, value] : summary.measures) {
     entries.emplace_back(name, fmt::format("{:.4g}", value));
+  }
+  const results::StepControlEffort& control = summary.step_control;
+  if (control.is_controlled || control.failed > 0) {
+    entries.insert(entries.begin(), {"step sizes", steps_text(control)});
   }
   out += text_list(entries);
   for (const std::string& text : summary.redundant_constraints) out += "redundant: " + text + '\n';

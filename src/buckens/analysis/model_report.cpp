@@ -67,7 +67,7 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
 ModelReport report_model(const model::BuiltModel& built) {
   const model::Model& model = built.model;
   ModelReport out;
-  if (built.description.simulation) out.step = built.description.simulation->step;
+  if (built.description.simulation) out.step = built.description.simulation->step.value_or(0.0);
   int coordinates = 0;
   for (const model::WholeBody& whole : model.wholes) {
     const body::FreeModes modes = reported_modes(model, whole);

@@ -80,7 +80,23 @@ void RunStatistics::judge_spin(std::size_t b, results::RunSummary& summary) cons
   if (ratio > kTooFastSpin) summary.trust.push_back(text);
 }
 
-void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Stepper& stepper,
+namespace {
+
+void fill_step_control(const stepping::TimeMarch& march, results::StepControlEffort& out) {
+  out.is_controlled = march.is_controlled();
+  out.rejected = march.report().rejected;
+  out.failed = march.report().failed;
+  for (const stepping::RungUse& rung : march.rungs()) {
+    out.sizes.push_back({rung.step, rung.steps, rung.factorisations});
+    if (rung.steps == 0) continue;
+    if (out.largest == 0.0) out.largest = rung.step;
+    out.smallest = rung.step;
+  }
+}
+
+}  // namespace
+
+void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::StepLadder& ladder,
                               results::RunSummary& summary) const {
   results::BodyEffort effort;
   effort.name = whole.name;
@@ -88,7 +104,7 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
   std::size_t bent = first;  // the part with the largest rotation
   std::size_t fast = first;  // the part that spins fastest relative to its lowest frequency
   for (std::size_t b = first; b < first + static_cast<std::size_t>(whole.count); ++b) {
-    const stepping::SolveCounts counts = stepper.counts(b);
+    const stepping::SolveCounts counts = ladder.counts(b);
     effort.dof += static_cast<int>(built_.model.bodies[b].num_dofs());
     effort.factorisations += counts.factorisations;
     effort.solves += counts.solves;
@@ -110,8 +126,9 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
   }
 }
 
-void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& summary) const {
+void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& summary) const {
   summary.steps = steps_;
+  fill_step_control(march, summary.step_control);
   summary.newton_iterations.total = iterations_;
   summary.newton_iterations.max = most_iterations_;
   summary.newton_iterations.per_step_mean =
@@ -122,7 +139,8 @@ void RunStatistics::fill(const stepping::Stepper& stepper, results::RunSummary& 
   summary.measures.emplace_back(
       "steps_with_repeated_solve",
       steps_ > 0 ? static_cast<double>(repeated_solves_) / static_cast<double>(steps_) : 0.0);
-  for (const model::WholeBody& whole : built_.model.wholes) add_whole(whole, stepper, summary);
+  for (const model::WholeBody& whole : built_.model.wholes)
+    add_whole(whole, march.ladder(), summary);
   if (!is_finite_) {
     summary.trust.push_back(
         "an energy is too large to be a number; check units of masses, loads and velocities");

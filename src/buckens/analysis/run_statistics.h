@@ -7,7 +7,7 @@
 
 #include "buckens/model/model_builder.h"
 #include "buckens/results/run_summary.h"
-#include "buckens/stepping/stepper.h"
+#include "buckens/stepping/time_march.h"
 
 namespace buckens::analysis {
 
@@ -26,14 +26,14 @@ class RunStatistics {
   void add_record(const model::State& state, double balance, double scale);
 
   /// Fills counts, residuals, energy error and trust.
-  void fill(const stepping::Stepper& stepper, results::RunSummary& summary) const;
+  void fill(const stepping::TimeMarch& march, results::RunSummary& summary) const;
 
  private:
   /// Warns where |ω| is no longer small against the lowest elastic frequency.
   void judge_spin(std::size_t b, results::RunSummary& summary) const;
   double spin_ratio(std::size_t b) const;
   /// One entry per body of the model file; the parts of a divided body are summed up.
-  void add_whole(const model::WholeBody& whole, const stepping::Stepper& stepper,
+  void add_whole(const model::WholeBody& whole, const stepping::StepLadder& ladder,
                  results::RunSummary& summary) const;
 
   const model::BuiltModel& built_;

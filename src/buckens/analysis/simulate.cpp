@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/simulate.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/drive_laws.h"
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/run_statistics.h"
 #include "buckens/analysis/step_advice.h"
@@ -16,7 +18,7 @@
 #include "buckens/base/version.h"
 #include "buckens/results/recorder.h"
 #include "buckens/results/state_interpolation.h"
-#include "buckens/stepping/stepper.h"
+#include "buckens/stepping/time_march.h"
 
 namespace buckens::analysis {
 
@@ -26,24 +28,56 @@ namespace {
 constexpr double kDefaultRecords = 500;
 constexpr double kMostRecords = 1e7;
 constexpr Eigen::Index kAdvisedDofs = 600;
+// With `step: auto` the longest step is this part of the duration.
+constexpr long kStepsOfLongest = 100;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-stepping::StepSettings step_settings(const model::SimulationSpec& spec, long steps) {
+stepping::Method method_of(model::IntegrationMethod method) {
+  switch (method) {
+    case model::IntegrationMethod::newmark:
+      return stepping::Method::newmark;
+    case model::IntegrationMethod::hht:
+      return stepping::Method::hht;
+    case model::IntegrationMethod::wilson:
+      return stepping::Method::wilson;
+    case model::IntegrationMethod::generalized_alpha:
+      break;
+  }
+  return stepping::Method::generalized_alpha;
+}
+
+stepping::StepSettings step_settings(const model::SimulationSpec& spec) {
   stepping::StepSettings settings;
-  settings.method = spec.method == model::IntegrationMethod::newmark
-                        ? stepping::Method::newmark
-                        : stepping::Method::generalized_alpha;
-  settings.step = spec.duration / static_cast<double>(steps);
+  settings.method = method_of(spec.method);
   settings.rho_inf = spec.rho_inf;
+  settings.alpha = spec.alpha.value_or(settings.alpha);
+  settings.theta = spec.theta.value_or(settings.theta);
   settings.position_projection = spec.projection;
   settings.newton_tolerance = spec.newton_tolerance;
   settings.outer_tolerance = spec.outer_tolerance;
   settings.max_newton = spec.max_iterations;
   settings.max_outer = spec.max_outer_iterations;
   return settings;
+}
+
+/// How far and in which steps: the longest is adjusted once so that a whole number fits.
+stepping::MarchSettings march_settings(const model::SimulationSpec& spec) {
+  stepping::MarchSettings march;
+  march.duration = spec.duration;
+  const double longest = spec.step.value_or(0.0);
+  march.longest_steps = kStepsOfLongest;
+  if (longest > 0.0) {
+    march.longest_steps = std::max(1L, std::lround(std::ceil(spec.duration / longest - 1e-9)));
+  }
+  if (spec.has_step_control()) {
+    march.tolerance.emplace();
+    march.tolerance->relative = spec.tolerance.value_or(march.tolerance->relative);
+    march.tolerance->absolute = spec.absolute_tolerance;
+  }
+  return march;
 }
 
 /// One run from start to end.
@@ -71,7 +105,7 @@ class Simulation {
     summary_.wall_seconds.total = seconds_since(start);
     split_wall_time();
     summary_.end_time = prepared_->state.t;
-    statistics_->fill(*stepper_, summary_);
+    statistics_->fill(*march_, summary_);
     sink_.finish(summary_);
     if (failure) std::rethrow_exception(failure);
     return summary_;
@@ -79,7 +113,7 @@ class Simulation {
 
  private:
   void split_wall_time() {
-    const stepping::StepSeconds& s = stepper_->seconds();
+    const stepping::StepSeconds s = march_->ladder().seconds();
     const double rest = summary_.wall_seconds.stepping - s.large_solves - s.newton - s.completion -
                         recording_seconds_;
     summary_.wall_seconds.phases = {{"large_solves", s.large_solves},
@@ -94,11 +128,12 @@ class Simulation {
     summary_.version = kVersion;
     metric_.emplace(built_.model);
     prepared_.emplace(prepare(built_, *metric_));
-    // The step is adjusted once so that a whole number of them fits the duration.
-    steps_ = std::max(1L, std::lround(std::ceil(spec_.duration / spec_.step - 1e-9)));
-    stepper_.emplace(built_.model, step_settings(spec_, steps_), prepared_->rows_in_use);
+    const stepping::MarchSettings march = march_settings(spec_);
+    march_.emplace(built_.model, step_settings(spec_), prepared_->rows_in_use, march);
+    if (!march.tolerance) steps_ = march.longest_steps;
     every_ = built_.description.output.every.value_or(
-        std::max(spec_.duration / kDefaultRecords, stepper_->scheme().h));
+        march.tolerance ? spec_.duration / kDefaultRecords
+                        : std::max(spec_.duration / kDefaultRecords, march_->longest_step()));
     if (spec_.duration / every_ > kMostRecords) {
       throw InputError(
           built_.description.output.where,
@@ -108,9 +143,13 @@ class Simulation {
     }
     recorder_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
     work_.emplace(built_.model, prepared_->state);
+    drives_.emplace(built_.description);
     statistics_.emplace(built_);
     summary_.redundant_constraints = prepared_->redundant_text;
     summary_.warnings = prepared_->notes;
+    for (std::string& text : drives_->corners(spec_.duration)) {
+      summary_.warnings.push_back(std::move(text));
+    }
     advise_on_step();
     for (const std::string& warning : summary_.warnings) {
       base::log(base::LogLevel::warning, warning);
@@ -135,26 +174,40 @@ class Simulation {
   }
 
   void advise(const std::string& body, const ExcitedBand& band) {
-    const std::string advice = judge_step(body, band, stepper_->scheme().h);
+    if (march_->is_controlled()) return;
+    const std::string advice = judge_step(body, band, march_->longest_step());
     if (!advice.empty()) summary_.warnings.push_back(advice);
   }
 
   void take_steps() {
     model::State& state = prepared_->state;
-    const double h = stepper_->scheme().h;
+    model::State before;
     if (!report_progress(0)) return;
-    for (long step = 1; step <= steps_; ++step) {
-      model::State before = state;
-      const stepping::StepReport report = stepper_->step(state);
+    for (long step = 1; !march_->is_done(); ++step) {
+      std::swap(before, state);
+      const stepping::StepReport report = take_step(before, state);
       statistics_->add_step(report, state);
-      // Counting avoids the drift of summed steps.
-      state.t = step == steps_ ? spec_.duration : static_cast<double>(step) * h;
       work_->add(state);
-      write_records(before, step == steps_);
-      if (!report_progress(step) && step < steps_) return;
+      write_records(before, march_->is_done());
+      if (!report_progress(step) && !march_->is_done()) return;
     }
     summary_.finished = true;
     summary_.interrupted.clear();
+  }
+
+  /// @throws NumericalError; `after` is then as `before`
+  stepping::StepReport take_step(const model::State& before, model::State& after) {
+    const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
+    try {
+      const stepping::StepReport report = march_->advance(before, after);
+      drives_->check(before.t, after.t);
+      return report;
+    } catch (const NumericalError&) {
+      after = before;
+      // A law that jumps makes any step fail, and says more than the joint that gave way.
+      drives_->check(before.t, reach);
+      throw;
+    }
   }
 
   bool report_progress(long step) {
@@ -167,7 +220,7 @@ class Simulation {
   /// Records due between two states, interpolated where steps do not fall on them.
   void write_records(const model::State& before, bool is_last) {
     const model::State& after = prepared_->state;
-    const double near = 1e-6 * stepper_->scheme().h;
+    const double near = 1e-6 * (after.t - before.t);
     for (; next_record() <= after.t + near; ++records_) {
       const double t = next_record();
       if (std::abs(t - after.t) <= near) {
@@ -204,12 +257,13 @@ class Simulation {
   const model::SimulationSpec& spec_;
   std::optional<dynamics::MassMetric> metric_;
   std::optional<Prepared> prepared_;
-  std::optional<stepping::Stepper> stepper_;
+  std::optional<stepping::TimeMarch> march_;
+  std::optional<DriveLaws> drives_;
   std::optional<results::Recorder> recorder_;
   std::optional<WorkAccount> work_;
   std::optional<RunStatistics> statistics_;
   results::RunSummary summary_;
-  long steps_ = 0;
+  long steps_ = 0;  // 0 where step control leaves that open
   double every_ = 0;
   long records_ = 1;  // the state at t = 0 is written before the first step
   double last_written_ = 0;

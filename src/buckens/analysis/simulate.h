@@ -13,7 +13,7 @@ struct Progress {
   double t = 0;         ///< simulated time [s]
   double duration = 0;  ///< [s]
   long step = 0;
-  long steps = 0;  ///< in all
+  long steps = 0;  ///< in all; 0 where step control leaves that open
 };
 
 struct SimulationOptions {

@@ -31,7 +31,8 @@ class WorkAccount {
   const model::Model& model_;
   Powers before_;
   double t_ = 0;
-  linalg::Vector lambda_before_;
+  linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state
+  double lambda_time_ = 0;                       ///< instant of lambda_before_
   results::WorkBalance work_;
   double turnover_ = 0;
 };

@@ -24,6 +24,7 @@ struct FieldNote {
   bool any_dimension = false;  ///< the unit may be anything
   std::string example;         ///< YAML, for messages and the reference page
   std::string standard;  ///< what happens if left out, where the member's default says too little
+  std::string word;      ///< may stand in place of the number, which is 0 then
 };
 
 /// One line of a field list: a key of the model file, the member it fills, and the rules.
@@ -47,12 +48,14 @@ struct Field {
   Field otherwise(std::string standard) && {
     return note.standard = std::move(standard), std::move(*this);
   }
+  Field or_word(std::string word) && { return note.word = std::move(word), std::move(*this); }
 };
 
 template <class T>
 Field<T> field(std::string name, T& member, std::string doc) {
-  return {member,
-          {std::move(name), std::move(doc), {}, Range::any, false, false, false, false, {}, {}}};
+  return {
+      member,
+      {std::move(name), std::move(doc), {}, Range::any, false, false, false, false, {}, {}, {}}};
 }
 
 /// The value stands in place of the struct: a variant's alternatives become keys next to the other

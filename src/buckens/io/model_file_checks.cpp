@@ -113,15 +113,60 @@ Finding problem(const model::SensorSpec& spec, const ReadContext& context) {
   return alternative_problem(spec.kind, context);
 }
 
-Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
-  if (spec.step > spec.duration) {
-    return Problem{"step", fmt::format("the step of {:g} s is longer than the duration of {:g} s",
-                                       spec.step, spec.duration)};
+namespace {
+
+/// Parameters of a method other than the chosen one, and values it cannot work with.
+Finding method_problem(const model::SimulationSpec& spec) {
+  using model::IntegrationMethod;
+  const char* chosen = choice_names(IntegrationMethod{})[static_cast<std::size_t>(spec.method)];
+  if (spec.alpha && spec.method != IntegrationMethod::hht) {
+    return Problem{"alpha", fmt::format("alpha belongs to method: hht, and {} has no use for it; "
+                                        "leave one of them out",
+                                        chosen)};
   }
-  if (spec.duration / spec.step > kMostSteps) {
+  if (spec.theta && spec.method != IntegrationMethod::wilson) {
+    return Problem{"theta", fmt::format("theta belongs to method: wilson, and {} has no use for "
+                                        "it; leave one of them out",
+                                        chosen)};
+  }
+  if (spec.alpha && !(*spec.alpha >= -1.0 / 3.0 && *spec.alpha <= 0.0)) {
+    return Problem{"alpha", fmt::format("alpha must lie between -1/3 and 0, not {}: outside, the "
+                                        "method is unstable or loses its order; -0.1 is usual",
+                                        *spec.alpha)};
+  }
+  if (spec.theta && !(*spec.theta >= 1.366 && *spec.theta <= 10.0)) {
+    return Problem{
+        "theta",
+        fmt::format("theta must be at least 1.366 (and at most 10), not {}: below, Wilson's method "
+                    "lets vibrations grow that the step does not resolve; 1.4 is usual",
+                    *spec.theta)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
+  if (Finding found = method_problem(spec)) return found;
+  if (spec.tolerance && *spec.tolerance > 0.1) {
+    return Problem{"tolerance", fmt::format("an error of {:g} in every step leaves nothing of the "
+                                            "motion; 1e-4 is coarse, 1e-6 fine",
+                                            *spec.tolerance)};
+  }
+  if (!spec.step && !spec.tolerance) {
+    return Problem{"step",
+                   "the key \"step\" is missing; add it, for example step: 0.1 ms or step: auto"};
+  }
+  const double step = spec.step.value_or(0.0);
+  if (step == 0.0) return std::nullopt;
+  if (step > spec.duration) {
+    return Problem{"step", fmt::format("the step of {:g} s is longer than the duration of {:g} s",
+                                       step, spec.duration)};
+  }
+  if (spec.duration / step > kMostSteps) {
     return Problem{"step", fmt::format("{:.3g} steps are more than can be counted; choose a longer "
                                        "step",
-                                       spec.duration / spec.step)};
+                                       spec.duration / step)};
   }
   return std::nullopt;
 }

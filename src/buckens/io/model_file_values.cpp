@@ -160,7 +160,8 @@ std::string expectation(const FieldNote& note) {
   const std::string name =
       note.any_dimension ? "a number or quantity" : base::dimension_name(note.dimension);
   const bool is_single = !note.example.empty() && note.example[0] != '[' && note.example[0] != '"';
-  return name + " such as " + (is_single ? note.example : example_of(note.dimension));
+  const std::string word = note.word.empty() ? "" : fmt::format("{} or ", note.word);
+  return word + name + " such as " + (is_single ? note.example : example_of(note.dimension));
 }
 
 Formula read_formula(const ReadPlace& place, const FieldNote& note,
@@ -188,6 +189,7 @@ Formula read_formula(const ReadPlace& place, const FieldNote& note,
 }
 
 double read_quantity(const ReadPlace& place, const FieldNote& note, const ReadContext& context) {
+  if (!note.word.empty() && place.node.is_scalar() && place.node.text == note.word) return 0.0;
   double value = 0;
   if (const auto number =
           place.node.is_scalar() ? base::parse_number(place.node.text) : std::nullopt) {

@@ -81,7 +81,8 @@ std::string quantity_text(const base::FieldNote& note) {
   if (note.any_dimension) return "quantity";
   if (note.dimension == base::kNumber) return "number";
   return base::dimension_name(note.dimension)
-      .substr(base::dimension_name(note.dimension).find(' ') + 1);
+             .substr(base::dimension_name(note.dimension).find(' ') + 1) +
+         (note.word.empty() ? "" : fmt::format(" or `{}`", note.word));
 }
 
 std::string type_text(const Shape& shape, const base::FieldNote& note) {

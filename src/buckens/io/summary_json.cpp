@@ -63,6 +63,20 @@ Json static_path_json(const results::StaticPathSummary& path) {
   return {{"load_factor", path.load_factor}, {"critical_points", std::move(points)}};
 }
 
+Json step_control_json(const results::StepControlEffort& control) {
+  Json sizes = Json::array();
+  for (const results::StepSizeEffort& size : control.sizes) {
+    sizes.push_back(
+        {{"step", size.step}, {"steps", size.steps}, {"factorisations", size.factorisations}});
+  }
+  return {{"controlled", control.is_controlled},
+          {"rejected", control.rejected},
+          {"failed", control.failed},
+          {"smallest", control.smallest},
+          {"largest", control.largest},
+          {"sizes", std::move(sizes)}};
+}
+
 }  // namespace
 
 std::string to_string(RunStatus status) {
@@ -93,6 +107,7 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
   json["interrupted"] = summary.interrupted.empty() ? Json(nullptr) : Json(summary.interrupted);
   json["end_time"] = summary.end_time;
   json["steps"] = summary.steps;
+  json["step_control"] = step_control_json(summary.step_control);
   json["wall_seconds"] = wall_json(summary.wall_seconds);
   json["bodies"] = bodies_json(summary.bodies);
   json["setup_solves"] = summary.setup_solves;

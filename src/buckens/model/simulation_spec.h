@@ -2,30 +2,39 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "buckens/base/field.h"
 #include "buckens/base/source_location.h"
 
 namespace buckens::model {
 
-enum class IntegrationMethod { generalized_alpha, newmark };
+enum class IntegrationMethod { generalized_alpha, newmark, hht, wilson };
 
-constexpr std::array<const char*, 2> choice_names(IntegrationMethod) {
-  return {"generalized-alpha", "newmark"};
+constexpr std::array<const char*, 4> choice_names(IntegrationMethod) {
+  return {"generalized-alpha", "newmark", "hht", "wilson"};
 }
 
 /// How far and how finely to simulate.
 struct SimulationSpec {
   SourceLocation where;
   double duration = 0;  ///< [s]
-  double step = 0;      ///< [s]; adjusted once so that duration/step is an integer
+  /// [s]; adjusted once so that duration/step is an integer. With step control the longest step; 0
+  /// or none: chosen by the program
+  std::optional<double> step;
   IntegrationMethod method = IntegrationMethod::generalized_alpha;
   double rho_inf = 0.9;
+  std::optional<double> alpha;      ///< HHT, −1/3 … 0; −0.1 unless given
+  std::optional<double> theta;      ///< Wilson, at least 1.366; 1.4 unless given
+  std::optional<double> tolerance;  ///< of step control; 1e-5 unless given
+  double absolute_tolerance = 1e-9;
   bool projection = true;
   double newton_tolerance = 1e-10;
   double outer_tolerance = 1e-6;
   int max_iterations = 40;
   int max_outer_iterations = 30;
+
+  bool has_step_control() const { return tolerance.has_value() || step.value_or(0.0) == 0.0; }
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -35,17 +44,37 @@ struct SimulationSpec {
               .positive()
               .like("0.1 s"));
     visit(base::field("step", step,
-                      "time step; adjusted once so that a whole number fits the duration")
+                      "time step; adjusted once so that a whole number fits the duration. `auto`: "
+                      "the program chooses steps that keep `tolerance`. A time together with "
+                      "`tolerance`: the longest step")
               .in(base::kTime)
-              .required()
               .positive()
-              .like("0.1 ms"));
+              .or_word("auto")
+              .like("0.1 ms")
+              .otherwise("required without `tolerance`"));
     visit(base::field("method", method, "time integration"));
     visit(base::field("rho-inf", rho_inf,
                       "numerical damping of generalized-alpha: 1 none, 0 strongest")
               .within(base::Range::fraction));
+    visit(base::field("alpha", alpha, "numerical damping of hht: 0 none, -1/3 strongest")
+              .like("-0.1")
+              .otherwise("-0.1"));
+    visit(base::field("theta", theta, "collocation of wilson, at least 1.366")
+              .like("1.4")
+              .otherwise("1.4"));
+    visit(base::field("tolerance", tolerance,
+                      "switches step control on: error that one step may add, as a share of the "
+                      "mechanism's size for the position of a body, in rad for its rotation, as a "
+                      "share of the largest deformation so far for its deformation")
+              .positive()
+              .like("1e-5")
+              .otherwise("1e-5 with `step: auto`, else steps are not controlled"));
+    visit(base::field("absolute-tolerance", absolute_tolerance,
+                      "error of deformation that is always admitted, as a share of the "
+                      "mechanism's size")
+              .positive());
     visit(base::field("projection", projection,
-                      "newmark: project positions onto the joints each step")
+                      "newmark, wilson: project positions onto the joints each step")
               .on_off());
     visit(base::field("newton-tolerance", newton_tolerance,
                       "relative change at which the iteration of "

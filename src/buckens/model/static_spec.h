@@ -50,8 +50,7 @@ struct StaticSpec {
     visit(base::field("load-factor", load_factor,
                       "first and last factor of all applied forces and torques; gravity, springs "
                       "and drives are not multiplied")
-              .like("[0.1, 2]")
-              .otherwise("[0, 1]"));
+              .like("[0, 1]"));
     visit(base::field("method", method,
                       "`arc-length` follows the path through limit points, `load` raises the "
                       "factor step by step"));

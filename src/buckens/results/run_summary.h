@@ -18,6 +18,23 @@ struct BodyEffort {
   std::vector<std::pair<std::string, double>> measures;
 };
 
+/// What the steps of one length came to.
+struct StepSizeEffort {
+  double step = 0;          ///< [s]
+  long steps = 0;           ///< accepted ones
+  long factorisations = 0;  ///< of all bodies together
+};
+
+/// How the length of the steps was found.
+struct StepControlEffort {
+  bool is_controlled = false;         ///< by an error estimate
+  long rejected = 0;                  ///< undone because their error was too large
+  long failed = 0;                    ///< undone because they did not settle
+  double smallest = 0;                ///< accepted [s]
+  double largest = 0;                 ///< accepted [s]
+  std::vector<StepSizeEffort> sizes;  ///< from the longest to the shortest
+};
+
 /// Wall time [s].
 struct WallSeconds {
   double total = 0;
@@ -61,6 +78,7 @@ struct RunSummary {
   std::string interrupted;  ///< why not, in words; empty if finished
   double end_time = 0;      ///< simulated time reached [s]
   long steps = 0;
+  StepControlEffort step_control;
   WallSeconds wall_seconds;
   std::vector<BodyEffort> bodies;
   long setup_solves = 0;  ///< large solves before the first step

@@ -118,7 +118,7 @@ TEST(ModelFile, InitialSimulationOutput) {
   EXPECT_EQ(m.initial.start, model::StartKind::static_equilibrium);
   EXPECT_TRUE(m.initial.preload);
   ASSERT_TRUE(m.simulation);
-  EXPECT_DOUBLE_EQ(m.simulation->step, 1e-4);
+  EXPECT_DOUBLE_EQ(m.simulation->step.value(), 1e-4);
   EXPECT_EQ(m.simulation->method, model::IntegrationMethod::newmark);
   EXPECT_FALSE(m.simulation->projection);
   EXPECT_DOUBLE_EQ(m.simulation->outer_tolerance, 1e-6);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/local_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::stepping {
+
+using Eigen::Vector3d;
+using linalg::Vector;
+
+namespace {
+
+// The first trial, over the longest step, shows roughly how far a body will deform. A tenth of it
+// is taken, so that a wild guess does not make later steps careless.
+constexpr double kTrusted = 0.1;
+
+/// Length that makes each nodal variable a displacement: rotations count by the body's size.
+Vector lengths_of(const body::Body& body) {
+  Vector out = Vector::Ones(body.num_dofs());
+  for (const auto& dofs : body.flexible->fe.dofs.node_dofs) {
+    for (std::size_t k = 3; k < 6; ++k) {
+      if (dofs[k] >= 0 && dofs[k] < out.size()) out[dofs[k]] = body.length_scale();
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* to_string(ErrorEstimate::Quantity quantity) {
+  switch (quantity) {
+    case ErrorEstimate::Quantity::rotation:
+      return "rotation";
+    case ErrorEstimate::Quantity::deformation:
+      return "deformation";
+    case ErrorEstimate::Quantity::position:
+      break;
+  }
+  return "position";
+}
+
+LocalError::LocalError(const model::Model& model, const ErrorTolerance& tolerance)
+    : model_(model),
+      tolerance_(tolerance),
+      scale_(model.bodies.size()),
+      largest_(model.bodies.size(), 0.0),
+      expected_(model.bodies.size(), 0.0) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].is_flexible()) scale_[b] = lengths_of(model.bodies[b]);
+  }
+}
+
+LocalError::Point LocalError::point_of(const model::State& state) const {
+  Point out;
+  out.t = state.t;
+  for (const model::BodyState& s : state.bodies) {
+    out.poses.push_back(s.frame.X_WB);
+    out.d.push_back(s.d);
+  }
+  return out;
+}
+
+double LocalError::size_of(std::size_t b, const Vector& d) const {
+  return d.size() == 0 ? 0.0 : d.cwiseProduct(scale_[b]).cwiseAbs().maxCoeff();
+}
+
+void LocalError::start(const model::State& state) {
+  past_.clear();
+  past_.push_front(point_of(state));
+  start_ = {};
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const model::BodyState& s = state.bodies[b];
+    start_.v.push_back(s.frame.v);
+    start_.w.push_back(s.frame.w);
+    start_.v_dot.push_back(s.v_dot);
+    start_.w_dot.push_back(s.w_dot);
+    start_.d_dot.push_back(s.d_dot);
+    largest_[b] = size_of(b, s.d);
+  }
+}
+
+LocalError::Difference LocalError::third_difference(double t) const {
+  const auto product = [](double a, double b, double c) { return 1.0 / (a * b * c); };
+  const double a = past_[0].t;
+  const double h = t - a;
+  if (past_.size() == 1) {
+    // f[a, a, a, t]
+    const double cube = product(h, h, h);
+    return {{cube, -cube}, -cube * h, -0.5 * cube * h * h};
+  }
+  const double b = past_[1].t;
+  if (past_.size() == 2) {
+    // f[b, b, a, t], b where the motion began
+    const double to_t = product(t - b, t - b, t - a);
+    const double to_a = product(a - b, a - b, a - t);
+    return {{to_t, to_a, -to_t - to_a}, 1.0 / ((a - b) * (t - b)), 0.0};
+  }
+  const double c = past_[2].t;
+  return {{product(t - a, t - b, t - c), product(a - t, a - b, a - c), product(b - t, b - a, b - c),
+           product(c - t, c - a, c - b)},
+          0.0,
+          0.0};
+}
+
+double LocalError::deformation_error(std::size_t b, const model::BodyState& end,
+                                     const Difference& f) const {
+  // The first step leaves out d̈: where a load sets in, that of a stiff vibration says nothing.
+  Vector sum = f.position[0] * end.d;
+  for (std::size_t k = 0; k < past_.size(); ++k) sum += f.position[k + 1] * past_[k].d[b];
+  if (f.rate != 0.0) sum += f.rate * start_.d_dot[b];
+  return size_of(b, sum);
+}
+
+ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme) {
+  const Difference f = third_difference(end.t);
+  const double h = end.t - past_[0].t;
+  // x‴ is six times the third divided difference.
+  const double factor = 6.0 * scheme.error_constant() * h * h * h;
+  ErrorEstimate out;
+  const auto count = [&](double error, double admitted, std::size_t b,
+                         ErrorEstimate::Quantity quantity) {
+    const double ratio = factor * error / admitted;
+    if (ratio > out.ratio || std::isnan(ratio)) out = {ratio, b, quantity};
+  };
+  for (std::size_t b = 0; b < end.bodies.size(); ++b) {
+    const model::BodyState& s = end.bodies[b];
+    const auto turned = [&](const spatial::Pose& X) {
+      return spatial::log_rotation(past_[0].poses[b].q.conjugate() * X.q);
+    };
+    Vector3d way = f.position[0] * s.frame.X_WB.p;
+    Vector3d angle = f.position[0] * turned(s.frame.X_WB);
+    for (std::size_t k = 0; k < past_.size(); ++k) {
+      way += f.position[k + 1] * past_[k].poses[b].p;
+      if (k > 0) angle += f.position[k + 1] * turned(past_[k].poses[b]);
+    }
+    if (f.rate != 0.0) {
+      way += f.rate * start_.v[b] + f.acceleration * start_.v_dot[b];
+      angle += f.rate * start_.w[b] + f.acceleration * start_.w_dot[b];
+    }
+    count(way.norm(), tolerance_.relative * model_.length, b, ErrorEstimate::Quantity::position);
+    count(angle.norm(), tolerance_.relative, b, ErrorEstimate::Quantity::rotation);
+    if (s.d.size() == 0) continue;
+    const double size = size_of(b, s.d);
+    if (is_first_trial_) expected_[b] = kTrusted * size;
+    const double seen = std::max({largest_[b], expected_[b], size});
+    count(deformation_error(b, s, f),
+          tolerance_.relative * seen + tolerance_.absolute * model_.length, b,
+          ErrorEstimate::Quantity::deformation);
+  }
+  is_first_trial_ = false;
+  return out;
+}
+
+void LocalError::accept(const model::State& end) {
+  if (past_.size() == 3) past_.pop_back();
+  past_.push_front(point_of(end));
+  for (std::size_t b = 0; b < end.bodies.size(); ++b) {
+    largest_[b] = std::max(largest_[b], size_of(b, end.bodies[b].d));
+  }
+}
+
+}  // namespace buckens::stepping

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+#include "buckens/stepping/scheme.h"
+
+namespace buckens::stepping {
+
+/// How large the error of one step may be. Both are shares, without unit.
+struct ErrorTolerance {
+  double relative = 1e-5;  ///< of the mechanism's size, of 1 rad, of a body's largest deformation
+  double absolute = 1e-9;  ///< of the mechanism's size, admitted for deformations in addition
+};
+
+/// Error of one step relative to what is admitted.
+struct ErrorEstimate {
+  enum class Quantity { position, rotation, deformation };
+  double ratio = 0;  ///< 1: just admitted
+  std::size_t body = 0;
+  Quantity quantity = Quantity::position;
+};
+
+/// Name of the quantity for messages.
+const char* to_string(ErrorEstimate::Quantity quantity);
+
+/// Estimates the error of a step from the method's own error term κ h³ x‴ (Scheme::error_constant).
+///
+/// x‴ is the third divided difference of positions over four instants; where the motion begins, its
+/// rates stand in for missing instants. Accelerations are not used: those of stiff vibrations are
+/// (ωh)² times larger than the motion, and would ask for steps that resolve every one of them.
+class LocalError {
+ public:
+  LocalError(const model::Model& model, const ErrorTolerance& tolerance);
+
+  /// Forgets the past: the motion begins here.
+  void start(const model::State& state);
+  /// Error of the step from the last accepted state to `end`.
+  ErrorEstimate estimate(const model::State& end, const Scheme& scheme);
+  /// Takes `end` as the next point of the motion.
+  void accept(const model::State& end);
+
+ private:
+  /// Positions at one instant.
+  struct Point {
+    double t = 0;
+    std::vector<spatial::Pose> poses;
+    std::vector<linalg::Vector> d;
+  };
+  /// Rates at the instant where the motion began.
+  struct Start {
+    std::vector<Eigen::Vector3d> v, w, v_dot, w_dot;
+    std::vector<linalg::Vector> d_dot;
+  };
+  /// Factors of positions (first the candidate, then the past from young to old) and start rates.
+  struct Difference {
+    std::vector<double> position;
+    double rate = 0, acceleration = 0;
+  };
+  Difference third_difference(double t) const;
+  Point point_of(const model::State& state) const;
+  double size_of(std::size_t b, const linalg::Vector& d) const;
+  double deformation_error(std::size_t b, const model::BodyState& end, const Difference& f) const;
+
+  const model::Model& model_;
+  ErrorTolerance tolerance_;
+  std::vector<linalg::Vector> scale_;  ///< per body and nodal variable: makes it a length
+  std::deque<Point> past_;             ///< last point first, at most three
+  Start start_;
+  std::vector<double> largest_;   ///< deformation so far, per body [m]
+  std::vector<double> expected_;  ///< from the first trial of all, per body [m]
+  bool is_first_trial_ = true;
+};
+
+}  // namespace buckens::stepping

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/step_ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace buckens::stepping {
+
+namespace {
+
+void add(SolveCounts& sum, const SolveCounts& counts) {
+  sum.factorisations += counts.factorisations;
+  sum.solves += counts.solves;
+  sum.setup_solves += counts.setup_solves;
+}
+
+void add(StepSeconds& sum, const StepSeconds& seconds) {
+  sum.large_solves += seconds.large_solves;
+  sum.newton += seconds.newton;
+  sum.completion += seconds.completion;
+}
+
+}  // namespace
+
+StepLadder::StepLadder(const model::Model& model, const StepSettings& settings,
+                       std::vector<int> rows_in_use)
+    : model_(model),
+      settings_(settings),
+      rows_in_use_(std::move(rows_in_use)),
+      retired_counts_(model.bodies.size()) {
+  rung(0);
+}
+
+double StepLadder::step(int k) const { return std::ldexp(settings_.step, -k); }
+
+Stepper& StepLadder::rung(int k) {
+  ++uses_;
+  for (Rung& known : rungs_) {
+    if (known.k != k) continue;
+    known.last_used = uses_;
+    return *known.stepper;
+  }
+  // All factors have about the same size: that of the first says how much room the next needs.
+  if (!rungs_.empty()) make_room(rungs_.front().stepper->factor_entries());
+  StepSettings settings = settings_;
+  settings.step = step(k);
+  rungs_.push_back({k, uses_, std::make_unique<Stepper>(model_, settings, rows_in_use_)});
+  built_.resize(std::max(built_.size(), static_cast<std::size_t>(k) + 1), 0);
+  ++built_[static_cast<std::size_t>(k)];
+  return *rungs_.back().stepper;
+}
+
+void StepLadder::make_room(double entries) {
+  while (rungs_.size() >= 2) {
+    double sum = entries;
+    for (const Rung& rung : rungs_) sum += rung.stepper->factor_entries();
+    if (rungs_.size() < kMostKept && sum <= kMostEntries) return;
+    const auto oldest =
+        std::min_element(rungs_.begin(), rungs_.end(),
+                         [](const Rung& a, const Rung& b) { return a.last_used < b.last_used; });
+    retire(*oldest->stepper);
+    rungs_.erase(oldest);
+  }
+}
+
+void StepLadder::retire(const Stepper& stepper) {
+  for (std::size_t b = 0; b < retired_counts_.size(); ++b) {
+    add(retired_counts_[b], stepper.counts(b));
+  }
+  add(retired_seconds_, stepper.seconds());
+}
+
+SolveCounts StepLadder::counts(std::size_t body) const {
+  SolveCounts out = retired_counts_[body];
+  for (const Rung& rung : rungs_) add(out, rung.stepper->counts(body));
+  return out;
+}
+
+StepSeconds StepLadder::seconds() const {
+  StepSeconds out = retired_seconds_;
+  for (const Rung& rung : rungs_) add(out, rung.stepper->seconds());
+  return out;
+}
+
+long StepLadder::factorisations(int k) const {
+  const auto index = static_cast<std::size_t>(k);
+  if (index >= built_.size()) return 0;
+  const auto flexible = std::count_if(model_.bodies.begin(), model_.bodies.end(),
+                                      [](const body::Body& body) { return body.is_flexible(); });
+  return built_[index] * flexible;
+}
+
+}  // namespace buckens::stepping

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/stepping/stepper.h"
+
+namespace buckens::stepping {
+
+/// Steppers for steps h, h/2, h/4, …: factorised when first needed, and kept.
+///
+/// Memory is bounded: when a new one comes and more than kMostKept would stay, or their factors
+/// would hold more than kMostEntries numbers together, those not used for longest go. The last two
+/// stay in any case.
+class StepLadder {
+ public:
+  static constexpr std::size_t kMostKept = 8;
+  static constexpr double kMostEntries = 1.25e8;  ///< 1 GB
+
+  /// Factorises for the longest step. @param settings `step` is the longest
+  StepLadder(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use);
+
+  /// Stepper for steps h·2⁻ᵏ. The reference holds until the next call.
+  Stepper& rung(int k);
+  /// h·2⁻ᵏ [s]
+  double step(int k) const;
+
+  /// Of all rungs together, those given up included.
+  SolveCounts counts(std::size_t body) const;
+  StepSeconds seconds() const;
+  /// Factorisations made for one rung, all bodies together.
+  long factorisations(int k) const;
+
+ private:
+  struct Rung {
+    int k;
+    long last_used;
+    std::unique_ptr<Stepper> stepper;
+  };
+  void make_room(double entries);
+  void retire(const Stepper& stepper);
+
+  const model::Model& model_;
+  StepSettings settings_;
+  std::vector<int> rows_in_use_;
+  std::vector<Rung> rungs_;
+  std::vector<long> built_;  ///< how often, per k
+  long uses_ = 0;
+  std::vector<SolveCounts> retired_counts_;  ///< per body
+  StepSeconds retired_seconds_;
+};
+
+}  // namespace buckens::stepping

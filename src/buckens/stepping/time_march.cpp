@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/time_march.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/stepping/step_failure.h"
+
+namespace buckens::stepping {
+
+namespace {
+
+constexpr long kTicks = 1L << TimeMarch::kShortestRung;  // per longest step
+
+// The error of a step falls with h³. A new length aims at this share of what is admitted; a step
+// twice as long is taken when its error is expected to be below it.
+constexpr double kAim = 0.8;
+constexpr double kPerHalving = 8.0;
+constexpr int kMostAtOnce = 5;
+
+StepSettings with_longest_step(StepSettings settings, const MarchSettings& march) {
+  settings.step = march.duration / static_cast<double>(march.longest_steps);
+  return settings;
+}
+
+}  // namespace
+
+TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
+                     const MarchSettings& march)
+    : march_(march),
+      ladder_(model, with_longest_step(settings, march), std::move(rows_in_use)),
+      model_(model),
+      end_(march.longest_steps * kTicks),
+      accepted_(kShortestRung + 1, 0) {
+  if (march.tolerance) error_.emplace(model, *march.tolerance);
+}
+
+bool TimeMarch::fits(int k) const { return ticks_ % (kTicks >> k) == 0; }
+
+double TimeMarch::time() const {
+  // Counting avoids the drift of summed steps.
+  return is_done() ? march_.duration
+                   : static_cast<double>(ticks_) / static_cast<double>(kTicks) * ladder_.step(0);
+}
+
+StepReport TimeMarch::advance(const model::State& before, model::State& after) {
+  if (error_ && !has_begun_) error_->start(before);
+  has_begun_ = true;
+  first_failure_.clear();
+  for (;;) {
+    Stepper& stepper = ladder_.rung(k_);
+    after = before;
+    StepReport report;
+    try {
+      report = stepper.step(after);
+    } catch (const StepFailure& failure) {
+      ++report_.failed;
+      if (first_failure_.empty()) {
+        first_failure_ = failure.what();
+        first_failed_ = k_;
+      }
+      shorten(1);
+      continue;
+    }
+    if (!is_admitted(after, stepper.scheme())) continue;
+    ticks_ += kTicks >> k_;
+    after.t = time();
+    if (error_) error_->accept(after);
+    ++report_.accepted;
+    ++accepted_[static_cast<std::size_t>(k_)];
+    choose_next();
+    return report;
+  }
+}
+
+bool TimeMarch::is_admitted(const model::State& after, const Scheme& scheme) {
+  if (!error_) return true;
+  estimate_ = error_->estimate(after, scheme);
+  if (estimate_.ratio <= 1.0) return true;
+  ++report_.rejected;
+  const double wanted = std::log2(estimate_.ratio / kAim) / std::log2(kPerHalving);
+  shorten(wanted < kMostAtOnce ? std::max(1, static_cast<int>(std::ceil(wanted))) : kMostAtOnce);
+  return false;
+}
+
+void TimeMarch::shorten(int halvings) {
+  if (k_ >= shortest()) {
+    give_up(first_failure_);
+  }
+  k_ = std::min(k_ + halvings, shortest());
+}
+
+void TimeMarch::choose_next() {
+  if (!error_) {
+    while (k_ > 0 && fits(k_ - 1)) --k_;
+    return;
+  }
+  if (k_ > 0 && fits(k_ - 1) && kPerHalving * estimate_.ratio < kAim) --k_;
+}
+
+void TimeMarch::give_up(const std::string& why) const {
+  if (!why.empty()) {
+    throw NumericalError(fmt::format("{}; steps shortened {} times, down to {:.3g} s, failed too",
+                                     why, k_ - first_failed_, ladder_.step(k_)));
+  }
+  throw NumericalError(fmt::format(
+      "step at t = {:.6g} s failed: the error in the {} of body \"{}\" is {:.3g} times what the "
+      "tolerance admits, even with a step of {:.3g} s; look for a law that jumps, or raise "
+      "`tolerance` or `absolute-tolerance`",
+      time(), to_string(estimate_.quantity), model_.bodies[estimate_.body].name, estimate_.ratio,
+      ladder_.step(k_)));
+}
+
+std::vector<RungUse> TimeMarch::rungs() const {
+  std::vector<RungUse> out;
+  for (int k = 0; k <= kShortestRung; ++k) {
+    const RungUse use{ladder_.step(k), accepted_[static_cast<std::size_t>(k)],
+                      ladder_.factorisations(k)};
+    if (use.steps > 0 || use.factorisations > 0) out.push_back(use);
+  }
+  return out;
+}
+
+}  // namespace buckens::stepping

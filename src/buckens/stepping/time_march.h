@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/stepping/local_error.h"
+#include "buckens/stepping/step_ladder.h"
+
+namespace buckens::stepping {
+
+/// How far to go and how long steps may be.
+struct MarchSettings {
+  double duration = 0;                      ///< [s]
+  long longest_steps = 1;                   ///< how many of the longest steps make the duration
+  std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
+};
+
+/// Steps of one length that were accepted.
+struct RungUse {
+  double step = 0;  ///< [s]
+  long steps = 0;
+  long factorisations = 0;  ///< all bodies together
+};
+
+/// What was tried in vain.
+struct MarchReport {
+  long accepted = 0;
+  long rejected = 0;  ///< error above the tolerance
+  long failed = 0;    ///< not settled
+};
+
+/// Goes from 0 to the end of a run by steps h·2⁻ᵏ.
+///
+/// With a tolerance k follows the estimated error of each step; without one k is 0. A step that
+/// does not settle is tried again with half its length, at most kMostHalvings times; afterwards the
+/// march returns to the given step as soon as that fits the grid again. Steps of length h·2⁻ᵏ begin
+/// at multiples of it, so times are exact and the end is met.
+class TimeMarch {
+ public:
+  static constexpr int kMostHalvings = 8;   ///< without tolerance
+  static constexpr int kShortestRung = 20;  ///< with one: h/2²⁰
+
+  /// @param settings `step` is replaced by duration / longest_steps
+  TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
+            const MarchSettings& march);
+
+  /// One accepted step from `before` to `after`, preceded by as many rejected ones as it takes.
+  /// `before` is not touched: what is rejected leaves no trace.
+  /// @throws NumericalError naming the joint or body that resists, or whose error stays too large
+  StepReport advance(const model::State& before, model::State& after);
+
+  bool is_controlled() const { return error_.has_value(); }
+  bool is_done() const { return ticks_ >= end_; }
+  double longest_step() const { return ladder_.step(0); }
+  /// Length of the step that advance() will try next [s].
+  double next_step() const { return ladder_.step(k_); }
+  const StepLadder& ladder() const { return ladder_; }
+  const MarchReport& report() const { return report_; }
+  /// Rungs in use, from the longest step to the shortest.
+  std::vector<RungUse> rungs() const;
+
+ private:
+  int shortest() const { return error_ ? kShortestRung : kMostHalvings; }
+  bool fits(int k) const;
+  double time() const;
+  bool is_admitted(const model::State& after, const Scheme& scheme);
+  void shorten(int halvings);
+  void choose_next();
+  [[noreturn]] void give_up(const std::string& why) const;
+
+  MarchSettings march_;
+  StepLadder ladder_;
+  const model::Model& model_;
+  std::optional<LocalError> error_;
+  ErrorEstimate estimate_;
+  bool has_begun_ = false;
+  int k_ = 0;
+  long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step there is
+  MarchReport report_;
+  std::vector<long> accepted_;  ///< per k
+  std::string first_failure_;   ///< of the step being tried
+  int first_failed_ = 0;        ///< its k
+};
+
+}  // namespace buckens::stepping

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Integration methods and step control, from the model file to the summary."""
+
+import csv
+import json
+
+import pytest
+
+PENDULUM = """buckens: 1
+gravity: [0, -9.81, 0]
+planar: xy
+bodies: {rod: {rigid: {mass: 1 kg, com: [0.5, 0, 0], inertia: [0, 0, 0.1]},
+               markers: {pin: {position: [0, 0, 0]}, end: {position: [1, 0, 0]}}}}
+joints: {pin: {revolute: {between: [ground, rod/pin]}}}
+output: {every: 50 ms, sensors: {end: {position: rod/end}}}
+simulation: {duration: 1 s, %s}
+"""
+
+
+@pytest.fixture
+def run(buckens, tmp_path):
+    def call(options, text=PENDULUM):
+        (tmp_path / "model.yaml").write_text(text % options)
+        return buckens("run", "model.yaml", "-o", tmp_path / "out")
+
+    return call
+
+
+def summary(tmp_path):
+    return json.loads((tmp_path / "out" / "summary.json").read_text())
+
+
+def end_position(tmp_path):
+    with open(tmp_path / "out" / "sensors.csv") as file:
+        rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    return [float(value) for value in rows[-1][1:3]]
+
+
+@pytest.mark.parametrize("method", ["generalized-alpha", "newmark", "hht", "hht, alpha: -0.3",
+                                    "wilson", "wilson, theta: 1.5"])
+def test_every_method_reaches_the_same_end(run, tmp_path, method):
+    run("step: 0.1 ms").must(0)
+    exact = end_position(tmp_path)
+    run(f"step: 1 ms, method: {method}").must(0)
+    # Of the order (h omega)^2 with omega = 5/s, strongest for the most damped ones.
+    assert end_position(tmp_path) == pytest.approx(exact, abs=2e-4)
+
+
+def test_automatic_steps(run, tmp_path):
+    result = run("step: auto, tolerance: 1e-6").must(0)
+    assert "step sizes" in result.out
+    control = summary(tmp_path)["step_control"]
+    assert control["controlled"]
+    assert 0 < control["smallest"] <= control["largest"] <= 0.01
+    assert sum(size["steps"] for size in control["sizes"]) == summary(tmp_path)["steps"]
+
+
+def test_a_given_step_stays_fixed(run, tmp_path):
+    result = run("step: 10 ms").must(0)
+    assert "step sizes" not in result.out
+    control = summary(tmp_path)["step_control"]
+    assert not control["controlled"] and control["smallest"] == control["largest"] == 0.01
+
+
+def test_a_jump_of_a_drive_names_the_law(run):
+    text = PENDULUM.replace("joints: {", 'joints: {motor: {prescribed-rotation: {between: '
+                            '[ground, rod/pin], angle: "t < 0.503 ? t : t + 0.3"}}, ')
+    run("step: 1 ms", text).must(4, "model.yaml:6", '"motor"', "t < 0.503", "jumps")
+
+
+def test_changed_velocities_are_told(run, tmp_path):
+    text = PENDULUM + "initial: {bodies: {rod: {velocity: [0, 1, 0]}}}\n"
+    run("step: 1 ms", text).must(0)
+    assert any('"rod" cannot start' in warning for warning in summary(tmp_path)["warnings"])
