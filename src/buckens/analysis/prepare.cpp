@@ -2,6 +2,7 @@
 #include "buckens/analysis/prepare.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "buckens/analysis/initial_velocity.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/static_equilibrium.h"
+#include "buckens/analysis/velocity_change.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 
@@ -62,7 +64,11 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   out.rows_in_use = rank.independent;
   out.redundant_rows = rank.dependent;
   out.redundant_text = describe_redundancy(model, rank.dependent);
+  const model::State given = out.state;
   project_velocities(model, metric, out.state);
+  for (std::string& text : describe_velocity_changes(built, given, out.state)) {
+    out.notes.push_back(std::move(text));
+  }
   compute_accelerations(model, metric, out.rows_in_use, out.state);
   return out;
 }

@@ -57,11 +57,7 @@ void StaticDescent::set_scales() {
     if (compliance == nullptr || compliance->interface().size() == 0) continue;
     softest = std::max(softest, compliance->interface().diagonal().maxCoeff());
   }
-  if (force_ == 0.0) {
-    force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
-    // Without any load there is nothing but rounding of what holds the bodies together.
-    force_rounding_ = 1e-15 * force_;
-  }
+  if (force_ == 0.0) force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
   StaticSystem all(model_, compliance_, {}, t_, force_);
   const StaticBalance balance = all.balance(point_);
   double fastest = 0.0;

@@ -106,6 +106,7 @@ class Path {
 
 void Path::set_up() {
   const StaticPoint start = find_start();
+  check_loads(start);
   StaticPoint loaded = start;
   loaded.load_factor = std::max(std::abs(spec_.load_factor[0]), std::abs(spec_.load_factor[1]));
   const PathScale scale{std::abs(range()) / spec_.steps, spec_.arc_step,
@@ -132,7 +133,6 @@ StaticPoint Path::find_start() {
     notes.push_back("bodies are deformed to close the joints (preload)");
   }
   StaticPoint start = static_point(model_, state);
-  check_loads(start);
   start.load_factor = spec_.load_factor[0];
   StaticDescent descent(model_, metric_, compliances_.of_body, spec_.time, std::move(start));
   StaticReport report;

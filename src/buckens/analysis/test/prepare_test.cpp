@@ -62,6 +62,20 @@ TEST(Prepare, VelocitiesAreProjectedByTheLeastChange) {
   // The hinge leaves the angular momentum about it: m l v / (J + m l²) = 10/5; v_z is lost.
   EXPECT_NEAR((ready.body().frame.w - Vector3d(0, 0, 2)).norm(), 0, 1e-10);
   EXPECT_NEAR((ready.body().frame.v - Vector3d(0, 2, 0)).norm(), 0, 1e-10);
+  // Not without a word.
+  ASSERT_FALSE(ready.prepared.notes.empty());
+  EXPECT_THAT(ready.prepared.notes.back(),
+              AllOf(HasSubstr("body \"block\""), HasSubstr("from (0, 5, 3)"),
+                    HasSubstr("(0, 2, 0) m/s"), HasSubstr("(0, 0, 2) rad/s")));
+}
+
+TEST(Prepare, VelocitiesThatFitTheJointsPassWithoutAWord) {
+  Described m = hinged_block();
+  m.d.initial.bodies = {motion("block", {0, 2, 0}, {0, 0, 2})};
+  const Ready ready(m);
+  for (const std::string& note : ready.prepared.notes) {
+    EXPECT_THAT(note, testing::Not(HasSubstr("velocity")));
+  }
 }
 
 TEST(Prepare, GapsAreClosed) {
