@@ -18,12 +18,19 @@ namespace buckens::body {
 std::string to_string(CouplingLevel level);
 
 /// The finite-element share of a body: everything with n rows.
+///
+/// A reduced body is the same thing in other coordinates: `fe` then holds the projected matrices,
+/// `basis` leads from its coordinates to the nodal variables of mesh().
 struct FlexiblePart {
-  fem::FeModel fe;
+  fem::FeModel fe;  ///< of the equations of motion
   Sieve sieve;
   InertiaInvariants invariants;
   linalg::SparseMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
   CouplingLevel coupling = CouplingLevel::full;
+  bool is_quasi_static = false;  ///< deforms without inertia of its own
+
+  std::shared_ptr<const fem::FeModel> full_mesh;  ///< of a reduced body, otherwise empty
+  linalg::Matrix basis;                           ///< of a reduced body: nodal variables d = Z η
 
   /// Rows y = N d of all markers; the first `num_interface_rows` belong to markers that joints and
   /// loads use.
@@ -37,6 +44,18 @@ struct FlexiblePart {
 
   Eigen::Index num_dofs() const { return fe.M.rows(); }
   bool is_damped() const { return C.nonZeros() > 0; }
+  bool is_reduced() const { return full_mesh != nullptr; }
+  /// The mesh with its nodes and elements.
+  const fem::FeModel& mesh() const { return full_mesh ? *full_mesh : fe; }
+  /// Nodal variables of mesh() from those of the equations of motion.
+  linalg::Vector nodal(const linalg::Vector& d) const {
+    return is_reduced() ? linalg::Vector(basis * d) : d;
+  }
+  /// Coordinates that come nearest to nodal variables in the mass metric: Zᵀ M d.
+  linalg::Vector coordinates(const linalg::Vector& nodal_values) const {
+    return is_reduced() ? linalg::Vector(basis.transpose() * (full_mesh->M * nodal_values))
+                        : nodal_values;
+  }
 };
 
 /// A body of the model: a Buckens frame B that carries all large motion, and for flexible bodies a

@@ -29,6 +29,7 @@ Matrix complement(const Matrix& Phi, const Sieve& sieve, const Vector& scale) {
     const double size = scale.cwiseInverse().cwiseProduct(Phi.col(k)).norm();
     if (size > 0.0) excluded.col(P.cols() + k) /= size;
   }
+  if (excluded.cols() == 0) return Matrix::Identity(P.rows(), P.rows());
   Eigen::ColPivHouseholderQR<Matrix> qr(excluded);
   qr.setThreshold(1e-8);  // rounding leaves 1e-14, a motion without mass 1
   const Eigen::Index free = P.rows() - qr.rank();

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/elastic_inverse.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::body {
+
+using linalg::Matrix;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+// Rounding leaves 1e-16 · cond(K_g), up to 1e-7 for fine meshes; a mechanism leaves about one.
+constexpr double kWrongResponse = 1e-3;
+
+[[noreturn]] void refuse(const std::string& body) {
+  throw ModelError(fmt::format(
+      "body \"{}\" has no static equilibrium: its mesh can move without strain other than as a "
+      "rigid body; brace it, or connect its parts by elements that carry moments",
+      body));
+}
+
+/// Variables whose rows of Φ are independent and large, by QR of Φᵀ with column pivoting. Rotations
+/// count with the body's length, so that distant points are preferred to rotations.
+std::vector<int> isostatic_variables(const fem::FeModel& fe, const Sieve& sieve, double length) {
+  if (sieve.rank() == 0) return {};
+  Matrix rows = sieve.Phi();
+  for (const auto& node : fe.dofs.node_dofs) {
+    for (std::size_t k = 3; k < 6; ++k) {
+      if (node[k] >= 0) rows.row(node[k]) *= length;
+    }
+  }
+  const Eigen::ColPivHouseholderQR<Matrix> qr(rows.transpose());
+  std::vector<int> held(static_cast<std::size_t>(sieve.rank()));
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    held[k] = qr.colsPermutation().indices()[static_cast<Eigen::Index>(k)];
+  }
+  std::sort(held.begin(), held.end());
+  return held;
+}
+
+/// K with the rows and columns of the held variables replaced by those of a diagonal matrix.
+SparseMatrix grounded(const SparseMatrix& K, const std::vector<int>& held) {
+  const auto is_held = [&held](Eigen::Index k) {
+    return std::binary_search(held.begin(), held.end(), static_cast<int>(k));
+  };
+  SparseMatrix out = K;
+  out.prune([&](Eigen::Index row, Eigen::Index column, double) {
+    return row == column || (!is_held(row) && !is_held(column));
+  });
+  const double size = K.diagonal().maxCoeff();
+  for (const int k : held) out.coeffRef(k, k) = size;
+  out.makeCompressed();
+  return out;
+}
+
+linalg::SparseCholesky factorise(const std::string& body, const SparseMatrix& K,
+                                 const std::vector<int>& held) {
+  try {
+    return linalg::SparseCholesky(grounded(K, held));
+  } catch (const NumericalError&) {
+    refuse(body);
+  }
+}
+
+}  // namespace
+
+ElasticInverse::ElasticInverse(const std::string& body, const fem::FeModel& fe, const Sieve& sieve,
+                               double length)
+    : body_(body),
+      fe_(&fe),
+      sieve_(&sieve),
+      held_(isostatic_variables(fe, sieve, length)),
+      factor_(factorise(body, fe.K, held_)) {}
+
+Vector ElasticInverse::solve(Vector load) const {
+  sieve_->apply_transposed(load);
+  for (const int k : held_) load[k] = 0.0;
+  factor_.solve_in_place(load);
+  ++solves_;
+  sieve_->apply(load);
+  return load;
+}
+
+Matrix ElasticInverse::solve_checked(const Matrix& loads) const {
+  Matrix columns(loads.rows(), loads.cols());
+  const Vector weight = fe_->K.diagonal().unaryExpr(
+      [](double stiffness) { return stiffness > 0.0 ? 1.0 / std::sqrt(stiffness) : 0.0; });
+  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+    columns.col(k) = solve(loads.col(k));
+    Vector sieved = loads.col(k);
+    sieve_->apply_transposed(sieved);
+    const Vector wrong = fe_->K * columns.col(k) - sieved;
+    const double size = weight.cwiseProduct(loads.col(k)).norm();
+    if (!(weight.cwiseProduct(wrong).norm() <= kWrongResponse * size)) refuse(body_);
+  }
+  return columns;
+}
+
+}  // namespace buckens::body
