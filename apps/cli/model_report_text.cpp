@@ -84,6 +84,7 @@ Json json_of(const BodyReport& body) {
           {"nodes", body.nodes},
           {"elements", body.elements},
           {"dof", body.dof},
+          {"frames", body.frames},
           {"frame_coordinates", body.frame_coordinates},
           {"frequencies", body.frequencies},
           {"markers", body.markers}};
