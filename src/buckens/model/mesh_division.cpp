@@ -3,7 +3,56 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "buckens/base/errors.h"
+
 namespace buckens::model {
+
+namespace {
+
+constexpr double kGigabyte = 1e9;
+
+int num_cut_nodes(const MeshDivision& division) {
+  int count = 0;
+  for (const auto& copies : division.nodes) count += copies.size() > 1 ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+double usable_memory() {
+  return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double predicted_bytes(const MeshDivision& division) {
+  std::vector<double> cut(division.parts.size(), 0.0);
+  for (const auto& copies : division.nodes) {
+    for (const fem::PartPlace& copy : copies) {
+      if (copies.size() > 1) cut[static_cast<std::size_t>(copy.part)] += 1.0;
+    }
+  }
+  double bytes = 0.0;
+  for (std::size_t p = 0; p < cut.size(); ++p) {
+    const fem::Structure& part = division.parts[p].structure;
+    const double per_node = part.beams.num_elements() > 0 ? 6.0 : 3.0;
+    const double n = per_node * static_cast<double>(part.nodes.size());
+    const double m = per_node * cut[p];
+    bytes += sizeof(double) * (4.0 * n * m + 8.0 * m * m);
+  }
+  return bytes;
+}
+
+void require_memory(const MeshDivision& division, double memory) {
+  const double bytes = predicted_bytes(division);
+  if (bytes <= memory) return;
+  throw ModelError(fmt::format(
+      "{} frames cut the mesh at {} nodes, whose interfaces would take about {:.3g} GB while "
+      "stepping, more than the {:.3g} GB that may be used; use fewer frames",
+      division.parts.size(), num_cut_nodes(division), bytes / kGigabyte, memory / kGigabyte));
+}
 
 MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision& frames) {
   const fem::Structure& structure = whole.structure;

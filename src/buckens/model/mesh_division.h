@@ -18,6 +18,17 @@ struct MeshDivision {
   std::vector<int> straight_nodes;  ///< of the whole mesh
 };
 
+/// Memory that the interfaces at the cuts will take while stepping [bytes]: per part with n
+/// variables and m interface rows four n×m panels, and eight m×m blocks of the joint equations.
+double predicted_bytes(const MeshDivision& division);
+
+/// @param memory what may be used [bytes]
+/// @throws ModelError if the prediction exceeds it, which happens to solids cut in many places
+void require_memory(const MeshDivision& division, double memory);
+
+/// Half of the memory of this machine [bytes].
+double usable_memory();
+
 /// @throws ModelError if there are more frames than elements
 MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision& frames);
 
