@@ -128,9 +128,3 @@ def test_wrong_frames(buckens, tmp_path, text, words):
     (tmp_path / "model.yaml").write_text(text)
     code = 3 if "9 frames" in words[0] else 2
     buckens("run", "model.yaml", "-o", "out").must(code, *words)
-
-
-def test_geometric_stiffness_says_what_it_is(run):
-    text = BEAM.format(frames=1).replace("frames: 1", "geometric-stiffness: on")
-    _, summary, _ = run(text)
-    assert any("conserves neither energy" in warning for warning in summary["warnings"])

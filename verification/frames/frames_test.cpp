@@ -112,7 +112,7 @@ initial:
   bodies:
     crank: {{velocity: [0, "75*r", 0], angular-velocity: [0, 0, 150]}}
     rod: {{velocity: [0, "75*r", 0], angular-velocity: [0, 0, "-150*r/L"]}}
-simulation: {{duration: 8 ms, step: 10 us}}
+simulation: {{duration: 8 ms, step: 5 us}}
 output: {{every: 50 us, sensors: {{mid: {{deflection: {{of: rod/mid, from: chord}}}}}}}}
 )",
                                 frames));
@@ -130,7 +130,7 @@ TEST(Frames, SliderCrankBendsLessWithSixteenFrames) {
     const Peak peak = slider_crank_peak(frames);
     // Four digits are known; records every 50 µs miss a peak by 1e-6 at most.
     EXPECT_NEAR(peak.deflection, known[std::to_string(frames)].get<double>(), 1e-5) << frames;
-    EXPECT_LT(peak.energy_error, 1e-6) << frames << " frames, h = 10 us";
+    EXPECT_LT(peak.energy_error, 1e-6) << frames << " frames, h = 5 us";
     RecordProperty(fmt::format("peak_{}", frames), fmt::format("{:.6f}", peak.deflection));
     RecordProperty(fmt::format("energy_{}", frames), fmt::format("{:.2g}", peak.energy_error));
   }

@@ -116,6 +116,7 @@ class Builder {
     auto mesh = std::make_shared<fem::FeModel>(fem::assemble(meshes_[w]->structure, model_.planar));
     MeshDivision division = divide_mesh(*meshes_[w], spec.frames);
     if (division.parts.size() == 1) return;
+    require_memory(division, usable_memory());
     whole.count = static_cast<int>(division.parts.size());
     whole.mesh = std::move(mesh);
     divisions_[w] = std::make_unique<MeshDivision>(std::move(division));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/model/mesh_division.h"
 #include "buckens/model/state.h"
 #include "buckens/model/test/described.h"
 #include "buckens/spatial/rotation.h"
@@ -160,6 +161,31 @@ TEST(DividedBody, TheFittedFrameFollowsARigidMotion) {
   EXPECT_LT((fitted.X_WB.R() - turn.R()).norm(), 1e-13);
   EXPECT_LT((fitted.w - w).norm(), 1e-12);
   EXPECT_LT((fitted.v - Vector3d(4, 5, 6)).norm(), 1e-14);
+}
+
+TEST(DividedBody, CutsThatNeedTooMuchMemoryAreRefused) {
+  // Two cubes side by side: four cut nodes, 12 rows and 24 variables in each part.
+  NamedStructure bar;
+  fem::Structure& s = bar.structure;
+  for (int x = 0; x < 3; ++x) {
+    for (const auto& [y, z] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+      fem::add_node(s, "", Vector3d(x, y, z));
+    }
+  }
+  const int material = s.solids.add_material({kE, 0.3, kE / 2.6, kRho, 0, 0});
+  s.solids.add({0, 4, 5, 1, 3, 7, 6, 2}, material);
+  s.solids.add({4, 8, 9, 5, 7, 11, 10, 6}, material);
+  const MeshDivision division = divide_mesh(bar, FrameDivision::each_element());
+  ASSERT_EQ(division.parts.size(), 2U);
+  const double bytes = 2 * 8.0 * (4 * 24 * 12 + 8 * 12 * 12);
+  EXPECT_DOUBLE_EQ(predicted_bytes(division), bytes);
+  EXPECT_NO_THROW(require_memory(division, bytes));
+  try {
+    require_memory(division, 0.5 * bytes);
+    FAIL();
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("cut the mesh at 4 nodes"), std::string::npos);
+  }
 }
 
 TEST(DividedBody, MessagesNameTheBody) {
