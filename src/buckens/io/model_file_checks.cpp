@@ -11,6 +11,8 @@ namespace buckens::io {
 namespace {
 
 constexpr double kMostSteps = 1e10;
+// Third differences of positions carry a few times their rounding.
+constexpr double kLeastTolerance = 1e-13;
 constexpr int kMostStaticPoints = 1000000;
 
 Finding needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
@@ -152,6 +154,11 @@ Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
     return Problem{"tolerance", fmt::format("an error of {:g} in every step leaves nothing of the "
                                             "motion; 1e-4 is coarse, 1e-6 fine",
                                             *spec.tolerance)};
+  }
+  if (spec.tolerance && *spec.tolerance < kLeastTolerance) {
+    return Problem{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
+                                            "positions; ask for {:g} at least",
+                                            *spec.tolerance, kLeastTolerance)};
   }
   if (!spec.step && !spec.tolerance) {
     return Problem{"step",

@@ -103,8 +103,12 @@ void TimeMarch::choose_next() {
 
 void TimeMarch::give_up(const std::string& why) const {
   if (!why.empty()) {
-    throw NumericalError(fmt::format("{}; steps shortened {} times, down to {:.3g} s, failed too",
-                                     why, k_ - first_failed_, ladder_.step(k_)));
+    const std::string tried =
+        k_ > first_failed_
+            ? fmt::format("steps shortened {} times, down to {:.3g} s, failed too",
+                          k_ - first_failed_, ladder_.step(k_))
+            : fmt::format("it had been shortened to 1/{} before and goes no further", 1L << k_);
+    throw NumericalError(fmt::format("{}; {}", why, tried));
   }
   throw NumericalError(fmt::format(
       "step at t = {:.6g} s failed: the error in the {} of body \"{}\" is {:.3g} times what the "

@@ -233,6 +233,7 @@ TEST(ModelFileErrors, LoadsInitialSimulationOutput) {
           {"simulation: {duration: 1 s, step: atuo}", {"simulation.step", "atuo"}},
           {"simulation: {duration: 1 s, step: auto, tolerance: 0}", {"must be positive"}},
           {"simulation: {duration: 1 s, step: auto, tolerance: 2}", {"leaves nothing"}},
+          {"simulation: {duration: 1 s, step: auto, tolerance: 1e-16}", {"rounding", "1e-13"}},
           {"simulation: {duration: 1 s, step: auto, absolute-tolerance: -1}", {"be positive"}},
           {"output: {sensors: {a: {joint-force: x}}}", {"unknown joint \"x\""}},
           {"output: {sensors: {a: {deflection: box}}}", {"not on a flexible body"}},
