@@ -280,6 +280,23 @@ def test_truss_of_bending_bars_gives_way_earlier(run):
     assert numpy.hypot(slow["bow.x"], slow["bow.y"]).max() > 0.01
 
 
+@pytest.mark.parametrize("model", ["planar_levels/pendulum", "planar_levels/free_flight"])
+def test_levels_of_coupling_differ_as_the_page_says(run, model):
+    tips, errors = {}, {}
+    for level in ["full", "first-order", "nocent", "nocor", "none"]:
+        flight = run(model, bodies__beam__coupling=level)
+        tips[level] = flight.vector("tip", "xy")
+        errors[level] = flight.summary["energy_error"]
+    off = {level: numpy.linalg.norm(tip - tips["full"], axis=1).max()
+           for level, tip in tips.items()}
+    # The order holds whatever the step: first-order keeps all that is linear in the deformation.
+    assert 1e-4 < off["first-order"] < 0.2 * off["nocent"]
+    assert off["nocent"] < off["nocor"] < off["none"]
+    # Levels from a kinetic energy keep it but for the error of the step; the others do not.
+    assert max(errors["full"], errors["first-order"], errors["none"]) < 1e-6
+    assert min(errors["nocent"], errors["nocor"]) > 1e-3
+
+
 def test_model_in_readme_runs(tmp_path):
     text = (SOURCE / "README.md").read_text()
     model = re.search(r"```yaml\n(.*?)```", text, re.DOTALL).group(1)

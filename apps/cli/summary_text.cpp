@@ -29,7 +29,7 @@ std::string headline(const results::RunSummary& summary) {
 
 std::string bodies_table(const results::RunSummary& summary) {
   std::vector<std::vector<std::string>> rows = {
-      {"body", "nodal DOF", "factorisations", "solves", "solves/step"}};
+      {"body", "nodal DOF", "coupling", "factorisations", "solves", "solves/step"}};
   for (const results::BodyEffort& body : summary.bodies) {
     if (body.dof == 0) {
       rows.push_back({body.name, "rigid"});
@@ -39,8 +39,8 @@ std::string bodies_table(const results::RunSummary& summary) {
                                      ? fmt::format("{:.2f}", static_cast<double>(body.solves) /
                                                                  static_cast<double>(summary.steps))
                                      : "-";
-    rows.push_back({body.name, fmt::to_string(body.dof), fmt::to_string(body.factorisations),
-                    fmt::to_string(body.solves), per_step});
+    rows.push_back({body.name, fmt::to_string(body.dof), body.coupling,
+                    fmt::to_string(body.factorisations), fmt::to_string(body.solves), per_step});
   }
   return text_table(rows);
 }
@@ -73,6 +73,24 @@ std::string join(const std::vector<std::string>& texts) {
   return out;
 }
 
+/// How near a body came to the limits of its level and of linear elasticity.
+std::string limits_text(const results::BodyEffort& body) {
+  constexpr std::pair<const char*, const char*> kShown[] = {
+      {"spin_over_lowest_frequency", "|w|/w1 {:.2g}"},
+      {"largest_neglected_share", "neglected {:.2g}"},
+      {"largest_rotation_rad", "rotation {:.2g} rad"},
+      {"largest_strain", "strain {:.2g}"},
+      {"largest_axial_load_over_buckling_load", "axial load {:.2g} of buckling"}};
+  std::string out;
+  for (const auto& [name, format] : kShown) {
+    for (const auto& [key, value] : body.measures) {
+      if (key != name) continue;
+      out += (out.empty() ? "" : ", ") + fmt::format(fmt::runtime(format), value);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string summary_text(const results::RunSummary& summary) {
@@ -98,8 +116,12 @@ std::string summary_text(const results::RunSummary& summary) {
   if (control.is_controlled || control.failed > 0) {
     entries.insert(entries.begin(), {"step sizes", steps_text(control)});
   }
+  for (const results::BodyEffort& body : summary.bodies) {
+    if (body.dof > 0) entries.emplace_back("body " + body.name, limits_text(body));
+  }
   out += text_list(entries);
   for (const std::string& text : summary.redundant_constraints) out += "redundant: " + text + '\n';
+  for (const std::string& text : summary.notes) out += "note: " + text + '\n';
   for (const std::string& text : summary.warnings) out += "warning: " + text + '\n';
   return out;
 }

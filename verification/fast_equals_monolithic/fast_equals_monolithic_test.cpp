@@ -64,6 +64,7 @@ stepping::StepSettings tight(Method method, double h) {
   settings.step = h;
   settings.newton_tolerance = 1e-15;
   settings.outer_tolerance = 1e-13;
+  settings.iterate_coupling = true;
   settings.max_newton = 60;
   settings.max_outer = 60;
   return settings;
@@ -134,6 +135,44 @@ TEST(FastEqualsMonolithic, SpinningDampedBeamOnSphericalJoint) {
   });
   for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 1e-3));
+  }
+}
+
+TEST(FastEqualsMonolithic, LevelsInThePlane) {
+  using body::CouplingLevel;
+  test::BeamConstants beam;
+  beam.EA = 1e4;
+  beam.EIy = beam.EIz = 30;
+  beam.elements = 2;
+  for (const CouplingLevel level : {CouplingLevel::none, CouplingLevel::first_order,
+                                    CouplingLevel::nocent, CouplingLevel::nojvar}) {
+    SCOPED_TRACE(to_string(level));
+    const model::Model model = test::planar_beam_pendulum(beam, level);
+    const Start start = test::consistent_start(model);
+    for (const Method method : {Method::generalized_alpha, Method::newmark}) {
+      expect_same(model, start, tight(method, 1e-3));
+    }
+  }
+}
+
+TEST(FastEqualsMonolithic, LevelsInSpace) {
+  using body::CouplingLevel;
+  using body::CouplingTerm;
+  test::BeamConstants beam = soft_damped_beam();
+  beam.elements = 2;
+  for (const body::CouplingChoice& choice :
+       {body::CouplingChoice(CouplingLevel::first_order),
+        body::CouplingChoice(CouplingLevel::full, {CouplingTerm::cent0, CouplingTerm::cor_ref}),
+        body::CouplingChoice(CouplingLevel::full,
+                             {CouplingTerm::cent1, CouplingTerm::cor_fe, CouplingTerm::eul_fe})}) {
+    SCOPED_TRACE(to_string(choice.terms));
+    const model::Model model = test::spatial_beam_pendulum(beam, choice);
+    const Start start = test::consistent_start(model, [](model::State& state) {
+      body::FrameMotion& frame = state.bodies[0].frame;
+      frame.w << 3, -1, 4;
+      frame.v = frame.w.cross(frame.X_WB.p);
+    });
+    expect_same(model, start, tight(Method::generalized_alpha, 1e-3));
   }
 }
 

@@ -39,7 +39,7 @@ const nlohmann::json& table_of(const Snap& run) {
 
 /// The coupling as the model file names it.
 std::string coupling(const std::string& variant) {
-  if (variant == "no_cent_no_cor") return "{drop: [cent0, cent1, cor_ref, cor_fe]}";
+  if (variant == "no_cent_no_cor") return "{drop: [cent0, cent1, cor-ref, cor-fe]}";
   return variant;
 }
 

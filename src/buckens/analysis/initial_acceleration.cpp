@@ -61,17 +61,22 @@ class Accelerations {
       const body::Body& body = model_.bodies[b];
       const model::BodyState& s = state_.bodies[b];
       const Vector zero = Vector::Zero(s.d.size());
-      const auto coupling =
-          dynamics::evaluate_coupling(body, s.d, s.d_dot, zero, s.frame.w, Vector3d::Zero());
-      bodies_[b].moments = coupling.moments;
-      J.push_back(coupling.moments.J);
-      if (!body.is_flexible()) continue;
+      if (!body.is_flexible()) {
+        bodies_[b].moments = dynamics::undeformed_moments(body);
+        J.push_back(body.J0);
+        continue;
+      }
+      const auto coupling = dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, zero,
+                                                        s.frame.w, Vector3d::Zero());
+      const auto& patterns = body.flexible->invariants.centrifugal_patterns();
+      bodies_[b].moments =
+          dynamics::frame_moments(body, s.terms, coupling.moments, patterns.transpose() * s.d,
+                                  patterns.transpose() * s.d_dot);
+      J.push_back(bodies_[b].moments.J);
       Vector load = -(body.flexible->fe.K * s.d);
       if (body.flexible->is_damped()) load -= body.flexible->C * s.d_dot;
-      if (body.flexible->coupling == body::CouplingLevel::full) {
-        load += coupling.load + body.flexible->invariants.centrifugal_patterns() *
-                                    body::InertiaInvariants::centrifugal_weights(s.frame.w);
-      }
+      if (s.terms.have_load()) load += coupling.load;
+      load += patterns * dynamics::centrifugal_weights(s.terms, s.frame.w);
       bodies_[b].nodal_static = mass_solve(body, load);
       bodies_[b].nodal = bodies_[b].nodal_static;
     }
@@ -141,17 +146,18 @@ class Accelerations {
     const model::BodyState& s = state_.bodies[b];
     const BodyAcceleration& now = bodies_[b];
     body::DeformedMoments moments = now.moments;
-    const bool coupled = body.is_flexible() && body.flexible->coupling == body::CouplingLevel::full;
-    if (coupled) moments.l_dot = body.flexible->invariants.relative_momentum(s.d, now.nodal);
+    if (body.is_flexible() && s.terms.quad_ref) {
+      moments.l_dot = body.flexible->invariants.relative_momentum(s.d, now.nodal);
+    }
     const Vector6 inertia =
         dynamics::frame_inertia(body, moments, s.frame.w, Vector3d::Zero(), Vector3d::Zero());
     frame = compliance_[b].frame * (forces_.frame[b] - inertia);
     if (!body.is_flexible()) return;
     nodal = now.nodal_static + metric_.H(b) * forces_.interface[b];
-    if (coupled) {
+    if (s.terms.eul_fe) {
       const Vector3d w_dot = now.frame.head<3>();
-      const Vector euler = body.flexible->invariants.deformation_load(s.d, Vector::Zero(s.d.size()),
-                                                                      Vector3d::Zero(), w_dot);
+      const Vector euler = body.flexible->invariants.deformation_load(
+          s.d, Vector::Zero(s.d.size()), Vector3d::Zero(), w_dot, s.terms);
       if (!euler.isZero(0.0)) nodal += mass_solve(body, euler);
     }
     y = body.row_values(nodal);

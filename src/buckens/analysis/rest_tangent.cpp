@@ -75,7 +75,9 @@ void Linearisation::lay_out() {
     place.rotations = static_cast<int>(body.rotation_basis.cols());
     place.translations = static_cast<int>(body.translation_basis.cols());
     place.rows = body.num_interface_rows();
-    const bool couples = body.is_flexible() && body.flexible->coupling != body::CouplingLevel::none;
+    // l̇ in the frame equation and the Euler load in that of the mesh.
+    const body::CouplingTerms& terms = state_.bodies[b].terms;
+    const bool couples = body.is_flexible() && terms.quad_ref && terms.eul_fe;
     if (couples && state_.bodies[b].d.cwiseAbs().maxCoeff() > 0.0) place.momenta = 3;
     out_.size += place.size();
     out_.bodies.push_back(place);

@@ -8,24 +8,10 @@
 namespace buckens::analysis {
 
 namespace {
-// Beyond this rotation inside one frame linear elasticity errs by about 1 %.
-constexpr double kLargeRotation = 0.1;
 constexpr double kLargeEnergyError = 0.05;
 // |ω|/ω₁: effects of the missing stiffening grow with its square.
 constexpr double kFastSpin = 0.1;
 constexpr double kTooFastSpin = 0.3;
-
-double largest_rotation(const body::Body& body, const linalg::Vector& d) {
-  double largest = 0;
-  for (const auto& dofs : body.flexible->fe.dofs.node_dofs) {
-    double square = 0;
-    for (std::size_t k = 3; k < 6; ++k) {
-      if (dofs[k] >= 0) square += d[dofs[k]] * d[dofs[k]];
-    }
-    largest = std::max(largest, square);
-  }
-  return std::sqrt(largest);
-}
 
 }  // namespace
 
@@ -33,7 +19,11 @@ RunStatistics::RunStatistics(const model::BuiltModel& built)
     : built_(built),
       lowest_frequency_(built.model.bodies.size(), 0.0),
       largest_spin_(built.model.bodies.size(), 0.0),
-      largest_rotation_(built.model.bodies.size(), 0.0) {}
+      deformation_(built.model.bodies.size()) {
+  for (const body::Body& body : built.model.bodies) {
+    limits_.push_back(body.is_flexible() ? std::make_unique<DeformationLimits>(body) : nullptr);
+  }
+}
 
 void RunStatistics::add_step(const stepping::StepReport& report, const model::State& state) {
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {
@@ -59,7 +49,7 @@ void RunStatistics::add_record(const model::State& state, double balance, double
     const double size =
         std::max(rigid.head<3>().norm() / body.length_scale(), rigid.tail<3>().norm());
     residuals_.sieve = std::max(residuals_.sieve, size);
-    largest_rotation_[b] = std::max(largest_rotation_[b], largest_rotation(body, d));
+    deformation_[b].include(limits_[b]->measure(body.flexible->nodal(d)));
   }
 }
 
@@ -102,6 +92,7 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
   effort.name = whole.name;
   const auto first = static_cast<std::size_t>(whole.first);
   std::size_t bent = first;  // the part with the largest rotation
+  DeformationMeasure deformation;
   std::size_t fast = first;  // the part that spins fastest relative to its lowest frequency
   for (std::size_t b = first; b < first + static_cast<std::size_t>(whole.count); ++b) {
     const stepping::SolveCounts counts = ladder.counts(b);
@@ -109,20 +100,23 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
     effort.factorisations += counts.factorisations;
     effort.solves += counts.solves;
     summary.setup_solves += counts.setup_solves;
-    if (largest_rotation_[b] > largest_rotation_[bent]) bent = b;
+    if (deformation_[b].rotation > deformation_[bent].rotation) bent = b;
+    deformation.include(deformation_[b]);
     if (spin_ratio(b) > spin_ratio(fast)) fast = b;
   }
   if (whole.is_divided()) effort.measures.emplace_back("frames", whole.count);
   if (built_.model.bodies[first].is_flexible()) {
-    effort.measures.emplace_back("largest_rotation_rad", largest_rotation_[bent]);
+    effort.measures.emplace_back("largest_rotation_rad", deformation.rotation);
+    effort.measures.emplace_back("largest_strain", deformation.strain);
+    effort.measures.emplace_back("largest_axial_load_over_buckling_load", deformation.axial_load);
   }
   summary.bodies.push_back(std::move(effort));
   judge_spin(fast, summary);
-  if (largest_rotation_[bent] > kLargeRotation) {
-    summary.trust.push_back(fmt::format(
-        "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
-        "linear elasticity bears; divide it into several bodies or give it more `frames`",
-        built_.model.bodies[bent].name, largest_rotation_[bent], kLargeRotation));
+  for (const std::string& text : judge_deformation(whole.name, deformation)) {
+    summary.warnings.push_back(text);
+  }
+  if (deformation.rotation > kLargeRotation) {
+    summary.trust.push_back(describe_rotation(built_.model.bodies[bent].name, deformation));
   }
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "buckens/analysis/deformation_limits.h"
 #include "buckens/model/model_builder.h"
 #include "buckens/results/run_summary.h"
 #include "buckens/stepping/time_march.h"
@@ -45,9 +47,10 @@ class RunStatistics {
   bool is_finite_ = true;  // of all energies so far
   double largest_balance_ = 0;
   double energy_scale_ = 0;
-  std::vector<double> lowest_frequency_;  // per body [rad/s], 0 where unknown
-  std::vector<double> largest_spin_;      // per body, |ω| [rad/s]
-  std::vector<double> largest_rotation_;  // per body, relative to its frame [rad]
+  std::vector<double> lowest_frequency_;                    // per body [rad/s], 0 where unknown
+  std::vector<double> largest_spin_;                        // per body, |ω| [rad/s]
+  std::vector<std::unique_ptr<DeformationLimits>> limits_;  // per body, none for rigid ones
+  std::vector<DeformationMeasure> deformation_;             // per body, largest
 };
 
 }  // namespace buckens::analysis

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/coupling_watch.h"
 #include "buckens/analysis/drive_laws.h"
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/run_statistics.h"
@@ -58,6 +59,7 @@ stepping::StepSettings step_settings(const model::SimulationSpec& spec) {
   settings.position_projection = spec.projection;
   settings.newton_tolerance = spec.newton_tolerance;
   settings.outer_tolerance = spec.outer_tolerance;
+  settings.iterate_coupling = spec.iterate_coupling;
   settings.max_newton = spec.max_iterations;
   settings.max_outer = spec.max_outer_iterations;
   return settings;
@@ -106,6 +108,7 @@ class Simulation {
     split_wall_time();
     summary_.end_time = prepared_->state.t;
     statistics_->fill(*march_, summary_);
+    watch_->fill(prepared_->state, summary_);
     sink_.finish(summary_);
     if (failure) std::rethrow_exception(failure);
     return summary_;
@@ -145,12 +148,14 @@ class Simulation {
     work_.emplace(built_.model, prepared_->state);
     drives_.emplace(built_.description);
     statistics_.emplace(built_);
+    watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
     summary_.redundant_constraints = prepared_->redundant_text;
     summary_.warnings = prepared_->notes;
     for (std::string& text : drives_->corners(spec_.duration)) {
       summary_.warnings.push_back(std::move(text));
     }
     advise_on_step();
+    watch_->start(march_->stepper(), prepared_->state);
     for (const std::string& warning : summary_.warnings) {
       base::log(base::LogLevel::warning, warning);
     }
@@ -161,10 +166,14 @@ class Simulation {
     for (const model::WholeBody& whole : built_.model.wholes) {
       for (int b = whole.first; b < whole.first + whole.count; ++b) {
         const body::Body& body = built_.model.bodies[static_cast<std::size_t>(b)];
+        if (!body.is_flexible()) continue;
         // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
-        if (body.num_dofs() > kAdvisedDofs) continue;
+        if (body.num_dofs() > kAdvisedDofs) {
+          set_lowest_frequency(b, march_->stepper().lowest_frequency(static_cast<std::size_t>(b)));
+          continue;
+        }
         const ExcitedBand band = excited_band(body);
-        statistics_->set_lowest_frequency(static_cast<std::size_t>(b), band.first);
+        set_lowest_frequency(b, band.first);
         if (!whole.is_divided()) advise(whole.name, band);
       }
       if (whole.is_divided() && whole.mesh->M.rows() <= kAdvisedDofs) {
@@ -179,6 +188,11 @@ class Simulation {
     if (!advice.empty()) summary_.warnings.push_back(advice);
   }
 
+  void set_lowest_frequency(int body, double omega) {
+    statistics_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
+    watch_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
+  }
+
   void take_steps() {
     model::State& state = prepared_->state;
     model::State before;
@@ -189,6 +203,7 @@ class Simulation {
       statistics_->add_step(report, state);
       work_->add(state);
       write_records(before, march_->is_done());
+      watch_->after_step(march_->stepper(), state);
       if (!report_progress(step) && !march_->is_done()) return;
     }
     summary_.finished = true;
@@ -262,6 +277,7 @@ class Simulation {
   std::optional<results::Recorder> recorder_;
   std::optional<WorkAccount> work_;
   std::optional<RunStatistics> statistics_;
+  std::optional<CouplingWatch> watch_;
   results::RunSummary summary_;
   long steps_ = 0;  // 0 where step control leaves that open
   double every_ = 0;

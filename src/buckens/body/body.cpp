@@ -38,16 +38,12 @@ linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
 
 }  // namespace
 
-std::string to_string(CouplingLevel level) {
-  return level == CouplingLevel::full ? "full" : "none";
-}
-
-FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, CouplingLevel level)
+FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice)
     : fe(std::move(model)),
       sieve(make_sieve(body, fe)),
       invariants(fe.shape),
       C(damping_matrix(fe)),
-      coupling(level) {}
+      coupling(std::move(choice)) {}
 
 int Body::find_marker(const std::string& marker) const {
   const auto found = std::find_if(markers.begin(), markers.end(),

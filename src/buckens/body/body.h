@@ -14,9 +14,6 @@
 
 namespace buckens::body {
 
-/// Name of the level as the model file spells it.
-std::string to_string(CouplingLevel level);
-
 /// The finite-element share of a body: everything with n rows.
 ///
 /// A reduced body is the same thing in other coordinates: `fe` then holds the projected matrices,
@@ -26,7 +23,7 @@ struct FlexiblePart {
   Sieve sieve;
   InertiaInvariants invariants;
   linalg::SparseMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
-  CouplingLevel coupling = CouplingLevel::full;
+  CouplingChoice coupling;
   bool is_quasi_static = false;  ///< deforms without inertia of its own
 
   std::shared_ptr<const fem::FeModel> full_mesh;  ///< of a reduced body, otherwise empty
@@ -38,7 +35,7 @@ struct FlexiblePart {
   int num_interface_rows = 0;
 
   /// @throws ModelError if rigid motion strains the mesh or the mesh is a mechanism
-  FlexiblePart(const std::string& body, fem::FeModel model, CouplingLevel level);
+  FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice);
   FlexiblePart(const FlexiblePart&) = delete;
   FlexiblePart& operator=(const FlexiblePart&) = delete;
 

@@ -150,11 +150,39 @@ struct LikeSpec {
   }
 };
 
-constexpr std::array<const char*, 2> choice_names(CouplingLevel) { return {"full", "none"}; }
-/// Levels that are known but cannot be chosen yet.
-constexpr std::array<const char*, 2> planned_names(CouplingLevel) {
-  return {"first-order", "auto"};
+constexpr std::array<const char*, 8> choice_names(CouplingLevel) {
+  return {"full", "first-order", "none", "auto", "noquad", "nocent", "nocor", "nojvar"};
 }
+constexpr std::array<const char*, 7> choice_names(CouplingTerm) {
+  return {"quad-ref", "jvar", "cor-ref", "cent0", "cent1", "cor-fe", "eul-fe"};
+}
+
+/// Inertial coupling of elastic and frame motion.
+struct CouplingSpec {
+  SourceLocation where;
+  CouplingLevel level = CouplingLevel::full;
+  std::vector<CouplingTerm> drop;
+  double tolerance = 0.01;
+
+  CouplingChoice choice() const { return {level, drop, tolerance}; }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("level", level,
+                      "full, first-order and none follow from a kinetic energy; auto moves up "
+                      "among them during the run; the others leave out single groups of terms")
+              .shorthand()
+              .like("first-order"));
+    visit(base::field("drop", drop, "terms left out besides, to see what they do")
+              .like("[cent0, cent1]")
+              .otherwise("none"));
+    visit(base::field("tolerance", tolerance,
+                      "auto: largest share of the neglected terms in all inertial, elastic and "
+                      "applied loads of the mesh")
+              .positive()
+              .like("1 %"));
+  }
+};
 
 /// Reduced basis of a flexible body.
 enum class Reduction { none };
@@ -176,7 +204,7 @@ struct BodySpec {
   PlacementSpec at;
   std::vector<MarkerSpec> markers;
   FrameDivision frames;
-  CouplingLevel coupling = CouplingLevel::full;
+  CouplingSpec coupling;
   Reduction reduction = Reduction::none;
   std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
 
@@ -192,7 +220,9 @@ struct BodySpec {
                       "number of body frames that carry the mesh, each its own part of it")
               .positive()
               .like("8"));
-    visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion"));
+    visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion")
+              .like("first-order")
+              .otherwise("full"));
     visit(base::field("reduction", reduction, "reduced basis of the mesh; only `none` for now"));
     visit(base::field("damping", damping, "Rayleigh damping in place of that of the materials")
               .otherwise("that of the materials"));

@@ -1,12 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace buckens::body {
 
-/// Which inertial coupling terms between frame and nodal variables are kept.
+/// Which inertial coupling terms between frame and nodal variables are kept, as users choose it.
 ///
-/// `full`: all of them, from the exact kinetic energy FM (13). `none`: the body's frame moves like
-/// that of a rigid body, its mesh vibrates as at rest; derives from a kinetic energy with J₀.
-enum class CouplingLevel { full, none };
+/// `full`: all of them, from the exact kinetic energy FM (13). `first_order`: those of a kinetic
+/// energy with J₀ + J₁(d). `none`: the body's frame moves like that of a rigid body, its mesh
+/// vibrates as at rest; derives from a kinetic energy with J₀. `automatic`: starts with the
+/// cheapest of these that will do and moves up during a run. The others leave out single groups as
+/// the paper's figures 6 and 7 do; no kinetic energy belongs to them.
+enum class CouplingLevel { full, first_order, none, automatic, noquad, nocent, nocor, nojvar };
+
+/// A group of terms that can be left out, docs/theory/08-coupling.md.
+enum class CouplingTerm { quad_ref, jvar, cor_ref, cent0, cent1, cor_fe, eul_fe };
+
+/// The terms that are kept.
+struct CouplingTerms {
+  bool quad_ref = true;  ///< frame equation: everything quadratic in d, i.e. J₂, J̇₂, l, l̇
+  bool jvar = true;      ///< frame equation: J(d) − J₀ in J ẇ and w × J w
+  bool cor_ref = true;   ///< frame equation: J̇ w
+  bool cent0 = true;     ///< mesh: centrifugal load of the undeformed body, FM (24)
+  bool cent1 = true;     ///< mesh: centrifugal load of the deformation
+  bool cor_fe = true;    ///< mesh: Coriolis load, FM (22)
+  bool eul_fe = true;    ///< mesh: Euler load, FM (23)
+
+  static CouplingTerms none() { return {false, false, false, false, false, false, false}; }
+  static CouplingTerms first_order() { return {false, true, true, true, false, false, false}; }
+
+  void drop(CouplingTerm term);
+
+  bool operator==(const CouplingTerms&) const = default;
+  /// Whether the six numbers c_ab·d matter: for J₁ or as places where a load acts.
+  bool use_patterns() const { return jvar || cor_ref || cent0; }
+  bool have_load() const { return cent1 || cor_fe || eul_fe; }
+  /// Whether some terms depend on all of d, so that a step takes them as given and repeats.
+  bool are_lagged() const { return quad_ref || have_load(); }
+};
+
+/// What a body is asked to keep.
+struct CouplingChoice {
+  CouplingLevel level = CouplingLevel::full;
+  CouplingTerms terms;                ///< at the start
+  bool is_automatic = false;          ///< may move up during a run
+  double tolerance = 0.01;            ///< automatic: neglected terms relative to the kept ones
+  std::vector<CouplingTerm> dropped;  ///< besides those of the level
+
+  CouplingChoice(CouplingLevel chosen = CouplingLevel::full,  // NOLINT: a level is a choice
+                 std::vector<CouplingTerm> drop = {}, double auto_tolerance = 0.01);
+
+  /// Whether c_ab·d may be needed at any time.
+  bool may_use_patterns() const { return is_automatic || terms.use_patterns(); }
+};
+
+/// As the model file spells it.
+std::string to_string(CouplingLevel level);
+std::string to_string(CouplingTerm term);
+/// Name of a set of terms: a level's name, or "drop cent0, cent1".
+std::string to_string(const CouplingTerms& terms);
 
 }  // namespace buckens::body

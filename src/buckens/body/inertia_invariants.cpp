@@ -72,16 +72,27 @@ Vector3d InertiaInvariants::relative_momentum(const Vector& d, const Vector& d_d
   return axial(bilinear(*shape_, d, d_dot));
 }
 
+Matrix3d InertiaInvariants::linear_inertia(const Eigen::Matrix<double, 6, 1>& z) {
+  // S₁ + S₁ᵀ: the patterns of unlike indices are sums already.
+  Matrix3d S;
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    const auto [a, b] = kPairs[k];
+    const double value = z[static_cast<Eigen::Index>(k)];
+    S(a, b) = S(b, a) = a == b ? 2.0 * value : value;
+  }
+  return to_inertia(S);
+}
+
 DeformedMoments InertiaInvariants::moments(const Vector& d, const Vector& d_dot,
                                            const Vector& d_ddot) const {
-  Matrix3d S1 = Matrix3d::Zero();
-  Matrix3d S1_dot = Matrix3d::Zero();
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 0; b < 3; ++b) {
-      S1(a, b) = shape_->c.col(3 * a + b).dot(d);
-      S1_dot(a, b) = shape_->c.col(3 * a + b).dot(d_dot);
-    }
-  }
+  DeformedMoments out = quadratic_moments(d, d_dot, d_ddot);
+  out.J += shape_->J0 + linear_inertia(patterns_.transpose() * d);
+  out.J_dot += linear_inertia(patterns_.transpose() * d_dot);
+  return out;
+}
+
+DeformedMoments InertiaInvariants::quadratic_moments(const Vector& d, const Vector& d_dot,
+                                                     const Vector& d_ddot) const {
   // One pass over W with W_ab d and W_abᵀ d gives xᵀW_ab d and dᵀW_ab x for every x.
   Matrix3d T_dd = Matrix3d::Zero();
   Matrix3d T_d_rate = Matrix3d::Zero();
@@ -108,8 +119,8 @@ DeformedMoments InertiaInvariants::moments(const Vector& d, const Vector& d_dot,
     T_d_acceleration += weighted * nodal.by_node(d_ddot).transpose();
   }
   DeformedMoments out;
-  out.J = shape_->J0 + to_inertia(S1 + S1.transpose() + T_dd);
-  out.J_dot = to_inertia(S1_dot + S1_dot.transpose() + T_d_rate + T_d_rate.transpose());
+  out.J = to_inertia(T_dd);
+  out.J_dot = to_inertia(T_d_rate + T_d_rate.transpose());
   out.l = axial(T_d_rate);
   out.l_dot = axial(T_d_acceleration);
   return out;
@@ -128,11 +139,13 @@ void InertiaInvariants::add_weighted(const Matrix3d& A, const Vector& x, Vector&
 }
 
 Vector InertiaInvariants::deformation_load(const Vector& d, const Vector& d_dot, const Vector3d& w,
-                                           const Vector3d& w_dot) const {
+                                           const Vector3d& w_dot, const CouplingTerms& kept) const {
   Vector load = Vector::Zero(d.size());
-  const Matrix3d centrifugal = w.squaredNorm() * Matrix3d::Identity() - w * w.transpose();
-  add_weighted(centrifugal + gyroscopic_weights(w_dot), d, load);
-  add_weighted(2.0 * gyroscopic_weights(w), d_dot, load);
+  Matrix3d with_d = Matrix3d::Zero();
+  if (kept.cent1) with_d += w.squaredNorm() * Matrix3d::Identity() - w * w.transpose();
+  if (kept.eul_fe) with_d += gyroscopic_weights(w_dot);
+  add_weighted(with_d, d, load);
+  if (kept.cor_fe) add_weighted(2.0 * gyroscopic_weights(w), d_dot, load);
   return load;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/body/coupling_level.h"
 #include "buckens/fem/fe_model.h"
 #include "buckens/linalg/matrix_types.h"
 
@@ -36,13 +37,22 @@ class InertiaInvariants {
   DeformedMoments moments(const linalg::Vector& d, const linalg::Vector& d_dot,
                           const linalg::Vector& d_ddot) const;
 
+  /// Their parts quadratic in d: J₂, J̇₂, l and l̇.
+  DeformedMoments quadratic_moments(const linalg::Vector& d, const linalg::Vector& d_dot,
+                                    const linalg::Vector& d_ddot) const;
+
+  /// J₁, the part of J linear in d: six numbers are enough.
+  /// @param z centrifugal_patterns()ᵀ d; with ḋ in place of d it is J̇₁
+  static Eigen::Matrix3d linear_inertia(const Eigen::Matrix<double, 6, 1>& z);
+
   /// y ← y + Σ_ab A_ab W_ab x.
   void add_weighted(const Eigen::Matrix3d& A, const linalg::Vector& x, linalg::Vector& y) const;
 
   /// Nodal inertia loads that depend on the deformation, FM (22)–(24) without ĉ:
-  /// Σ (|w|²δ − w w)_ab W_ab d + 2 Σ w_a H_a ḋ + Σ ẇ_a H_a d.
+  /// Σ (|w|²δ − w w)_ab W_ab d + 2 Σ w_a H_a ḋ + Σ ẇ_a H_a d. @param kept which of the three
   linalg::Vector deformation_load(const linalg::Vector& d, const linalg::Vector& d_dot,
-                                  const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot) const;
+                                  const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot,
+                                  const CouplingTerms& kept = {}) const;
 
   /// Centrifugal load patterns of the undeformed body, n×6: columns for the weights returned by
   /// centrifugal_weights(), FM (24).

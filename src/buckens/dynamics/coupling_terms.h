@@ -5,15 +5,27 @@
 
 namespace buckens::dynamics {
 
-/// Inertial coupling of a flexible body at the given motion, FM (19), (21)–(24): moments for the
-/// frame equation and nodal loads. For the level `none` the moments of the undeformed body and no
-/// load.
-model::Coupling evaluate_coupling(const body::Body& body, const linalg::Vector& d,
-                                  const linalg::Vector& d_dot, const linalg::Vector& d_ddot,
-                                  const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot);
+/// Those terms of the inertial coupling that need all of d, FM (19), (21)–(24): moments quadratic
+/// in d for the frame equation, and nodal loads. Terms that are not kept are zero, their load
+/// empty. The instant is left at zero.
+model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
+                                  const linalg::Vector& d, const linalg::Vector& d_dot,
+                                  const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
+                                  const Eigen::Vector3d& w_dot);
 
-/// Coupling at t + ratio·(t − t_before) by linear extrapolation.
-model::Coupling extrapolate(const model::Coupling& now, const model::Coupling& before,
-                            double ratio);
+/// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and what is
+/// quadratic.
+/// @param z InertiaInvariants::centrifugal_patterns()ᵀ d; not read where the terms do not need it
+body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
+                                    const body::DeformedMoments& quadratic,
+                                    const Eigen::VectorXd& z, const Eigen::VectorXd& z_dot);
+
+/// Weights of the six centrifugal load patterns; zero if the term is not kept.
+Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms,
+                                                const Eigen::Vector3d& w);
+
+/// Coupling at t from the instants of the state, by the parabola, the line or the value through
+/// `history` of them. Steps may differ in length.
+model::Coupling extrapolate(const model::BodyState& state, int history, double t);
 
 }  // namespace buckens::dynamics

@@ -9,28 +9,27 @@ using Eigen::Vector3d;
 
 namespace {
 
-bool is_fully_coupled(const body::Body& body) {
-  return body.is_flexible() && body.flexible->coupling == body::CouplingLevel::full;
-}
-
-/// J w + l in body axes.
-Vector3d angular_momentum(const body::Body& body, const model::BodyState& state) {
-  if (!is_fully_coupled(body)) return body.J0 * state.frame.w;
+/// J and l of the kinetic energy that belongs to the terms a body keeps. Sets of terms that belong
+/// to none are judged by the exact one.
+body::DeformedMoments inertia(const body::Body& body, const model::BodyState& state) {
+  body::DeformedMoments out;
+  out.J = body.J0;
+  if (!body.is_flexible() || state.terms == body::CouplingTerms::none()) return out;
   const auto& invariants = body.flexible->invariants;
-  return invariants.rotary_inertia(state.d) * state.frame.w +
-         invariants.relative_momentum(state.d, state.d_dot);
+  if (state.terms == body::CouplingTerms::first_order()) {
+    out.J += invariants.linear_inertia(invariants.centrifugal_patterns().transpose() * state.d);
+    return out;
+  }
+  out.J = invariants.rotary_inertia(state.d);
+  out.l = invariants.relative_momentum(state.d, state.d_dot);
+  return out;
 }
 
 double kinetic_energy(const body::Body& body, const model::BodyState& state) {
   const Vector3d& w = state.frame.w;
   double T = 0.5 * body.mass * state.frame.v.squaredNorm();
-  if (is_fully_coupled(body)) {
-    const auto& invariants = body.flexible->invariants;
-    T += 0.5 * w.dot(invariants.rotary_inertia(state.d) * w) +
-         w.dot(invariants.relative_momentum(state.d, state.d_dot));
-  } else {
-    T += 0.5 * w.dot(body.J0 * w);
-  }
+  const body::DeformedMoments moments = inertia(body, state);
+  T += 0.5 * w.dot(moments.J * w) + w.dot(moments.l);
   if (body.is_flexible()) T += 0.5 * state.d_dot.dot(body.flexible->fe.M * state.d_dot);
   return T;
 }
@@ -58,7 +57,8 @@ Momentum momentum(const model::Model& model, const model::State& state) {
     const model::BodyState& s = state.bodies[b];
     const Vector3d p = model.bodies[b].mass * s.frame.v;
     out.linear += p;
-    out.angular += s.frame.X_WB.q * angular_momentum(model.bodies[b], s) + s.frame.X_WB.p.cross(p);
+    const body::DeformedMoments moments = inertia(model.bodies[b], s);
+    out.angular += s.frame.X_WB.q * (moments.J * s.frame.w + moments.l) + s.frame.X_WB.p.cross(p);
   }
   return out;
 }

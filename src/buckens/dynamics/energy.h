@@ -15,7 +15,8 @@ struct Energy {
   double total() const { return kinetic + strain + gravity + springs; }
 };
 
-/// Energies at a state, FM (13): exact for `full`, with J₀ for `none` and rigid bodies.
+/// Energies at a state, FM (13): with J₀ for `none` and rigid bodies, with J₀ + J₁ for
+/// `first-order`, exact otherwise.
 /// Cost: a product with M and K per flexible body.
 Energy energy(const model::Model& model, const model::State& state);
 

@@ -167,6 +167,16 @@ Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
   return std::nullopt;
 }
 
+Finding problem(const body::CouplingSpec& spec, const ReadContext&) {
+  if (spec.level == body::CouplingLevel::automatic && !spec.drop.empty()) {
+    return Problem{"drop", "`auto` chooses the terms itself; drop terms from another level"};
+  }
+  if (spec.tolerance > 1.0) {
+    return Problem{"tolerance", "more than all cannot be neglected; give 1 % or the like"};
+  }
+  return std::nullopt;
+}
+
 Finding problem(const body::OrientationSpec& spec, const ReadContext&) {
   if (spec.axis.has_value() != spec.angle.has_value()) {
     return Problem{spec.axis ? "axis" : "angle", "\"axis\" and \"angle\" belong together"};

@@ -39,6 +39,7 @@ Finding problem(const fem::BeamSpec& spec, const ReadContext& context);
 Finding problem(const fem::BarMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::StructureSpec& spec, const ReadContext& context);
 Finding problem(const body::OrientationSpec& spec, const ReadContext& context);
+Finding problem(const body::CouplingSpec& spec, const ReadContext& context);
 Finding problem(const body::MarkerSpec& spec, const ReadContext& context);
 Finding problem(const body::RigidSpec& spec, const ReadContext& context);
 Finding problem(const body::BodySpec& spec, const ReadContext& context);

@@ -39,6 +39,7 @@ Json bodies_json(const std::vector<results::BodyEffort>& bodies) {
   for (const results::BodyEffort& body : bodies) {
     Json entry = {
         {"dof", body.dof}, {"factorisations", body.factorisations}, {"solves", body.solves}};
+    if (!body.coupling.empty()) entry["coupling"] = body.coupling;
     for (const auto& [name, value] : body.measures) entry[name] = value;
     all[body.name] = std::move(entry);
   }
@@ -120,6 +121,7 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
   json["energy_error"] = summary.energy_error;
   json["trust"] = summary.trust.empty() ? Json("ok") : Json(summary.trust);
   json["warnings"] = summary.warnings;
+  json["notes"] = summary.notes;
   json["redundant_constraints"] = summary.redundant_constraints;
   if (summary.static_path) json["static_path"] = static_path_json(*summary.static_path);
   if (!summary.measures.empty()) json["measures"] = by_name(summary.measures);

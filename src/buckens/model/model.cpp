@@ -44,6 +44,7 @@ State placed_state(const Model& model) {
     body.frame.X_WB = model.placed[k];
     const Eigen::Index n = model.bodies[k].num_dofs();
     body.d = body.d_dot = body.d_ddot = body.d_alg = linalg::Vector::Zero(n);
+    if (model.bodies[k].is_flexible()) body.terms = model.bodies[k].flexible->coupling.terms;
   }
   state.lambda = linalg::Vector::Zero(model.num_constraint_rows());
   return state;

@@ -177,7 +177,8 @@ class Builder {
       body.mass = fe.shape.mass;
       body.com = fe.shape.com;
       body.J0 = fe.shape.J0;
-      body.flexible = std::make_unique<body::FlexiblePart>(body.name, std::move(fe), spec.coupling);
+      body.flexible =
+          std::make_unique<body::FlexiblePart>(body.name, std::move(fe), spec.coupling.choice());
       refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {

@@ -31,6 +31,7 @@ struct SimulationSpec {
   bool projection = true;
   double newton_tolerance = 1e-10;
   double outer_tolerance = 1e-6;
+  bool iterate_coupling = false;
   int max_iterations = 40;
   int max_outer_iterations = 30;
 
@@ -84,6 +85,10 @@ struct SimulationSpec {
                       "relative change of the coupling load at which "
                       "no further large solve is made")
               .positive());
+    visit(base::field("iterate-coupling", iterate_coupling,
+                      "on: large solves until outer-tolerance is met; off: a second one in a step "
+                      "is the last if the coupling load it used was right to 1e-4")
+              .on_off());
     visit(base::field("max-iterations", max_iterations, "most Newton iterations in a step")
               .positive());
     visit(base::field("max-outer-iterations", max_outer_iterations, "most large solves in a step")

@@ -11,8 +11,10 @@ namespace buckens::model {
 /// Inertial coupling of one flexible body at one instant: the terms that the large solve takes as
 /// given. Part of the state, because steps extrapolate from it.
 struct Coupling {
-  body::DeformedMoments moments;
-  linalg::Vector load;  ///< nodal, n; without the centrifugal load of the undeformed body [N, N m]
+  double t = 0;                   ///< the instant [s]
+  body::DeformedMoments moments;  ///< only what is quadratic in d: J₂, J̇₂, l, l̇
+  linalg::Vector load;  ///< nodal, n; without the centrifugal load of the undeformed body [N, N m];
+                        ///< empty if the level keeps none
 };
 
 /// Motion of one body at time t: all that a continuation bit for bit needs.
@@ -22,8 +24,9 @@ struct BodyState {
   Eigen::Vector3d v_dot = Eigen::Vector3d::Zero();  ///< world axes [m/s²]
   Eigen::Vector3d w_alg = Eigen::Vector3d::Zero();  ///< algorithmic accelerations of the frame
   Eigen::Vector3d v_alg = Eigen::Vector3d::Zero();
-  linalg::Vector d, d_dot, d_ddot, d_alg;  ///< nodal variables, n each, body axes
-  Coupling coupling, coupling_before;      ///< at this and at the previous step
+  linalg::Vector d, d_dot, d_ddot, d_alg;                ///< nodal variables, n each, body axes
+  body::CouplingTerms terms;                             ///< kept by this body now
+  Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };
 
 /// State of the mechanism.
@@ -33,8 +36,7 @@ struct State {
   linalg::Vector lambda;   ///< joint multipliers [N, N m]
   double lambda_time = 0;  ///< instant to which λ belongs [s]
   double last_step = 0;    ///< length of the step that led here [s]
-  double step_before = 0;  ///< length of the step before that one [s]
-  int history = 0;         ///< number of valid coupling entries: 0, 1, 2
+  int history = 0;         ///< number of valid coupling entries: 0 … 3
 };
 
 /// All bodies as placed, undeformed and at rest.

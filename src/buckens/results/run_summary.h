@@ -14,6 +14,7 @@ struct BodyEffort {
   int dof = 0;              ///< nodal variables; 0 for rigid bodies
   long factorisations = 0;  ///< large factorisations, all step sizes together
   long solves = 0;          ///< large solves while stepping
+  std::string coupling;     ///< level of inertial coupling in use; empty for rigid bodies
   /// Further counts and measures of this body, by name ("mode_ratio", "factor_bytes").
   std::vector<std::pair<std::string, double>> measures;
 };
@@ -87,6 +88,7 @@ struct RunSummary {
   double energy_error = 0;         ///< (E−E₀−W+D)/scale, largest magnitude
   std::vector<std::string> trust;  ///< reasons to doubt the results; empty: none
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;                  ///< what else happened, such as changes of level
   std::vector<std::string> redundant_constraints;  ///< rows found redundant, by joint
   std::optional<StaticPathSummary> static_path;    ///< of `buckens static`
   /// Further figures of the run, by name.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step.h"
 
+#include "buckens/dynamics/coupling_terms.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::stepping {
@@ -25,6 +26,7 @@ spatial::Pose moved(const spatial::Pose& X, const Vector6& u) {
 void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
                      const Scheme& scheme) {
   before = state.frame;
+  terms = state.terms;
   frame = scheme.history<Vector6>(stack(state.frame.w, state.frame.v),
                                   stack(state.w_dot, state.v_dot), stack(state.w_alg, state.v_alg));
   u = frame.predicted;
@@ -65,6 +67,23 @@ dynamics::BodyMotion BodyStep::motion_at_evaluation(const Scheme& scheme,
     motion.y_dot = scheme.mean_rate * (y_end - y_before) + y.mean_velocity;
   }
   return motion;
+}
+
+body::DeformedMoments BodyStep::moments(const body::Body& body,
+                                        const dynamics::BodyMotion& motion) const {
+  // Rows beyond those of the interface are the patterns.
+  if (motion.y.size() <= body.num_interface_rows()) {
+    return dynamics::frame_moments(body, body::CouplingTerms::none(), quadratic, {}, {});
+  }
+  return dynamics::frame_moments(body, terms, quadratic, motion.y.tail<6>(),
+                                 motion.y_dot.tail<6>());
+}
+
+VectorXd BodyStep::total_load(const VectorXd& interface, const Vector3d& w) const {
+  VectorXd out(y_before.size());
+  out.head(interface.size()) = interface;
+  if (out.size() > interface.size()) out.tail<6>() = dynamics::centrifugal_weights(terms, w);
+  return out;
 }
 
 }  // namespace buckens::stepping

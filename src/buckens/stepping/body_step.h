@@ -11,6 +11,8 @@ namespace buckens::stepping {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// One body within one step, without any n-sized vector: frame increments and interface values.
+/// Where the coupling needs them, the six numbers c_ab·d follow the interface values; the
+/// centrifugal load of the undeformed body is the load along these rows.
 ///
 /// The increment u (rotation vector in body axes, translation in world axes) carries velocity; the
 /// position correction does not.
@@ -19,15 +21,15 @@ struct BodyStep {
   History<Vector6> frame;
   Vector6 u = Vector6::Zero();
   Vector6 correction = Vector6::Zero();
-  body::DeformedMoments moments;           ///< taken as given by the small Newton
+  body::CouplingTerms terms;
+  body::DeformedMoments quadratic;  ///< J₂, J̇₂, l, l̇: taken as given by the small Newton
   Eigen::Matrix<double, 6, 6> compliance;  ///< W⁻¹ of the frame
-  Vector6 centrifugal = Vector6::Zero();   ///< weights at the evaluation instant
 
   Eigen::VectorXd y_before;  ///< interface values at the start
   History<Eigen::VectorXd> y;
   Eigen::VectorXd y_free;           ///< at the end, without interface loads
   Eigen::VectorXd y_end;            ///< at the end, without correction
-  Eigen::VectorXd load;             ///< f at the evaluation instant
+  Eigen::VectorXd load;             ///< f at the evaluation instant, centrifugal weights with it
   Eigen::VectorXd correction_load;  ///< e
 
   /// Prepares everything but the free response.
@@ -35,6 +37,11 @@ struct BodyStep {
 
   dynamics::BodyMotion motion_at_end(const Scheme& scheme, const BodyStepOperator* op) const;
   dynamics::BodyMotion motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op) const;
+  /// All moments of the frame equation at a motion of this step.
+  body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;
+  /// Interface load and centrifugal weights at the evaluation instant. @param interface loads of
+  /// joints and forces, @param w angular velocity there
+  Eigen::VectorXd total_load(const Eigen::VectorXd& interface, const Eigen::Vector3d& w) const;
   Vector6 frame_acceleration(const Scheme& scheme) const {
     return scheme.acceleration_rate * u + frame.acceleration;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step_operator.h"
 
+#include <vector>
+
 namespace buckens::stepping {
 
 using linalg::Matrix;
@@ -16,6 +18,28 @@ SparseMatrix step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
   return K_hat;
 }
 
+Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const body::FlexiblePart& part) {
+  using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  RowMajor interface = part.rows.topRows(part.num_interface_rows);
+  if (!part.coupling.may_use_patterns()) return interface;
+  const Matrix& patterns = part.invariants.centrifugal_patterns();
+  std::vector<linalg::Triplet> entries;
+  for (int k = 0; k < interface.outerSize(); ++k) {
+    for (RowMajor::InnerIterator it(interface, k); it; ++it) {
+      entries.emplace_back(k, static_cast<int>(it.col()), it.value());
+    }
+  }
+  const auto first = static_cast<int>(interface.rows());
+  for (int k = 0; k < static_cast<int>(patterns.cols()); ++k) {
+    for (int i = 0; i < static_cast<int>(patterns.rows()); ++i) {
+      if (patterns(i, k) != 0.0) entries.emplace_back(first + k, i, patterns(i, k));
+    }
+  }
+  RowMajor out(first + static_cast<int>(patterns.cols()), part.num_dofs());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
 }  // namespace
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme)
@@ -23,7 +47,7 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
       scheme_(scheme),
       K_hat_(step_matrix(part, scheme)),
       factor_(K_hat_),
-      N_(part.rows.topRows(part.num_interface_rows)) {
+      N_(rows_of(part)) {
   const Matrix loads = Matrix(SparseMatrix(N_.transpose()));
   G_ = factor_.solve(loads);
   part.sieve.apply(G_);
@@ -31,24 +55,20 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   if (scheme.weight == 1.0) {
     // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
     // G e leaves Y K̂⁻¹ (m M + c C) G e.
-    Matrix inertia = scheme.mass * (part.fe.M * G_);
-    if (part.is_damped()) inertia += scheme.damping * (part.C * G_);
-    D_ = factor_.solve(inertia);
-    part.sieve.apply(D_);
+    const Matrix interface = G_.leftCols(part.num_interface_rows);
+    Matrix inertia = scheme.mass * (part.fe.M * interface);
+    if (part.is_damped()) inertia += scheme.damping * (part.C * interface);
+    Matrix answer = factor_.solve(inertia);
+    part.sieve.apply(answer);
+    D_ = Matrix::Zero(G_.rows(), G_.cols());
+    D_.leftCols(interface.cols()) = answer;
     setup_solves_ += inertia.cols();
   } else {
     D_ = G_;
   }
-  if (part.coupling == body::CouplingLevel::full) {
-    Gc_ = factor_.solve(part.invariants.centrifugal_patterns());
-    part.sieve.apply(Gc_);
-    setup_solves_ += Gc_.cols();
-  } else {
-    Gc_ = Matrix::Zero(part.num_dofs(), 6);
-  }
   NG_ = N_ * G_;
+  interface_ = NG_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
   ND_ = N_ * D_;
-  NGc_ = N_ * Gc_;
 }
 
 void BodyStepOperator::free_response(const model::BodyState& before, const History<Vector>& history,
@@ -79,13 +99,14 @@ void BodyStepOperator::free_response(const model::BodyState& before, const Histo
   part_->sieve.apply(free);
 }
 
-void BodyStepOperator::complete(const Vector& interface_load,
-                                const Eigen::Matrix<double, 6, 1>& centrifugal,
-                                const Vector& correction, Vector& x) const {
-  x.noalias() += G_ * (scheme_.force * interface_load);
-  if (part_->coupling == body::CouplingLevel::full) {
-    x.noalias() += Gc_ * (scheme_.force * centrifugal);
-  }
+void BodyStepOperator::solve(Vector& x) {
+  factor_.solve_in_place(x);
+  part_->sieve.apply(x);
+  ++setup_solves_;
+}
+
+void BodyStepOperator::complete(const Vector& load, const Vector& correction, Vector& x) const {
+  x.noalias() += G_ * (scheme_.force * load);
   if (!correction.isZero(0.0)) x.noalias() += D_ * correction;
 }
 

@@ -16,11 +16,4 @@ void rescale_algorithmic(model::State& state, const Scheme& scheme) {
   }
 }
 
-double coupling_reach(const model::State& state, const Scheme& scheme) {
-  const double after = scheme.instant;
-  const double rest = 1.0 - after;
-  return (after * scheme.h + rest * state.last_step) /
-         (after * state.last_step + rest * state.step_before);
-}
-
 }  // namespace buckens::stepping

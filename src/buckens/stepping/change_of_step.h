@@ -16,8 +16,4 @@ bool must_rescale(const model::State& state, const Scheme& scheme);
 /// Without this a changed step is an error of first order.
 void rescale_algorithmic(model::State& state, const Scheme& scheme);
 
-/// Distance from the last evaluation of the coupling to the next, relative to that between the last
-/// two: how far to extrapolate. 1 while the step stays.
-double coupling_reach(const model::State& state, const Scheme& scheme);
-
 }  // namespace buckens::stepping

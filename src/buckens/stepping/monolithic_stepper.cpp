@@ -68,17 +68,20 @@ struct MonolithicStepper::Part {
   History<Vector> nodal_history;
   Vector6 u, kappa;
   Vector delta, eta;
-  Matrix6 W;                 // of the correction: at the predicted motion
-  model::Coupling coupling;  // as evaluated last
+  Matrix6 W;                      // of the correction: at the predicted motion
+  model::Coupling coupling;       // as evaluated last
+  body::DeformedMoments moments;  // all of them
 
   bool is_flexible() const { return body.is_flexible(); }
-  bool is_coupled() const {
-    return is_flexible() && body.flexible->coupling == body::CouplingLevel::full;
+  void set_moments(const Vector& d, const Vector& d_dot) {
+    const auto& patterns = body.flexible->invariants.centrifugal_patterns();
+    moments = dynamics::frame_moments(body, before->terms, coupling.moments,
+                                      patterns.transpose() * d, patterns.transpose() * d_dot);
   }
   Matrix6 metric(const Scheme& scheme, const Vector3d& w) const {
     Matrix6 out = Matrix6::Zero();
-    out.topLeftCorner<3, 3>() = scheme.mass * coupling.moments.J +
-                                scheme.damping * dynamics::gyroscopic_tangent(coupling.moments, w);
+    out.topLeftCorner<3, 3>() =
+        scheme.mass * moments.J + scheme.damping * dynamics::gyroscopic_tangent(moments, w);
     out.bottomRightCorner<3, 3>() = scheme.mass * body.mass * Eigen::Matrix3d::Identity();
     return out;
   }
@@ -157,22 +160,25 @@ void MonolithicStepper::start(const model::State& state) {
     part.frame_history = scheme_.history<Vector6>(rate, acceleration, algorithmic);
     part.u = part.frame_history.predicted;
     part.kappa.setZero();
-    // The step starts from the coupling that the steps before suggest, and W stays with it.
-    if (!part.is_coupled()) {
-      part.coupling = {dynamics::undeformed_moments(part.body), {}};
-    } else if (state.history >= 2) {
-      part.coupling =
-          dynamics::extrapolate(s.coupling, s.coupling_before, coupling_reach(state, scheme_));
-    } else if (state.history == 1) {
-      part.coupling = s.coupling;
-    } else {
-      part.coupling =
-          dynamics::evaluate_coupling(part.body, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
+    if (!part.is_flexible()) {
+      part.moments = dynamics::undeformed_moments(part.body);
+      continue;
     }
-    if (!part.is_flexible()) continue;
     part.nodal_history = scheme_.history<Vector>(s.d_dot, s.d_ddot, s.d_alg);
     part.delta = part.nodal_history.predicted;
     part.eta = Vector::Zero(s.d.size());
+    // The step starts from the coupling that the steps before suggest, and W stays with it.
+    if (!s.terms.are_lagged()) {
+      part.coupling = {};
+    } else if (state.history > 0) {
+      part.coupling = dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t));
+    } else {
+      part.coupling = dynamics::evaluate_coupling(part.body, s.terms, s.d, s.d_dot, s.d_ddot,
+                                                  s.frame.w, s.w_dot);
+    }
+    Vector d = s.d + scheme_.weight * part.delta;
+    if (scheme_.has_offset()) d += part.nodal_history.offset;
+    part.set_moments(d, scheme_.mean_rate * part.delta + part.nodal_history.mean_velocity);
     z_.segment(part.nodal, s.d.size()) = part.delta;
   }
 }
@@ -206,16 +212,18 @@ void MonolithicStepper::predict(double t) {
 }
 
 void MonolithicStepper::update_coupling(Part& part) {
-  if (!part.is_coupled()) return;
+  if (!part.is_flexible()) return;
   Vector d = part.before->d + scheme_.weight * part.delta;
   if (scheme_.weight == 1.0) d += part.eta;
   if (scheme_.has_offset()) d += part.nodal_history.offset;
   const Vector6 w = scheme_.mean_rate * part.u + part.frame_history.mean_velocity;
   const Vector6 w_dot = scheme_.acceleration_rate * part.u + part.frame_history.acceleration;
+  const Vector d_dot = scheme_.mean_rate * part.delta + part.nodal_history.mean_velocity;
   part.coupling = dynamics::evaluate_coupling(
-      part.body, d, scheme_.mean_rate * part.delta + part.nodal_history.mean_velocity,
+      part.body, part.before->terms, d, d_dot,
       scheme_.acceleration_rate * part.delta + part.nodal_history.acceleration, w.head<3>(),
       w_dot.head<3>());
+  part.set_moments(d, d_dot);
 }
 
 std::vector<MonolithicStepper::Entry> MonolithicStepper::entries(
@@ -361,7 +369,7 @@ void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {
   const Part& part = *parts_[b];
   const Vector6 acceleration = scheme_.acceleration_rate * part.u + part.frame_history.acceleration;
   const Vector3d& w = motions_evaluation_[b].frame.w;
-  const Vector6 inertia = dynamics::frame_inertia(part.body, part.coupling.moments, w,
+  const Vector6 inertia = dynamics::frame_inertia(part.body, part.moments, w,
                                                   acceleration.head<3>(), acceleration.tail<3>());
   r.segment(part.frame, part.basis.cols()) =
       part.basis.transpose() * (scheme_.force * (inertia - forces_.frame[b]));
@@ -371,10 +379,9 @@ void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {
   if (scheme_.has_offset()) load -= mesh.fe.K * part.nodal_history.offset;
   if (mesh.is_damped()) load -= mesh.C * part.nodal_history.mean_velocity;
   load += mesh.rows.topRows(mesh.num_interface_rows).transpose() * forces_.interface[b];
-  if (part.is_coupled()) {
-    load += part.coupling.load + mesh.invariants.centrifugal_patterns() *
-                                     body::InertiaInvariants::centrifugal_weights(w);
-  }
+  if (part.before->terms.have_load()) load += part.coupling.load;
+  load +=
+      mesh.invariants.centrifugal_patterns() * dynamics::centrifugal_weights(part.before->terms, w);
   r.segment(part.nodal, load.size()) -= scheme_.force * load;
   Vector at_rest = part.before->d;  // Pᵀx_e = 0, per θ
   if (scheme_.has_offset()) at_rest = (at_rest + part.nodal_history.offset) / scheme_.weight;
@@ -458,8 +465,7 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
   next.lambda = lambda_;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
-  next.step_before = state.last_step;
-  next.history = std::min(2, state.history + 1);
+  next.history = std::min(3, state.history + 1);
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Part& part = *parts_[b];
     const model::BodyState& old = state.bodies[b];
@@ -471,14 +477,17 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
     s.v_dot = scheme_.carried_acceleration<Vector3d>(old.v_dot, acceleration.tail<3>());
     s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
+    s.terms = old.terms;
     if (!part.is_flexible()) continue;
     s.d = old.d + part.delta + part.eta;
     s.d_dot = scheme_.end_rate * part.delta + part.nodal_history.velocity;
     s.d_ddot = scheme_.carried_acceleration<Vector>(
         old.d_ddot, scheme_.acceleration_rate * part.delta + part.nodal_history.acceleration);
     s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
-    if (part.is_coupled()) s.coupling = part.coupling;
+    s.coupling = part.coupling;
+    s.coupling.t = scheme_.evaluation_time(state.t);
     s.coupling_before = old.coupling;
+    s.coupling_earlier = old.coupling_before;
   }
   return next;
 }

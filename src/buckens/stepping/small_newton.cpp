@@ -36,11 +36,12 @@ Matrix3d restricted_inverse(const Matrix3d& W,
   return basis * reduced.inverse() * basis.transpose();
 }
 
-Eigen::Matrix<double, 6, 6> frame_compliance(const body::Body& body, const BodyStep& step,
+Eigen::Matrix<double, 6, 6> frame_compliance(const body::Body& body,
+                                             const body::DeformedMoments& moments,
                                              const Scheme& scheme, const Eigen::Vector3d& w) {
   Eigen::Matrix<double, 6, 6> out = Eigen::Matrix<double, 6, 6>::Zero();
   const Matrix3d W =
-      scheme.mass * step.moments.J + scheme.damping * dynamics::gyroscopic_tangent(step.moments, w);
+      scheme.mass * moments.J + scheme.damping * dynamics::gyroscopic_tangent(moments, w);
   out.topLeftCorner<3, 3>() = restricted_inverse(W, body.rotation_basis);
   out.bottomRightCorner<3, 3>() =
       body.translation_basis * body.translation_basis.transpose() / (scheme.mass * body.mass);
@@ -60,6 +61,16 @@ double system_change(const dynamics::SystemRow& row, const std::vector<Vector6>&
 
 /// The larger number; not-a-number wins, so that it cannot hide.
 double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
+
+/// Largest change of interface values [m]; that of c_ab·d counts by m L.
+double interface_change(const body::Body& body, const VectorXd& dy) {
+  const Eigen::Index rows = body.num_interface_rows();
+  double out = 0;
+  if (rows > 0) out = dy.head(rows).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  if (dy.size() == rows) return out;
+  const double scale = body.mass * body.length_scale();
+  return larger(out, dy.tail<6>().cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
+}
 
 }  // namespace
 
@@ -82,7 +93,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
   response_.resize(count);
   correction_u_.assign(count, Vector6::Zero());
   for (std::size_t b = 0; b < count; ++b) {
-    const Eigen::Index rows = model.bodies[b].num_interface_rows();
+    const Eigen::Index rows = operators_[b] ? operators_[b]->N().rows() : 0;
     residual_y_[b] = VectorXd::Zero(rows);
     correction_[b].interface_load = VectorXd::Zero(rows);
     response_[b].interface_load = VectorXd::Zero(rows);
@@ -111,6 +122,10 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   if (!same) dynamics::evaluate_constraints(model_, motions, t_e, constraints_evaluation_);
   dynamics::evaluate_forces(model_, motions, t_e, forces_);
   dynamics::add_joint_forces(at_evaluation(), lambda, forces_);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (operators_[b] == nullptr) continue;
+    bodies[b].load = bodies[b].total_load(forces_.interface[b], motions[b].frame.w);
+  }
 }
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
@@ -118,9 +133,10 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     end_[b] = bodies[b].motion_at_end(scheme_, operators_[b]);
     evaluation_[b] = bodies[b].motion_at_evaluation(scheme_, operators_[b]);
     bodies[b].compliance =
-        frame_compliance(model_.bodies[b], bodies[b], scheme_, evaluation_[b].frame.w);
+        frame_compliance(model_.bodies[b], bodies[b].moments(model_.bodies[b], evaluation_[b]),
+                         scheme_, evaluation_[b].frame.w);
     compliance_[b].frame = bodies[b].compliance;
-    compliance_[b].interface = operators_[b] ? &operators_[b]->compliance() : nullptr;
+    compliance_[b].interface = operators_[b] ? &operators_[b]->interface_compliance() : nullptr;
   }
   dynamics::evaluate_constraints(model_, end_, t + scheme_.h, constraints_end_);
   if (scheme_.weight != 1.0) {
@@ -211,13 +227,12 @@ void SmallNewton::residual_step(const std::vector<BodyStep>& bodies) {
     const BodyStep& step = bodies[b];
     const Vector6 acceleration = step.frame_acceleration(scheme_);
     const Vector6 inertia =
-        dynamics::frame_inertia(model_.bodies[b], step.moments, motions[b].frame.w,
-                                acceleration.head<3>(), acceleration.tail<3>());
+        dynamics::frame_inertia(model_.bodies[b], step.moments(model_.bodies[b], motions[b]),
+                                motions[b].frame.w, acceleration.head<3>(), acceleration.tail<3>());
     residual_frame_[b] = step.compliance * (scheme_.force * (forces_.frame[b] - inertia));
     if (operators_[b] == nullptr) continue;
     const BodyStepOperator& op = *operators_[b];
-    residual_y_[b] = step.y_free + op.compliance() * (scheme_.force * forces_.interface[b]) +
-                     op.centrifugal_compliance() * (scheme_.force * step.centrifugal) +
+    residual_y_[b] = step.y_free + op.compliance() * (scheme_.force * step.load) +
                      op.correction_compliance() * step.correction_load -
                      op.compliance() * step.correction_load - step.y_end;
   }
@@ -289,7 +304,7 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
                         op.correction_compliance() * e - op.compliance() * e;
     step.y_end += dy;
     step.correction_load += e;
-    change.size = larger(change.size, dy.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+    change.size = larger(change.size, interface_change(model_.bodies[b], dy));
   }
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     lambda[rows_in_use_[k]] += X_[static_cast<Eigen::Index>(k)] / scheme_.force;
@@ -320,11 +335,6 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
   Change change;
   Change before;
   for (int iteration = 0;; ++iteration) {
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (operators_[b] == nullptr) continue;
-      const Vector6 rate = scheme_.mean_rate * bodies[b].u + bodies[b].frame.mean_velocity;
-      bodies[b].centrifugal = body::InertiaInvariants::centrifugal_weights(rate.head<3>());
-    }
     evaluate(bodies, t, lambda);
     record_residuals(report);
     if (iteration > 0 && settled(change, before)) break;
@@ -339,7 +349,6 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
     ++report.newton_iterations;
     if (!(change.size < HUGE_VAL)) fail(t, report, "the motion is no longer finite");
   }
-  for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].load = forces_.interface[b];
   watch_rows_not_in_use();
 }
 

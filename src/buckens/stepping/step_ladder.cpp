@@ -51,6 +51,12 @@ Stepper& StepLadder::rung(int k) {
   return *rungs_.back().stepper;
 }
 
+Stepper& StepLadder::latest() {
+  return *std::max_element(rungs_.begin(), rungs_.end(), [](const Rung& a, const Rung& b) {
+            return a.last_used < b.last_used;
+          })->stepper;
+}
+
 void StepLadder::make_room(double entries) {
   while (rungs_.size() >= 2) {
     double sum = entries;

@@ -23,6 +23,8 @@ class StepLadder {
 
   /// Stepper for steps h·2⁻ᵏ. The reference holds until the next call.
   Stepper& rung(int k);
+  /// The stepper that rung() returned last.
+  Stepper& latest();
   /// h·2⁻ᵏ [s]
   double step(int k) const;
 

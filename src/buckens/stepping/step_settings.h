@@ -15,6 +15,8 @@ struct StepSettings {
   bool position_projection = true;  ///< Newmark: project positions after the velocity-level step
   double newton_tolerance = 1e-10;  ///< change of positions relative to the step's motion
   double outer_tolerance = 1e-6;    ///< relative change of the coupling load
+  bool iterate_coupling = false;    ///< to outer_tolerance; otherwise a second large solve is the
+                                    ///< last if its coupling load was right to 1e-4
   int max_newton = 40;
   int max_outer = 30;
 
@@ -27,7 +29,7 @@ struct StepSettings {
 /// What one step took and how well it closed.
 struct StepReport {
   int newton_iterations = 0;
-  int large_solve_rounds = 0;    ///< 1: one large solve per flexible body
+  int large_solve_rounds = 0;    ///< large solves of the body that took most; 0: all rigid
   double position_residual = 0;  ///< max |g| [m] or [-]
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest

@@ -12,6 +12,7 @@
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/stepping/change_of_step.h"
+#include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
@@ -26,6 +27,12 @@ namespace {
 // motion has barely begun).
 constexpr double kCouplingRounding = 1e-9;
 constexpr double kPositionRounding = 1e-15;
+// What a second large solve may leave in the coupling load: its share of the motion in a step is
+// smaller by (h ω)² than that, far below what the method itself neglects.
+constexpr double kSecondSolve = 1e-4;
+// Where the coupling load passes through zero, what matters is the motion that the rest would cause
+// in the step, relative to the model's length.
+constexpr double kSecondSolveMotion = 1e-9;
 }  // namespace
 
 /// The n-sized share of one flexible body in a step.
@@ -110,34 +117,32 @@ void Stepper::start_bodies(const model::State& state) {
     const model::BodyState& s = state.bodies[b];
     const body::Body& body = model_.bodies[b];
     bodies_[b].start(s, operators_[b].get(), scheme_);
-    if (!large_[b]) {
-      bodies_[b].moments = dynamics::undeformed_moments(body);
-      continue;
-    }
+    if (!large_[b]) continue;
     Large& large = *large_[b];
     large.history = scheme_.history(s.d_dot, s.d_ddot, s.d_alg);
-    if (body.flexible->coupling == body::CouplingLevel::none) {
-      large.used = {dynamics::undeformed_moments(body), {}};
-    } else if (state.history >= 2) {
-      large.used =
-          dynamics::extrapolate(s.coupling, s.coupling_before, coupling_reach(state, scheme_));
-    } else if (state.history == 1) {
-      large.used = s.coupling;
+    if (!s.terms.are_lagged()) {
+      large.used = large.evaluated = {};
+    } else if (state.history > 0) {
+      large.used = dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t));
     } else {
-      large.used = dynamics::evaluate_coupling(body, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
+      large.used =
+          dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
     }
     large.load_changed = true;
-    bodies_[b].moments = large.used.moments;
+    bodies_[b].quadratic = large.used.moments;
   }
 }
 
-void Stepper::free_responses(const model::State& state, bool first_round) {
+bool Stepper::free_responses(const model::State& state, bool first_round) {
+  bool any = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!large_[b] || !(first_round || large_[b]->load_changed)) continue;
     Large& large = *large_[b];
     operators_[b]->free_response(state.bodies[b], large.history, large.used.load, large.free);
     bodies_[b].y_free = operators_[b]->N() * large.free;
+    any = true;
   }
+  return any;
 }
 
 void Stepper::complete(const model::State& state) {
@@ -146,7 +151,7 @@ void Stepper::complete(const model::State& state) {
     Large& large = *large_[b];
     const BodyStep& step = bodies_[b];
     large.d_end = large.free;
-    operators_[b]->complete(step.load, step.centrifugal, step.correction_load, large.d_end);
+    operators_[b]->complete(step.load, step.correction_load, large.d_end);
     large.increment = large.d_end - state.bodies[b].d;
     if (!step.correction_load.isZero(0.0)) {
       large.increment -= operators_[b]->correction(step.correction_load);
@@ -160,9 +165,9 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
   coupling_motion_ = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const body::Body& body = model_.bodies[b];
-    if (!large_[b] || body.flexible->coupling == body::CouplingLevel::none) continue;
-    Large& large = *large_[b];
     const BodyStep& step = bodies_[b];
+    if (!large_[b] || !step.terms.are_lagged()) continue;
+    Large& large = *large_[b];
     const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
     const Vector6 acceleration = step.frame_acceleration(scheme_);
     const Vector3d w = rate.head<3>();
@@ -173,22 +178,26 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
                      : Vector(state.bodies[b].d + scheme_.weight * large.increment);
     if (scheme_.has_offset()) d_e += large.history.offset;
     const Vector d_dot = scheme_.mean_rate * large.increment + large.history.mean_velocity;
-    large.evaluated =
-        dynamics::evaluate_coupling(body, d_e, d_dot, large.acceleration(scheme_), w, w_dot);
+    large.evaluated = dynamics::evaluate_coupling(body, step.terms, d_e, d_dot,
+                                                  large.acceleration(scheme_), w, w_dot);
+    large.evaluated.t = scheme_.evaluation_time(state.t);
 
-    const Vector undeformed = body.flexible->invariants.centrifugal_patterns() *
-                              body::InertiaInvariants::centrifugal_weights(w);
-    const double load_size = large.norm(large.evaluated.load + undeformed);
-    const double load_change =
-        load_size != 0.0 ? large.norm(large.evaluated.load - large.used.load) / load_size : 0.0;
+    double load_change = 0;
+    double moved = 0;
+    if (step.terms.have_load()) {
+      const Vector undeformed = body.flexible->invariants.centrifugal_patterns() *
+                                dynamics::centrifugal_weights(step.terms, w);
+      const Vector difference = large.evaluated.load - large.used.load;
+      const double load_size = large.norm(large.evaluated.load + undeformed);
+      if (load_size != 0.0) load_change = large.norm(difference) / load_size;
+      moved = scheme_.force * large.moved_by(difference) / model_.length;
+    }
     const Vector3d frame_change =
         (dynamics::frame_inertia(body, large.evaluated.moments, w, w_dot, Vector3d::Zero()) -
          dynamics::frame_inertia(body, large.used.moments, w, w_dot, Vector3d::Zero()))
             .head<3>();
     const double frame_size = body.J0.norm() * (w_dot.norm() + w.squaredNorm());
     const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
-    const double moved =
-        scheme_.force * large.moved_by(large.evaluated.load - large.used.load) / model_.length;
     const double turned =
         scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm();
     coupling_motion_ = std::max({coupling_motion_, moved, turned});
@@ -207,8 +216,7 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
   next.lambda = lambda;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
-  next.step_before = state.last_step;
-  next.history = std::min(2, state.history + 1);
+  next.history = std::min(3, state.history + 1);
   next.bodies.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const model::BodyState& old = state.bodies[b];
@@ -219,6 +227,7 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
     s.v_dot = scheme_.carried_acceleration<Vector3d>(old.v_dot, acceleration.tail<3>());
     s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
+    s.terms = old.terms;
     if (!large_[b]) continue;
     s.d = large_[b]->d_end;
     s.d_dot = large_[b]->rate(scheme_);
@@ -226,19 +235,20 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
     s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
     s.coupling = large_[b]->evaluated;
     s.coupling_before = old.coupling;
+    s.coupling_earlier = old.coupling_before;
   }
   return next;
 }
 
 void Stepper::take_over_coupling() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!large_[b] || model_.bodies[b].flexible->coupling == body::CouplingLevel::none) continue;
+    if (!large_[b] || !bodies_[b].terms.are_lagged()) continue;
     if (large_[b]->load_changed) {
       large_[b]->used = large_[b]->evaluated;
     } else {
       large_[b]->used.moments = large_[b]->evaluated.moments;
     }
-    bodies_[b].moments = large_[b]->used.moments;
+    bodies_[b].quadratic = large_[b]->used.moments;
   }
 }
 
@@ -247,13 +257,12 @@ void Stepper::compute_round(const model::State& state, bool is_first, Vector& la
   using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   const auto start = Clock::now();
-  free_responses(state, is_first);
+  if (free_responses(state, is_first)) ++report.large_solve_rounds;
   const auto solved = Clock::now();
   if (is_first) newton_->prepare(bodies_, state.t);
   newton_->iterate(bodies_, state.t, lambda, report);
   const auto iterated = Clock::now();
   complete(state);
-  ++report.large_solve_rounds;
   seconds_.large_solves += seconds(solved - start);
   seconds_.newton += seconds(iterated - solved);
   seconds_.completion += seconds(Clock::now() - iterated);
@@ -277,6 +286,9 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
     const double change = report.coupling_change;
     const bool is_rounding = change <= kCouplingRounding || coupling_motion_ <= kPositionRounding;
     if (is_rounding && change > 0.5 * before) break;
+    const bool is_second = report.large_solve_rounds >= 2 && !settings_.iterate_coupling;
+    const bool is_small = coupling_motion_ <= kSecondSolveMotion && change <= 0.5 * before;
+    if (is_second && (change <= kSecondSolve || is_small)) break;
     before = change;
     if (round + 1 >= settings_.max_outer || !std::isfinite(change)) {
       throw StepFailure(fmt::format(
@@ -299,6 +311,15 @@ double Stepper::factor_entries() const {
     if (op) sum += op->factor_entries();
   }
   return sum;
+}
+
+double Stepper::neglected(std::size_t body, const model::State& state,
+                          const body::CouplingTerms& kept) const {
+  return neglected_share(model_.bodies[body], *operators_[body], state.bodies[body], kept);
+}
+
+double Stepper::lowest_frequency(std::size_t body) {
+  return stepping::lowest_frequency(*model_.bodies[body].flexible, *operators_[body]);
 }
 
 SolveCounts Stepper::counts(std::size_t body) const {

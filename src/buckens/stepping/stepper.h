@@ -6,6 +6,7 @@
 
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
 #include "buckens/stepping/step_settings.h"
 
@@ -42,6 +43,11 @@ class Stepper {
   StepReport step(model::State& state);
 
   SolveCounts counts(std::size_t body) const;
+  /// What a flexible body would leave out at a state if it kept these terms only.
+  double neglected(std::size_t body, const model::State& state,
+                   const body::CouplingTerms& kept) const;
+  /// Lowest elastic frequency of a flexible body [rad/s], see lowest_frequency.h.
+  double lowest_frequency(std::size_t body);
   const StepSeconds& seconds() const { return seconds_; }
   /// Numbers in the factors of all bodies: what this stepper needs of memory.
   double factor_entries() const;
@@ -53,7 +59,8 @@ class Stepper {
   struct Large;  // n-sized vectors of one flexible body
   StepReport take_step(const model::State& state, model::State& end);
   void start_bodies(const model::State& state);
-  void free_responses(const model::State& state, bool first_round);
+  /// @return whether any large solve was needed
+  bool free_responses(const model::State& state, bool first_round);
   void complete(const model::State& state);
   void take_over_coupling();
   void compute_round(const model::State& state, bool is_first, linalg::Vector& lambda,

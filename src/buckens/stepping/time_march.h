@@ -56,6 +56,8 @@ class TimeMarch {
   double longest_step() const { return ladder_.step(0); }
   /// Length of the step that advance() will try next [s].
   double next_step() const { return ladder_.step(k_); }
+  /// Of the step taken last. The reference holds until the next step.
+  Stepper& stepper() { return ladder_.latest(); }
   const StepLadder& ladder() const { return ladder_; }
   const MarchReport& report() const { return report_; }
   /// Rungs in use, from the longest step to the shortest.

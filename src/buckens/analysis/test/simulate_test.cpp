@@ -279,7 +279,7 @@ TEST(Simulate, AStaticCantileverCarriesItsLoad) {
 
 TEST(Simulate, CountsOneFactorisationAndOneSolvePerStep) {
   Described m = cantilever();
-  m.d.bodies[0].coupling = body::CouplingLevel::none;
+  m.d.bodies[0].coupling.level = body::CouplingLevel::none;
   m.force("pull", "rod/end", {0, 10, 0});
   set_run(m, 0.01, 1e-4);
   Table table;

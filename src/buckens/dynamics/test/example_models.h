@@ -32,7 +32,7 @@ inline model::Model rigid_double_pendulum(bool planar) {
 /// Planar beam pinned at the origin, horizontal along +x, under gravity along −y. Marker 0 is the
 /// pin; the tip is the last node.
 inline model::Model planar_beam_pendulum(const BeamConstants& beam,
-                                         body::CouplingLevel coupling = body::CouplingLevel::full) {
+                                         const body::CouplingChoice& coupling = {}) {
   Mechanism m(spatial::Plane::xy);
   m.set_gravity({0, -9.81, 0});
   m.set_length(beam.L);
@@ -42,17 +42,18 @@ inline model::Model planar_beam_pendulum(const BeamConstants& beam,
 }
 
 /// Beam in space on a spherical joint at the origin, along +x, under gravity along −z.
-inline model::Model spatial_beam_pendulum(const BeamConstants& beam) {
+inline model::Model spatial_beam_pendulum(const BeamConstants& beam,
+                                          const body::CouplingChoice& coupling = {}) {
   Mechanism m;
   m.set_gravity({0, 0, -9.81});
   m.set_length(beam.L);
-  const int body = m.add_flexible(straight_beam(beam), body::CouplingLevel::full, {});
+  const int body = m.add_flexible(straight_beam(beam), coupling, {});
   m.add_joint(joints::JointType::spherical, Mechanism::ground({0, 0, 0}), m.node_marker(body, 0));
   return m.take();
 }
 
 /// Crank of 0.15 m driven at 150 rad/s, elastic steel rod of 0.3 m and 6 mm, slider of 33 g on x.
-inline model::Model slider_crank(int elements) {
+inline model::Model slider_crank(int elements, const body::CouplingChoice& coupling = {}) {
   Mechanism m(spatial::Plane::xy);
   m.set_length(0.45);
   const double A = M_PI * 0.003 * 0.003;
@@ -64,7 +65,7 @@ inline model::Model slider_crank(int elements) {
   rod.EIy = rod.EIz = 2e11 * I;
   rod.elements = elements;
   const int crank = add_rod(m, 0.36, 0.15, {{0.075, 0, 0}, Eigen::Quaterniond::Identity()});
-  const int beam = m.add_flexible(straight_beam(rod, spatial::Plane::xy), body::CouplingLevel::full,
+  const int beam = m.add_flexible(straight_beam(rod, spatial::Plane::xy), coupling,
                                   {{0.15, 0, 0}, Eigen::Quaterniond::Identity()});
   const int slider = m.add_rigid(0.033, Eigen::Matrix3d::Identity() * 1e-6,
                                  {{0.45, 0, 0}, Eigen::Quaterniond::Identity()});

@@ -36,7 +36,7 @@ class Mechanism {
   }
 
   /// Flexible body; X is the pose of its model axes.
-  int add_flexible(fem::FeModel fe, body::CouplingLevel coupling, const spatial::Pose& X) {
+  int add_flexible(fem::FeModel fe, const body::CouplingChoice& coupling, const spatial::Pose& X) {
     body::Body body;
     body.mass = fe.shape.mass;
     body.J0 = fe.shape.J0;

@@ -113,7 +113,6 @@ TEST(ModelFileErrors, Bodies) {
           {"{rigid: {mass: 1, inertia: [1, 1, -5]}}", {"none can be negative"}},
           {"{rigid: {mass: 1, inertia: [1, 1, 1, 5, 0, 0]}}", {"none can be negative"}},
           {"{rigid: {mass: 1, inertia: [1, 1]}}", {"expected are 3", "or 6"}},
-          {"{rigid: {mass: 1}, coupling: first-order}", {"\"first-order\" is not available yet"}},
           {"{rigid: {mass: 1}, coupling: ful}", {"Did you mean \"full\"?"}},
           {"{rigid: {mass: 1}, frames: 2}", {"a rigid body has one frame"}},
           {"{rigid: {mass: 1}, frames: per-node}", {"\"per-node\" is no number of frames"}},
@@ -157,6 +156,20 @@ TEST(ModelFileErrors, Bodies) {
               HasSubstr("materials.s.rho: -7 kg/m^3 is not allowed"));
   EXPECT_THAT(message("buckens: 1\nmaterials: {s: {E: 1, rho: 1, damping: {ratio: 2 %}}}\n"),
               HasSubstr("belong together"));
+}
+
+TEST(ModelFileErrors, Coupling) {
+  expect_messages(
+      {
+          {"{rigid: {mass: 1}, coupling: first-ordr}", {"Did you mean \"first-order\"?"}},
+          {"{rigid: {mass: 1}, coupling: {drop: [cent2]}}", {"Did you mean \"cent0\"?"}},
+          {"{rigid: {mass: 1}, coupling: {drop: cent0}}", {"expected is a list"}},
+          {"{rigid: {mass: 1}, coupling: {level: auto, drop: [jvar]}}",
+           {"chooses the terms itself"}},
+          {"{rigid: {mass: 1}, coupling: {level: auto, tolerance: 200 %}}", {"more than all"}},
+          {"{rigid: {mass: 1}, coupling: {level: auto, tolerance: 0}}", {"must be positive"}},
+      },
+      "buckens: 1\nbodies: {a: ", "}\n");
 }
 
 const char* const kTwoBodies =

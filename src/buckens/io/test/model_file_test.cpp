@@ -68,7 +68,7 @@ TEST(ModelFile, Bodies) {
   EXPECT_EQ(beam.theory, fem::BeamTheory::timoshenko);
   EXPECT_FALSE(beam.has_rotary_inertia());
   EXPECT_DOUBLE_EQ(beam.masses.at(0).mass, 0.033);
-  EXPECT_EQ(rod.coupling, body::CouplingLevel::none);
+  EXPECT_EQ(rod.coupling.level, body::CouplingLevel::none);
   EXPECT_DOUBLE_EQ(rod.damping->alpha(), 2.0);
   const auto& structure = std::get<fem::StructureSpec>(entry(m.bodies, "frame").kind);
   EXPECT_EQ(structure.nodes.size(), 3u);
@@ -79,7 +79,7 @@ TEST(ModelFile, Bodies) {
   EXPECT_EQ(twin.like, "rod");
   EXPECT_EQ(std::get<fem::BeamSpec>(twin.kind).elements, 16);
   EXPECT_EQ(twin.at.position.y(), 1.0);
-  EXPECT_EQ(twin.coupling, body::CouplingLevel::full);
+  EXPECT_EQ(twin.coupling.level, body::CouplingLevel::full);
 }
 
 TEST(ModelFile, JointsAndLoads) {

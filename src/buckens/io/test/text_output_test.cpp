@@ -90,7 +90,7 @@ TEST(SummaryJson, HoldsTheFiguresOfARun) {
   summary.finished = true;
   summary.steps = 1000;
   summary.wall_seconds = {2.0, 0.5, 1.5, {{"solve", 1.0}}};
-  summary.bodies.push_back({"rod", 96, 1, 1001, {{"mode_ratio", 0.02}}});
+  summary.bodies.push_back({"rod", 96, 1, 1001, "first-order", {{"mode_ratio", 0.02}}});
   summary.setup_solves = 12;
   summary.newton_iterations = {2500, 2.5, 4};
   summary.residuals = {1e-15, 2e-14, 3e-16};

@@ -25,6 +25,7 @@ inline stepping::StepSettings settings(stepping::Method method, double h) {
   out.step = h;
   out.newton_tolerance = 1e-12;
   out.outer_tolerance = 1e-10;
+  out.iterate_coupling = true;
   return out;
 }
 

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/deformation_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "buckens/fem/element_block.h"
+
+namespace buckens::analysis {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using linalg::Vector;
+
+namespace {
+
+constexpr double kLargeStrain = 0.05;     // linear strain errs by half of it
+constexpr double kLargeAxialLoad = 0.05;  // of the buckling load: bending stiffness off by as much
+constexpr double kStraight = 0.9998;      // cosine of a kink of about 1°
+
+Vector3d displacement(const fem::FeModel& fe, int node, const Vector& d) {
+  Vector3d u = Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int dof = fe.dofs.node_dofs[static_cast<std::size_t>(node)][k];
+    if (dof >= 0) u[static_cast<Eigen::Index>(k)] = d[dof];
+  }
+  return u;
+}
+
+double nodal_rotation(const fem::FeModel& fe, const Vector& d) {
+  double largest = 0;
+  for (const auto& dofs : fe.dofs.node_dofs) {
+    double square = 0;
+    for (std::size_t k = 3; k < 6; ++k) {
+      if (dofs[k] >= 0) square += d[dofs[k]] * d[dofs[k]];
+    }
+    largest = std::max(largest, square);
+  }
+  return std::sqrt(largest);
+}
+
+/// Displacement gradient that fits the nodes of an element best; along the line only for lines.
+Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
+  Vector3d mean_x = Vector3d::Zero();
+  Vector3d mean_u = Vector3d::Zero();
+  for (const int node : nodes) {
+    mean_x += fe.nodes[static_cast<std::size_t>(node)].position;
+    mean_u += displacement(fe, node, d);
+  }
+  const double count = static_cast<double>(nodes.size());
+  Matrix3d xx = Matrix3d::Zero();
+  Matrix3d ux = Matrix3d::Zero();
+  for (const int node : nodes) {
+    const Vector3d x = fe.nodes[static_cast<std::size_t>(node)].position - mean_x / count;
+    xx += x * x.transpose();
+    ux += (displacement(fe, node, d) - mean_u / count) * x.transpose();
+  }
+  if (nodes.size() == 2) return ux / xx.trace();
+  return ux * xx.inverse();
+}
+
+DeformationMeasure of_element(const fem::FeModel& fe, const fem::ElementBlock& block, int e,
+                              const Vector& d) {
+  DeformationMeasure out;
+  const Matrix3d G = fitted_gradient(fe, block.nodes(e), d);
+  if (block.is_line()) {
+    const auto [a, b] = block.ends(e);
+    const Vector3d axis = (fe.nodes[static_cast<std::size_t>(b)].position -
+                           fe.nodes[static_cast<std::size_t>(a)].position)
+                              .normalized();
+    const Vector3d slope = G * axis;
+    out.strain = std::abs(slope.dot(axis));
+    out.rotation = (slope - slope.dot(axis) * axis).norm();
+    return out;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> strain(0.5 * (G + G.transpose()),
+                                                       Eigen::EigenvaluesOnly);
+  out.strain = strain.eigenvalues().cwiseAbs().maxCoeff();
+  out.rotation = 0.5 * Vector3d(G(2, 1) - G(1, 2), G(0, 2) - G(2, 0), G(1, 0) - G(0, 1)).norm();
+  return out;
+}
+
+}  // namespace
+
+void DeformationMeasure::include(const DeformationMeasure& other) {
+  rotation = std::max(rotation, other.rotation);
+  strain = std::max(strain, other.strain);
+  axial_load = std::max(axial_load, other.axial_load);
+}
+
+DeformationLimits::DeformationLimits(const body::Body& body)
+    : fe_(body.flexible->mesh()), recovery_(fe_) {
+  find_members();
+}
+
+void DeformationLimits::find_members() {
+  struct Line {
+    Vector3d axis = Vector3d::Zero();
+    double length = 0;
+    double EI = 0;
+  };
+  std::vector<Line> lines;
+  std::multimap<int, std::size_t> at_node;
+  for (const auto& block : fe_.blocks) {
+    for (int e = 0; block->is_line() && e < block->num_elements(); ++e) {
+      const auto [a, b] = block->ends(e);
+      const Vector3d way = fe_.nodes[static_cast<std::size_t>(b)].position -
+                           fe_.nodes[static_cast<std::size_t>(a)].position;
+      const fem::Section& section = *block->section(e);
+      const double EI = block->material(e)->E * std::min(section.Iy, section.Iz);
+      for (const int node : {a, b}) at_node.emplace(node, lines.size());
+      lines.push_back({way.normalized(), way.norm(), block->has_rotations() ? EI : 0.0});
+    }
+  }
+  std::vector<std::size_t> parent(lines.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&parent](std::size_t k) {
+    while (parent[k] != k) k = parent[k] = parent[parent[k]];
+    return k;
+  };
+  for (auto i = at_node.begin(); i != at_node.end(); ++i) {
+    for (auto j = std::next(i); j != at_node.end() && j->first == i->first; ++j) {
+      const Line& first = lines[i->second];
+      const Line& second = lines[j->second];
+      if (first.EI <= 0.0 || second.EI <= 0.0) continue;
+      if (std::abs(first.axis.dot(second.axis)) < kStraight) continue;
+      parent[root(i->second)] = root(j->second);
+    }
+  }
+  std::vector<double> length(lines.size(), 0.0);
+  for (std::size_t k = 0; k < lines.size(); ++k) length[root(k)] += lines[k].length;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double L = length[root(k)];
+    buckling_load_.push_back(std::pow(std::numbers::pi / L, 2) * lines[k].EI);
+  }
+}
+
+DeformationMeasure DeformationLimits::measure(const Vector& d) const {
+  DeformationMeasure out;
+  out.rotation = nodal_rotation(fe_, d);
+  for (const auto& block : fe_.blocks) {
+    if (!block->is_line() && !block->is_solid()) continue;
+    for (int e = 0; e < block->num_elements(); ++e) out.include(of_element(fe_, *block, e, d));
+  }
+  if (buckling_load_.empty()) return out;
+  const linalg::Matrix forces = recovery_.section_forces(d);
+  for (std::size_t e = 0; e < buckling_load_.size(); ++e) {
+    if (buckling_load_[e] <= 0.0) continue;
+    const double N = std::abs(forces(0, static_cast<Eigen::Index>(e)));
+    out.axial_load = std::max(out.axial_load, N / buckling_load_[e]);
+  }
+  return out;
+}
+
+std::string describe_rotation(const std::string& body, const DeformationMeasure& found) {
+  return fmt::format(
+      "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
+      "linear elasticity bears; divide it into several bodies or give it more `frames`",
+      body, found.rotation, kLargeRotation);
+}
+
+std::vector<std::string> judge_deformation(const std::string& body,
+                                           const DeformationMeasure& found) {
+  std::vector<std::string> out;
+  if (found.strain > kLargeStrain) {
+    out.push_back(fmt::format(
+        "body \"{}\" is strained by up to {:.2g}, more than the {:.2f} that linear elasticity "
+        "bears; more frames do not help: stiffen it or reduce its loads",
+        body, found.strain, kLargeStrain));
+  }
+  if (found.axial_load > kLargeAxialLoad) {
+    out.push_back(fmt::format(
+        "body \"{}\" carries axial loads of up to {:.2g} of its buckling load pi^2 EI/L^2; linear "
+        "elasticity in one frame knows neither their stiffening nor their softening of bending "
+        "(warned above {:.2f}): divide it into several bodies or give it more `frames`",
+        body, found.axial_load, kLargeAxialLoad));
+  }
+  return out;
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/deformation_limits.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/dynamics/test/example_models.h"
+
+namespace buckens::analysis {
+namespace {
+
+/// Displaces every node of a straight beam along x by a law of its place.
+template <class Law>
+linalg::Vector displaced(const fem::FeModel& fe, Law law) {
+  linalg::Vector d = linalg::Vector::Zero(fe.dofs.num_dofs);
+  for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
+    const Eigen::Matrix<double, 6, 1> u = law(fe.nodes[node].position.x());
+    for (std::size_t k = 0; k < 6; ++k) {
+      const int dof = fe.dofs.node_dofs[node][k];
+      if (dof >= 0) d[dof] = u[static_cast<Eigen::Index>(k)];
+    }
+  }
+  return d;
+}
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+TEST(DeformationLimits, StretchedBeam) {
+  test::BeamConstants beam;  // EA = 1e6, EI = 100, four elements of one member
+  beam.L = 2;
+  const model::Model model = test::spatial_beam_pendulum(beam);
+  const DeformationLimits limits(model.bodies[0]);
+  const auto d = displaced(model.bodies[0].flexible->fe, [](double x) {
+    return (Vector6() << 1e-3 * x, 0, 0, 0, 0, 0).finished();
+  });
+  const DeformationMeasure found = limits.measure(d);
+  EXPECT_NEAR(found.strain, 1e-3, 1e-15);
+  EXPECT_NEAR(found.rotation, 0.0, 1e-15);
+  const double buckling = M_PI * M_PI * 100.0 / 4.0;
+  EXPECT_NEAR(found.axial_load, 1e6 * 1e-3 / buckling, 1e-9);  // rounding of 1e6 × displacements
+}
+
+TEST(DeformationLimits, TurnedAndBentBeam) {
+  const model::Model model = test::spatial_beam_pendulum(test::BeamConstants{});
+  const DeformationLimits limits(model.bodies[0]);
+  const auto d = displaced(model.bodies[0].flexible->fe, [](double x) {
+    return (Vector6() << 0, 0.1 * x * x, 0, 0, 0, 0.2 * x).finished();
+  });
+  const DeformationMeasure found = limits.measure(d);
+  EXPECT_NEAR(found.rotation, 0.2, 1e-15);  // at the end; slopes of elements are 0.175 at most
+  EXPECT_NEAR(found.strain, 0.0, 1e-15);
+  EXPECT_NEAR(found.axial_load, 0.0, 1e-12);
+}
+
+TEST(DeformationLimits, SaysWhatToDo) {
+  EXPECT_TRUE(judge_deformation("rod", {0.05, 0.04, 0.04}).empty());
+  const auto warnings = judge_deformation("rod", {0.2, 0.1, 0.5});
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_THAT(warnings[0], testing::HasSubstr("body \"rod\" is strained by up to 0.1"));
+  EXPECT_THAT(warnings[1], testing::HasSubstr("0.5 of its buckling load"));
+  EXPECT_THAT(warnings[1], testing::HasSubstr("give it more `frames`"));
+  EXPECT_THAT(describe_rotation("rod", {0.2, 0, 0}), testing::HasSubstr("0.2 rad"));
+}
+
+}  // namespace
+}  // namespace buckens::analysis

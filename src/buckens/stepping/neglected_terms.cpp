@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/neglected_terms.h"
+
+#include <cmath>
+
+#include "buckens/dynamics/coupling_terms.h"
+#include "buckens/dynamics/frame_equation.h"
+
+namespace buckens::stepping {
+
+using Eigen::Vector3d;
+using linalg::Vector;
+
+namespace {
+
+/// Nodal load and frame torque of a set of terms.
+struct Terms {
+  Vector load;
+  Vector3d torque;
+};
+
+Terms evaluate(const body::Body& body, const model::BodyState& s, const body::CouplingTerms& kept) {
+  const body::InertiaInvariants& invariants = body.flexible->invariants;
+  const model::Coupling coupling =
+      dynamics::evaluate_coupling(body, kept, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
+  const auto& patterns = invariants.centrifugal_patterns();
+  Terms out;
+  out.load = patterns * dynamics::centrifugal_weights(kept, s.frame.w);
+  if (kept.have_load()) out.load += coupling.load;
+  const body::DeformedMoments moments = dynamics::frame_moments(
+      body, kept, coupling.moments, patterns.transpose() * s.d, patterns.transpose() * s.d_dot);
+  out.torque =
+      dynamics::frame_inertia(body, moments, s.frame.w, s.w_dot, Vector3d::Zero()).head<3>();
+  return out;
+}
+
+}  // namespace
+
+double neglected_share(const body::Body& body, const BodyStepOperator& op,
+                       const model::BodyState& state, const body::CouplingTerms& kept) {
+  const body::FlexiblePart& part = *body.flexible;
+  const Terms all = evaluate(body, state, {});
+  const Terms used = evaluate(body, state, kept);
+  const Vector inverse_diagonal = op.K_hat().diagonal().cwiseInverse();
+  const auto norm = [&](Vector load) {
+    part.sieve.apply_transposed(load);
+    return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
+  };
+  const Vector inertia = part.fe.M * state.d_ddot;
+  const Vector elastic = part.fe.K * state.d;
+  Vector applied = inertia + elastic - used.load;
+  if (part.is_damped()) applied += part.C * state.d_dot;
+  const double root_J = std::sqrt(body.J0.norm());
+  const double whole = norm(inertia) + norm(elastic) + norm(applied) +
+                       root_J * (state.w_dot.norm() + state.frame.w.squaredNorm());
+  // Only turns that the frame can make count.
+  const double torque = (body.rotation_basis.transpose() * (all.torque - used.torque)).norm();
+  const double neglected = norm(all.load - used.load) + (root_J > 0.0 ? torque / root_J : 0.0);
+  return whole > 0.0 ? neglected / whole : 0.0;
+}
+
+}  // namespace buckens::stepping

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/neglected_terms.h"
+
+#include <gtest/gtest.h>
+
+#include "buckens/body/free_modes.h"
+#include "buckens/dynamics/test/example_models.h"
+#include "buckens/stepping/lowest_frequency.h"
+
+namespace buckens::stepping {
+namespace {
+
+using body::CouplingTerms;
+
+TEST(NeglectedShare, OfAnUndeformedBodyThatAcceleratesOnly) {
+  // ẇ alone on an undeformed straight beam: nothing depends on the deformation, ĉ is zero.
+  const model::Model model = test::planar_beam_pendulum(test::BeamConstants{});
+  const body::Body& body = model.bodies[0];
+  const BodyStepOperator op(*body.flexible, Scheme(Method::generalized_alpha, 1e-3, 0.9));
+  model::BodyState state = model::placed_state(model).bodies[0];
+  state.w_dot << 0, 0, 2;
+  EXPECT_EQ(neglected_share(body, op, state, CouplingTerms::none()), 0.0);
+  // A spin stretches it: at `none` nothing acts on the mesh, and ĉ is as large as the other
+  // inertia.
+  state.frame.w << 0, 0, 3;
+  EXPECT_GT(neglected_share(body, op, state, CouplingTerms::none()), 0.2);
+  EXPECT_EQ(neglected_share(body, op, state, CouplingTerms::first_order()), 0.0);
+  EXPECT_EQ(neglected_share(body, op, state, {}), 0.0);
+}
+
+TEST(NeglectedShare, GrowsWithTheSquareOfTheSpin) {
+  const model::Model model = test::planar_beam_pendulum(test::BeamConstants{});
+  const body::Body& body = model.bodies[0];
+  const BodyStepOperator op(*body.flexible, Scheme(Method::generalized_alpha, 1e-3, 0.9));
+  model::BodyState state = model::placed_state(model).bodies[0];
+  const body::FreeModes modes =
+      body::free_modes(body.flexible->fe.M, body.flexible->fe.K, body.flexible->sieve.Phi(), 1);
+  state.d = 0.01 * modes.shapes.col(0);  // bending: H d is zero in the directions that remain
+  const auto share = [&](double w) {
+    state.frame.w << 0, 0, w;
+    return neglected_share(body, op, state, CouplingTerms::first_order());
+  };
+  // Against K d, which does not change, and the load that balances it.
+  EXPECT_NEAR(share(0.2) / share(0.1), 4.0, 1e-2);
+}
+
+TEST(LowestFrequency, OfBeamsIsThatOfTheFreeModes) {
+  for (const int elements : {3, 40, 200}) {
+    test::BeamConstants beam;
+    beam.elements = elements;
+    beam.alpha = 0.5;
+    beam.beta = 1e-4;
+    const model::Model model = test::spatial_beam_pendulum(beam);
+    const body::FlexiblePart& part = *model.bodies[0].flexible;
+    const body::FreeModes modes = body::free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), 1);
+    for (const double h : {1e-4, 1e-3}) {
+      BodyStepOperator op(part, Scheme(Method::generalized_alpha, h, 0.9));
+      const long before = op.setup_solves();
+      const double omega = lowest_frequency(part, op);
+      // Never below; for reports one percent is enough.
+      EXPECT_GE(omega, modes.omega[0] * (1.0 - 1e-6));
+      EXPECT_LE(omega, modes.omega[0] * 1.01) << elements << " elements, h = " << h;
+      EXPECT_LE(op.setup_solves() - before, 24);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace buckens::stepping
