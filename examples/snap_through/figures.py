@@ -88,9 +88,10 @@ def coupling(runs, out):
     for bars, style in ((1, "-"), (2, "--")):
         full, load = truss(runs, bars, 10000, "full")
         none, _ = truss(runs, bars, 10000, "none")
-        panels[0].plot(load, full, "C0" + style, label=f"{bars} per member, with")
-        panels[0].plot(load, none, "C3" + style, label=f"{bars} per member, without")
-        panels[1].plot(load, 1e3 * (none - full), "C3" + style, label=f"{bars} per member")
+        panels[0].plot(load, full, "C0" + style, label=f"with, elements per bar: {bars}")
+        panels[0].plot(load, none, "C3" + style, label=f"without, elements per bar: {bars}")
+        panels[1].plot(load, 1e3 * (none - full), "C3" + style,
+                       label=f"elements per bar: {bars}")
     panels[0].set(xlabel="load [N]", ylabel="w [m]")
     panels[1].set(xlabel="load [N]", ylabel="w without - w with coupling terms [mm]")
     for axes in panels:
@@ -107,7 +108,7 @@ def single_terms(runs, out):
                              ("nojvar", "without variable inertia"), ("none", "without all")):
             w, _ = truss(runs, bars, 10000, level)
             axes.plot(load, 1e3 * (w - full), label=label)
-        axes.set(xlabel="load [N]", title=f"{bars} bar{'s' if bars > 1 else ''} per member")
+        axes.set(xlabel="load [N]", title=f"elements per bar: {bars}")
     panels[0].set(ylabel="w - w with all terms [mm]")
     panels[0].legend(fontsize=7)
     save(figure, out, "single_terms.svg")
