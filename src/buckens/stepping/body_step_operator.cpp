@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step_operator.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace buckens::stepping {
@@ -10,6 +11,9 @@ using linalg::SparseMatrix;
 using linalg::Vector;
 
 namespace {
+
+// Up to this size the dense inverse is quicker than a sparse solve and as accurate.
+constexpr Eigen::Index kSmall = 24;
 
 SparseMatrix step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
   SparseMatrix K_hat = scheme.mass * part.fe.M + scheme.stiffness * part.fe.K;
@@ -40,16 +44,38 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const body::FlexiblePart& p
   return out;
 }
 
+/// Equal to the last bit.
+bool are_equal(const SparseMatrix& A, const SparseMatrix& B) {
+  if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
+  const auto same = [](const auto* a, const auto* b, Eigen::Index count) {
+    return std::equal(a, a + count, b);
+  };
+  return same(A.valuePtr(), B.valuePtr(), A.nonZeros()) &&
+         same(A.innerIndexPtr(), B.innerIndexPtr(), A.nonZeros()) &&
+         same(A.outerIndexPtr(), B.outerIndexPtr(), A.outerSize() + 1);
+}
+
 }  // namespace
 
-BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme)
+bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
+  return are_equal(part.fe.M, part_->fe.M) && are_equal(part.fe.K, part_->fe.K) &&
+         are_equal(part.C, part_->C);
+}
+
+BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
+                                   const BodyStepOperator* twin)
     : part_(&part),
       scheme_(scheme),
       K_hat_(step_matrix(part, scheme)),
-      factor_(K_hat_),
+      is_shared_(twin != nullptr && are_equal(K_hat_, twin->K_hat_)),
+      factor_(is_shared_ ? twin->factor_ : std::make_shared<const linalg::SparseCholesky>(K_hat_)),
       N_(rows_of(part)) {
+  if (part.num_dofs() <= kSmall) {
+    inverse_ = factor_->solve(Matrix::Identity(part.num_dofs(), part.num_dofs()));
+    part.sieve.apply(inverse_);
+  }
   const Matrix loads = Matrix(SparseMatrix(N_.transpose()));
-  G_ = factor_.solve(loads);
+  G_ = factor_->solve(loads);
   part.sieve.apply(G_);
   setup_solves_ += loads.cols();
   if (scheme.weight == 1.0) {
@@ -58,7 +84,7 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
     const Matrix interface = G_.leftCols(part.num_interface_rows);
     Matrix inertia = scheme.mass * (part.fe.M * interface);
     if (part.is_damped()) inertia += scheme.damping * (part.C * interface);
-    Matrix answer = factor_.solve(inertia);
+    Matrix answer = factor_->solve(inertia);
     part.sieve.apply(answer);
     D_ = Matrix::Zero(G_.rows(), G_.cols());
     D_.leftCols(interface.cols()) = answer;
@@ -85,8 +111,12 @@ void BodyStepOperator::free_response(const model::BodyState& before, const Histo
     right_side_.noalias() += part_->C * scratch_;
   }
   if (load.size() > 0) right_side_ += c_theta * load;
-  free = right_side_;
-  factor_.solve_in_place(free);
+  if (inverse_.size() > 0) {
+    free.noalias() = inverse_ * right_side_;
+  } else {
+    free = right_side_;
+    factor_->solve_in_place(free);
+  }
   ++solves_;
   if (scheme_.has_offset()) {
     // Sieved where the equations hold: at the end of the step the rule of linear acceleration would
@@ -100,7 +130,7 @@ void BodyStepOperator::free_response(const model::BodyState& before, const Histo
 }
 
 void BodyStepOperator::solve(Vector& x) {
-  factor_.solve_in_place(x);
+  factor_->solve_in_place(x);
   part_->sieve.apply(x);
   ++setup_solves_;
 }

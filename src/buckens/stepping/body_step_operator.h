@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "buckens/body/body.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/model/state.h"
@@ -16,10 +18,16 @@ namespace buckens::stepping {
 /// the undeformed body.
 ///
 /// Per step it performs one solve; interface forces cost a thin product only, FM (37)–(42).
-/// All columns are sieved.
+/// All columns are sieved. Bodies of at most 24 variables, such as the parts of a divided beam,
+/// multiply by a dense inverse in place of the sparse solve.
 class BodyStepOperator {
  public:
-  BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme);
+  /// @param twin operator of a body that may have the same K̂ to the last bit; then its factor
+  ///        serves both. Solves with one factor must not run at the same time.
+  BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
+                   const BodyStepOperator* twin = nullptr);
+  /// Whether a body has the step matrix of this one.
+  bool fits(const body::FlexiblePart& part) const;
 
   /// x⁺ without loads along N: Y K̂⁻¹ [ … ], one large solve.
   /// @param load nodal load at the evaluation instant, n
@@ -45,7 +53,9 @@ class BodyStepOperator {
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
   const linalg::SparseMatrix& K_hat() const { return K_hat_; }
-  double factor_entries() const { return factor_.num_factor_entries(); }
+  double factor_entries() const { return factor_->num_factor_entries(); }
+  /// 1, or 0 where the factor is that of a twin.
+  long factorisations() const { return is_shared_ ? 0 : 1; }
   long solves() const { return solves_; }
   long setup_solves() const { return setup_solves_; }
 
@@ -53,7 +63,9 @@ class BodyStepOperator {
   const body::FlexiblePart* part_;
   Scheme scheme_;
   linalg::SparseMatrix K_hat_;
-  linalg::SparseCholesky factor_;
+  bool is_shared_;
+  std::shared_ptr<const linalg::SparseCholesky> factor_;
+  linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
   linalg::Matrix G_;  // Y K̂⁻¹ Nᵀ
   linalg::Matrix D_;  // effect of a correction on x⁺; none by patterns

@@ -64,10 +64,17 @@ struct Stepper::Large {
 
 namespace {
 
-std::unique_ptr<BodyStepOperator> factorised(const body::Body& body, const Scheme& scheme) {
+/// @param known operators of other bodies, one of which may have the factor already
+std::unique_ptr<BodyStepOperator> factorised(
+    const body::Body& body, const Scheme& scheme,
+    const std::vector<std::unique_ptr<BodyStepOperator>>& known) {
   if (!body.is_flexible()) return nullptr;
+  const auto twin = std::find_if(known.begin(), known.end(), [&](const auto& other) {
+    return other != nullptr && other->fits(*body.flexible);
+  });
   try {
-    return std::make_unique<BodyStepOperator>(*body.flexible, scheme);
+    return std::make_unique<BodyStepOperator>(*body.flexible, scheme,
+                                              twin == known.end() ? nullptr : twin->get());
   } catch (const NumericalError& error) {
     throw NumericalError(
         fmt::format("body \"{}\": {}; a mesh far finer than its sections also comes to this: use "
@@ -102,7 +109,7 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       bodies_(model.bodies.size()) {
   std::vector<const BodyStepOperator*> views;
   for (const body::Body& body : model.bodies) {
-    operators_.push_back(factorised(body, scheme_));
+    operators_.push_back(factorised(body, scheme_, operators_));
     large_.push_back(body.is_flexible() ? std::make_unique<Large>(*operators_.back()) : nullptr);
     views.push_back(operators_.back().get());
   }
@@ -324,7 +331,8 @@ double Stepper::lowest_frequency(std::size_t body) {
 
 SolveCounts Stepper::counts(std::size_t body) const {
   if (!operators_[body]) return {};
-  return {1, operators_[body]->solves(), operators_[body]->setup_solves()};
+  const BodyStepOperator& op = *operators_[body];
+  return {op.factorisations(), op.solves(), op.setup_solves()};
 }
 
 }  // namespace buckens::stepping

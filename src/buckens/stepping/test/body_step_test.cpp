@@ -60,8 +60,13 @@ Vector bordered(const body::FlexiblePart& part, const Matrix& K_hat, const Vecto
 
 double energy_norm(const Matrix& K_hat, const Vector& x) { return std::sqrt(x.dot(K_hat * x)); }
 
-TEST(BodyStepOperator, SieveEqualsMultiplier) {
-  const model::Model model = test::spatial_beam_pendulum(damped_beam());
+/// 18 variables use the dense inverse, 30 the sparse factor.
+class SmallAndLarge : public testing::TestWithParam<int> {};
+
+TEST_P(SmallAndLarge, SieveEqualsMultiplier) {
+  test::BeamConstants beam = damped_beam();
+  beam.elements = GetParam();
+  const model::Model model = test::spatial_beam_pendulum(beam);
   const body::FlexiblePart& part = *model.bodies[0].flexible;
   const model::BodyState state = some_state(part);
   const Vector load = 50 * some(part.num_dofs(), 4.0);
@@ -84,6 +89,28 @@ TEST(BodyStepOperator, SieveEqualsMultiplier) {
         << to_string(method);
     EXPECT_LE(part.sieve.rigid_part(fast).norm(), 1e-15 * fast.norm() * 10);
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(BodyStepOperator, SmallAndLarge, testing::Values(2, 4));
+
+TEST(BodyStepOperator, OneFactorServesBodiesWithTheSameMatrices) {
+  test::BeamConstants beam = damped_beam();
+  const model::Model first = test::spatial_beam_pendulum(beam);
+  const model::Model same = test::spatial_beam_pendulum(beam);
+  beam.EIz *= 2.0;
+  const model::Model other = test::spatial_beam_pendulum(beam);
+  const auto& part = *first.bodies[0].flexible;
+  const Scheme scheme(Method::generalized_alpha, 1e-3, 0.9);
+  const BodyStepOperator op(part, scheme);
+  EXPECT_TRUE(op.fits(*same.bodies[0].flexible));
+  EXPECT_FALSE(op.fits(*other.bodies[0].flexible));
+  const BodyStepOperator twin(*same.bodies[0].flexible, scheme, &op);
+  EXPECT_EQ(op.factorisations(), 1);
+  EXPECT_EQ(twin.factorisations(), 0);
+  EXPECT_EQ((twin.compliance() - op.compliance()).norm(), 0.0);
+  // Another step length is another matrix.
+  const Scheme longer(Method::generalized_alpha, 2e-3, 0.9);
+  EXPECT_EQ(BodyStepOperator(part, longer, &op).factorisations(), 1);
 }
 
 TEST(BodyStepOperator, CorrectionsMoveStrainButNotInertia) {
