@@ -45,6 +45,11 @@ FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, Coupling
       C(damping_matrix(fe)),
       coupling(std::move(choice)) {}
 
+void FlexiblePart::stiffen() {
+  geometric = std::make_unique<const fem::GeometricStiffness>(fe);
+  coupling.terms.stiffening = true;
+}
+
 int Body::find_marker(const std::string& marker) const {
   const auto found = std::find_if(markers.begin(), markers.end(),
                                   [&](const Marker& m) { return m.name == marker; });

@@ -11,6 +11,7 @@
 #include "buckens/body/marker.h"
 #include "buckens/body/sieve.h"
 #include "buckens/fem/fe_model.h"
+#include "buckens/fem/geometric_stiffness.h"
 
 namespace buckens::body {
 
@@ -28,6 +29,8 @@ struct FlexiblePart {
 
   std::shared_ptr<const fem::FeModel> full_mesh;  ///< of a reduced body, otherwise empty
   linalg::Matrix basis;                           ///< of a reduced body: nodal variables d = Z η
+  /// Stiffening by axial forces, empty unless asked for.
+  std::unique_ptr<const fem::GeometricStiffness> geometric;
 
   /// Rows y = N d of all markers; the first `num_interface_rows` belong to markers that joints and
   /// loads use.
@@ -38,6 +41,9 @@ struct FlexiblePart {
   FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice);
   FlexiblePart(const FlexiblePart&) = delete;
   FlexiblePart& operator=(const FlexiblePart&) = delete;
+
+  /// Lets axial forces of beams and bars stiffen the mesh.
+  void stiffen();
 
   Eigen::Index num_dofs() const { return fe.M.rows(); }
   bool is_damped() const { return C.nonZeros() > 0; }

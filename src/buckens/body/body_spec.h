@@ -206,6 +206,7 @@ struct BodySpec {
   FrameDivision frames;
   CouplingSpec coupling;
   Reduction reduction = Reduction::none;
+  bool geometric_stiffness = false;
   std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
 
   bool is_rigid() const { return std::holds_alternative<RigidSpec>(kind); }
@@ -224,6 +225,10 @@ struct BodySpec {
               .like("first-order")
               .otherwise("full"));
     visit(base::field("reduction", reduction, "reduced basis of the mesh; only `none` for now"));
+    visit(base::field("geometric-stiffness", geometric_stiffness,
+                      "axial forces of beams and bars stiffen or soften their bending within a "
+                      "frame; approximate and not conserving, `frames` is the exact way")
+              .on_off());
     visit(base::field("damping", damping, "Rayleigh damping in place of that of the materials")
               .otherwise("that of the materials"));
   }

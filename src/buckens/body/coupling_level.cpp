@@ -88,6 +88,11 @@ std::string to_string(CouplingTerm term) {
 }
 
 std::string to_string(const CouplingTerms& terms) {
+  if (terms.stiffening) {
+    CouplingTerms inertial = terms;
+    inertial.stiffening = false;
+    return to_string(inertial) + ", geometric stiffness";
+  }
   for (const CouplingLevel level : kNamedLevels) {
     if (terms_of(level) == terms) return to_string(level);
   }

@@ -27,6 +27,9 @@ struct CouplingTerms {
   bool cent1 = true;     ///< mesh: centrifugal load of the deformation
   bool cor_fe = true;    ///< mesh: Coriolis load, FM (22)
   bool eul_fe = true;    ///< mesh: Euler load, FM (23)
+  /// Mesh: stiffening by axial forces. No inertial coupling and in no level, but a load of the same
+  /// kind: it depends on all of d and stands on the right-hand side.
+  bool stiffening = false;
 
   static CouplingTerms none() { return {false, false, false, false, false, false, false}; }
   static CouplingTerms first_order() { return {false, true, true, true, false, false, false}; }
@@ -36,7 +39,7 @@ struct CouplingTerms {
   bool operator==(const CouplingTerms&) const = default;
   /// Whether the six numbers c_ab·d matter: for J₁ or as places where a load acts.
   bool use_patterns() const { return jvar || cor_ref || cent0; }
-  bool have_load() const { return cent1 || cor_fe || eul_fe; }
+  bool have_load() const { return cent1 || cor_fe || eul_fe || stiffening; }
   /// Whether some terms depend on all of d, so that a step takes them as given and repeats.
   bool are_lagged() const { return quad_ref || have_load(); }
 };

@@ -27,6 +27,7 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
     if (!terms.cor_ref) out.moments.J_dot.setZero();
   }
   if (terms.have_load()) out.load = invariants.deformation_load(d, d_dot, w, w_dot, terms);
+  if (terms.stiffening && body.flexible->geometric) out.load += body.flexible->geometric->load(d);
   return out;
 }
 

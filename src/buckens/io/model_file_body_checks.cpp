@@ -206,6 +206,9 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   if (spec.is_rigid() && !spec.frames.is_one()) {
     return Problem{"frames", "a rigid body has one frame; remove the key \"frames\""};
   }
+  if (spec.is_rigid() && spec.geometric_stiffness) {
+    return Problem{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
+  }
   if (const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind)) {
     for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {
       if (structure->bars[i].elements == 1) continue;

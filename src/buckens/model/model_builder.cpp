@@ -104,6 +104,7 @@ class Builder {
     WholeBody& whole = model_.wholes.emplace_back();
     whole.name = spec.name;
     whole.where = spec.where;
+    if (spec.geometric_stiffness) note_stiffening(spec);
     if (std::holds_alternative<body::RigidSpec>(spec.kind)) {
       if (spec.frames.is_one()) return;
       throw InputError(spec.where, fmt::format("body \"{}\" is rigid and has one frame; remove "
@@ -120,6 +121,18 @@ class Builder {
     whole.count = static_cast<int>(division.parts.size());
     whole.mesh = std::move(mesh);
     divisions_[w] = std::make_unique<MeshDivision>(std::move(division));
+  }
+
+  void note_stiffening(const body::BodySpec& spec) {
+    if (spec.coupling.choice().is_automatic) {
+      throw InputError(spec.where, fmt::format("body \"{}\": geometric stiffness needs a fixed "
+                                               "coupling level; write `coupling: full`",
+                                               spec.name));
+    }
+    model_.notes.push_back(fmt::format(
+        "body \"{}\": geometric stiffness conserves neither energy nor angular momentum, and "
+        "static analyses leave it out",
+        spec.name));
   }
 
   void add_body(std::size_t w, const body::BodySpec& spec) {
@@ -180,6 +193,7 @@ class Builder {
       body.flexible =
           std::make_unique<body::FlexiblePart>(body.name, std::move(fe), spec.coupling.choice());
       refuse_mechanisms(body);
+      if (spec.geometric_stiffness) body.flexible->stiffen();
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,

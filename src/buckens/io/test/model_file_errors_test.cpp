@@ -114,6 +114,7 @@ TEST(ModelFileErrors, Bodies) {
           {"{rigid: {mass: 1, inertia: [1, 1, 1, 5, 0, 0]}}", {"none can be negative"}},
           {"{rigid: {mass: 1, inertia: [1, 1]}}", {"expected are 3", "or 6"}},
           {"{rigid: {mass: 1}, coupling: ful}", {"Did you mean \"full\"?"}},
+          {"{rigid: {mass: 1}, geometric-stiffness: on}", {"a rigid body has no stiffness"}},
           {"{rigid: {mass: 1}, frames: 2}", {"a rigid body has one frame"}},
           {"{rigid: {mass: 1}, frames: per-node}", {"\"per-node\" is no number of frames"}},
           {"{rigid: {mass: 1}, reduction: free-free}", {"not available yet"}},

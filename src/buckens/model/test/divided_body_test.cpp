@@ -188,6 +188,21 @@ TEST(DividedBody, CutsThatNeedTooMuchMemoryAreRefused) {
   }
 }
 
+TEST(GeometricStiffness, IsSwitchedOnPerBodyAndNoted) {
+  Described m = pinned_beam(4, 2);
+  EXPECT_FALSE(m.build()->model.bodies[0].flexible->geometric);
+  m.d.bodies[0].geometric_stiffness = true;
+  const auto built = m.build();
+  for (const body::Body& part : built->model.bodies) {
+    EXPECT_TRUE(part.flexible->geometric);
+    EXPECT_TRUE(part.flexible->coupling.terms.stiffening);
+  }
+  ASSERT_FALSE(built->model.notes.empty());
+  EXPECT_NE(built->model.notes[0].find("conserves neither energy"), std::string::npos);
+  m.d.bodies[0].coupling.level = body::CouplingLevel::automatic;
+  EXPECT_THROW(m.build(), InputError);
+}
+
 TEST(DividedBody, MessagesNameTheBody) {
   const auto expect = [](Described& m, const char* words) {
     try {
