@@ -4,6 +4,8 @@
 
 The floors stand in src/CMakeLists.txt (buckens_module(name floor ...)), nowhere else.
 Tests (<module>/test) may include everything.
+
+Headers stand alone: each has `#pragma once`, and the source of the same name includes it first.
 """
 
 import argparse
@@ -14,6 +16,7 @@ import source_files
 
 MODULE = re.compile(r"^\s*buckens_module\(\s*(\w+)\s+(\d+)", re.MULTILINE)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"\n]+)"', re.MULTILINE)
+SYSTEM_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]+<", re.MULTILINE)
 GENERATED = {"buckens/base/version.h"}
 
 
@@ -54,6 +57,19 @@ def check_file(name, includes, floors, present):
     return errors
 
 
+def check_header(name, text, includes, present):
+    """Errors of a file as a header, or as the source that shows that a header stands alone."""
+    if name.endswith(".h"):
+        return [] if "#pragma once" in text else [f"{name}: a header needs `#pragma once`"]
+    header = name[:-len(".cpp")] + ".h"
+    if header not in present:
+        return []
+    line, first = next(iter(includes), (1, None))
+    if "src/" + str(first) == header and not SYSTEM_INCLUDE.search(text.split(first)[0]):
+        return []
+    return [f"{name}:{line}: include \"{header[len('src/'):]}\" first, which shows that it stands alone"]
+
+
 def find_cycle(graph):
     """Some circle in the graph as a list of nodes, or None."""
     state = {}
@@ -88,6 +104,8 @@ def check(root):
             continue
         includes = list(includes_of(root, name))
         errors += check_file(name, includes, floors, present)
+        if "/test/" not in name:
+            errors += check_header(name, source_files.read(root, name), includes, present)
         graph[name] = {"src/" + target for _, target in includes}
         if "/test/" not in name:
             module = name.split("/")[2]

@@ -14,6 +14,9 @@ buckens_packages=(
   clang-format-14 python3 python3-pytest python3-numpy python3-h5py
 )
 
+# Object files are cached by what the sources say, not by where the checkout lies.
+export CCACHE_BASEDIR="$buckens_root"
+
 say() {
   if [ -t 1 ]; then printf '\033[1m== %s\033[0m\n' "$*"; else printf '== %s\n' "$*"; fi
 }

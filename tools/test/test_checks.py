@@ -80,7 +80,17 @@ class Floors(Checks):
 
     def test_comment_is_no_include(self):
         self.expect("check_floors.py",
-                    {"src/buckens/fem/a.h": '// text\n/*\n#include "buckens/loads/force.h"\n*/\n'})
+                    {"src/buckens/fem/a.cpp": '// text\n/*\n#include "buckens/loads/force.h"\n*/\n'})
+
+    def test_headers_stand_alone(self):
+        self.expect("check_floors.py", {"src/buckens/fem/a.h": "// text\n"},
+                    "a.h: a header needs `#pragma once`")
+        for text in ('#include <string>\n#include "buckens/fem/beam.h"\n',
+                     '#include "buckens/base/errors.h"\n#include "buckens/fem/beam.h"\n', ""):
+            self.expect("check_floors.py", {"src/buckens/fem/beam.cpp": text},
+                        'include "buckens/fem/beam.h" first')
+        self.expect("check_floors.py", {
+            "src/buckens/fem/beam.cpp": '// text\n#include "buckens/fem/beam.h"\n#include <a>\n'})
 
 
 class Streams(Checks):
