@@ -3,31 +3,56 @@
 
 #include <memory>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/simd_level.h"
 
 namespace buckens::linalg {
 
+/// Who carries out the forward and backward substitution.
+enum class SolveRoute {
+  automatic,  ///< panels where the factor has dense parts worth it, otherwise CHOLMOD
+  panels,     ///< PanelFactor, whatever the matrix
+  cholmod,    ///< CHOLMOD's own: the reference of tests and benchmarks
+};
+
+struct CholeskyOptions {
+  SolveRoute route = SolveRoute::automatic;
+  SimdLevel simd = best_simd_level();  ///< of the panels
+};
+
 /// Cholesky factor of a sparse symmetric positive definite matrix: factorised once, solved often.
 ///
-/// Backend CHOLMOD (supernodal where it pays, fill-reducing ordering). Solving allocates nothing
-/// after the first call of a given number of right-hand sides.
+/// CHOLMOD factorises; the ordering is METIS' or nested dissection, whichever fills less. Large
+/// factors are then laid out anew for solving (PanelFactor) and CHOLMOD's copy is freed.
+/// Solving allocates nothing after the first call of a given number of right-hand sides. Solves
+/// from several threads wait for one another.
 class SparseCholesky {
  public:
   /// @param A symmetric, both triangles stored
   /// @throws NumericalError if A is not positive definite, naming the column
-  explicit SparseCholesky(const SparseMatrix& A);
+  explicit SparseCholesky(const SparseMatrix& A, const CholeskyOptions& options = {});
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
   Eigen::Index size() const;
-  /// Entries of L; times eight gives the bytes that one half of a solve reads.
+  /// Entries of L.
   double num_factor_entries() const;
+  /// Bytes that each of the two passes of a solve reads.
+  double bytes() const;
+  /// Parts of a solve that two threads can carry out at the same time: 1 or 2.
+  int num_parts() const;
+  /// Never `automatic`.
+  SolveRoute route() const;
 
   /// x ← A⁻¹ x. Cost: two passes over the factor.
-  void solve_in_place(Vector& x) const;
-  /// A⁻¹ B for several right-hand sides at once.
-  Matrix solve(const Matrix& B) const;
+  /// @param pool shares the work of large factors between two threads; the result is the same
+  void solve_in_place(Vector& x, TaskPool* pool = nullptr) const;
+  /// X ← A⁻¹ X for several right-hand sides at once: up to 32 read the factor together.
+  void solve_in_place(Matrix& X, TaskPool* pool = nullptr) const;
+  /// A⁻¹ B.
+  Matrix solve(const Matrix& B, TaskPool* pool = nullptr) const;
 
  private:
   struct Backend;

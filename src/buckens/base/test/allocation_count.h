@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+
+// Counts calls of malloc, which operator new and Eigen use. Include in one source of a test program
+// only: it takes the place of the C library's malloc.
+
+namespace buckens::test {
+
+inline std::atomic<long> num_allocations{0};
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+inline constexpr bool kCountsAllocations = true;
+#else
+inline constexpr bool kCountsAllocations = false;  // sanitizers have a malloc of their own
+#endif
+
+/// Allocations of all threads while f runs.
+template <class F>
+long count_allocations(F&& f) {
+  const long before = num_allocations.load();
+  f();
+  return num_allocations.load() - before;
+}
+
+}  // namespace buckens::test
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* malloc(std::size_t size) {
+  buckens::test::num_allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  buckens::test::num_allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_memalign(alignment, size);
+}
+}
+#endif

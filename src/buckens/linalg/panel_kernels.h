@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "buckens/linalg/simd_level.h"
+
+namespace buckens::linalg {
+
+/// Rows of a block of a panel: one cache line of doubles.
+inline constexpr int kPanelRows = 8;
+/// Columns of a panel at most.
+inline constexpr int kPanelColumns = 128;
+/// Right-hand sides that pass through the kernels at once, at most.
+inline constexpr int kMostSides = 32;
+
+/// Up to kPanelColumns columns of a Cholesky factor in the order in which a solve reads them.
+///
+/// `values` holds blocks of eight rows, each column by column, 64-byte aligned and without gaps:
+/// first the inverse of the triangle on the diagonal (block b holds columns 0 … 8b+7 only), then
+/// the rows below it. Missing rows of a last block are zero. A forward solve reads all of it
+/// upwards in memory, a backward solve downwards.
+struct Panel {
+  const double* values;
+  const int* rows;  ///< places of the rows below, kPanelRows per block
+  int first;        ///< place of the first column; the others follow
+  int columns;
+  int row_blocks;  ///< blocks below the triangle
+
+  int triangle_blocks() const { return (columns + kPanelRows - 1) / kPanelRows; }
+  /// Columns that block `b` of the triangle holds.
+  int triangle_columns(int b) const {
+    const int end = kPanelRows * (b + 1);
+    return end < columns ? end : columns;
+  }
+  /// Columns of eight values in all blocks.
+  std::ptrdiff_t num_lines() const {
+    const std::ptrdiff_t last = triangle_blocks() - 1;
+    return kPanelRows * (last * (last + 1) / 2) + columns +
+           static_cast<std::ptrdiff_t>(row_blocks) * columns;
+  }
+};
+
+/// Solves with consecutive panels for `sides` right-hand sides. Right-hand sides are interleaved:
+/// `x` holds `sides` numbers per place; `sides` is 1 or a multiple of side_multiple().
+struct PanelKernels {
+  /// For every panel upwards: y = T x at its places, x −= L y at the rows below.
+  void (*forward)(const Panel* begin, const Panel* end, double* x, int sides);
+  /// For every panel downwards: x = Tᵀ (x − Lᵀ x at the rows below).
+  void (*backward)(const Panel* begin, const Panel* end, double* x, int sides);
+};
+
+/// Right-hand sides of several are padded to a multiple of this.
+constexpr int side_multiple() { return 4; }
+
+/// Kernels of one level. The processor must have it.
+const PanelKernels& panel_kernels(SimdLevel level);
+
+// One source each, compiled for its instructions.
+extern const PanelKernels kPortablePanelKernels;
+#if defined(__x86_64__)
+extern const PanelKernels kAvx2PanelKernels;
+extern const PanelKernels kAvx512PanelKernels;
+#endif
+
+}  // namespace buckens::linalg

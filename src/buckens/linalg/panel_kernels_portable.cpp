@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/panel_kernels_impl.h"
+
+namespace buckens::linalg {
+
+const PanelKernels kPortablePanelKernels = {forward_panels<2>, backward_panels<2>};
+
+}  // namespace buckens::linalg

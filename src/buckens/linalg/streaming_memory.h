@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace buckens::linalg {
+
+/// Doubles that are read in one long sweep: aligned to cache lines and, where there are many, on
+/// huge pages (where the system grants them), which spares most misses of address translation.
+class StreamingMemory {
+ public:
+  StreamingMemory() = default;
+  /// Not initialised. @throws std::bad_alloc
+  explicit StreamingMemory(std::size_t count);
+
+  double* data() { return values_.get(); }
+  const double* data() const { return values_.get(); }
+  std::size_t size() const { return size_; }
+
+ private:
+  struct Free {
+    void operator()(double* values) const;
+  };
+  std::unique_ptr<double[], Free> values_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace buckens::linalg

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solves over panels against CHOLMOD's own and against the matrix.
+#include "buckens/linalg/panel_factor.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/test/allocation_count.h"
+#include "buckens/linalg/inverse_iteration.h"
+#include "buckens/linalg/sparse_cholesky.h"
+
+namespace buckens::linalg {
+namespace {
+
+/// Like a solid mesh: n³ nodes with three variables each, coupled with all 26 neighbours, and some
+/// mass.
+SparseMatrix grid(int n, double mass) {
+  std::vector<Triplet> entries;
+  const auto node = [n](int i, int j, int k) { return i + n * (j + n * k); };
+  const auto couple = [&](int a, int b, const Eigen::Vector3d& e) {
+    const Eigen::Matrix3d block = e * e.transpose() + 0.1 * Eigen::Matrix3d::Identity();
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        entries.emplace_back(3 * a + r, 3 * a + c, block(r, c));
+        entries.emplace_back(3 * b + r, 3 * b + c, block(r, c));
+        entries.emplace_back(3 * a + r, 3 * b + c, -block(r, c));
+        entries.emplace_back(3 * b + r, 3 * a + c, -block(r, c));
+      }
+    }
+  };
+  for (int place = 0; place < n * n * n; ++place) {
+    const int i = place % n, j = place / n % n, k = place / (n * n);
+    for (int to = 14; to < 27; ++to) {  // the later half of the neighbours
+      const int di = to % 3 - 1, dj = to / 3 % 3 - 1, dk = to / 9 - 1;
+      if (i + di < 0 || i + di >= n || j + dj < 0 || j + dj >= n || k + dk >= n) continue;
+      couple(place, node(i + di, j + dj, k + dk), Eigen::Vector3d(di, dj, dk).normalized());
+    }
+    for (int r = 0; r < 3; ++r) entries.emplace_back(3 * place + r, 3 * place + r, mass);
+  }
+  SparseMatrix A(3 * n * n * n, 3 * n * n * n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+/// Random pattern, diagonally dominant by a little.
+SparseMatrix random_definite(int n, int per_row) {
+  const Matrix numbers = scattered_block(n, 2 * per_row, 7);
+  std::vector<Triplet> entries;
+  Vector diagonal = Vector::Constant(n, 0.01);
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < per_row; ++k) {
+      const int j = static_cast<int>(0.5 * (numbers(i, 2 * k) + 1.0) * n);
+      const double value = numbers(i, 2 * k + 1);
+      if (i == j) continue;
+      entries.emplace_back(i, j, value);
+      entries.emplace_back(j, i, value);
+      diagonal[i] += std::abs(value);
+      diagonal[j] += std::abs(value);
+    }
+  }
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i]);
+  SparseMatrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+SparseMatrix dense_definite(int n) {
+  const Matrix R = scattered_block(n, n, 5);
+  return Matrix(R * R.transpose() + 0.1 * Matrix::Identity(n, n)).sparseView();
+}
+
+SparseMatrix diagonal(int n) {
+  SparseMatrix A(n, n);
+  for (int k = 0; k < n; ++k) A.insert(k, k) = 1.0 + k;
+  return A;
+}
+
+struct Case {
+  std::string name;
+  SparseMatrix A;
+};
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {"grid of 1029", grid(7, 0.1)},
+      {"soft grid of 3000", grid(10, 1e-6)},
+      {"random", random_definite(700, 3)},
+      {"dense, several panels", dense_definite(300)},
+      {"dense, one panel and a column", dense_definite(129)},
+      {"diagonal", diagonal(50)},
+      {"one", diagonal(1)},
+      {"seven", dense_definite(7)},
+  };
+  return all;
+}
+
+double residual(const SparseMatrix& A, const Matrix& X, const Matrix& B) {
+  // Relative to |A| |X|: the measure in which a stable solve stays at rounding.
+  return (A * X - B).norm() / (A.norm() * X.norm() + B.norm());
+}
+
+std::vector<SimdLevel> levels_here() {
+  std::vector<SimdLevel> levels = {SimdLevel::portable};
+  if (best_simd_level() >= SimdLevel::avx2) levels.push_back(SimdLevel::avx2);
+  if (best_simd_level() >= SimdLevel::avx512) levels.push_back(SimdLevel::avx512);
+  return levels;
+}
+
+TEST(PanelFactor, LeavesResidualsAsSmallAsCholmod) {
+  for (const Case& problem : cases()) {
+    const SparseCholesky reference(problem.A, {SolveRoute::cholmod});
+    ASSERT_EQ(reference.route(), SolveRoute::cholmod);
+    for (const SimdLevel level : levels_here()) {
+      const SparseCholesky factor(problem.A, {SolveRoute::panels, level});
+      ASSERT_EQ(factor.route(), SolveRoute::panels);
+      for (const Eigen::Index sides : {1, 2, 3, 5, 6, 8, 12, 32, 33}) {
+        const Matrix B = scattered_block(problem.A.rows(), sides, 11);
+        const Matrix X = factor.solve(B);
+        // Rounding of different sums: a few times CHOLMOD's, which may be zero by luck.
+        EXPECT_LE(residual(problem.A, X, B),
+                  4.0 * residual(problem.A, reference.solve(B), B) + 2e-16)
+            << problem.name << ", " << to_string(level) << ", " << sides;
+      }
+    }
+  }
+}
+
+TEST(PanelFactor, SolvesAsADenseFactor) {
+  for (const Case& problem : cases()) {
+    if (problem.A.rows() > 1100) continue;
+    const SparseCholesky factor(problem.A, {SolveRoute::panels});
+    const Matrix B = scattered_block(problem.A.rows(), 3, 2);
+    const Matrix expected = Matrix(problem.A).llt().solve(B);
+    // Rounding times the condition, below 1e5 in all of these.
+    EXPECT_LE((factor.solve(B) - expected).norm(), 1e-11 * expected.norm()) << problem.name;
+    Vector x = B.col(1);
+    factor.solve_in_place(x);
+    EXPECT_LE((x - expected.col(1)).norm(), 1e-11 * expected.norm()) << problem.name;
+    Matrix X = B;
+    factor.solve_in_place(X);
+    EXPECT_EQ(X, factor.solve(B)) << problem.name;
+  }
+}
+
+TEST(PanelFactor, DoesNotDependOnTheNumberOfThreads) {
+  const SparseMatrix A = grid(13, 0.1);  // 6591 variables, factor large enough for two groups
+  const SparseCholesky factor(A, {SolveRoute::panels});
+  ASSERT_EQ(factor.num_parts(), 2);
+  TaskPool one(1), two(2), four(4);
+  for (const Eigen::Index sides : {1, 6, 32}) {
+    const Matrix B = scattered_block(A.rows(), sides, 4);
+    const Matrix alone = factor.solve(B);
+    EXPECT_LE(residual(A, alone, B), 1e-15);
+    for (TaskPool* pool : {&one, &two, &four}) {
+      for (int round = 0; round < 10; ++round) {
+        ASSERT_EQ(factor.solve(B, pool), alone) << sides << ", " << pool->threads();
+      }
+    }
+  }
+}
+
+TEST(PanelFactor, SharesAFactorBetweenCallers) {
+  const SparseMatrix A = grid(7, 0.1);
+  const SparseCholesky factor(A, {SolveRoute::panels});
+  const Matrix B = scattered_block(A.rows(), 8, 3);
+  Matrix expected(B.rows(), B.cols());
+  for (Eigen::Index k = 0; k < B.cols(); ++k) expected.col(k) = factor.solve(B.col(k));
+  Matrix found(B.rows(), B.cols());
+  TaskPool pool(4);
+  for (int round = 0; round < 20; ++round) {
+    pool.run(8, [&](int k) { found.col(k) = factor.solve(B.col(k)); });
+    ASSERT_EQ(found, expected);
+  }
+}
+
+TEST(PanelFactor, RepeatedSolvesAllocateNothing) {
+  if (!test::kCountsAllocations) GTEST_SKIP() << "malloc belongs to a sanitizer";
+  const SparseMatrix A = grid(13, 0.1);
+  TaskPool pool(2);
+  const SparseCholesky factor(A, {SolveRoute::panels});
+  Vector x = Vector::Ones(A.rows());
+  Matrix X = scattered_block(A.rows(), 6, 3);
+  EXPECT_GT(test::count_allocations([&] { factor.solve_in_place(X, &pool); }), 0);
+  EXPECT_EQ(test::count_allocations([&] {
+              for (int k = 0; k < 3; ++k) {
+                factor.solve_in_place(x, &pool);
+                factor.solve_in_place(X, &pool);
+              }
+            }),
+            0);
+}
+
+TEST(PanelFactor, SaysWhichMatrixIsNotDefinite) {
+  SparseMatrix A = grid(13, 0.1);
+  A.coeffRef(1234, 1234) = -5.0;
+  const auto message = [&A](SolveRoute route) -> std::string {
+    try {
+      const SparseCholesky factor(A, {route});
+    } catch (const NumericalError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(message(SolveRoute::automatic),
+              testing::HasSubstr("a matrix of size 6591 is not positive definite (column "));
+  EXPECT_EQ(message(SolveRoute::automatic), message(SolveRoute::cholmod));
+}
+
+TEST(PanelFactor, IsChosenForSolidsOnly) {
+  EXPECT_EQ(SparseCholesky(grid(13, 0.1)).route(), SolveRoute::panels);
+  EXPECT_EQ(SparseCholesky(diagonal(100)).route(), SolveRoute::cholmod);
+}
+
+TEST(PanelFactor, ReadsFewerBytesThanCholmod) {
+  const SparseMatrix A = grid(13, 0.1);
+  const SparseCholesky panels(A, {SolveRoute::panels});
+  const SparseCholesky cholmod(A, {SolveRoute::cholmod});
+  EXPECT_EQ(panels.num_factor_entries(), cholmod.num_factor_entries());
+  EXPECT_GE(panels.bytes(), 8.0 * panels.num_factor_entries());
+  EXPECT_LT(panels.bytes(), cholmod.bytes());
+}
+
+}  // namespace
+}  // namespace buckens::linalg
