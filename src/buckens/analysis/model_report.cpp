@@ -10,6 +10,7 @@
 #include "buckens/analysis/step_advice.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_recovery.h"
 
 namespace buckens::analysis {
 
@@ -26,7 +27,7 @@ void describe(const fem::FeModel* fe, const body::FreeModes& modes, BodyReport& 
   if (fe == nullptr) return;
   out.is_flexible = true;
   out.nodes = static_cast<int>(fe->nodes.size());
-  out.elements = static_cast<int>(fem::line_elements(*fe).size());
+  out.elements = static_cast<int>(fem::line_elements(*fe).size()) + fem::num_solids(*fe);
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
     out.frequencies.push_back(modes.omega[k] / kTurn);
   }

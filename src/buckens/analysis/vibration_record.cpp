@@ -2,6 +2,7 @@
 #include "buckens/analysis/vibration_record.h"
 
 #include "buckens/dynamics/mass_metric.h"
+#include "buckens/results/model_geometry.h"
 #include "buckens/results/recorder.h"
 
 namespace buckens::analysis {
@@ -9,13 +10,6 @@ namespace buckens::analysis {
 namespace {
 
 const std::vector<std::string> kXyz = {"x", "y", "z"};
-
-/// The mesh of a whole body; null for rigid ones.
-const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
-  if (whole.is_divided()) return whole.mesh.get();
-  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
-  return body.is_flexible() ? &body.flexible->fe : nullptr;
-}
 
 results::RecordLayout layout_of(const model::Model& model) {
   results::RecordLayout layout;
@@ -37,7 +31,7 @@ results::RecordLayout layout_of(const model::Model& model) {
                 {6},
                 "rotation of the frame in body axes, translation in world axes",
                 {"rx", "ry", "rz", "x", "y", "z"}});
-    const fem::FeModel* mesh = mesh_of(model, whole);
+    const fem::FeModel* mesh = results::mesh_of(model, whole);
     if (mesh == nullptr) continue;
     layout.add({path + "/displacement",
                 "m, rad",
@@ -101,7 +95,7 @@ std::vector<double> values_of(const model::Model& model, const VibrationReport& 
       shape = v.shape.front();
     }
     values.insert(values.end(), shape.frame.data(), shape.frame.data() + 6);
-    const fem::FeModel* mesh = mesh_of(model, whole);
+    const fem::FeModel* mesh = results::mesh_of(model, whole);
     if (mesh == nullptr) continue;
     if (report.is_system() && whole.is_divided()) {
       append_parts(model, whole, report, v, values);

@@ -12,6 +12,7 @@
 #include "buckens/base/field.h"
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/frame_division.h"
+#include "buckens/fem/mesh_spec.h"
 #include "buckens/fem/structure_spec.h"
 
 namespace buckens::body {
@@ -86,13 +87,14 @@ struct MarkerSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("position", position,
-                      "place in model axes; on a flexible body it must lie on the "
-                      "mesh")
-              .in(base::kLength)
-              .like("[100 mm, 0, 0]")
-              .otherwise("give this or `at`"));
-    visit(base::field("at", at, "origin, com, start, mid, end or the name of a node")
+    visit(
+        base::field("position", position,
+                    "place in model axes; on a flexible body it must lie on a beam or bar, or at a "
+                    "node")
+            .in(base::kLength)
+            .like("[100 mm, 0, 0]")
+            .otherwise("give this or `at`"));
+    visit(base::field("at", at, "origin, com, start, mid, end (beams) or the name of a node")
               .like("end")
               .otherwise("give this or `position`"));
     visit(base::field("orientation", orientation, "orientation of the marker in model axes")
@@ -199,7 +201,7 @@ struct BodySpec {
   SourceLocation where;
   /// What the body is made of. The reader replaces LikeSpec by the other body's content; `like`
   /// then holds the other body's name.
-  std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, LikeSpec> kind;
+  std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, fem::MeshSpec, LikeSpec> kind;
   std::string like;
   PlacementSpec at;
   std::vector<MarkerSpec> markers;

@@ -55,9 +55,10 @@ void PointMassBlock::check(const MeshView& mesh) const {
     }
     const auto& dofs = mesh.dofs.node_dofs[static_cast<std::size_t>(element.node)];
     if (std::all_of(dofs.begin() + 3, dofs.end(), [](int dof) { return dof < 0; })) {
-      throw ModelError(where +
-                       ": the node has no rotations, since only bars meet there; give the mass "
-                       "without inertia, or join a beam to the node");
+      throw ModelError(
+          where +
+          ": the node has no rotations, since only bars or solids meet there; give the "
+          "mass without inertia, or join a beam to the node");
     }
   }
 }

@@ -11,12 +11,6 @@ namespace buckens::fem {
 
 namespace {
 
-double mises(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s) {
-  const double direct =
-      std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
-  return std::sqrt(0.5 * direct + 3.0 * s.tail<3>().squaredNorm());
-}
-
 template <class Visitor>
 void visit_solids(const FeModel& fe, Visitor&& visit) {
   int number = 0;
@@ -27,6 +21,12 @@ void visit_solids(const FeModel& fe, Visitor&& visit) {
 }
 
 }  // namespace
+
+double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s) {
+  const double direct =
+      std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
+  return std::sqrt(0.5 * direct + 3.0 * s.tail<3>().squaredNorm());
+}
 
 bool solids_join_by_faces(const FeModel& fe) {
   std::map<std::array<int, 4>, int> first;  // element that was seen with the face
@@ -106,7 +106,7 @@ linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
   linalg::Vector values = rows_ * d;
   linalg::Matrix out(7, num_elements());
   out.topRows<6>() = values.reshaped(6, num_elements());
-  for (Eigen::Index e = 0; e < out.cols(); ++e) out(6, e) = mises(out.col(e).head<6>());
+  for (Eigen::Index e = 0; e < out.cols(); ++e) out(kMises, e) = mises_stress(out.col(e).head<6>());
   return out;
 }
 

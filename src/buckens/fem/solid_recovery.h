@@ -27,6 +27,12 @@ int num_solids(const FeModel& fe);
 /// The solid elements that have each node, counted among the solid elements.
 std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe);
 
+/// Row of the von Mises stress in SolidRecovery::stresses.
+inline constexpr int kMises = 6;
+
+/// Von Mises stress of σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx.
+double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s);
+
 /// Stresses of all solid elements at once, at their centres: there those of trilinear elements are
 /// most accurate.
 class SolidRecovery {

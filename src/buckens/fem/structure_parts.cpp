@@ -2,8 +2,11 @@
 #include "buckens/fem/structure_parts.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -97,6 +100,52 @@ std::vector<int> divide_chain(const std::vector<Holder>& lines, const std::vecto
     passed += line.length;
   }
   return part_of;
+}
+
+/// Pairs of elements that share nodes, one entry per node they share.
+using Pairs = std::map<std::pair<int, int>, int>;
+
+Pairs neighbours(const std::vector<std::vector<int>>& at_node) {
+  Pairs out;
+  for (const auto& list : at_node) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      for (std::size_t j = i + 1; j < list.size(); ++j) ++out[{list[i], list[j]}];
+    }
+  }
+  return out;
+}
+
+bool is_connected(const linalg::Graph& graph) {
+  std::vector<int> parent(graph.vertex_weights.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int v) {
+    while (parent[static_cast<std::size_t>(v)] != v) v = parent[static_cast<std::size_t>(v)];
+    return v;
+  };
+  std::size_t pieces = parent.size();
+  for (const auto& [a, b] : graph.edges) {
+    const int ra = root(a);
+    const int rb = root(b);
+    if (ra == rb) continue;
+    parent[static_cast<std::size_t>(rb)] = ra;
+    --pieces;
+  }
+  return pieces <= 1;
+}
+
+/// The elements and how they hang together. Solids that share an edge or a node only could turn
+/// about it: such pairs count where the mesh falls to pieces without them.
+linalg::Graph graph_of(const std::vector<Holder>& holders, const Pairs& pairs, bool by_faces) {
+  linalg::Graph graph;
+  for (const Holder& holder : holders) graph.vertex_weights.push_back(holder.length);
+  const auto is_line = [&holders](int e) {
+    return holders[static_cast<std::size_t>(e)].nodes.size() == 2;
+  };
+  for (const auto& [pair, count] : pairs) {
+    const bool holds = count >= 3 || is_line(pair.first) || is_line(pair.second);
+    for (int k = 0; k < count && (holds || !by_faces); ++k) graph.edges.push_back(pair);
+  }
+  return graph;
 }
 
 /// Makes the parts one after the other.
@@ -211,14 +260,10 @@ std::vector<int> choose_parts(const Structure& structure, int count) {
   }
   const auto at_node = holders_at_nodes(structure.nodes.size(), holders);
   if (const auto chain = as_chain(holders, at_node)) return divide_chain(holders, *chain, count);
-  linalg::Graph graph;
-  for (const Holder& holder : holders) graph.vertex_weights.push_back(holder.length);
-  for (const auto& list : at_node) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      for (std::size_t j = i + 1; j < list.size(); ++j) graph.edges.emplace_back(list[i], list[j]);
-    }
-  }
-  return linalg::divide_graph(graph, count);
+  const Pairs pairs = neighbours(at_node);
+  const linalg::Graph by_faces = graph_of(holders, pairs, true);
+  if (is_connected(by_faces)) return linalg::divide_graph(by_faces, count);
+  return linalg::divide_graph(graph_of(holders, pairs, false), count);
 }
 
 StructureParts divide(const Structure& structure, const std::vector<int>& part_of) {

@@ -12,6 +12,7 @@
 #include "buckens/fem/beam_shape.h"
 #include "buckens/fem/material_spec.h"
 #include "buckens/fem/section_spec.h"
+#include "buckens/fem/solid_element_spec.h"
 
 namespace buckens::fem {
 
@@ -68,7 +69,10 @@ struct PointMassSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("at", at, "node that carries the mass; of a `beam`: start, mid or end")
+    visit(base::field(
+              "at", at,
+              "node that carries the mass; of a `beam`: start, mid or end; of a `mesh`: a named "
+              "node such as `centre`")
               .required()
               .like("end"));
     visit(base::field("mass", mass, "mass").in(base::kMass).required().non_negative().like("33 g"));
@@ -178,14 +182,17 @@ struct BarMemberSpec {
   }
 };
 
-/// Beams, bars and point masses joined rigidly (beams) or by pins (bars) at named nodes.
+/// Beams, bars, solid elements and point masses between named nodes. Beams meet rigidly, bars and
+/// solids hold the place of a node only.
 struct StructureSpec {
   static constexpr const char* kKey = "structure";
-  static constexpr const char* kDoc = "flexible body: beams, bars and masses between named nodes";
+  static constexpr const char* kDoc =
+      "flexible body: beams, bars, solid elements and masses between named nodes";
   SourceLocation where;
   std::vector<NodeSpec> nodes;
   std::vector<BeamMemberSpec> beams;
   std::vector<BarMemberSpec> bars;
+  std::vector<SolidMemberSpec> solids;
   std::vector<PointMassSpec> masses;
 
   template <class Visitor>
@@ -195,6 +202,7 @@ struct StructureSpec {
               .like("{a: [0, 0, 0], b: [1 m, 0, 0]}"));
     visit(base::field("beams", beams, "beams between nodes"));
     visit(base::field("bars", bars, "bars between nodes: axial stiffness only"));
+    visit(base::field("solids", solids, "single solid elements between nodes"));
     visit(base::field("masses", masses, "point masses at nodes"));
   }
 };

@@ -2,6 +2,7 @@
 #include "buckens/io/hdf5_geometry.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,11 +66,41 @@ void write_markers(const Hdf5File& file, const std::string& path,
                   std::vector<std::string>{"w", "x", "y", "z"});
 }
 
+constexpr std::array<const char*, 3> kKinds = {"rigid", "beam", "solid"};
+
+BodyKind kind_of(const std::string& name) {
+  const auto* at = std::find(kKinds.begin(), kKinds.end(), name);
+  return at == kKinds.end() ? BodyKind::rigid : static_cast<BodyKind>(at - kKinds.begin());
+}
+
+void write_faces(const Hdf5File& file, const std::string& path, const GeometryBody& body) {
+  if (body.faces.empty()) return;
+  std::vector<int> faces;
+  for (const auto& face : body.faces) faces.insert(faces.end(), face.begin(), face.end());
+  write_dataset(file, path + "/faces", {body.faces.size(), 4}, faces);
+  write_dataset(file, path + "/face_elements", {body.face_elements.size()}, body.face_elements);
+}
+
+void read_faces(const Hdf5File& file, const std::string& path, GeometryBody& body) {
+  if (!has_object(file, path + "/faces")) return;
+  const std::vector<int> faces = read_int_dataset(file, path + "/faces");
+  body.face_elements = read_int_dataset(file, path + "/face_elements");
+  expect(file, path, faces.size() == 4 * body.face_elements.size());
+  for (std::size_t i = 0; i < faces.size(); i += 4) {
+    const std::array<int, 4> face{faces[i], faces[i + 1], faces[i + 2], faces[i + 3]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      expect(file, path, face[k] >= (k < 3 ? 0 : -1) && face[k] < body.nodes.rows());
+    }
+    expect(file, path, body.face_elements[i / 4] >= 0);
+    body.faces.push_back(face);
+  }
+}
+
 void write_body(const Hdf5File& file, int index, const GeometryBody& body) {
   const std::string path = fmt::format("{}/{}", kBodies, body.name);
   create_group(file, path);
   write_attribute(file, path, "index", index);
-  write_attribute(file, path, "kind", std::string(body.kind == BodyKind::beam ? "beam" : "rigid"));
+  write_attribute(file, path, "kind", std::string(kKinds[static_cast<std::size_t>(body.kind)]));
   const std::span<const double> nodes(body.nodes.data(),
                                       static_cast<std::size_t>(body.nodes.size()));
   write_dataset(file, path + "/nodes", {static_cast<hsize_t>(body.nodes.rows()), 3}, nodes);
@@ -81,6 +112,7 @@ void write_body(const Hdf5File& file, int index, const GeometryBody& body) {
   write_dataset(file, path + "/elements", {body.elements.size(), 2}, elements);
   write_dataset(file, path + "/radius", {body.radius.size()}, body.radius);
   write_attribute(file, path + "/radius", "unit", std::string("m"));
+  write_faces(file, path, body);
   write_markers(file, path, body.markers);
 }
 
@@ -144,7 +176,7 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
   const std::string path = fmt::format("{}/{}", kBodies, name);
   GeometryBody body;
   body.name = name;
-  body.kind = read_string(file, path, "kind") == "beam" ? BodyKind::beam : BodyKind::rigid;
+  body.kind = kind_of(read_string(file, path, "kind"));
   const std::vector<double> nodes = read_double_dataset(file, path + "/nodes");
   const std::vector<int> elements = read_int_dataset(file, path + "/elements");
   body.radius = read_double_dataset(file, path + "/radius");
@@ -157,6 +189,7 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
     for (const int node : pair) expect(file, path, node >= 0 && node < num_nodes);
     body.elements.push_back(pair);
   }
+  read_faces(file, path, body);
   body.markers = read_markers(file, path);
   return body;
 }

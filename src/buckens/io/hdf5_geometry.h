@@ -10,7 +10,8 @@ namespace buckens::io {
 ///
 ///     /geometry                        attributes gravity [m/s²], planar
 ///     /geometry/bodies/<body>          attributes index, kind
-///         nodes [N×3], elements [E×2], radius [E]            body frame, m; beams only
+///         nodes [N×3], elements [E×2], radius [E]            body frame, m; beams and bars
+///         faces [F×4], face_elements [F]       surface of solids only; fourth node −1 in triangles
 ///         marker_names [M], marker_nodes [M], marker_positions [M×3], marker_orientations [M×4]
 ///     /geometry/joints/<joint>         attributes index, type, axis [3], bodies [2], markers [2]
 ///         (names; the ground is "ground", no marker is ""), positions [2×3]

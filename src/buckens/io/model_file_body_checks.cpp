@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/fem/generate_mesh.h"
 #include "buckens/io/model_file_checks.h"
 #include "buckens/io/model_file_names.h"
 
@@ -116,6 +117,11 @@ Finding problem(const fem::BarMemberSpec& spec, const ReadContext&) {
 
 namespace {
 
+Finding unknown_node(const std::string& key, const std::string& name,
+                     const std::vector<std::string>& known) {
+  return Problem{key, fmt::format("unknown node \"{}\".{}", name, base::suggestion(name, known))};
+}
+
 /// Finding about the ends of a beam or bar between nodes.
 template <class Member>
 Finding member_problem(const fem::StructureSpec& spec, const Member& member, const char* list,
@@ -125,9 +131,7 @@ Finding member_problem(const fem::StructureSpec& spec, const Member& member, con
   for (std::size_t i = 0; i < 2; ++i) {
     ends[i] = base::find_named(spec.nodes, member.between[i]);
     if (ends[i] != nullptr) continue;
-    return Problem{key + ".between",
-                   fmt::format("unknown node \"{}\".{}", member.between[i],
-                               base::suggestion(member.between[i], names_of(spec.nodes)))};
+    return unknown_node(key + ".between", member.between[i], names_of(spec.nodes));
   }
   const Vector3d along = ends[1]->position - ends[0]->position;
   if (!(along.norm() > 0)) {
@@ -139,11 +143,50 @@ Finding member_problem(const fem::StructureSpec& spec, const Member& member, con
   return std::nullopt;
 }
 
+/// Finding about the corners of a solid element.
+Finding corner_problem(const fem::StructureSpec& spec, std::size_t index) {
+  const std::vector<std::string>& nodes = spec.solids[index].nodes;
+  const std::string key = fmt::format("solids.{}.nodes", index);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (base::find_named(spec.nodes, nodes[i]) == nullptr) {
+      return unknown_node(key, nodes[i], names_of(spec.nodes));
+    }
+    if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) !=
+        nodes.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return Problem{key, fmt::format("node \"{}\" stands here twice; the corners of an element "
+                                      "are different nodes",
+                                      nodes[i])};
+    }
+  }
+  return std::nullopt;
+}
+
+Finding mass_problem(const std::vector<fem::PointMassSpec>& masses,
+                     const std::vector<std::string>& nodes) {
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    if (std::find(nodes.begin(), nodes.end(), masses[i].at) != nodes.end()) continue;
+    return unknown_node(fmt::format("masses.{}.at", i), masses[i].at, nodes);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
+Finding problem(const fem::SolidMemberSpec& spec, const ReadContext&) {
+  if (spec.nodes.size() == 8) return std::nullopt;
+  return Problem{"nodes", fmt::format("{} nodes stand here; a hex8 has 8", spec.nodes.size())};
+}
+
+Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
+  if (const auto found = fem::size_problem(spec)) return Problem{"", *found};
+  std::vector<std::string> nodes;
+  for (const auto& named : fem::named_nodes(spec)) nodes.push_back(named.name);
+  return mass_problem(spec.masses, nodes);
+}
+
 Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
-  if (spec.beams.empty() && spec.bars.empty()) {
-    return Problem{"", "a structure needs beams or bars"};
+  if (spec.beams.empty() && spec.bars.empty() && spec.solids.empty()) {
+    return Problem{"", "a structure needs beams, bars or solids"};
   }
   for (const auto& node : spec.nodes) {
     if (node.name == "origin" || node.name == "com") {
@@ -157,14 +200,10 @@ Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
   for (std::size_t i = 0; i < spec.bars.size(); ++i) {
     if (Finding found = member_problem(spec, spec.bars[i], "bars", i)) return found;
   }
-  for (std::size_t i = 0; i < spec.masses.size(); ++i) {
-    const std::string& at = spec.masses[i].at;
-    if (base::find_named(spec.nodes, at) != nullptr) continue;
-    return Problem{
-        fmt::format("masses.{}.at", i),
-        fmt::format("unknown node \"{}\".{}", at, base::suggestion(at, names_of(spec.nodes)))};
+  for (std::size_t i = 0; i < spec.solids.size(); ++i) {
+    if (Finding found = corner_problem(spec, i)) return found;
   }
-  return std::nullopt;
+  return mass_problem(spec.masses, names_of(spec.nodes));
 }
 
 Finding problem(const body::CouplingSpec& spec, const ReadContext&) {
@@ -208,6 +247,11 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   }
   if (spec.is_rigid() && spec.geometric_stiffness) {
     return Problem{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
+  }
+  if (std::holds_alternative<fem::MeshSpec>(spec.kind) && spec.geometric_stiffness) {
+    return Problem{"geometric-stiffness",
+                   "it belongs to beams and bars, a solid has none; remove the key, or give the "
+                   "body more `frames`"};
   }
   if (const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind)) {
     for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
+#include "buckens/fem/generate_mesh.h"
 
 namespace buckens::io {
 
@@ -99,6 +100,9 @@ std::vector<std::string> marker_names(const body::BodySpec& body) {
   }
   if (const auto* structure = std::get_if<fem::StructureSpec>(&body.kind)) {
     for (const auto& node : structure->nodes) out.push_back(node.name);
+  }
+  if (const auto* mesh = std::get_if<fem::MeshSpec>(&body.kind)) {
+    for (const auto& node : fem::named_nodes(*mesh)) out.push_back(node.name);
   }
   for (const auto& marker : body.markers) out.push_back(marker.name);
   return out;

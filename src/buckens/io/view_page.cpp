@@ -13,10 +13,11 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/base/errors.h"
-#include "buckens/io/base64.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
 #include "buckens/io/run_reader.h"
+#include "buckens/io/view_page_body.h"
+#include "buckens/io/view_page_frames.h"
 
 namespace buckens::io {
 
@@ -30,12 +31,9 @@ nlohmann::json parse_summary(const std::string& text) {
 
 using Json = nlohmann::ordered_json;
 using results::Channel;
-using results::GeometryBody;
 
 constexpr std::string_view kMarker = "/*BUCKENS_DATA*/null";
 constexpr int kFormat = 1;
-constexpr std::size_t kPoseSize = 7;
-constexpr std::size_t kNodeSize = 6;
 
 Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -47,114 +45,6 @@ std::vector<std::size_t> choose_frames(std::size_t records, std::size_t limit) {
     frames[i] = count == 1 ? 0 : i * (records - 1) / (count - 1);
   }
   return frames;
-}
-
-/// Reads the frames of a run, channel by channel, in the page's form.
-class FrameReader {
- public:
-  FrameReader(const RunReader& run, std::vector<std::size_t> frames)
-      : run_(run), frames_(std::move(frames)) {}
-
-  std::size_t num_frames() const { return frames_.size(); }
-
-  std::string times() const {
-    std::vector<double> times;
-    for (const std::size_t frame : frames_) times.push_back(run_.times()[frame]);
-    return base64_float32(times);
-  }
-
-  std::string values(const std::string& path) const {
-    return base64_float32(run_.read(path, frames_));
-  }
-
-  /// Poses of a body; one that was not recorded stands at the origin.
-  std::string pose(const std::string& body) const {
-    const std::string path = fmt::format("bodies/{}/pose", body);
-    if (const Channel* channel = find(path); channel != nullptr && channel->size() == kPoseSize) {
-      return values(path);
-    }
-    std::vector<double> poses(num_frames() * kPoseSize, 0.0);
-    for (std::size_t i = 3; i < poses.size(); i += kPoseSize) poses[i] = 1.0;
-    return base64_float32(poses);
-  }
-
-  /// Nodal displacements, null if not recorded.
-  Json displacement(const GeometryBody& body) const {
-    const std::string path = fmt::format("bodies/{}/displacement", body.name);
-    const Channel* channel = find(path);
-    const auto size = static_cast<std::size_t>(body.nodes.rows()) * kNodeSize;
-    if (channel == nullptr || channel->size() != size) return nullptr;
-    return values(path);
-  }
-
-  /// Motion of a body's frame in a vibration, null in runs.
-  Json motion(const GeometryBody& body) const {
-    const std::string path = fmt::format("bodies/{}/motion", body.name);
-    const Channel* channel = find(path);
-    if (channel == nullptr || channel->size() != kNodeSize) return nullptr;
-    return values(path);
-  }
-
-  /// Values of a scalar channel, empty where it is missing.
-  std::vector<double> scalars(const std::string& path) const {
-    const Channel* channel = find(path);
-    if (channel == nullptr || channel->size() != 1) return {};
-    return run_.read(path, frames_);
-  }
-
-  /// Largest magnitude of the stresses of each element, null if not recorded.
-  Json stress(const GeometryBody& body) const {
-    const std::string path = fmt::format("bodies/{}/stress", body.name);
-    const Channel* channel = find(path);
-    const std::size_t elements = body.elements.size();
-    if (channel == nullptr || elements == 0 || channel->size() % elements != 0) return nullptr;
-    const std::size_t per_element = channel->size() / elements;
-    const std::vector<double> all = run_.read(path, frames_);
-    std::vector<double> largest(num_frames() * elements, 0.0);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      double& value = largest[i / per_element];
-      value = std::max(value, std::abs(all[i]));
-    }
-    return base64_float32(largest);
-  }
-
- private:
-  const Channel* find(const std::string& path) const {
-    const int index = run_.layout().find(path);
-    return index < 0 ? nullptr : &run_.layout().channel(static_cast<std::size_t>(index));
-  }
-
-  const RunReader& run_;
-  std::vector<std::size_t> frames_;
-};
-
-Json markers_json(const GeometryBody& body) {
-  Json all = Json::array();
-  for (const results::GeometryMarker& marker : body.markers) {
-    const Eigen::Quaterniond& q = marker.X_BF.q;
-    all.push_back({{"name", marker.name},
-                   {"position", json_of(marker.X_BF.p)},
-                   {"orientation", {q.w(), q.x(), q.y(), q.z()}},
-                   {"node", marker.node}});
-  }
-  return all;
-}
-
-Json body_json(const GeometryBody& body, const FrameReader& reader) {
-  Json nodes = Json::array();
-  for (Eigen::Index i = 0; i < body.nodes.rows(); ++i) {
-    nodes.push_back(json_of(body.nodes.row(i).transpose()));
-  }
-  return {{"name", body.name},
-          {"kind", body.kind == results::BodyKind::beam ? "beam" : "rigid"},
-          {"nodes", std::move(nodes)},
-          {"elements", body.elements},
-          {"radius", body.radius},
-          {"markers", markers_json(body)},
-          {"pose", reader.pose(body.name)},
-          {"displacement", reader.displacement(body)},
-          {"motion", reader.motion(body)},
-          {"stress", reader.stress(body)}};
 }
 
 Json joint_json(const results::GeometryJoint& joint) {
@@ -218,16 +108,28 @@ Json modes_json(const RunReader& run, const FrameReader& reader) {
 }
 
 /// How many frames keep the page below the size that browsers take well.
-std::size_t frame_limit(const RunReader& run, const ViewPageOptions& options) {
+std::size_t frame_limit(const RunReader& run, const std::vector<PageBody>& bodies,
+                        const ViewPageOptions& options) {
+  const auto is_of_solid = [&](const Channel& channel) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const PageBody& body) {
+      return body.is_solid() && channel.path.starts_with(fmt::format("bodies/{}/", body.name()));
+    });
+  };
   std::size_t values = 1;
-  for (const Channel& channel : run.layout().channels()) values += channel.size();
+  for (const Channel& channel : run.layout().channels()) {
+    if (!is_of_solid(channel)) values += channel.size();
+  }
+  for (const PageBody& body : bodies) {
+    if (body.is_solid()) values += body.values_per_frame();
+  }
   return std::min(options.max_frames, options.max_bytes / (sizeof(float) * values));
 }
 
-Json page_json(const RunReader& run, const FrameReader& reader) {
+Json page_json(const RunReader& run, const std::vector<PageBody>& shown,
+               const FrameReader& reader) {
   const results::Geometry& geometry = run.geometry();
   Json bodies = Json::array();
-  for (const GeometryBody& body : geometry.bodies) bodies.push_back(body_json(body, reader));
+  for (const PageBody& body : shown) bodies.push_back(body.json(reader));
   Json joints = Json::array();
   for (const results::GeometryJoint& joint : geometry.joints) joints.push_back(joint_json(joint));
   return {{"format", kFormat},
@@ -284,8 +186,10 @@ ViewPageReport write_view_page(const std::filesystem::path& run_directory,
                     "Install Buckens again.",
                     template_html.string(), kMarker));
   }
-  const FrameReader reader(run, choose_frames(run.num_records(), frame_limit(run, options)));
-  Json content = page_json(run, reader);
+  const std::vector<PageBody> bodies(run.geometry().bodies.begin(), run.geometry().bodies.end());
+  const std::size_t limit = frame_limit(run, bodies, options);
+  const FrameReader reader(run, choose_frames(run.num_records(), limit));
+  Json content = page_json(run, bodies, reader);
   const std::filesystem::path modes = run_directory / kModesName;
   std::error_code ignored;
   if (!content["modes"].is_null() && std::filesystem::exists(modes, ignored)) {

@@ -63,8 +63,9 @@ void MarkerFinder::require_moment(const MarkerId& id, const std::string& what,
                                   const SourceLocation& where) const {
   const body::Marker* marker = on_body(id);
   if (marker == nullptr || marker->carries_moment()) return;
-  throw ModelError(where, fmt::format("{}: \"{}\" cannot carry a moment, bars have no rotations "
-                                      "there; use a spherical joint or a force, or make it a beam",
+  throw ModelError(where, fmt::format("{}: \"{}\" cannot carry a moment, bars and solids have no "
+                                      "rotations there; use spherical joints at several nodes or "
+                                      "forces, or join a beam to the node",
                                       what, id.text));
 }
 

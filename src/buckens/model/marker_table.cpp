@@ -10,14 +10,39 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_recovery.h"
 
 namespace buckens::model {
 
 using Eigen::Vector3d;
 
 namespace {
-// A position counts as on the mesh within this share of the element length.
+// A position counts as on the mesh within this share of the element length, or, at nodes of solids,
+// of the distance to the next node.
 constexpr double kOnMesh = 1e-6;
+
+struct NearNode {
+  int node = -1;
+  double distance = HUGE_VAL;
+  double next = HUGE_VAL;  ///< distance of the second nearest node
+};
+
+NearNode nearest_node(const std::vector<fem::Node>& nodes, const Vector3d& position) {
+  NearNode out;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double distance = (nodes[k].position - position).norm();
+    if (distance < out.distance) {
+      out = {static_cast<int>(k), distance, out.distance};
+    } else {
+      out.next = std::min(out.next, distance);
+    }
+  }
+  return out;
+}
+
+std::string at_point(const Vector3d& p) {
+  return fmt::format("({:g}, {:g}, {:g}) m", p.x(), p.y(), p.z());
+}
 }  // namespace
 
 MarkerTable::MarkerTable(const body::BodySpec& spec, body::Body& body, const NamedStructure* mesh,
@@ -50,6 +75,9 @@ std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
     if (xi > 1.0 - kOnMesh) return MeshPlace{lines[e].b, -1, 0};
     return MeshPlace{-1, static_cast<int>(e), xi};
   }
+  if (fem::num_solids(fe) == 0) return std::nullopt;
+  const NearNode near = nearest_node(fe.nodes, position);
+  if (near.distance <= kOnMesh * near.next) return MeshPlace{near.node, -1, 0};
   return std::nullopt;
 }
 
@@ -118,18 +146,26 @@ std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
   return target(ref).place;
 }
 
+void MarkerTable::refuse_place(const body::MarkerSpec& marker) const {
+  const fem::FeModel& fe = body_.flexible->fe;
+  const NearNode near = nearest_node(fe.nodes, *marker.position);
+  const Vector3d& at = fe.nodes.at(static_cast<std::size_t>(near.node)).position;
+  throw InputError(
+      marker.where,
+      fmt::format("marker \"{}\" of body \"{}\" at {} does not lie on its mesh; the nearest node "
+                  "lies at {}, {:.3g} m away. Put it on a node or on a beam or bar, or divide the "
+                  "mesh so that a node is there",
+                  marker.name, spec_.name, at_point(*marker.position), at_point(at),
+                  near.distance));
+}
+
 MarkerTable::Target MarkerTable::target(const base::MarkerRef& ref) const {
   const body::MarkerSpec* own = base::find_named(spec_.markers, ref.marker);
   if (own == nullptr) return named(ref.marker, ref);
   Target target;
   if (own->position) {
     target = {*own->position, {}, mesh_ != nullptr ? place_at(*own->position) : std::nullopt};
-    if (mesh_ != nullptr && !target.place) {
-      throw InputError(own->where,
-                       fmt::format("marker \"{}\" of body \"{}\" does not lie on its mesh; name a "
-                                   "node (`at`) or a point on an element",
-                                   own->name, spec_.name));
-    }
+    if (mesh_ != nullptr && !target.place) refuse_place(*own);
   } else {
     base::MarkerRef at = ref;
     at.where = own->where;

@@ -55,6 +55,8 @@ class MarkerTable {
   };
   Target target(const base::MarkerRef& ref) const;
   Target named(const std::string& name, const base::MarkerRef& ref) const;
+  /// @throws InputError saying how far from the mesh the marker lies
+  [[noreturn]] void refuse_place(const body::MarkerSpec& marker) const;
   std::string suggestion(const std::string& name) const;
   std::optional<MeshPlace> find_place(const std::string& name) const;
   std::optional<MeshPlace> place_at(const Eigen::Vector3d& position) const;

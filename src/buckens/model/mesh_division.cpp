@@ -79,6 +79,7 @@ MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision&
   }
   out.nodes = std::move(divided.nodes);
   out.lines = std::move(divided.lines);
+  out.solids = std::move(divided.solids);
   out.straight_nodes = structure.straight_nodes;
   return out;
 }

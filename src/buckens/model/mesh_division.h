@@ -15,6 +15,7 @@ struct MeshDivision {
   /// Per node of the whole mesh its copies; `part` counts from 0 within the body.
   std::vector<std::vector<fem::PartPlace>> nodes;
   std::vector<fem::PartPlace> lines;
+  std::vector<fem::PartPlace> solids;
   std::vector<int> straight_nodes;  ///< of the whole mesh
 };
 

@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/free_modes.h"
 #include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_recovery.h"
 
 namespace buckens::model {
 
@@ -20,7 +21,10 @@ constexpr double kNoStiffness = 1e-12;
 void refuse_mechanisms(const body::Body& body) {
   const fem::FeModel& fe = body.flexible->fe;
   const auto lines = fem::line_elements(fe);
-  if (std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.bends; })) return;
+  const bool has_bars =
+      std::any_of(lines.begin(), lines.end(), [](const auto& line) { return !line.bends; });
+  const bool is_mixed = !lines.empty() && fem::num_solids(fe) > 0;
+  if (!has_bars && !is_mixed && fem::solids_join_by_faces(fe)) return;
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), 1);
   if (modes.omega.size() == 0) return;
   const double scale = fe.K.diagonal().maxCoeff() / fe.M.diagonal().maxCoeff();
@@ -35,8 +39,8 @@ void refuse_mechanisms(const body::Body& body) {
                                     : fmt::format("node \"{}\"", fe.nodes[k].name);
   }
   throw ModelError(fmt::format(
-      "body \"{}\" is a mechanism in itself: {} can move without straining its bars; add bars or "
-      "beams that hold it, or make separate bodies with joints",
+      "body \"{}\" is a mechanism in itself: {} can move without straining an element; add bars, "
+      "beams or solids that hold it, or make separate bodies with joints",
       body.name, node));
 }
 

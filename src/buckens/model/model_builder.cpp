@@ -9,10 +9,10 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/assemble.h"
-#include "buckens/fem/recovery.h"
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
 #include "buckens/model/add_ties.h"
+#include "buckens/model/find_section.h"
 #include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
@@ -163,6 +163,9 @@ class Builder {
     for (const auto& line : divisions_[w]->lines) {
       whole.lines.push_back({whole.first + line.part, line.index});
     }
+    for (const auto& solid : divisions_[w]->solids) {
+      whole.solids.push_back({whole.first + solid.part, solid.index});
+    }
   }
 
   /// Adds one body of the model: a rigid one, a mesh, or a part of a mesh.
@@ -225,7 +228,8 @@ class Builder {
     std::visit(
         [&](const auto& kind) {
           if constexpr (requires { kind.element; }) {
-            find_section(kind, find, found);
+            find_section(kind, std::is_same_v<std::decay_t<decltype(kind)>, SectionForceSensor>,
+                         find, found);
             return;
           }
           if constexpr (requires { kind.between; }) {
@@ -248,42 +252,6 @@ class Builder {
         },
         spec.kind);
     out_->sensors.push_back(std::move(found));
-  }
-
-  void find_section(const SectionPlace& kind, MarkerFinder& find, SensorPlace& found) {
-    found.body = find.marker(kind.of, false).body;
-    if (found.body == kGround || !model_.bodies[static_cast<std::size_t>(found.body)].flexible) {
-      throw ModelError(kind.of.where,
-                       fmt::format("\"{}\" is not on a flexible body; section forces "
-                                   "and stresses exist on beams and bars only",
-                                   kind.of.text));
-    }
-    const auto b = static_cast<std::size_t>(found.body);
-    const auto lines = fem::line_elements(model_.bodies[b].flexible->fe);
-    const WholeBody& whole = model_.wholes[static_cast<std::size_t>(model_.whole_of(found.body))];
-    if (kind.element) {
-      const std::size_t count = whole.is_divided() ? whole.lines.size() : lines.size();
-      found.element = *kind.element - 1;
-      if (found.element >= static_cast<int>(count)) {
-        throw InputError(kind.of.where, fmt::format("body \"{}\" has {} elements, not {}",
-                                                    kind.of.body, count, *kind.element));
-      }
-      if (whole.is_divided()) {
-        const MeshCopy copy = whole.lines[static_cast<std::size_t>(found.element)];
-        found.body = copy.body;
-        found.element = copy.index;
-      }
-      return;
-    }
-    if (whole.is_divided() && kind.of.marker.empty()) return;
-    const auto place = tables_[b]->place(kind.of);
-    if (!place) return;
-    if (place->node < 0) found.element = place->element;
-    for (std::size_t e = 0; e < lines.size() && found.element < 0; ++e) {
-      if (lines[e].a != place->node && lines[e].b != place->node) continue;
-      found.element = static_cast<int>(e);
-      found.end = lines[e].a == place->node ? 0 : 1;
-    }
   }
 
   void add_remaining_markers(MarkerFinder& find) {

@@ -124,7 +124,8 @@ struct JointTorqueSensor : JointForceSensor {
   static constexpr const char* kDoc = "torque of a joint on its second marker";
 };
 
-/// Section of a beam: at a marker on the mesh, or at an end of a numbered element.
+/// Section of a beam: at a marker on the mesh, or at an end of a numbered element. Solid elements
+/// around a node, or a numbered one.
 struct SectionPlace {
   base::MarkerRef of;
   std::optional<int> element;  ///< from 1, in the order of the model file
@@ -136,11 +137,12 @@ struct SectionPlace {
               .required()
               .shorthand()
               .like("rod/mid"));
-    visit(base::field("element", element,
-                      "number of the element, counted from 1 in the order of the "
-                      "file; its first end is meant")
-              .positive()
-              .otherwise("the first element that touches the marker"));
+    visit(
+        base::field("element", element,
+                    "number of the element, counted from 1: beams, bars and solids in the order of "
+                    "the file, meshes along x, then y, then z; of lines the first end is meant")
+            .positive()
+            .otherwise("the first element that touches the marker"));
   }
 };
 struct SectionForceSensor : SectionPlace {
@@ -156,8 +158,9 @@ struct SectionForceSensor : SectionPlace {
 struct StressSensor : SectionPlace {
   static constexpr const char* kKey = "stress";
   static constexpr const char* kDoc =
-      "largest stress in a section; for a body without marker the "
-      "largest anywhere in it";
+      "largest stress in a section of a beam or bar; at a node of solids the von Mises stress "
+      "of the mean over the elements there, taken at their centres; for a body without marker "
+      "the largest anywhere in it";
   template <class Visitor>
   void fields(Visitor& visit) {
     place_fields(visit);

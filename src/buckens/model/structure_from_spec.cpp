@@ -2,10 +2,12 @@
 #include "buckens/model/structure_from_spec.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/generate_mesh.h"
 
 namespace buckens::model {
 
@@ -50,6 +52,8 @@ class Builder {
   NamedStructure run() {
     if (const auto* beam = std::get_if<fem::BeamSpec>(&spec_.kind)) {
       add_single_beam(*beam);
+    } else if (const auto* mesh = std::get_if<fem::MeshSpec>(&spec_.kind)) {
+      add_generated(*mesh);
     } else {
       add_structure(std::get<fem::StructureSpec>(spec_.kind));
     }
@@ -83,7 +87,9 @@ class Builder {
   }
 
   void add_single_beam(const fem::BeamSpec& beam);
+  void add_generated(const fem::MeshSpec& mesh);
   void add_structure(const fem::StructureSpec& structure);
+  void add_solid(const fem::SolidMemberSpec& solid);
   int node_called(const std::string& name, const SourceLocation& where) const;
   void add_mass(const fem::PointMassSpec& mass) {
     out_.structure.masses.add(node_called(mass.at, mass.where), mass.mass, mass.inertia_matrix());
@@ -126,6 +132,28 @@ void Builder::add_structure(const fem::StructureSpec& spec) {
     fem::add_bar(structure, node_called(bar.between[0], bar.where),
                  node_called(bar.between[1], bar.where), bar.elements, make_material(*bar.material),
                  section);
+  }
+  for (const fem::SolidMemberSpec& solid : spec.solids) add_solid(solid);
+  for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
+}
+
+void Builder::add_solid(const fem::SolidMemberSpec& solid) {
+  std::array<int, 8> nodes{};
+  if (solid.nodes.size() != nodes.size()) {
+    throw InputError(solid.where,
+                     fmt::format("a hex8 has {} nodes, not {}", nodes.size(), solid.nodes.size()));
+  }
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    nodes[k] = node_called(solid.nodes[k], solid.where);
+  }
+  fem::Hex8Block& block = out_.structure.solids;
+  block.add(nodes, block.add_material(make_material(*solid.material)));
+}
+
+void Builder::add_generated(const fem::MeshSpec& spec) {
+  const int first = fem::add_mesh(out_.structure, spec, make_material(*spec.material));
+  for (const fem::NamedNode& named : fem::named_nodes(spec)) {
+    name_place(named.name, {first + named.node, -1, 0});
   }
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
 }

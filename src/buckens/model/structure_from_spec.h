@@ -27,7 +27,7 @@ struct NamedStructure {
   std::optional<MeshPlace> find(const std::string& name) const;
 };
 
-/// Turns a `beam` or `structure` of the model file into nodes and elements.
+/// Turns a `beam`, `structure` or `mesh` of the model file into nodes and elements.
 /// @throws InputError or ModelError with the place in the file
 NamedStructure structure_from_spec(const body::BodySpec& spec);
 

@@ -14,10 +14,10 @@ namespace buckens::model {
 struct Model;
 struct State;
 
-/// Where a node or line element of a whole mesh lies among the bodies of the model.
+/// Where a node or element of a whole mesh lies among the bodies of the model.
 struct MeshCopy {
   int body = -1;   ///< index into Model::bodies
-  int index = -1;  ///< of the node or line element in the mesh of that body
+  int index = -1;  ///< of the node, line or solid element in that body
 };
 
 /// A body of the model file. It is one body of the model, or the connected parts of its mesh with a
@@ -32,8 +32,9 @@ struct WholeBody {
 
   /// The undivided mesh with its own matrices, empty unless the body is divided.
   std::shared_ptr<const fem::FeModel> mesh;
-  std::vector<MeshCopy> nodes;  ///< first copy of each node of `mesh`
-  std::vector<MeshCopy> lines;  ///< place of each line element of `mesh`
+  std::vector<MeshCopy> nodes;   ///< first copy of each node of `mesh`
+  std::vector<MeshCopy> lines;   ///< place of each line element of `mesh`
+  std::vector<MeshCopy> solids;  ///< place of each solid element of `mesh`
 
   bool is_divided() const { return count > 1; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/divided_body.h"
 
+#include "buckens/fem/solid_recovery.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::results {
@@ -62,6 +63,13 @@ void DividedBody::append_elements(const std::vector<linalg::Matrix>& tables,
   for (const model::MeshCopy& copy : whole_.lines) {
     const auto column = tables[static_cast<std::size_t>(copy.body)].col(copy.index);
     values.insert(values.end(), column.data(), column.data() + column.size());
+  }
+}
+
+void DividedBody::append_solid_stresses(const std::vector<linalg::Matrix>& tables,
+                                        std::vector<double>& values) const {
+  for (const model::MeshCopy& copy : whole_.solids) {
+    values.push_back(tables[static_cast<std::size_t>(copy.body)](fem::kMises, copy.index));
   }
 }
 

@@ -28,6 +28,11 @@ class DividedBody {
   void append_elements(const std::vector<linalg::Matrix>& tables,
                        std::vector<double>& values) const;
 
+  /// Von Mises stresses of the solid elements in the order of the whole mesh [Pa].
+  /// @param tables one per body of the model, see Observation::solid_stresses
+  void append_solid_stresses(const std::vector<linalg::Matrix>& tables,
+                             std::vector<double>& values) const;
+
   /// Joints of the model that tie its parts, in the order of cut_force.
   std::vector<std::size_t> ties() const;
   /// Appends force [N] and torque [N m] at each tie on the part with the higher number, in the axes

@@ -21,15 +21,20 @@ struct GeometryMarker {
   spatial::Pose X_BF;  ///< in the undeformed body [m]
 };
 
-enum class BodyKind { rigid, beam };
+/// `solid` where a mesh has solid elements, perhaps besides beams and bars.
+enum class BodyKind { rigid, beam, solid };
 
 /// The undeformed shape of one body in its body frame B.
 struct GeometryBody {
   std::string name;
   BodyKind kind = BodyKind::rigid;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> nodes;  ///< N×3 [m]; none if rigid
-  std::vector<std::array<int, 2>> elements;                         ///< E pairs of node indices
+  std::vector<std::array<int, 2>> elements;                         ///< E pairs of nodes: lines
   std::vector<double> radius;                                       ///< E, of the drawn tube [m]
+  /// F faces on the surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for
+  /// triangles.
+  std::vector<std::array<int, 4>> faces;
+  std::vector<int> face_elements;  ///< F, solid element of each face
   std::vector<GeometryMarker> markers;
 };
 

@@ -1,87 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/recorder.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "buckens/dynamics/constraints.h"
 #include "buckens/results/divided_body.h"
+#include "buckens/results/model_geometry.h"
 
 namespace buckens::results {
 
 using Eigen::Vector3d;
 
 namespace {
-
-/// The mesh of a whole body; null for rigid ones.
-const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
-  if (whole.is_divided()) return whole.mesh.get();
-  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
-  return body.is_flexible() ? &body.flexible->fe : nullptr;
-}
-
-/// Number of markers on the parts of a divided body before the one with this index.
-int markers_before(const model::Model& model, const model::WholeBody& whole, int body) {
-  int count = 0;
-  for (int b = whole.first; b < body; ++b) {
-    count += static_cast<int>(model.bodies[static_cast<std::size_t>(b)].markers.size());
-  }
-  return count;
-}
-
-GeometrySide side_of(const model::Model& model, const model::MarkerId& id) {
-  GeometrySide side;
-  if (id.body == model::kGround) {
-    side.body = kGroundBody;
-    side.position = id.X_WF.p;
-    return side;
-  }
-  side.body = model.whole_of(id.body);
-  const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(side.body)];
-  side.marker = markers_before(model, whole, id.body) + id.marker;
-  side.position = DividedBody(model, whole).place(id);
-  return side;
-}
-
-/// Node of the whole mesh that a marker of a part sits on, or is nearest to.
-int whole_node(const model::WholeBody& whole, int body, const body::Marker& marker,
-               const Vector3d& position) {
-  int nearest = 0;
-  double least = HUGE_VAL;
-  for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
-    const model::MeshCopy& copy = whole.nodes[n];
-    if (copy.body == body && copy.index == marker.node) return static_cast<int>(n);
-    const double distance = (whole.mesh->nodes[n].position - whole.com - position).norm();
-    if (distance < least) nearest = static_cast<int>(n);
-    least = std::min(least, distance);
-  }
-  return nearest;
-}
-
-/// Markers of all parts, in the frame of the whole.
-std::vector<GeometryMarker> markers_of(const model::Model& model, const model::WholeBody& whole) {
-  std::vector<GeometryMarker> out;
-  for (int b = whole.first; b < whole.first + whole.count; ++b) {
-    const body::Body& body = model.bodies[static_cast<std::size_t>(b)];
-    for (const body::Marker& marker : body.markers) {
-      out.push_back({marker.name, marker.node, marker.X_BF});
-      if (!whole.is_divided()) continue;
-      out.back().X_BF.p += body.com - whole.com;
-      out.back().node = whole_node(whole, b, marker, out.back().X_BF.p);
-    }
-  }
-  return out;
-}
-
-/// A direction given in a marker's axes, in those of its body.
-Vector3d to_body(const model::Model& model, const model::MarkerId& id, const Vector3d& axis) {
-  if (id.body == model::kGround) return id.X_WF.q * axis;
-  return model.bodies[static_cast<std::size_t>(id.body)]
-             .markers[static_cast<std::size_t>(id.marker)]
-             .X_BF.q *
-         axis;
-}
 
 const std::vector<std::string> kXyz = {"x", "y", "z"};
 
@@ -93,6 +23,9 @@ Recorder::Recorder(const model::BuiltModel& built, const dynamics::MassMetric& m
   for (const body::Body& body : built.model.bodies) {
     recoveries_.push_back(body.is_flexible() ? std::make_unique<fem::Recovery>(body.flexible->fe)
                                              : nullptr);
+    const bool has_solids = body.is_flexible() && fem::num_solids(body.flexible->fe) > 0;
+    solids_.push_back(has_solids ? std::make_unique<fem::SolidRecovery>(body.flexible->fe)
+                                 : nullptr);
   }
   for (std::size_t k = 0; k < built.description.output.sensors.size(); ++k) {
     sensors_.push_back(make_sensor(built, k));
@@ -101,6 +34,44 @@ Recorder::Recorder(const model::BuiltModel& built, const dynamics::MassMetric& m
 }
 
 Recorder::~Recorder() = default;
+
+void Recorder::add_mesh_channels(const model::WholeBody& whole, const fem::FeModel& mesh) {
+  const std::string path = "bodies/" + whole.name;
+  const int nodes = static_cast<int>(mesh.nodes.size());
+  const int elements = static_cast<int>(fem::line_elements(mesh).size());
+  const int solids = fem::num_solids(mesh);
+  layout_.add({path + "/displacement",
+               "m, rad",
+               {nodes, 6},
+               "nodal translations and rotations in body axes",
+               {"x", "y", "z", "rx", "ry", "rz"}});
+  if (whole.is_divided()) {
+    layout_.add({path + "/cut_force",
+                 "N, N m",
+                 {static_cast<int>(DividedBody(built_.model, whole).ties().size()), 6},
+                 "force and torque between the parts, on the later one, axes of the earlier",
+                 {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}});
+  }
+  if (solids > 0) {
+    layout_.add({path + "/solid_stress",
+                 "Pa",
+                 {solids},
+                 "von Mises stress at the centre of each solid element",
+                 {}});
+  }
+  if (elements == 0) return;
+  layout_.add({path + "/section_force",
+               "N, N m",
+               {elements, 12},
+               "section forces at both ends of each element, element axes",
+               {"N_1", "Qy_1", "Qz_1", "Mt_1", "My_1", "Mz_1", "N_2", "Qy_2", "Qz_2", "Mt_2",
+                "My_2", "Mz_2"}});
+  layout_.add({path + "/stress",
+               "Pa",
+               {elements, 2},
+               "largest axial and von Mises stress",
+               {"axial", "mises"}});
+}
 
 void Recorder::add_channels() {
   const model::Model& model = built_.model;
@@ -115,32 +86,7 @@ void Recorder::add_channels() {
     layout_.add({path + "/angular_velocity", "rad/s", {3}, "of the body frame, body axes", kXyz});
     const fem::FeModel* mesh = mesh_of(model, whole);
     if (mesh == nullptr) continue;
-    const int nodes = static_cast<int>(mesh->nodes.size());
-    const int elements = static_cast<int>(fem::line_elements(*mesh).size());
-    layout_.add({path + "/displacement",
-                 "m, rad",
-                 {nodes, 6},
-                 "nodal translations and rotations in body axes",
-                 {"x", "y", "z", "rx", "ry", "rz"}});
-    if (whole.is_divided()) {
-      layout_.add({path + "/cut_force",
-                   "N, N m",
-                   {static_cast<int>(DividedBody(model, whole).ties().size()), 6},
-                   "force and torque between the parts, on the later one, axes of the earlier",
-                   {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}});
-    }
-    if (elements == 0) continue;
-    layout_.add({path + "/section_force",
-                 "N, N m",
-                 {elements, 12},
-                 "section forces at both ends of each element, element axes",
-                 {"N_1", "Qy_1", "Qz_1", "Mt_1", "My_1", "Mz_1", "N_2", "Qy_2", "Qz_2", "Mt_2",
-                  "My_2", "Mz_2"}});
-    layout_.add({path + "/stress",
-                 "Pa",
-                 {elements, 2},
-                 "largest axial and von Mises stress",
-                 {"axial", "mises"}});
+    add_mesh_channels(whole, *mesh);
   }
   for (const model::Joint& joint : model.joints) {
     if (joint.is_tie) continue;
@@ -161,46 +107,7 @@ void Recorder::add_channels() {
   }
 }
 
-Geometry Recorder::geometry() const {
-  const model::Model& model = built_.model;
-  Geometry out;
-  out.gravity = model.gravity;
-  if (model.planar)
-    out.planar = choice_names(*model.planar)[static_cast<std::size_t>(*model.planar)];
-  for (const model::WholeBody& whole : model.wholes) {
-    GeometryBody shape;
-    shape.name = whole.name;
-    shape.markers = markers_of(model, whole);
-    if (const fem::FeModel* mesh = mesh_of(model, whole)) {
-      shape.kind = BodyKind::beam;
-      shape.nodes.resize(static_cast<Eigen::Index>(mesh->nodes.size()), 3);
-      for (std::size_t k = 0; k < mesh->nodes.size(); ++k) {
-        shape.nodes.row(static_cast<Eigen::Index>(k)) =
-            (mesh->nodes[k].position - whole.com).transpose();
-      }
-      for (const fem::LineElement& line : fem::line_elements(*mesh)) {
-        shape.elements.push_back({line.a, line.b});
-        shape.radius.push_back(line.radius);
-      }
-    }
-    out.bodies.push_back(std::move(shape));
-  }
-  for (const model::Joint& joint : model.joints) {
-    if (joint.is_tie) continue;
-    out.joints.push_back({joint.name,
-                          joints::to_string(joint.type),
-                          {side_of(model, joint.first), side_of(model, joint.second)},
-                          to_body(model, joint.first, joint.axis_F)});
-  }
-  for (const model::Load& load : model.loads) {
-    if (load.element->num_soft_rows() == 0) continue;
-    out.joints.push_back({load.name,
-                          load.element->num_soft_rows() == 6 ? "bushing" : "spring-damper",
-                          {side_of(model, load.first), side_of(model, load.second)},
-                          Vector3d::UnitZ()});
-  }
-  return out;
-}
+Geometry Recorder::geometry() const { return model_geometry(built_.model); }
 
 void Recorder::append_bodies(const Observation& now, std::vector<double>& values) const {
   const auto push = [&](const Vector3d& v) { values.insert(values.end(), {v.x(), v.y(), v.z()}); };
@@ -216,6 +123,7 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
       const DividedBody divided(now.model, whole);
       divided.append_displacements(now, values);
       divided.append_cut_forces(now, values);
+      divided.append_solid_stresses(now.solid_stresses, values);
       divided.append_elements(now.section_forces, values);
       divided.append_elements(now.stresses, values);
       continue;
@@ -225,6 +133,8 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
     for (const auto& dofs : now.model.bodies[b].flexible->fe.dofs.node_dofs) {
       for (const int dof : dofs) values.push_back(dof >= 0 ? now.state.bodies[b].d[dof] : 0.0);
     }
+    const auto& mises = now.solid_stresses[b];
+    for (Eigen::Index e = 0; e < mises.cols(); ++e) values.push_back(mises(fem::kMises, e));
     const auto& forces = now.section_forces[b];
     values.insert(values.end(), forces.data(), forces.data() + forces.size());
     const auto& stresses = now.stresses[b];
@@ -234,7 +144,7 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
 
 Record Recorder::record(const model::State& state, WorkBalance work) {
   const model::Model& model = built_.model;
-  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, work, {}};
+  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, work, {}};
   for (const model::WholeBody& whole : model.wholes) {
     now.wholes.push_back(model::whole_motion(model, whole, state));
   }
@@ -247,10 +157,12 @@ Record Recorder::record(const model::State& state, WorkBalance work) {
   now.joint_wrenches = joint_wrenches(model, now.motions, state.t, lambda);
   now.section_forces.resize(model.bodies.size());
   now.stresses.resize(model.bodies.size());
+  now.solid_stresses.resize(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!recoveries_[b]) continue;
     now.section_forces[b] = recoveries_[b]->section_forces(state.bodies[b].d);
     now.stresses[b] = recoveries_[b]->stresses(now.section_forces[b]);
+    if (solids_[b]) now.solid_stresses[b] = solids_[b]->stresses(state.bodies[b].d);
   }
   now.energy = dynamics::energy(model, state);
   if (!started_) first_energy_ = now.energy.total();

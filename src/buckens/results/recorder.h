@@ -6,6 +6,7 @@
 
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_recovery.h"
 #include "buckens/model/model_builder.h"
 #include "buckens/results/record_sink.h"
 #include "buckens/results/sensor.h"
@@ -36,6 +37,7 @@ class Recorder {
 
  private:
   void add_channels();
+  void add_mesh_channels(const model::WholeBody& whole, const fem::FeModel& mesh);
   void append_bodies(const Observation& now, std::vector<double>& values) const;
 
   const model::BuiltModel& built_;
@@ -43,6 +45,7 @@ class Recorder {
   bool has_redundant_joints_;
   RecordLayout layout_;
   std::vector<std::unique_ptr<fem::Recovery>> recoveries_;
+  std::vector<std::unique_ptr<fem::SolidRecovery>> solids_;  // null where there are none
   std::vector<std::unique_ptr<Sensor>> sensors_;
   bool started_ = false;
   double first_energy_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/sensor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,7 +12,10 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_recovery.h"
 #include "buckens/results/divided_body.h"
+#include "buckens/results/model_geometry.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::results {
@@ -253,32 +257,51 @@ class SectionForceSensor final : public Sensor {
 
 class StressSensor final : public Sensor {
  public:
-  StressSensor(std::string name, const model::SensorPlace& place)
-      : name_(std::move(name)), place_(place) {}
+  /// @param has_lines whether there are beams or bars, which alone have an axial stress
+  StressSensor(std::string name, const model::SensorPlace& place, bool has_lines)
+      : name_(std::move(name)), place_(place), has_lines_(has_lines) {}
 
   std::vector<Channel> channels() const override {
-    return {
-        {"sensors/" + name_, "Pa", {2}, "largest axial and von Mises stress", {"axial", "mises"}}};
+    const std::string path = "sensors/" + name_;
+    if (!has_lines_) return {{path, "Pa", {1}, "von Mises stress of solids", {"mises"}}};
+    return {{path, "Pa", {2}, "largest axial and von Mises stress", {"axial", "mises"}}};
   }
   void append(const Observation& now, std::vector<double>& values) override {
     if (place_.element >= 0) {
       const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];
       for (int k = 0; k < 2; ++k) values.push_back(stresses(k, place_.element));
-      return;
+    } else if (!place_.solids.empty()) {
+      values.push_back(mean_of_solids(now));
+    } else {
+      append_largest(now, values);
     }
+  }
+
+ private:
+  /// Von Mises stress of the mean of the elements around a node.
+  double mean_of_solids(const Observation& now) const {
+    const auto& stresses = now.solid_stresses[static_cast<std::size_t>(place_.body)];
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+    for (const int e : place_.solids) sum += stresses.col(e).head<6>();
+    return fem::mises_stress(sum / static_cast<double>(place_.solids.size()));
+  }
+  void append_largest(const Observation& now, std::vector<double>& values) const {
     const auto w = static_cast<std::size_t>(now.model.whole_of(place_.body));
     const model::WholeBody& whole = now.model.wholes[w];
     Eigen::Vector2d largest = Eigen::Vector2d::Zero();
     for (int b = whole.first; b < whole.first + whole.count; ++b) {
-      const auto& stresses = now.stresses[static_cast<std::size_t>(b)];
-      largest = largest.cwiseMax(stresses.rowwise().maxCoeff());
+      const auto& lines = now.stresses[static_cast<std::size_t>(b)];
+      const auto& solids = now.solid_stresses[static_cast<std::size_t>(b)];
+      if (lines.cols() > 0) largest = largest.cwiseMax(lines.rowwise().maxCoeff());
+      if (solids.cols() > 0) largest[1] = std::max(largest[1], solids.row(fem::kMises).maxCoeff());
     }
-    values.insert(values.end(), {largest[0], largest[1]});
+    if (has_lines_) values.push_back(largest[0]);
+    values.push_back(largest[1]);
   }
 
- private:
   std::string name_;
   model::SensorPlace place_;
+  bool has_lines_;
 };
 
 class EnergySensor final : public Sensor {
@@ -378,7 +401,10 @@ class Maker {
     return std::make_unique<SectionForceSensor>(spec_.name, place_);
   }
   std::unique_ptr<Sensor> operator()(const model::StressSensor&) const {
-    return std::make_unique<StressSensor>(spec_.name, place_);
+    const auto w = static_cast<std::size_t>(built_.model.whole_of(place_.body));
+    const fem::FeModel* mesh = mesh_of(built_.model, built_.model.wholes[w]);
+    const bool has_lines = place_.solids.empty() && !fem::line_elements(*mesh).empty();
+    return std::make_unique<StressSensor>(spec_.name, place_, has_lines);
   }
   std::unique_ptr<Sensor> operator()(const model::EnergySensor& s) const {
     return std::make_unique<EnergySensor>(spec_.name, s.kind);

@@ -104,7 +104,7 @@ TEST(ModelFileErrors, Bodies) {
   expect_messages(
       {
           {"{rigd: {mass: 1}}", {"unknown key \"rigd\" in bodies.a. Did you mean \"rigid\"?"}},
-          {"{at: {}}", {"one of these keys is missing: rigid, beam, structure, like"}},
+          {"{at: {}}", {"one of these keys is missing: rigid, beam, structure, mesh, like"}},
           {"{rigid: {mass: 1}, like: b}", {"only one of these keys can be"}},
           {"{rigid: {mas: 1}}", {"unknown key \"mas\" in bodies.a.rigid"}},
           {"{rigid: {}}", {"the key \"mass\" is missing; add it, for example mass: 0.36 kg"}},
@@ -143,7 +143,7 @@ TEST(ModelFileErrors, Bodies) {
           {"{beam: {to: [1, 0, 0], material: steel, section: {box: {width: 1, height: 1, "
            "thickness: 1}}}}",
            {"thicker than half"}},
-          {"{structure: {nodes: {a: [0, 0, 0]}}}", {"needs beams or bars"}},
+          {"{structure: {nodes: {a: [0, 0, 0]}}}", {"needs beams, bars or solids"}},
           {"{structure: {nodes: {a: [0, 0, 0]}, bars: [{between: [a, b], area: 1, material: "
            "steel}]}}",
            {"bars.0.between: unknown node \"b\""}},
@@ -157,6 +157,50 @@ TEST(ModelFileErrors, Bodies) {
               HasSubstr("materials.s.rho: -7 kg/m^3 is not allowed"));
   EXPECT_THAT(message("buckens: 1\nmaterials: {s: {E: 1, rho: 1, damping: {ratio: 2 %}}}\n"),
               HasSubstr("belong together"));
+}
+
+TEST(ModelFileErrors, Solids) {
+  const std::string unit = "box: {size: [1, 1, 1], divisions: [1, 1, 1]";
+  const std::string nodes =
+      "nodes: {a: [0, 0, 0], b: [1, 0, 0], c: [1, 1, 0], d: [0, 1, 0], e: [0, 0, 1], f: [1, 0, 1], "
+      "g: [1, 1, 1], h: [0, 1, 1]}";
+  expect_messages(
+      {
+          {"{mesh: {material: m}}", {"bodies.a.mesh: one of these keys is missing: box"}},
+          {"{mesh: {box: {divisions: [1, 1, 1]}, material: m}}", {"the key \"size\" is missing"}},
+          {"{mesh: {box: {size: [1, 1, 1]}, material: m}}", {"\"divisions\" is missing"}},
+          {"{mesh: {" + unit + "}}}", {"the key \"material\" is missing"}},
+          {"{mesh: {box: {size: [1, 0, 1], divisions: [1, 1, 1]}, material: m}}",
+           {"bodies.a.mesh.box.size.1", "0", "must be positive"}},
+          {"{mesh: {box: {size: [1 m, 1 kg, 1], divisions: [1, 1, 1]}, material: m}}",
+           {"\"1 kg\" is a mass"}},
+          {"{mesh: {box: {size: [1, 1, 1], divisions: [4, 0, 1]}, material: m}}",
+           {"bodies.a.mesh.box.divisions.1", "must be positive"}},
+          {"{mesh: {box: {size: [1, 1, 1], divisions: [4, 1]}, material: m}}",
+           {"a list of 2 values", "list of 3 values such as [110, 2, 2]"}},
+          {"{mesh: {box: {size: [1, 1, 1], divisions: [30000, 30000, 2]}, material: m}}",
+           {"bodies.a.mesh: these are 1.8e+09 elements", "use fewer"}},
+          {"{mesh: {" + unit + ", element: hex9}, material: m}}", {"Did you mean \"hex8\"?"}},
+          {"{mesh: {" + unit + ", integration: ful}, material: m}}", {"Did you mean \"full\"?"}},
+          {"{mesh: {" + unit + "}, material: nix}}", {"unknown material \"nix\""}},
+          {"{mesh: {" + unit + "}, material: m, masses: [{at: centre, mass: 1}]}}",
+           {"bodies.a.mesh.masses.0.at: unknown node \"centre\""}},
+          {"{mesh: {" + unit + "}, material: m}, geometric-stiffness: on}",
+           {"bodies.a.geometric-stiffness", "remove the key"}},
+          {"{mesh: {" + unit + "}, material: m}, markers: {corner_000: {at: node_last}}}",
+           {"\"corner_000\" is taken"}},
+          {"{mesh: {" + unit + "}, material: m}, markers: {q: {at: corner_002}}}",
+           {"no place \"corner_002\"", "corner_00"}},
+          {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d], material: m}]}}",
+           {"solids.0.nodes: 4 nodes stand here; a hex8 has 8"}},
+          {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d, e, f, g, i], material: m}]}}",
+           {"solids.0.nodes: unknown node \"i\""}},
+          {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d, e, f, g, a], material: m}]}}",
+           {"node \"a\" stands here twice"}},
+          {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d, e, f, g, h]}]}}",
+           {"solids.0: the key \"material\" is missing"}},
+      },
+      "buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: ", "}\n");
 }
 
 TEST(ModelFileErrors, Coupling) {

@@ -42,6 +42,16 @@ bodies:
       bars: [{between: [b, c], area: 100 mm^2, material: steel}, {between: [a, c], section: tube, material: steel}]
       masses: [{at: c, mass: 1 kg}]
     markers: {top: {at: c, orientation: {euler: [0, 0, 90 deg]}}}
+  block:
+    mesh:
+      box: {from: [2 m, 2 m, 0], size: [1 m, 0.2 m, 0.2 m], divisions: [4, 2, 2], element: hex8, integration: full}
+      material: steel
+      masses: [{at: centre, mass: 1 kg}]
+    markers: {corner: {at: corner_111}, middle: {position: [2.5 m, 2.1 m, 0.1 m]}}
+  lump:
+    structure:
+      nodes: {a: [4, 0, 0], b: [5, 0, 0], c: [5, 1, 0], d: [4, 1, 0], e: [4, 0, 1], f: [5, 0, 1], g: [5, 1, 1], h: [4, 1, 1]}
+      solids: [{nodes: [a, b, c, d, e, f, g, h], element: hex8, integration: full, material: steel}]
   twin: {like: rod, at: {position: [0, 1, 0], orientation: {quaternion: [1, 0, 0, 0]}}}
 joints:
   base: {revolute: {between: [ground, crank/origin]}}
@@ -74,6 +84,7 @@ output:
     twist: {joint-torque: {joint: base, in: crank}}
     cut: {section-force: {of: rod, element: 3}}
     peak: {stress: rod}
+    local: {stress: block/corner_000}
     sum: {energy: balance}
 )";
 

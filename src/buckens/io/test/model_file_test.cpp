@@ -82,6 +82,29 @@ TEST(ModelFile, Bodies) {
   EXPECT_EQ(twin.coupling.level, body::CouplingLevel::full);
 }
 
+TEST(ModelFile, Solids) {
+  const ModelDescription& m = sample();
+  const auto& mesh = std::get<fem::MeshSpec>(entry(m.bodies, "block").kind);
+  const auto& box = std::get<fem::BoxMeshSpec>(mesh.shape);
+  EXPECT_EQ(box.from, Eigen::Vector3d(2, 2, 0));
+  EXPECT_EQ(box.size, Eigen::Vector3d(1, 0.2, 0.2));
+  EXPECT_THAT(box.divisions, testing::ElementsAre(4, 2, 2));
+  EXPECT_EQ(mesh.material.name, "steel");
+  EXPECT_EQ(mesh.masses.at(0).at, "centre");
+  const auto& lump = std::get<fem::StructureSpec>(entry(m.bodies, "lump").kind);
+  EXPECT_THAT(lump.solids.at(0).nodes,
+              testing::ElementsAre("a", "b", "c", "d", "e", "f", "g", "h"));
+  EXPECT_DOUBLE_EQ(lump.solids.at(0).material->rho, 7870);
+  const auto& local = std::get<model::StressSensor>(entry(m.output.sensors, "local").kind);
+  EXPECT_EQ(local.of.marker, "corner_000");
+  const ModelDescription finer =
+      read_model_text(kSampleModel, "sample.yaml", {"bodies.block.mesh.box.divisions=[8, 2, 2]"});
+  EXPECT_EQ(
+      std::get<fem::BoxMeshSpec>(std::get<fem::MeshSpec>(entry(finer.bodies, "block").kind).shape)
+          .divisions[0],
+      8);
+}
+
 TEST(ModelFile, JointsAndLoads) {
   const ModelDescription& m = sample();
   const auto& base_joint = std::get<joints::RevoluteSpec>(entry(m.joints, "base").kind);

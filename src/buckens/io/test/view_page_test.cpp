@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/view_page.h"
 
-#include <bit>
-#include <cstdint>
-#include <map>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,11 +8,13 @@
 #include "buckens/base/errors.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
+#include "buckens/io/test/page_values.h"
 #include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
 
+using test::decode;
 using test::finished_summary;
 using test::sample_geometry;
 using test::sample_layout;
@@ -29,34 +27,6 @@ using testing::ThrowsMessage;
 
 constexpr char kHead[] = "<html><script>window.BUCKENS_DATA = ";
 constexpr char kTail[] = ";</script></html>";
-
-std::vector<float> decode(const std::string& text) {
-  std::map<char, std::uint32_t> value;
-  std::uint32_t next = 0;
-  for (const char c :
-       std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/")) {
-    value[c] = next++;
-  }
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t bits = 0;
-  int have = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    bits = bits << 6 | value.at(c);
-    have += 6;
-    if (have >= 8) {
-      have -= 8;
-      bytes.push_back(static_cast<std::uint8_t>(bits >> have & 0xFFU));
-    }
-  }
-  std::vector<float> numbers;
-  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
-    std::uint32_t word = 0;
-    for (std::size_t b = 0; b < 4; ++b) word |= static_cast<std::uint32_t>(bytes[i + b]) << 8 * b;
-    numbers.push_back(std::bit_cast<float>(word));
-  }
-  return numbers;
-}
 
 class ViewPage : public testing::Test {
  protected:

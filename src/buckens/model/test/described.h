@@ -106,6 +106,22 @@ struct Described {
     return spec;
   }
 
+  /// Block of hex8 elements of steel from the origin of the model axes.
+  body::BodySpec& block(const std::string& name, const Vector3d& size,
+                        const std::array<int, 3>& divisions) {
+    fem::BoxMeshSpec box;
+    box.size = size;
+    box.divisions = divisions;
+    fem::MeshSpec kind;
+    kind.shape = box;
+    kind.material.value.E = kE;
+    kind.material.value.nu = 0.3;
+    kind.material.value.rho = kRho;
+    body::BodySpec& spec = body(name);
+    spec.kind = kind;
+    return spec;
+  }
+
   static body::MarkerSpec marker(const std::string& name, const Vector3d& position) {
     body::MarkerSpec out;
     out.name = name;

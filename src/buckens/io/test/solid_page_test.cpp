@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solids in results.h5 and in the page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "buckens/io/output_file.h"
+#include "buckens/io/run_directory.h"
+#include "buckens/io/run_reader.h"
+#include "buckens/io/test/page_values.h"
+#include "buckens/io/test/sample_run.h"
+#include "buckens/io/view_page.h"
+
+namespace buckens::io {
+namespace {
+
+using test::decode;
+using test::sample_record;
+using test::sample_value;
+
+constexpr int kNodes = 27;
+constexpr std::size_t kRecords = 5;
+
+/// A cube of 2 × 2 × 2 elements of which two faces are drawn, of elements 0 and 5; a marker sits on
+/// the node in the middle.
+results::Geometry cube() {
+  results::Geometry out;
+  results::GeometryBody body;
+  body.name = "cube";
+  body.kind = results::BodyKind::solid;
+  body.nodes.resize(kNodes, 3);
+  for (int n = 0; n < kNodes; ++n) body.nodes.row(n) << n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1;
+  body.faces = {{0, 3, 4, 1}, {19, 20, 23, -1}};
+  body.face_elements = {0, 5};
+  body.markers.push_back({"centre", 13, {}});
+  out.bodies = {body};
+  return out;
+}
+
+results::RecordLayout cube_layout() {
+  results::RecordLayout layout;
+  layout.add({"bodies/cube/displacement", "m, rad", {kNodes, 6}, "nodal displacements", {}});
+  layout.add({"bodies/cube/pose", "m, 1", {7}, "pose of the body frame", {}});
+  layout.add({"bodies/cube/solid_stress", "Pa", {8}, "von Mises stress", {}});
+  return layout;
+}
+
+class SolidPage : public testing::Test {
+ protected:
+  SolidPage() {
+    RunDirectory run(directory_ / "out", {.title = "cube", .model_text = "", .flush = {}});
+    run.begin(cube_layout(), cube());
+    for (std::size_t i = 0; i < kRecords; ++i) {
+      run.write(sample_record(i, cube_layout().num_values()));
+    }
+    run.finish(test::finished_summary());
+  }
+
+  nlohmann::json body(const ViewPageOptions& options = {}) {
+    replace_text_file(directory_ / "template.html", "/*BUCKENS_DATA*/null");
+    report_ = write_view_page(directory_ / "out", directory_ / "template.html",
+                              directory_ / "page.html", options);
+    return nlohmann::json::parse(read_text_file(directory_ / "page.html"))["bodies"][0];
+  }
+
+  test::TemporaryDirectory directory_;
+  ViewPageReport report_;
+};
+
+TEST_F(SolidPage, RunDirectoriesKeepTheSurface) {
+  const results::GeometryBody read = RunReader(directory_ / "out").geometry().bodies.at(0);
+  EXPECT_EQ(read.kind, results::BodyKind::solid);
+  EXPECT_EQ(read.faces, cube().bodies[0].faces);
+  EXPECT_EQ(read.face_elements, cube().bodies[0].face_elements);
+  EXPECT_TRUE(read.elements.empty());
+}
+
+TEST_F(SolidPage, HoldsWhatCanBeSeenOnly) {
+  const nlohmann::json page = body();
+  EXPECT_EQ(page["kind"], "solid");
+  // Nodes 0, 1, 3, 4 of the first face, 19, 20, 23 of the second, 13 for the marker.
+  ASSERT_EQ(page["nodes"].size(), 8U);
+  EXPECT_EQ(page["nodes"][4], nlohmann::json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(page["faces"], nlohmann::json({{0, 2, 3, 1}, {5, 6, 7, -1}}));
+  EXPECT_EQ(page["faceElements"], nlohmann::json({0, 1}));
+  EXPECT_EQ(page["markers"][0]["node"], 4);
+  const std::vector<float> moved = decode(page["displacement"]);
+  ASSERT_EQ(moved.size(), kRecords * 8U * 3U);
+  // Second record, node 13, y.
+  EXPECT_EQ(moved[24 + 3 * 4 + 1], static_cast<float>(sample_value(1, 6 * 13 + 1)));
+  const std::vector<float> stress = decode(page["solidStress"]);
+  ASSERT_EQ(stress.size(), kRecords * 2U);
+  EXPECT_EQ(stress[3], static_cast<float>(sample_value(1, 6 * kNodes + 7 + 5)));
+  EXPECT_EQ(page["stress"], nullptr);
+}
+
+TEST_F(SolidPage, CountsWhatItTakes) {
+  // Pose 7, eight nodes with 3 values, two stresses, the time: 34 numbers of four bytes per frame.
+  body({.max_frames = 2000, .max_bytes = 3 * 34 * 4});
+  EXPECT_EQ(report_.frames, 3U);
+}
+
+}  // namespace
+}  // namespace buckens::io

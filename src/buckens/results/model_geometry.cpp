@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/results/model_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_recovery.h"
+#include "buckens/results/divided_body.h"
+
+namespace buckens::results {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Number of markers on the parts of a divided body before the one with this index.
+int markers_before(const model::Model& model, const model::WholeBody& whole, int body) {
+  int count = 0;
+  for (int b = whole.first; b < body; ++b) {
+    count += static_cast<int>(model.bodies[static_cast<std::size_t>(b)].markers.size());
+  }
+  return count;
+}
+
+GeometrySide side_of(const model::Model& model, const model::MarkerId& id) {
+  GeometrySide side;
+  if (id.body == model::kGround) {
+    side.body = kGroundBody;
+    side.position = id.X_WF.p;
+    return side;
+  }
+  side.body = model.whole_of(id.body);
+  const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(side.body)];
+  side.marker = markers_before(model, whole, id.body) + id.marker;
+  side.position = DividedBody(model, whole).place(id);
+  return side;
+}
+
+/// Node of the whole mesh that a marker of a part sits on, or is nearest to.
+int whole_node(const model::WholeBody& whole, int body, const body::Marker& marker,
+               const Vector3d& position) {
+  int nearest = 0;
+  double least = HUGE_VAL;
+  for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
+    const model::MeshCopy& copy = whole.nodes[n];
+    if (copy.body == body && copy.index == marker.node) return static_cast<int>(n);
+    const double distance = (whole.mesh->nodes[n].position - whole.com - position).norm();
+    if (distance < least) nearest = static_cast<int>(n);
+    least = std::min(least, distance);
+  }
+  return nearest;
+}
+
+/// Markers of all parts, in the frame of the whole.
+std::vector<GeometryMarker> markers_of(const model::Model& model, const model::WholeBody& whole) {
+  std::vector<GeometryMarker> out;
+  for (int b = whole.first; b < whole.first + whole.count; ++b) {
+    const body::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    for (const body::Marker& marker : body.markers) {
+      out.push_back({marker.name, marker.node, marker.X_BF});
+      if (!whole.is_divided()) continue;
+      out.back().X_BF.p += body.com - whole.com;
+      out.back().node = whole_node(whole, b, marker, out.back().X_BF.p);
+    }
+  }
+  return out;
+}
+
+/// A direction given in a marker's axes, in those of its body.
+Vector3d to_body(const model::Model& model, const model::MarkerId& id, const Vector3d& axis) {
+  if (id.body == model::kGround) return id.X_WF.q * axis;
+  return model.bodies[static_cast<std::size_t>(id.body)]
+             .markers[static_cast<std::size_t>(id.marker)]
+             .X_BF.q *
+         axis;
+}
+
+void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape) {
+  shape.kind = fem::num_solids(mesh) > 0 ? BodyKind::solid : BodyKind::beam;
+  shape.nodes.resize(static_cast<Eigen::Index>(mesh.nodes.size()), 3);
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+    shape.nodes.row(static_cast<Eigen::Index>(k)) = (mesh.nodes[k].position - com).transpose();
+  }
+  for (const fem::LineElement& line : fem::line_elements(mesh)) {
+    shape.elements.push_back({line.a, line.b});
+    shape.radius.push_back(line.radius);
+  }
+  for (const fem::SurfaceFace& face : fem::surface_faces(mesh)) {
+    shape.faces.push_back(face.nodes);
+    shape.face_elements.push_back(face.element);
+  }
+}
+
+}  // namespace
+
+const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
+  if (whole.is_divided()) return whole.mesh.get();
+  const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
+  return body.is_flexible() ? &body.flexible->fe : nullptr;
+}
+
+Geometry model_geometry(const model::Model& model) {
+  Geometry out;
+  out.gravity = model.gravity;
+  if (model.planar)
+    out.planar = choice_names(*model.planar)[static_cast<std::size_t>(*model.planar)];
+  for (const model::WholeBody& whole : model.wholes) {
+    GeometryBody shape;
+    shape.name = whole.name;
+    shape.markers = markers_of(model, whole);
+    if (const fem::FeModel* mesh = mesh_of(model, whole)) add_mesh(*mesh, whole.com, shape);
+    out.bodies.push_back(std::move(shape));
+  }
+  for (const model::Joint& joint : model.joints) {
+    if (joint.is_tie) continue;
+    out.joints.push_back({joint.name,
+                          joints::to_string(joint.type),
+                          {side_of(model, joint.first), side_of(model, joint.second)},
+                          to_body(model, joint.first, joint.axis_F)});
+  }
+  for (const model::Load& load : model.loads) {
+    if (load.element->num_soft_rows() == 0) continue;
+    out.joints.push_back({load.name,
+                          load.element->num_soft_rows() == 6 ? "bushing" : "spring-damper",
+                          {side_of(model, load.first), side_of(model, load.second)},
+                          Vector3d::UnitZ()});
+  }
+  return out;
+}
+
+}  // namespace buckens::results

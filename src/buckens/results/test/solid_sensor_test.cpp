@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is recorded of solids, against fields of displacement given by hand.
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/results/test/recorded.h"
+
+namespace buckens::results {
+namespace {
+
+using Eigen::Vector3d;
+using model::test::Described;
+using model::test::kE;
+using test::Recorded;
+
+constexpr double kShear = kE / 2.6;  // G for nu = 0.3
+
+void set_nodes(const body::Body& body, const std::function<Vector3d(const Vector3d&)>& field,
+               linalg::Vector& d) {
+  const fem::FeModel& fe = body.flexible->fe;
+  for (std::size_t n = 0; n < fe.nodes.size(); ++n) {
+    const Vector3d u = field(fe.nodes[n].position);
+    for (int k = 0; k < 3; ++k) d[fe.dofs.node_dofs[n][static_cast<std::size_t>(k)]] = u[k];
+  }
+}
+
+Described block() {
+  Described m;
+  m.block("block", {0.4, 0.2, 0.2}, {4, 2, 2});
+  m.sensor_of<model::StressSensor>("all", "block");
+  m.sensor_of<model::StressSensor>("first", "block/node_first");
+  m.sensor_of<model::StressSensor>("middle", "block/centre");
+  return m;
+}
+
+TEST(SolidSensors, UniformStrainGivesTheSameStressEverywhere) {
+  Recorded run(block());
+  const double strain = 1e-4;
+  set_nodes(
+      run.built->model.bodies[0], [&](const Vector3d& s) { return Vector3d(strain * s.x(), 0, 0); },
+      run.body().d);
+  run.record();
+  // Hindered sideways, the von Mises stress is 2 G ε. Rounding of B d relative to E.
+  const double mises = 2 * kShear * strain;
+  for (const char* name : {"all", "first", "middle"}) {
+    ASSERT_EQ(run.sensor(name).size(), 1) << name;
+    EXPECT_NEAR(run.sensor(name)[0], mises, 1e-10 * mises) << name;
+  }
+  const Eigen::VectorXd elements = run.values("bodies/block/solid_stress");
+  ASSERT_EQ(elements.size(), 16);
+  EXPECT_NEAR((elements.array() - mises).abs().maxCoeff(), 0, 1e-10 * mises);
+}
+
+TEST(SolidSensors, NodesShowTheMeanOfTheElementsAround) {
+  Recorded run(block());
+  const double rate = 1e-3;
+  // Shear γ_xy = 2 rate (x − 0.2): opposite on both sides of the middle; the trilinear field takes
+  // at the centre of an element the mean of its corner planes.
+  set_nodes(
+      run.built->model.bodies[0],
+      [&](const Vector3d& s) { return Vector3d(0, rate * std::pow(s.x() - 0.2, 2), 0); },
+      run.body().d);
+  run.record();
+  const double at_end = std::sqrt(3.0) * kShear * 2 * rate * 0.15;
+  EXPECT_NEAR(run.sensor("all")[0], at_end, 1e-10 * at_end);
+  EXPECT_NEAR(run.sensor("first")[0], at_end, 1e-10 * at_end);
+  EXPECT_NEAR(run.sensor("middle")[0], 0, 1e-10 * at_end);
+}
+
+TEST(SolidSensors, DividedBlocksRecordElementsInTheOrderOfTheWhole) {
+  Described whole = block();
+  Described divided = block();
+  divided.d.bodies[0].frames.count = 3;
+  const auto field = [](const Vector3d& s) {
+    return Vector3d(1e-3 * s.x() * s.x(), 2e-4 * s.x() * s.y(), 1e-4 * s.z() * s.y());
+  };
+  Recorded one(whole);
+  Recorded three(divided);
+  for (Recorded* run : {&one, &three}) {
+    for (std::size_t b = 0; b < run->built->model.bodies.size(); ++b) {
+      set_nodes(run->built->model.bodies[b], field, run->body(b).d);
+    }
+    run->record();
+  }
+  const Eigen::VectorXd expected = one.values("bodies/block/solid_stress");
+  EXPECT_NEAR((three.values("bodies/block/solid_stress") - expected).cwiseAbs().maxCoeff(), 0,
+              1e-10 * expected.maxCoeff());
+  EXPECT_NEAR(three.sensor("all")[0], expected.maxCoeff(), 1e-10 * expected.maxCoeff());
+}
+
+TEST(SolidSensors, GeometryIsTheSurface) {
+  Recorded run(block());
+  const GeometryBody body = run.recorder.geometry().bodies.at(0);
+  EXPECT_EQ(body.kind, BodyKind::solid);
+  EXPECT_EQ(body.nodes.rows(), 45);
+  EXPECT_TRUE(body.elements.empty());
+  ASSERT_EQ(body.faces.size(), 2U * (4 * 2 + 4 * 2 + 2 * 2));
+  ASSERT_EQ(body.face_elements.size(), body.faces.size());
+  // Faces look outwards and enclose the volume: ∮ s·n dA = 3 V.
+  double volume = 0;
+  for (const auto& face : body.faces) {
+    const auto at = [&](std::size_t k) { return Vector3d(body.nodes.row(face[k]).transpose()); };
+    const Vector3d area = 0.5 * (at(2) - at(0)).cross(at(3) - at(1));
+    volume += area.dot(0.25 * (at(0) + at(1) + at(2) + at(3))) / 3;
+  }
+  EXPECT_NEAR(volume, 0.016, 1e-15);
+}
+
+}  // namespace
+}  // namespace buckens::results
