@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import { ball, massCentre, rod, solid, span, triad } from './glyphs';
 import { colorAt } from './color_map';
+import { SurfaceMesh } from './surface_mesh';
 import { Tube } from './tube';
 import type { BodyMotion } from './motion';
 import type { Theme } from './theme';
@@ -14,12 +15,22 @@ export interface GlyphSize {
   leastRadius: number;
 }
 
-/** One body in the scene: bars and mass centre when rigid, tubes when it has elements. */
+type SkinMaterial = THREE.MeshStandardMaterial | THREE.MeshBasicMaterial;
+
+/** What a body consists of when it is drawn: tubes, or the surface of a solid. */
+interface Skin {
+  readonly root: THREE.Group;
+  deform(displacement: Float32Array, scale: number): void;
+  paint(stress: Float32Array | null, range: number): void;
+}
+
+/** One body in the scene: bars and mass centre when rigid, else tubes and the surface of solids. */
 export class BodyView {
   readonly root = new THREE.Group();
   private readonly frame = triad();
-  private readonly tubes: TubeMesh | null = null;
-  private readonly ghost: TubeMesh | null = null;
+  private readonly tubes: Skin | null = null;
+  private readonly surface: Skin | null = null;
+  private readonly ghost = new THREE.Group();
 
   constructor(
     private readonly motion: BodyMotion,
@@ -29,25 +40,37 @@ export class BodyView {
   ) {
     const { body } = motion;
     const material = solid(color);
-    if (body.elements.length > 0) {
-      this.tubes = new TubeMesh(motion, size.leastRadius, material);
-      this.root.add(this.tubes.root);
-      if (body.displacement) {
-        const pale = new THREE.MeshBasicMaterial({
-          color: theme.ghost,
-          transparent: true,
-          opacity: 0.35,
-          depthWrite: false,
-        });
-        this.ghost = new TubeMesh(motion, size.leastRadius, pale);
-        this.ghost.deform(new Float32Array(6 * body.nodes.length), 0);
-        this.root.add(this.ghost.root);
-      }
-    } else {
-      this.addBars(material, color, size);
-    }
+    const tubesOf = (paint: SkinMaterial) => new TubeMesh(motion, size.leastRadius, paint);
+    const surfaceOf = (paint: SkinMaterial) => new SurfaceMesh(motion, paint, theme.ghost);
+    if (body.elements.length > 0) this.tubes = this.addSkin(tubesOf, material, theme);
+    if (body.faces.length > 0) this.surface = this.addSkin(surfaceOf, solid(color), theme);
+    if (!this.tubes && !this.surface) this.addBars(material, color, size);
+    this.root.add(this.ghost);
     this.frame.scale.setScalar(6 * size.joint);
     this.root.add(this.frame);
+  }
+
+  /** Adds a skin, and its undeformed shape as a ghost. */
+  private addSkin(
+    make: (material: SkinMaterial) => Skin,
+    material: THREE.MeshStandardMaterial,
+    theme: Theme,
+  ): Skin {
+    const { body } = this.motion;
+    const skin = make(material);
+    this.root.add(skin.root);
+    if (body.displacement) {
+      const pale = new THREE.MeshBasicMaterial({
+        color: theme.ghost,
+        transparent: true,
+        opacity: 0.35,
+        depthWrite: false,
+      });
+      const ghost = make(pale);
+      ghost.deform(new Float32Array(6 * body.nodes.length), 0);
+      this.ghost.add(ghost.root);
+    }
+    return skin;
   }
 
   private addBars(material: THREE.Material, color: string, size: GlyphSize): void {
@@ -81,11 +104,14 @@ export class BodyView {
     this.root.position.set(pose[0]!, pose[1]!, pose[2]!);
     this.root.quaternion.set(pose[4]!, pose[5]!, pose[6]!, pose[3]!);
     this.frame.visible = options.frames;
-    if (this.ghost) this.ghost.root.visible = options.undeformed;
-    if (!this.tubes) return;
-    this.tubes.deform(this.motion.displacement, options.scale);
-    const colored = options.stress && this.motion.body.stress !== null;
-    this.tubes.paint(colored ? this.motion.stress : null, stressRange);
+    this.ghost.visible = options.undeformed;
+    const { body, displacement, stress, solidStress } = this.motion;
+    const painted = (values: Float32Array, recorded: unknown) =>
+      options.stress && recorded !== null ? values : null;
+    this.tubes?.deform(displacement, options.scale);
+    this.tubes?.paint(painted(stress, body.stress), stressRange);
+    this.surface?.deform(displacement, options.scale);
+    this.surface?.paint(painted(solidStress, body.solidStress), stressRange);
   }
 }
 
@@ -102,7 +128,7 @@ class TubeMesh {
   constructor(
     private readonly motion: BodyMotion,
     leastRadius: number,
-    private readonly material: THREE.MeshStandardMaterial | THREE.MeshBasicMaterial,
+    private readonly material: SkinMaterial,
   ) {
     this.tube = new Tube(motion.body, leastRadius);
     const { positions, normals, indices } = this.tube;

@@ -22,19 +22,24 @@ export class BodyMotion {
   /** nodes × 6, not magnified. */
   readonly displacement: Float32Array;
   readonly stress: Float32Array;
+  /** Von Mises stress of the solid elements below the surface [Pa]. */
+  readonly solidStress: Float32Array;
 
   constructor(readonly body: Body) {
     this.displacement = new Float32Array(6 * body.nodes.length);
     this.stress = new Float32Array(body.stress ? body.elements.length : 0);
+    const solids = body.faceElements.reduce((most, e) => Math.max(most, e + 1), 0);
+    this.solidStress = new Float32Array(body.solidStress ? solids : 0);
   }
 
   set(place: FramePlace): void {
-    const { pose, displacement, stress } = this.body;
+    const { pose, displacement, stress, solidStress } = this.body;
     interpolatePose(pose, place, this.pose);
     if (displacement) {
       interpolateRow(displacement, this.displacement.length, place, this.displacement);
     }
     if (stress) interpolateRow(stress, this.stress.length, place, this.stress);
+    if (solidStress) interpolateRow(solidStress, this.solidStress.length, place, this.solidStress);
   }
 
   /** A node in the body frame, displacement magnified by `scale`. */
@@ -82,7 +87,10 @@ export class Motion {
   /** Over all elements at the present time [Pa]. */
   get largestStress(): number {
     let most = 0;
-    for (const body of this.bodies) for (const s of body.stress) most = s > most ? s : most;
+    for (const body of this.bodies) {
+      for (const s of body.stress) most = s > most ? s : most;
+      for (const s of body.solidStress) most = s > most ? s : most;
+    }
     return most;
   }
 

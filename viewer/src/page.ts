@@ -12,7 +12,7 @@ import { currentTheme, onThemeChange } from './theme';
 import { Toolbar } from './toolbar';
 import { Transport } from './transport';
 import type { ModeShapes } from './modes';
-import type { Run } from './run';
+import { largestStress, type Run } from './run';
 import type { ViewerState } from './hook';
 import type { Triple } from './page_data';
 import type { ViewOptions } from './view_options';
@@ -47,7 +47,7 @@ export class Page {
   ) {
     const run = shapes?.run ?? stored;
     this.run = run;
-    const stressed = run.bodies.some((body) => body.stress?.some((value) => value > 0));
+    const stressed = largestStress(run) > 0;
     this.options = {
       frames: false,
       joints: true,
@@ -145,7 +145,10 @@ export class Page {
         '?',
       ),
     );
-    this.legend = new StressLegend(this.stage.stressRange);
+    this.legend = new StressLegend(
+      this.stage.stressRange,
+      this.run.bodies.every((body) => body.stress === null),
+    );
     this.view.append(
       this.stage.canvas,
       this.stage.labels.root,

@@ -17,7 +17,7 @@ export interface PageMarker {
 
 export interface PageBody {
   name: string;
-  kind: 'rigid' | 'beam';
+  kind: 'rigid' | 'beam' | 'solid';
   /** Body frame, undeformed [m]. The origin is the mass centre. */
   nodes: Triple[];
   elements: [number, number][];
@@ -26,7 +26,16 @@ export interface PageBody {
   markers: PageMarker[];
   /** frames × 7: position, then unit quaternion w, x, y, z. */
   pose: Base64;
-  /** frames × nodes × 6: translations [m] and rotations [rad] in the body frame. */
+  /** Surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
+  faces?: [number, number, number, number][];
+  /** Per face the element below it, counted among those that have a face. */
+  faceElements?: number[];
+  /** frames × elements with a face: von Mises stress at the centre [Pa]. */
+  solidStress?: Base64 | null;
+  /**
+   * frames × nodes × 6: translations [m] and rotations [rad] in the body frame; × 3 without the
+   * rotations for solids without beams or bars.
+   */
   displacement: Base64 | null;
   /** Pages with modes: frames × 6, rotation of the body frame in its axes [rad], translation [m]. */
   motion?: Base64 | null;

@@ -3,10 +3,16 @@ import type { PageBody, PageData, PageJoint, PageMarker, Triple } from './page_d
 /** A body with its recorded motion. */
 export interface Body {
   name: string;
-  kind: 'rigid' | 'beam';
+  kind: 'rigid' | 'beam' | 'solid';
   nodes: Triple[];
   elements: [number, number][];
   radius: number[];
+  /** Surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
+  faces: [number, number, number, number][];
+  /** Per face the element of `solidStress` below it. */
+  faceElements: number[];
+  /** frames × elements with a face [Pa]. */
+  solidStress: Float32Array | null;
   markers: PageMarker[];
   pose: Float32Array;
   displacement: Float32Array | null;
@@ -38,6 +44,19 @@ export interface Run {
   sensors: Series[];
   energies: Series[];
   summary: Record<string, unknown>;
+}
+
+/** Largest stress of all bodies over the whole run [Pa]; 0 without stresses. */
+export function largestStress(run: Run): number {
+  let most = 0;
+  for (const { stress, solidStress } of run.bodies) {
+    for (const list of [stress, solidStress]) {
+      list?.forEach((value) => {
+        if (value > most) most = value;
+      });
+    }
+  }
+  return most;
 }
 
 /** The page holds something that cannot be shown; the message says what and where. */
@@ -73,6 +92,39 @@ function decodeTimes(data: PageData): Float64Array {
   return times;
 }
 
+const kKinds = ['rigid', 'beam', 'solid'] as const;
+
+/** Rows of three translations as rows of six with rotations, all zero. */
+function withRotations(translations: Float32Array): Float32Array {
+  const out = new Float32Array(2 * translations.length);
+  for (let i = 0; i < translations.length; i++) out[2 * i - (i % 3)] = translations[i]!;
+  return out;
+}
+
+function decodeDisplacement(body: PageBody, frames: number, where: string): Float32Array | null {
+  if (!body.displacement) return null;
+  const count = frames * body.nodes.length;
+  const translationsOnly = (body.faces ?? []).length > 0 && (body.elements ?? []).length === 0;
+  if (translationsOnly) return withRotations(decodeFloats(body.displacement, 3 * count, where));
+  return decodeFloats(body.displacement, 6 * count, where);
+}
+
+/** The surface of a solid body; empty for others. */
+function decodeSurface(body: PageBody, frames: number, where: string) {
+  const faces = body.faces ?? [];
+  const faceElements = faces.map((_, f) => body.faceElements?.[f] ?? 0);
+  for (const face of faces) {
+    if (face.some((node, k) => !body.nodes[node] && !(k === 3 && node === -1))) {
+      throw new PageDataError(`${where}.faces: no such node in [${face.join(', ')}]`);
+    }
+  }
+  const count = faceElements.reduce((most, e) => Math.max(most, e + 1), 0);
+  const solidStress = body.solidStress
+    ? decodeFloats(body.solidStress, frames * count, `${where}.solidStress`)
+    : null;
+  return { faces, faceElements, solidStress };
+}
+
 function anyRotation(displacement: Float32Array): boolean {
   for (let i = 0; i < displacement.length; i += 6) {
     if (displacement[i + 3] !== 0 || displacement[i + 4] !== 0 || displacement[i + 5] !== 0) {
@@ -88,15 +140,14 @@ function decodeBody(body: PageBody, frames: number, where: string): Body {
   for (const [a, b] of elements) {
     if (!nodes[a] || !nodes[b]) throw new PageDataError(`${where}.elements: no node ${a} or ${b}`);
   }
-  const displacement = body.displacement
-    ? decodeFloats(body.displacement, frames * nodes.length * 6, `${where}.displacement`)
-    : null;
+  const displacement = decodeDisplacement(body, frames, `${where}.displacement`);
   return {
     name: body.name,
-    kind: body.kind === 'beam' ? 'beam' : 'rigid',
+    kind: kKinds.find((kind) => kind === body.kind) ?? 'rigid',
     nodes,
     elements,
     radius: elements.map((_, e) => body.radius?.[e] ?? 0),
+    ...decodeSurface(body, frames, where),
     markers: body.markers ?? [],
     pose: decodeFloats(body.pose, frames * 7, `${where}.pose`),
     displacement,

@@ -9,7 +9,7 @@ import { Labels, type Label } from './labels';
 import { Motion } from './motion';
 import { orientationOf, type Orientation } from './orientation';
 import { Trace } from './trace';
-import type { Run } from './run';
+import { largestStress, type Run } from './run';
 import type { Theme } from './theme';
 import type { Triple } from './page_data';
 import type { ViewOptions } from './view_options';
@@ -54,10 +54,7 @@ export class Stage {
       joint: 0.016 * Math.min(this.bounds.size, this.bounds.machine),
       leastRadius: 0.0022 * this.bounds.size,
     };
-    this.stressRange = run.bodies.reduce(
-      (most, { stress }) => (stress ? stress.reduce((a, b) => (b > a ? b : a), most) : most),
-      0,
-    );
+    this.stressRange = largestStress(run);
     this.corner = new CornerTriad(run.gravity);
     this.trace = new Trace(run, this.bounds.center);
     const scale = 1 / this.bounds.size;

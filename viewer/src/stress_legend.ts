@@ -8,7 +8,11 @@ export class StressLegend {
   private readonly now = el('b');
   private readonly needle = el('i', { class: 'needle' });
 
-  constructor(private readonly range: number) {
+  /** @param ofSolids whether all stresses are those of solids */
+  constructor(
+    private readonly range: number,
+    ofSolids: boolean,
+  ) {
     const { factor, unit } = prefixFor(range, 'Pa');
     const bar = el('div', { class: 'bar' }, this.needle);
     bar.style.background = cssGradient();
@@ -17,8 +21,8 @@ export class StressLegend {
     );
     this.root = el(
       'aside',
-      { class: 'stress-legend', title: 'Largest |stress| of each element' },
-      el('div', {}, `|σ| in ${unit}`),
+      { class: 'stress-legend', title: 'Largest |stress| of beams and bars, von Mises stress of solids' },
+      el('div', {}, `${ofSolids ? 'von Mises' : '|σ|'} in ${unit}`),
       el('div', { class: 'scale' }, bar, el('div', { class: 'ticks' }, ...ticks)),
       el('div', {}, 'now ', this.now),
     );

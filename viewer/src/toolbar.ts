@@ -16,7 +16,7 @@ const kToggles: ToggleEntry[] = [
   { name: 'frames', text: 'Frames', key: 'b', title: 'Buckens frames of the bodies' },
   { name: 'labels', text: 'Names', key: 'l', title: 'Names; with frames shown also of markers' },
   { name: 'undeformed', text: 'Undeformed', key: 'u', title: 'Undeformed shape as a ghost' },
-  { name: 'stress', text: 'Stress', key: 's', title: 'Largest |stress| of each element in colour' },
+  { name: 'stress', text: 'Stress', key: 's', title: 'Stress of each element in colour' },
 ];
 
 /** Buttons over the view that say what is drawn. */
@@ -30,7 +30,7 @@ export class Toolbar {
     private readonly changed: () => void,
   ) {
     const deformable = run.bodies.some((body) => body.displacement);
-    const stressed = run.bodies.some((body) => body.stress);
+    const stressed = run.bodies.some((body) => body.stress || body.solidStress);
     const offered = kToggles.filter(
       ({ name }) => (name !== 'undeformed' || deformable) && (name !== 'stress' || stressed),
     );
