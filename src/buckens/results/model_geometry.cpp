@@ -7,6 +7,7 @@
 
 #include "buckens/fem/recovery.h"
 #include "buckens/fem/solid_recovery.h"
+#include "buckens/model/model_description.h"
 #include "buckens/results/divided_body.h"
 
 namespace buckens::results {
