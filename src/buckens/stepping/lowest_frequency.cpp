@@ -2,6 +2,7 @@
 #include "buckens/stepping/lowest_frequency.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -9,92 +10,141 @@
 
 namespace buckens::stepping {
 
+using Eigen::Vector3d;
 using linalg::Matrix;
 using linalg::Vector;
 
 namespace {
 
-constexpr int kMostSolves = 24;
-constexpr double kSettled = 1e-3;
+constexpr int kMostSolves = 100;
+// Error of ω² at which the iteration ends, as a share.
+constexpr double kSettled = 0.01;
+// Vectors whose share of mass beyond the others is below this add nothing.
 constexpr double kNothingNew = 1e-10;
 
-/// A smooth displacement field without symmetry: quadratic in the coordinates.
-Eigen::Vector3d field(const Eigen::Vector3d& p) {
-  const double x = p.x();
-  const double y = p.y();
-  const double z = p.z();
-  return {0.31 * x * x + 0.83 * y * y - 0.71 * z * z + 0.37 * x * y + 0.2 * x,
-          0.97 * x * x - 0.29 * y * y + 0.61 * z * z + 0.43 * x * z - 0.3 * y,
-          -0.89 * x * x + 0.53 * y * y + 0.23 * z * z + 0.67 * x * y + 0.1 * z};
-}
+constexpr double kRounding = 1e-10;
 
-Vector start_shape(const body::FlexiblePart& part, BodyStepOperator& op) {
-  Vector x = Vector::Zero(part.num_dofs());
-  constexpr double kSide = 0.5;  // of central differences, exact for a quadratic field
-  for (std::size_t node = 0; node < part.fe.nodes.size(); ++node) {
-    const Eigen::Vector3d p = part.fe.nodes[node].position - part.fe.shape.com;
-    Eigen::Matrix3d gradient;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d step = kSide * Eigen::Vector3d::Unit(k);
-      gradient.col(k) = field(p + step) - field(p - step);
-    }
-    Eigen::Matrix<double, 6, 1> u;
-    u << field(p), 0.5 * (gradient(2, 1) - gradient(1, 2)), 0.5 * (gradient(0, 2) - gradient(2, 0)),
-        0.5 * (gradient(1, 0) - gradient(0, 1));
-    for (std::size_t k = 0; k < 6; ++k) {
-      const int dof = part.fe.dofs.node_dofs[node][k];
-      if (dof >= 0 && dof < x.size()) x[dof] = u[static_cast<Eigen::Index>(k)];
+/// Exponents of the monomials of degree 1 to 3.
+std::vector<std::array<int, 3>> monomials() {
+  std::vector<std::array<int, 3>> out;
+  for (int degree = 1; degree <= 3; ++degree) {
+    for (int i = degree; i >= 0; --i) {
+      for (int j = degree - i; j >= 0; --j) out.push_back({i, j, degree - i - j});
     }
   }
-  if (x.isZero(0.0)) x.setOnes();
-  part.sieve.apply(x);
-  x = part.fe.M * x;
-  op.solve(x);
-  return x;
+  return out;
 }
 
-/// Lowest ω of K z = ω² M z in the span of M-orthonormal vectors. @param K their projection of K
-double lowest(const Matrix& K) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(K, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
+double value(const std::array<int, 3>& powers, const Vector3d& p) {
+  return std::pow(p.x(), powers[0]) * std::pow(p.y(), powers[1]) * std::pow(p.z(), powers[2]);
+}
+
+Vector3d gradient(const std::array<int, 3>& powers, const Vector3d& p) {
+  Vector3d out = Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (powers[k] == 0) continue;
+    std::array<int, 3> lower = powers;
+    --lower[k];
+    out[static_cast<Eigen::Index>(k)] = powers[k] * value(lower, p);
+  }
+  return out;
+}
+
+/// Displacements along `axis` by a monomial of the place, rotations by half their curl.
+Vector field(const body::FlexiblePart& part, const std::array<int, 3>& powers, int axis) {
+  const fem::FeModel& fe = part.fe;
+  // Lengths of one keep high and low powers comparable.
+  const double size = std::sqrt(0.5 * fe.shape.J0.trace() / fe.shape.mass);
+  Vector out = Vector::Zero(part.num_dofs());
+  for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
+    const Vector3d p = (fe.nodes[node].position - fe.shape.com) / size;
+    Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();
+    u[axis] = size * value(powers, p);
+    u.tail<3>() = 0.5 * gradient(powers, p).cross(Vector3d::Unit(axis));
+    for (std::size_t k = 0; k < 6; ++k) {
+      const int dof = fe.dofs.node_dofs[node][k];
+      if (dof >= 0 && dof < out.size()) out[dof] = u[static_cast<Eigen::Index>(k)];
+    }
+  }
+  return out;
+}
+
+/// The combination of vectors with the least Rayleigh quotient. @param M, K their projections
+Vector least_combination(const Matrix& M, const Matrix& K) {
+  const Vector scale = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix> mass(scale.asDiagonal() * M * scale.asDiagonal());
+  const auto kept = (mass.eigenvalues().array() > kNothingNew * mass.eigenvalues().maxCoeff());
+  const auto rank = static_cast<Eigen::Index>(kept.count());
+  if (rank == 0) return Vector::Zero(M.rows());
+  const Matrix T = scale.asDiagonal() * mass.eigenvectors().rightCols(rank) *
+                   mass.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> stiffness(T.transpose() * K * T);
+  return T * stiffness.eigenvectors().col(0);
+}
+
+/// The best shape among polynomials of the place.
+Vector smooth_shape(const body::FlexiblePart& part) {
+  const auto powers = monomials();
+  Matrix basis(part.num_dofs(), static_cast<Eigen::Index>(3 * powers.size()));
+  Eigen::Index count = 0;
+  for (const auto& monomial : powers) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector x = field(part, monomial, axis);
+      const double before = x.norm();
+      part.sieve.apply(x);
+      // Of rigid motion only rounding is left.
+      if (x.norm() > kRounding * before) basis.col(count++) = x;
+    }
+  }
+  const auto kept = basis.leftCols(count);
+  const Matrix M = kept.transpose() * (part.fe.M * kept);
+  const Matrix K = kept.transpose() * (part.fe.K * kept);
+  Vector out = kept * least_combination(M, K);
+  part.sieve.apply(out);
+  return out;
 }
 
 }  // namespace
 
 double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
   if (part.num_dofs() <= part.sieve.rank()) return 0.0;
-  std::vector<Vector> basis;  // M-orthonormal
-  std::vector<Vector> mass_images;
-  Matrix K(0, 0);
-  Vector x = start_shape(part, op);
-  double omega = 0;
-  int settled = 0;
-  for (int k = 0; k < kMostSolves; ++k) {
-    const double before_norm = std::sqrt(x.dot(part.fe.M * x));
-    // Twice is enough to be orthogonal to rounding.
-    for (int pass = 0; pass < 2; ++pass) {
-      for (std::size_t i = 0; i < basis.size(); ++i) x -= mass_images[i].dot(x) * basis[i];
-      part.sieve.apply(x);
+  const linalg::SparseMatrix& M = part.fe.M;
+  const linalg::SparseMatrix& K = part.fe.K;
+  Matrix span(part.num_dofs(), 3);  // shape, correction, last way
+  span.col(0) = smooth_shape(part);
+  int columns = 1;
+  double square = 0;
+  for (int k = 0; k <= kMostSolves; ++k) {
+    const auto vectors = span.leftCols(columns);
+    const Matrix images_M = M * vectors;
+    const Matrix images_K = K * vectors;
+    Vector best = Vector::Ones(1);
+    if (columns > 1) {
+      best = least_combination(vectors.transpose() * images_M, vectors.transpose() * images_K);
     }
-    Vector Mx = part.fe.M * x;
-    const double norm = std::sqrt(x.dot(Mx));
-    // Nothing new: the vectors so far span all that the start can reach.
-    if (!(norm > kNothingNew * before_norm) || !std::isfinite(norm)) break;
-    basis.push_back(x / norm);
-    mass_images.push_back(Mx / norm);
-    const Vector Kx = part.fe.K * basis.back();
-    K.conservativeResize(k + 1, k + 1);
-    for (int i = 0; i <= k; ++i) {
-      K(i, k) = K(k, i) = basis[static_cast<std::size_t>(i)].dot(Kx);
+    const Vector x = vectors * best;
+    const Vector Mx = images_M * best;
+    const Vector Kx = images_K * best;
+    const double mass = x.dot(Mx);
+    if (!(mass > 0.0)) break;
+    square = std::max(0.0, x.dot(Kx) / mass);
+    if (k == kMostSolves) break;
+    const Vector residual = Kx - square * Mx;
+    Vector correction = residual;
+    op.solve(correction);
+    // ‖r‖² in the metric of M⁻¹, nearly: slow shapes see the mass part of the step matrix only.
+    const double error = residual.dot(correction) * x.dot(op.K_hat() * x) / (mass * mass);
+    if (!(error > kSettled * square * square)) break;
+    if (columns > 1) {
+      span.col(2) = vectors.rightCols(columns - 1) * best.tail(columns - 1);
+      columns = 3;
+    } else {
+      columns = 2;
     }
-    const double before = omega;
-    omega = lowest(K);
-    settled = std::abs(omega - before) <= kSettled * omega ? settled + 1 : 0;
-    if (settled == 3 || k + 1 == static_cast<int>(part.num_dofs() - part.sieve.rank())) break;
-    x = mass_images.back();
-    op.solve(x);
+    span.col(0) = x;
+    span.col(1) = correction;
   }
-  return omega;
+  return std::sqrt(square);
 }
 
 }  // namespace buckens::stepping
