@@ -200,6 +200,23 @@ def test_spinning_body_flips_and_keeps_its_momentum(run):
     assert len(flips) == 2
 
 
+def test_tumbling_block_turns_over_nearly_like_a_rigid_one(run):
+    r = run("tumbling_block/tumbling_block")
+    J = 1100 * 0.3 * 0.2 * 0.05 / 12 * numpy.array([0.2**2 + 0.05**2, 0.3**2 + 0.05**2,
+                                                    0.3**2 + 0.2**2])
+    rigid = euler_flips(J, numpy.array([0.5, 12.0, 0.0]), 1.0, 4000)
+    # Elastic and rigid motion exchange (|w|/w_1)^2 < 1 % of the energy.
+    assert crossings(r["t"], r["spin.y"]) == pytest.approx(rigid, rel=0.01)
+    path = numpy.outer(r["t"], [0, 0.2, 0])
+    assert numpy.abs(r.vector("com") - path).max() < 1e-12
+    assert 0 < 1 - r["energy"][-1] / r["energy"][0] < 3e-3
+    assert (numpy.diff(r["energy"]) < 1e-6 * r["energy"][0]).all()
+    assert (r["peak.mises"] >= r["middle.mises"] * (1 - 1e-12)).all()
+    assert 20e3 < r["peak.mises"].max() < 60e3
+    assert r.summary["bodies"]["block"]["spin_over_lowest_frequency"] == pytest.approx(0.08, abs=0.005)
+    assert r.summary["trust"] == "ok"
+
+
 def test_door_on_two_hinges_swings_as_the_spring_says(run):
     r = run("door/door")
     # Five of the ten hinge equations follow from the others.

@@ -41,7 +41,7 @@ export class BodyView {
     const { body } = motion;
     const material = solid(color);
     const tubesOf = (paint: SkinMaterial) => new TubeMesh(motion, size.leastRadius, paint);
-    const surfaceOf = (paint: SkinMaterial) => new SurfaceMesh(motion, paint, theme.ghost);
+    const surfaceOf = (paint: SkinMaterial) => new SurfaceMesh(motion, paint, theme.text);
     if (body.elements.length > 0) this.tubes = this.addSkin(tubesOf, material, theme);
     if (body.faces.length > 0) this.surface = this.addSkin(surfaceOf, solid(color), theme);
     if (!this.tubes && !this.surface) this.addBars(material, color, size);

@@ -38,7 +38,7 @@ export class SurfaceMesh {
     const lines = new THREE.BufferGeometry();
     lines.setAttribute('position', position);
     lines.setIndex(edges);
-    const thin = new THREE.LineBasicMaterial({ color: edgeColor, transparent: true, opacity: 0.35 });
+    const thin = new THREE.LineBasicMaterial({ color: edgeColor, transparent: true, opacity: 0.3 });
     const net = new THREE.LineSegments(lines, thin);
     net.frustumCulled = false;
     this.root.add(net);
