@@ -4,6 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { vibrations } from './modes_fixture.mjs';
+import { solidCube } from './solid_fixture.mjs';
 
 const kHere = dirname(fileURLToPath(import.meta.url));
 const kMarker = '/*BUCKENS_DATA*/null';
@@ -263,6 +264,7 @@ export const kVariants = {
   broken: () => ({ ...sliderCrank(), time: { n: 7, f32: base64([1, 2]) } }),
   spatial,
   modes: () => vibrations(),
+  solid: () => solidCube(),
 };
 
 /** The built page (BUCKENS_VIEWER_PAGE, else viewer/dist) with `data` in it, as the program writes it. */

@@ -248,6 +248,22 @@ async function syntheticOnly() {
     await opened.tab.close();
   });
 
+  await test('solids: the surface deforms and shows its stresses', async () => {
+    const opened = await open(browser, variant('solid'));
+    assert.match(await opened.tab.locator('.stress-legend').innerText(), /von Mises in MPa/);
+    await setTime(opened.tab, 1);
+    assert.match(await opened.tab.locator('.stress-legend').innerText(), /now 8/);
+    const coloured = await pixels(opened.tab);
+    await opened.tab.locator('button[data-toggle=stress]').click();
+    const plain = await pixels(opened.tab);
+    assert.ok(difference(coloured, plain) > 500, 'stresses give no colour');
+    await opened.tab.keyboard.press('s');
+    await setTime(opened.tab, 0);
+    assert.ok(difference(coloured, await pixels(opened.tab)) > 500, 'nothing moves');
+    assert.deepEqual(opened.complaints, []);
+    await opened.tab.close();
+  });
+
   await test('vibrations: a mode and its amplitude are chosen, its shape swings', async () => {
     const opened = await open(browser, variant('modes'));
     const modes = opened.tab.locator('[data-mode]');
