@@ -186,7 +186,7 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   fe.blocks = {std::make_shared<BeamBlock>(structure.beams),
                std::make_shared<BarBlock>(structure.bars),
                std::make_shared<PointMassBlock>(structure.masses),
-               std::make_shared<Hex8Block>(structure.solids)};
+               std::make_shared<SolidBlock>(structure.solids)};
   check_node_numbers(structure, fe.blocks);
   check_connected(structure.nodes, fe.blocks);
   fe.nodes = structure.nodes;

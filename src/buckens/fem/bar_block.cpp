@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/elasticity.h"
 #include "buckens/fem/line_frame.h"
 #include "buckens/fem/node_label.h"
 #include "buckens/fem/scatter.h"
@@ -76,6 +77,7 @@ void BarBlock::check(const MeshView& mesh) const {
     } catch (const ModelError& error) {
       throw ModelError(where + ": " + error.what());
     }
+    refuse_orthotropic(where, element.material);
     if (!(element.material.E > 0.0 && element.section.A > 0.0 && element.material.rho >= 0.0)) {
       throw ModelError(fmt::format(
           "{}: E = {:g} Pa, A = {:g} m², rho = {:g} kg/m³; all must be positive (rho may be zero)",

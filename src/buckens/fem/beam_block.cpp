@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/elasticity.h"
 #include "buckens/fem/node_label.h"
 #include "buckens/fem/scatter.h"
 
@@ -96,6 +97,7 @@ void BeamBlock::check(const MeshView& mesh) const {
       throw ModelError(where + ": " + error.what());
     }
     const auto& [material, section, theory, rotary, up] = of(element);
+    refuse_orthotropic(where, material);
     const bool elastic = material.E > 0.0 && material.G > 0.0;
     const bool solid = section.A > 0.0 && section.Iy > 0.0 && section.Iz > 0.0 && section.J > 0.0;
     if (!elastic || !solid || !(material.rho >= 0.0)) {

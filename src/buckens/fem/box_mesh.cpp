@@ -33,7 +33,7 @@ std::vector<NamedGridPlace> named_places(const Box& box) {
   return out;
 }
 
-int add_box(Structure& structure, const Box& box, const Material& material) {
+CellMesh box_cells(const Box& box) {
   const auto [nx, ny, nz] = box.divisions;
   if (!(box.size.minCoeff() > 0.0) || std::min({nx, ny, nz}) < 1) {
     throw ModelError(
@@ -41,28 +41,47 @@ int add_box(Structure& structure, const Box& box, const Material& material) {
                     "positive",
                     box.size.x(), box.size.y(), box.size.z(), nx, ny, nz));
   }
-  const int first = static_cast<int>(structure.nodes.size());
-  const Vector3d edge(box.size.x() / nx, box.size.y() / ny, box.size.z() / nz);
-  for (int k = 0; k <= nz; ++k) {
-    for (int j = 0; j <= ny; ++j) {
-      for (int i = 0; i <= nx; ++i) {
-        structure.nodes.push_back({"", box.from + edge.cwiseProduct(Vector3d(i, j, k))});
+  CellMesh out;
+  const Box fine{box.from, box.size, {2 * nx, 2 * ny, 2 * nz}};
+  const Vector3d step(box.size.x() / nx, box.size.y() / ny, box.size.z() / nz);
+  for (int k = 0; k <= 2 * nz; ++k) {
+    for (int j = 0; j <= 2 * ny; ++j) {
+      for (int i = 0; i <= 2 * nx; ++i) {
+        out.points.push_back(box.from + step.cwiseProduct(0.5 * Vector3d(i, j, k)));
       }
     }
   }
-  const int number = structure.solids.add_material(material);
-  const auto at = [&](int i, int j, int k) { return first + box.node({i, j, k}); };
+  for (const char* name : {"x0", "x1", "y0", "y1", "z0", "z1"}) out.face_sets.push_back({name, {}});
   for (int k = 0; k < nz; ++k) {
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
-        structure.solids.add(
-            {at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1),
-             at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)},
-            number);
+        const int cell = static_cast<int>(out.cells.size());
+        std::array<int, 27>& points = out.cells.emplace_back();
+        for (int p = 0; p < 27; ++p) {
+          points[static_cast<std::size_t>(p)] =
+              fine.node({2 * i + p % 3, 2 * j + p / 3 % 3, 2 * k + p / 9});
+        }
+        const std::array<bool, 6> outside = {i == 0,      i == nx - 1, j == 0,
+                                             j == ny - 1, k == 0,      k == nz - 1};
+        for (std::size_t face = 0; face < 6; ++face) {
+          if (outside[face]) out.face_sets[face].faces.push_back({cell, static_cast<int>(face)});
+        }
       }
     }
   }
-  return first;
+  for (const NamedGridPlace& named : named_places(fine)) {
+    out.names.emplace_back(named.name, fine.node(named.place));
+  }
+  return out;
+}
+
+GeneratedMesh add_box(Structure& structure, const Box& box, const Material& material,
+                      const SolidForm& form) {
+  return add_cells(structure, box_cells(box), form, material);
+}
+
+int add_box(Structure& structure, const Box& box, const Material& material) {
+  return add_box(structure, box, material, {SolidKind::hex8, SolidIntegration::full}).first_node;
 }
 
 }  // namespace buckens::fem

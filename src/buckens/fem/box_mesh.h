@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "buckens/fem/structure.h"
+#include "buckens/fem/cell_mesh.h"
 
 namespace buckens::fem {
 
@@ -32,9 +32,18 @@ struct NamedGridPlace {
 /// `face_x0` … `face_z1` and the `centre`.
 std::vector<NamedGridPlace> named_places(const Box& box);
 
-/// Adds the nodes and hex8 elements of a box.
-/// @return number of its first node; the others follow in the order of Box::node
+/// The cells of a box with faces `x0`, `x1`, `y0`, `y1`, `z0`, `z1` and the points of
+/// named_places() at half steps.
 /// @throws ModelError if a size or a division is not positive
+CellMesh box_cells(const Box& box);
+
+/// Adds the nodes and elements of a box.
+/// @throws ModelError as box_cells()
+GeneratedMesh add_box(Structure& structure, const Box& box, const Material& material,
+                      const SolidForm& form);
+
+/// The same with hex8 elements and full integration.
+/// @return number of its first node; the others follow in the order of Box::node
 int add_box(Structure& structure, const Box& box, const Material& material);
 
 }  // namespace buckens::fem

@@ -93,8 +93,9 @@ class ElementBlock {
   /// rows over d: rows 6 e + (0…5) with e counted from `first_element`.
   virtual void add_stress_rows(const MeshView& /*mesh*/, int /*first_element*/,
                                std::vector<linalg::Triplet>& /*rows*/) const {}
-  /// Faces of a solid element, nodes counter-clockwise seen from outside; −1 in place of the fourth
-  /// node of a triangle.
+  /// Faces of a solid element in pieces that can be drawn, nodes counter-clockwise seen from
+  /// outside; −1 in place of the fourth node of a triangle. Elements with a common face have the
+  /// same pieces there.
   virtual std::vector<std::array<int, 4>> faces(int /*element*/) const { return {}; }
 };
 

@@ -32,7 +32,7 @@ double num_elements(const BoxMeshSpec& spec) {
 }
 
 int add(Structure& structure, const BoxMeshSpec& spec, const Material& material) {
-  return add_box(structure, box_of(spec), material);
+  return add_box(structure, box_of(spec), material, spec.form()).first_node;
 }
 
 }  // namespace

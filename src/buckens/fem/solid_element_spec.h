@@ -1,37 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "buckens/base/field.h"
 #include "buckens/fem/material_spec.h"
+#include "buckens/fem/solid_form.h"
 
 namespace buckens::fem {
 
-/// Elements that fill a volume.
-enum class SolidElement { hex8 };
-
-constexpr std::array<const char*, 1> choice_names(SolidElement) { return {"hex8"}; }
-
-/// How the strains of a solid element are taken and integrated.
-enum class SolidIntegration { full };
-
-constexpr std::array<const char*, 1> choice_names(SolidIntegration) { return {"full"}; }
-
-/// Which solid element a mesh consists of.
+/// Which solid elements a mesh consists of.
 struct SolidElementSpec {
-  SolidElement element = SolidElement::hex8;
-  SolidIntegration integration = SolidIntegration::full;
+  SolidKind element = SolidKind::hex8;
+  std::optional<SolidIntegration> integration;  ///< default: SolidForm::usual
+
+  SolidForm form() const {
+    return {element, integration.value_or(SolidForm::usual(element).integration)};
+  }
 
   template <class Visitor>
   void element_fields(Visitor& visit) {
     visit(base::field("element", element,
-                      "solid element; `hex8` has eight corner nodes and trilinear displacements"));
+                      "solid element: linear (`hex8`, `tet4`) or quadratic with mid-side nodes "
+                      "(`hex20`, `tet10`)"));
     visit(base::field("integration", integration,
-                      "`full`: at 2 × 2 × 2 points of hex8; bending then needs several elements "
-                      "across the thickness"));
+                      "`incompatible-modes` (hex8 only) bends without locking; `full` takes the "
+                      "shape functions alone, at 2 × 2 × 2 points of hex8: bending then needs "
+                      "several elements across the thickness")
+              .like("full")
+              .otherwise("incompatible-modes for hex8, full for all others"));
   }
 };
 
@@ -44,8 +43,10 @@ struct SolidMemberSpec : SolidElementSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("nodes", nodes,
-                      "hex8: the four nodes of one face counter-clockwise seen from the opposite "
-                      "face, then those of that face in the same order")
+                      "hexahedra: the four corners of one face counter-clockwise seen from the "
+                      "opposite face, then those of that face in the same order; tetrahedra: three "
+                      "corners counter-clockwise seen from the fourth, then the fourth; mid-side "
+                      "nodes follow as Abaqus and VTK count")
               .required()
               .like("[a, b, c, d, e, f, g, h]"));
     element_fields(visit);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/structure.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -12,6 +14,12 @@ int find_node(const Structure& structure, const std::string& name) {
     if (structure.nodes[k].name == name) return static_cast<int>(k);
   }
   return -1;
+}
+
+const FaceSet* find_face_set(const Structure& structure, const std::string& name) {
+  const auto found = std::find_if(structure.face_sets.begin(), structure.face_sets.end(),
+                                  [&](const FaceSet& set) { return set.name == name; });
+  return found == structure.face_sets.end() ? nullptr : &*found;
 }
 
 int add_node(Structure& structure, const std::string& name, const Eigen::Vector3d& position) {

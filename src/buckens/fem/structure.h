@@ -7,8 +7,9 @@
 #include "buckens/fem/bar_block.h"
 #include "buckens/fem/beam_block.h"
 #include "buckens/fem/dof_map.h"
-#include "buckens/fem/hex8_block.h"
+#include "buckens/fem/face_set.h"
 #include "buckens/fem/point_mass_block.h"
+#include "buckens/fem/solid_block.h"
 
 namespace buckens::fem {
 
@@ -20,9 +21,11 @@ struct Structure {
   BeamBlock beams;
   BarBlock bars;
   PointMassBlock masses;
-  Hex8Block solids;
+  SolidBlock solids;
   /// Nodes that only divide a bar. Bars there keep one direction although they are hinged.
   std::vector<int> straight_nodes;
+  /// Faces that generators named. The parts of a divided mesh have none.
+  std::vector<FaceSet> face_sets;
 };
 
 /// Elements and nodes made from one beam.
@@ -46,6 +49,9 @@ BeamDivision add_beam(Structure& structure, int node_a, int node_b, int division
 /// @throws ModelError if `divisions` < 1 or a node does not exist
 void add_bar(Structure& structure, int node_a, int node_b, int divisions, const Material& material,
              const Section& section);
+
+/// The faces with this name, null if there are none.
+const FaceSet* find_face_set(const Structure& structure, const std::string& name);
 
 /// Index of the node with this name, −1 if there is none.
 int find_node(const Structure& structure, const std::string& name);

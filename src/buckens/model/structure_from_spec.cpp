@@ -146,8 +146,8 @@ void Builder::add_solid(const fem::SolidMemberSpec& solid) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     nodes[k] = node_called(solid.nodes[k], solid.where);
   }
-  fem::Hex8Block& block = out_.structure.solids;
-  block.add(nodes, block.add_material(make_material(*solid.material)));
+  fem::SolidBlock& block = out_.structure.solids;
+  block.add(solid.form(), nodes, block.add_material(make_material(*solid.material)));
 }
 
 void Builder::add_generated(const fem::MeshSpec& spec) {

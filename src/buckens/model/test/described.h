@@ -112,6 +112,7 @@ struct Described {
     fem::BoxMeshSpec box;
     box.size = size;
     box.divisions = divisions;
+    box.integration = fem::SolidIntegration::full;
     fem::MeshSpec kind;
     kind.shape = box;
     kind.material.value.E = kE;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "buckens/fem/structure.h"
+
+namespace buckens::fem {
+
+/// Points by name.
+using NamedPoints = std::vector<std::pair<std::string, int>>;
+
+/// Hexahedral cells whose points lie at half steps: every cell has 27 of them, from which elements
+/// of every kind take their nodes. So mid-side nodes are on the true surface.
+struct CellMesh {
+  std::vector<Eigen::Vector3d> points;  ///< model axes [m]
+  /// Point (i, j, k) of a cell, 0…2 each, at i + 3 j + 9 k; right-handed axes.
+  std::vector<std::array<int, 27>> cells;
+  std::vector<FaceSet> face_sets;  ///< `element` counts cells, `face` as for hexahedra
+  NamedPoints names;
+};
+
+/// What a generator added to a structure.
+struct GeneratedMesh {
+  int first_node = 0;
+  NamedPoints names;  ///< those named points of the cells that became nodes
+};
+
+/// Adds elements in place of cells: one hexahedron or six tetrahedra each. Points without an
+/// element are left out, the others keep their order; face sets go to the structure.
+///
+/// The tetrahedra meet in the corner of a cell with the lowest number, and so does the diagonal of
+/// each face: both cells at a face choose the same (Dompierre et al., 1999).
+GeneratedMesh add_cells(Structure& structure, const CellMesh& mesh, const SolidForm& form,
+                        const Material& material);
+
+}  // namespace buckens::fem

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace buckens::fem {
+
+/// Shapes of solid elements, named by their nodes. Corners are counted first, then the mid-side
+/// nodes, as Abaqus (C3D8, C3D20, C3D4, C3D10) and VTK count.
+enum class SolidKind {
+  hex8,   ///< trilinear hexahedron
+  hex20,  ///< quadratic serendipity hexahedron
+  tet4,   ///< linear tetrahedron
+  tet10,  ///< quadratic tetrahedron
+};
+
+constexpr std::array<const char*, 4> choice_names(SolidKind) {
+  return {"hex8", "hex20", "tet4", "tet10"};
+}
+
+/// How the stiffness of a solid element is integrated.
+enum class SolidIntegration {
+  incompatible_modes,  ///< hex8 only: nine inner displacement modes take shear locking away
+  full,                ///< all strain energy of the shape functions
+};
+
+constexpr std::array<const char*, 2> choice_names(SolidIntegration) {
+  return {"incompatible-modes", "full"};
+}
+
+/// A shape and the integration of its stiffness.
+struct SolidForm {
+  SolidKind kind = SolidKind::hex8;
+  SolidIntegration integration = SolidIntegration::incompatible_modes;
+
+  /// The usual integration of a shape: incompatible modes for hex8, full for all others.
+  static constexpr SolidForm usual(SolidKind kind) {
+    return {kind, kind == SolidKind::hex8 ? SolidIntegration::incompatible_modes
+                                          : SolidIntegration::full};
+  }
+  friend bool operator==(const SolidForm&, const SolidForm&) = default;
+};
+
+}  // namespace buckens::fem
