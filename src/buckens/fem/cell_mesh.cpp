@@ -100,6 +100,11 @@ class FaceTable {
 
 }  // namespace
 
+bool is_node(SolidKind kind, const std::array<int, 3>& place) {
+  const int odd = place[0] % 2 + place[1] % 2 + place[2] % 2;
+  return kind == SolidKind::tet10 || odd <= (kind == SolidKind::hex20 ? 1 : 0);
+}
+
 GeneratedMesh add_cells(Structure& structure, const CellMesh& mesh, const SolidForm& form,
                         const Material& material) {
   const bool hexahedra = solid_topology(form.kind).is_hexahedron();

@@ -23,6 +23,11 @@ struct CellMesh {
   NamedPoints names;
 };
 
+/// Whether a point becomes a node: corners lie at even places, mid-side nodes of hex20 have one odd
+/// number, and the diagonals of tet10 reach every place.
+/// @param place numbers of half steps along the three axes of the cells
+bool is_node(SolidKind kind, const std::array<int, 3>& place);
+
 /// What a generator added to a structure.
 struct GeneratedMesh {
   int first_node = 0;

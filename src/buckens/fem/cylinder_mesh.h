@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include "buckens/fem/cell_mesh.h"
+#include "buckens/fem/cylinder.h"
 
 namespace buckens::fem {
-
-/// A round solid: cylinder, tube, or (short) a disc with or without a bore.
-struct Cylinder {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< centre of the bottom, model axes [m]
-  Eigen::Vector3d to = Eigen::Vector3d::UnitZ();   ///< centre of the top [m]
-  double outer_radius = 1;                         ///< [m]
-  double inner_radius = 0;                         ///< [m], zero without a bore
-  /// Elements from inside to outside, around, along. Without a bore the first counts the rings
-  /// around a square core that has a quarter of those around on each side.
-  std::array<int, 3> divisions = {1, 8, 1};
-};
 
 /// The cells of a round solid with faces `bottom`, `top` and `side`, or `inner` and `outer` with a
 /// bore; without a bore also points `bottom_centre`, `top_centre`, `centre`. Lines along the axis

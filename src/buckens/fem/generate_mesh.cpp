@@ -2,57 +2,85 @@
 #include "buckens/fem/generate_mesh.h"
 
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/fem/box_mesh.h"
+#include "buckens/fem/cylinder_mesh.h"
 
 namespace buckens::fem {
 
 namespace {
 
-// Nodal variables and entries of element matrices are numbered by int.
-constexpr double kMostElements = std::numeric_limits<int>::max() / 576.0;
+/// A nodal matrix is built from the entries of element matrices, which are counted by int.
+constexpr double kMostEntries = std::numeric_limits<int>::max();
 
 Box box_of(const BoxMeshSpec& spec) { return {spec.from, spec.size, spec.divisions}; }
 
-std::vector<NamedNode> nodes_of(const BoxMeshSpec& spec) {
-  const Box box = box_of(spec);
-  std::vector<NamedNode> out;
-  for (const NamedGridPlace& place : named_places(box)) {
-    out.push_back({place.name, box.node(place.place)});
+CellMesh cells_of(const BoxMeshSpec& spec) { return box_cells(box_of(spec)); }
+template <class Round>
+CellMesh cells_of(const Round& spec) {
+  return cylinder_cells(spec.shape());
+}
+
+std::vector<std::string> names_of(const BoxMeshSpec& spec) {
+  const auto [nx, ny, nz] = spec.divisions;
+  std::vector<std::string> out;
+  for (const NamedGridPlace& place :
+       named_places({spec.from, spec.size, {2 * nx, 2 * ny, 2 * nz}})) {
+    if (is_node(spec.element, place.place)) out.push_back(place.name);
   }
   return out;
 }
 
-double num_elements(const BoxMeshSpec& spec) {
-  double count = 1.0;
-  for (const int n : spec.divisions) count *= n;
-  return count;
+template <class Round>
+std::vector<std::string> names_of(const Round& spec) {
+  if (spec.shape().inner_radius > 0.0) return {};
+  const int middle = spec.divisions[1] / 4;
+  std::vector<std::string> out;
+  if (is_node(spec.element, {middle, middle, 0})) out = {"bottom_centre", "top_centre"};
+  if (is_node(spec.element, {middle, middle, spec.divisions[2]})) out.emplace_back("centre");
+  return out;
 }
 
-int add(Structure& structure, const BoxMeshSpec& spec, const Material& material) {
-  return add_box(structure, box_of(spec), material, spec.form()).first_node;
+double num_cells(const std::array<int, 3>& divisions) {
+  return static_cast<double>(divisions[0]) * divisions[1] * divisions[2];
+}
+
+double cells_in(const BoxMeshSpec& spec) { return num_cells(spec.divisions); }
+template <class Round>
+double cells_in(const Round& spec) {
+  const double across = spec.divisions[1] / 4;  // of the square core
+  const bool bore = spec.shape().inner_radius > 0.0;
+  return num_cells(spec.divisions) + (bore ? 0.0 : across * across * spec.divisions[2]);
 }
 
 }  // namespace
 
-std::vector<NamedNode> named_nodes(const MeshSpec& spec) {
-  return std::visit([](const auto& shape) { return nodes_of(shape); }, spec.shape);
+std::vector<std::string> named_nodes(const MeshSpec& spec) {
+  return std::visit([](const auto& shape) { return names_of(shape); }, spec.shape);
 }
 
 std::optional<std::string> size_problem(const MeshSpec& spec) {
-  const double count =
-      std::visit([](const auto& shape) { return num_elements(shape); }, spec.shape);
-  if (count <= kMostElements) return std::nullopt;
+  const auto [kind, cells] = std::visit(
+      [](const auto& shape) { return std::pair(shape.element, cells_in(shape)); }, spec.shape);
+  const SolidTopology& topology = solid_topology(kind);
+  const double count = cells * (topology.is_hexahedron() ? 1 : 6);
+  const double most = kMostEntries / (9.0 * topology.num_nodes * topology.num_nodes);
+  if (count <= most) return std::nullopt;
   return fmt::format(
       "these are {:.3g} elements, more than the {:.3g} that can be numbered; use "
       "fewer",
-      count, kMostElements);
+      count, most);
 }
 
-int add_mesh(Structure& structure, const MeshSpec& spec, const Material& material) {
-  return std::visit([&](const auto& shape) { return add(structure, shape, material); }, spec.shape);
+GeneratedMesh add_mesh(Structure& structure, const MeshSpec& spec, const Material& material) {
+  return std::visit(
+      [&](const auto& shape) {
+        return add_cells(structure, cells_of(shape), shape.form(), material);
+      },
+      spec.shape);
 }
 
 }  // namespace buckens::fem

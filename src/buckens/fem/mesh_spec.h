@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "buckens/fem/cylinder.h"
 #include "buckens/fem/solid_element_spec.h"
 #include "buckens/fem/structure_spec.h"
 
@@ -39,12 +40,138 @@ struct BoxMeshSpec : SolidElementSpec {
   }
 };
 
+/// What round solids have in common.
+struct RoundMeshSpec : SolidElementSpec {
+  std::array<int, 3> divisions = {1, 8, 1};
+
+  template <class Visitor>
+  void round_fields(Visitor& visit) {
+    visit(base::field("divisions", divisions,
+                      "number of elements from inside to outside, around, and along the axis; "
+                      "without a bore the first counts the rings around a square core, and those "
+                      "around must be divisible by 4")
+              .required()
+              .positive()
+              .like("[1, 8, 20]"));
+    element_fields(visit);
+  }
+};
+
+/// A straight round bar.
+struct CylinderMeshSpec : RoundMeshSpec {
+  static constexpr const char* kKey = "cylinder";
+  static constexpr const char* kDoc = "round bar between two points";
+  SourceLocation where;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< centre of the bottom [m]
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< centre of the top [m]
+  double diameter = 0;                             ///< [m]
+
+  Cylinder shape() const { return {from, to, 0.5 * diameter, 0.0, divisions}; }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("from", from, "centre of the face `bottom`, in model axes")
+              .in(base::kLength)
+              .like("[0, 0, 0]"));
+    visit(base::field("to", to, "centre of the face `top`, in model axes")
+              .in(base::kLength)
+              .required()
+              .like("[300 mm, 0, 0]"));
+    visit(base::field("diameter", diameter, "diameter")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("20 mm"));
+    round_fields(visit);
+  }
+};
+
+/// A straight round tube.
+struct TubeMeshSpec : RoundMeshSpec {
+  static constexpr const char* kKey = "tube";
+  static constexpr const char* kDoc = "round tube between two points";
+  SourceLocation where;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< centre of the bottom [m]
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< centre of the top [m]
+  double outer_diameter = 0;                       ///< [m]
+  double inner_diameter = 0;                       ///< [m]
+
+  Cylinder shape() const {
+    return {from, to, 0.5 * outer_diameter, 0.5 * inner_diameter, divisions};
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("from", from, "centre of the face `bottom`, in model axes")
+              .in(base::kLength)
+              .like("[0, 0, 0]"));
+    visit(base::field("to", to, "centre of the face `top`, in model axes")
+              .in(base::kLength)
+              .required()
+              .like("[300 mm, 0, 0]"));
+    visit(base::field("outer-diameter", outer_diameter, "outer diameter")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("30 mm"));
+    visit(base::field("inner-diameter", inner_diameter, "inner diameter")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("26 mm"));
+    round_fields(visit);
+  }
+};
+
+/// A plane disc, with or without a bore.
+struct DiscMeshSpec : RoundMeshSpec {
+  static constexpr const char* kKey = "disc";
+  static constexpr const char* kDoc = "plane disc about a centre, with or without a bore";
+  SourceLocation where;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< any length but zero
+  double diameter = 0;                               ///< [m]
+  double bore = 0;                                   ///< [m]
+  double thickness = 0;                              ///< [m]
+
+  Cylinder shape() const {
+    const Eigen::Vector3d half = 0.5 * thickness * axis.normalized();
+    return {centre - half, centre + half, 0.5 * diameter, 0.5 * bore, divisions};
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("centre", centre, "middle of the disc, in model axes")
+              .in(base::kLength)
+              .like("[0, 0, 0]"));
+    visit(base::field("axis", axis,
+                      "direction from the face `bottom` to the face `top`, in model "
+                      "axes")
+              .like("[0, 0, 1]"));
+    visit(base::field("diameter", diameter, "outer diameter")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("200 mm"));
+    visit(base::field("bore", bore, "inner diameter, zero without a bore")
+              .in(base::kLength)
+              .non_negative()
+              .like("30 mm"));
+    visit(base::field("thickness", thickness, "thickness")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("10 mm"));
+    round_fields(visit);
+  }
+};
+
 /// A mesh of solid elements that the program generates, made a body.
 struct MeshSpec {
   static constexpr const char* kKey = "mesh";
   static constexpr const char* kDoc = "flexible body: a generated mesh of solid elements";
   SourceLocation where;
-  std::variant<BoxMeshSpec> shape;
+  std::variant<BoxMeshSpec, CylinderMeshSpec, TubeMeshSpec, DiscMeshSpec> shape;
   base::Reference<MaterialSpec> material;
   std::vector<PointMassSpec> masses;
 

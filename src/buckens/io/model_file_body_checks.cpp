@@ -172,16 +172,9 @@ Finding mass_problem(const std::vector<fem::PointMassSpec>& masses,
 
 }  // namespace
 
-Finding problem(const fem::SolidMemberSpec& spec, const ReadContext&) {
-  if (spec.nodes.size() == 8) return std::nullopt;
-  return Problem{"nodes", fmt::format("{} nodes stand here; a hex8 has 8", spec.nodes.size())};
-}
-
 Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
   if (const auto found = fem::size_problem(spec)) return Problem{"", *found};
-  std::vector<std::string> nodes;
-  for (const auto& named : fem::named_nodes(spec)) nodes.push_back(named.name);
-  return mass_problem(spec.masses, nodes);
+  return mass_problem(spec.masses, fem::named_nodes(spec));
 }
 
 Finding problem(const fem::StructureSpec& spec, const ReadContext&) {

@@ -102,7 +102,8 @@ std::vector<std::string> marker_names(const body::BodySpec& body) {
     for (const auto& node : structure->nodes) out.push_back(node.name);
   }
   if (const auto* mesh = std::get_if<fem::MeshSpec>(&body.kind)) {
-    for (const auto& node : fem::named_nodes(*mesh)) out.push_back(node.name);
+    const auto names = fem::named_nodes(*mesh);
+    out.insert(out.end(), names.begin(), names.end());
   }
   for (const auto& marker : body.markers) out.push_back(marker.name);
   return out;

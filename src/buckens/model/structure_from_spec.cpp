@@ -2,7 +2,6 @@
 #include "buckens/model/structure_from_spec.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -62,7 +61,8 @@ class Builder {
 
  private:
   fem::Material make_material(const fem::MaterialSpec& spec) const {
-    fem::Material material{spec.E, spec.nu, spec.shear_modulus(), spec.rho, 0.0, 0.0};
+    fem::Material material{spec.E, spec.nu, spec.shear_modulus(), spec.rho, 0.0, 0.0, {}};
+    if (spec.orthotropic) material.orthotropy = spec.orthotropic->constants();
     const auto& damping = spec_.damping ? spec_.damping : spec.damping;
     if (damping) {
       material.damping_mass = damping->alpha();
@@ -138,23 +138,16 @@ void Builder::add_structure(const fem::StructureSpec& spec) {
 }
 
 void Builder::add_solid(const fem::SolidMemberSpec& solid) {
-  std::array<int, 8> nodes{};
-  if (solid.nodes.size() != nodes.size()) {
-    throw InputError(solid.where,
-                     fmt::format("a hex8 has {} nodes, not {}", nodes.size(), solid.nodes.size()));
-  }
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    nodes[k] = node_called(solid.nodes[k], solid.where);
-  }
+  std::vector<int> nodes;
+  for (const std::string& name : solid.nodes) nodes.push_back(node_called(name, solid.where));
   fem::SolidBlock& block = out_.structure.solids;
   block.add(solid.form(), nodes, block.add_material(make_material(*solid.material)));
 }
 
 void Builder::add_generated(const fem::MeshSpec& spec) {
-  const int first = fem::add_mesh(out_.structure, spec, make_material(*spec.material));
-  for (const fem::NamedNode& named : fem::named_nodes(spec)) {
-    name_place(named.name, {first + named.node, -1, 0});
-  }
+  const fem::GeneratedMesh mesh =
+      fem::add_mesh(out_.structure, spec, make_material(*spec.material));
+  for (const auto& [name, node] : mesh.names) name_place(name, {node, -1, 0});
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
 }
 

@@ -203,6 +203,59 @@ TEST(ModelFileErrors, Solids) {
       "buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: ", "}\n");
 }
 
+TEST(ModelFileErrors, KindsOfSolids) {
+  const std::string unit = "box: {size: [1, 1, 1], divisions: [1, 1, 1]";
+  const std::string bar = "cylinder: {to: [1, 0, 0], diameter: 0.1, divisions: ";
+  const std::string tube = "tube: {to: [1, 0, 0], outer-diameter: 0.1, inner-diameter: ";
+  const std::string disc = "disc: {diameter: 0.1, thickness: 0.01, ";
+  expect_messages(
+      {
+          {"{" + unit + ", element: tet10, integration: incompatible-modes}",
+           {"a.mesh.box.integration", "only hex8 has incompatible modes", "write `full`"}},
+          {"{cylinder: {diameter: 0.1, to: [0, 0, 0], divisions: [1, 8, 2]}",
+           {"a.mesh.cylinder.to", "the same point"}},
+          {"{" + bar + "[1, 10, 2]}", {"cylinder.divisions.1", "divisible by 4, for example 12"}},
+          {"{" + bar + "[1, 3, 2]}", {"not round", "at least 4"}},
+          {"{" + bar + "[0, 8, 2]}", {"cylinder.divisions.0", "must be positive"}},
+          {"{" + bar + "[1, 8, 2], element: hex20, integration: incompatible-modes}",
+           {"cylinder.integration"}},
+          {"{" + bar + "[1000, 4000, 4000]}", {"these are 2e+10 elements", "use fewer"}},
+          {"{" + tube + "0.1, divisions: [1, 8, 2]}",
+           {"tube.inner-diameter", "not below the outer diameter"}},
+          {"{" + tube + "0.05, divisions: [1, 2, 2]}", {"tube.divisions.1"}},
+          {"{" + disc + "axis: [0, 0, 0], divisions: [1, 8, 1]}", {"disc.axis", "cannot be zero"}},
+          {"{" + disc + "bore: 0.2, divisions: [1, 8, 1]}",
+           {"disc.bore", "not below the diameter"}},
+          {"{" + disc + "divisions: [1, 9, 1]}", {"disc.divisions.1", "divisible by 4"}},
+      },
+      "buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: {mesh: ", ", material: m}}}\n");
+  EXPECT_THAT(message("buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: {structure: {nodes: "
+                      "{a: [0, 0, 0], b: [1, 0, 0], c: [0, 1, 0]}, solids: [{element: tet4, nodes: "
+                      "[a, b, c], material: m}]}}}"),
+              HasSubstr("3 nodes stand here; a tet4 has 4"));
+}
+
+TEST(ModelFileErrors, OrthotropicMaterials) {
+  const std::string shear = "G12: 5e9, G13: 5e9, G23: 3e9";
+  const std::string rest = "nu13: 0.3, nu23: 0.4, " + shear;
+  expect_messages(
+      {
+          {"", {"the key \"E\" is missing", "E: 200 GPa"}},
+          {", E: 1, orthotropic: {E1: 135e9, E2: 1e10, E3: 1e10, nu12: 0.3, " + rest + "}",
+           {"materials.m.orthotropic", "in place of \"E\""}},
+          {", orthotropic: {E1: 135e9, E3: 1e10, nu12: 0.3, " + rest + "}", {"\"E2\" is missing"}},
+          {", orthotropic: {E1: 135e9, E2: 1e10, E3: 1e10, nu12: 4, " + rest + "}",
+           {"|nu12| must be below sqrt(E1/E2) = 3.674"}},
+          {", orthotropic: {axis-2: [2, 0, 0], E1: 135e9, E2: 1e10, E3: 1e10, nu12: 0.3, " + rest +
+               "}",
+           {"axis-2", "parallel to \"axis-1\""}},
+          {", orthotropic: {axis-1: [0, 0, 0], E1: 135e9, E2: 1e10, E3: 1e10, nu12: 0.3, " + rest +
+               "}",
+           {"axis-1", "cannot be zero"}},
+      },
+      "buckens: 1\nmaterials: {m: {rho: 7", "}}\nbodies: {}\n");
+}
+
 TEST(ModelFileErrors, Coupling) {
   expect_messages(
       {

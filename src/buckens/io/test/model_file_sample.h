@@ -13,6 +13,7 @@ parameters: {L: 300 mm, speed: 150, half: L/2}
 materials:
   steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {mass: 0, stiffness: 1e-7 s}}
   soft: {E: 2 GPa, G: 0.8 GPa, rho: 1100, damping: {ratio: 2 %, at: [10 Hz, 200 Hz]}}
+  ply: {rho: 1600, orthotropic: {E1: 135 GPa, E2: 10 GPa, E3: 8 GPa, nu12: 0.3, nu13: 0.25, nu23: 0.45, G12: 5 GPa, G13: 4 GPa, G23: 3 GPa, axis-1: [0, 0, 2], axis-2: [1, 0, 1]}}
 sections:
   rod6: {circle: {diameter: 6 mm}}
   tube: {tube: {outer-diameter: 40 mm, thickness: 3 mm}}
@@ -52,6 +53,11 @@ bodies:
     structure:
       nodes: {a: [4, 0, 0], b: [5, 0, 0], c: [5, 1, 0], d: [4, 1, 0], e: [4, 0, 1], f: [5, 0, 1], g: [5, 1, 1], h: [4, 1, 1]}
       solids: [{nodes: [a, b, c, d, e, f, g, h], element: hex8, integration: full, material: steel}]
+  shaft:
+    mesh: {cylinder: {from: [7, 0, 0], to: [8, 0, 0], diameter: 0.2, divisions: [1, 8, 4], element: tet10}, material: ply}
+    markers: {end: {at: top_centre}}
+  sleeve: {mesh: {tube: {to: [0, 0, 1], outer-diameter: 40 mm, inner-diameter: 30 mm, divisions: [1, 12, 3]}, material: steel}}
+  wheel: {mesh: {disc: {axis: [0, 1, 0], diameter: 1, bore: 0.2, thickness: 0.1, divisions: [2, 16, 1], element: hex20, integration: full}, material: steel}}
   twin: {like: rod, at: {position: [0, 1, 0], orientation: {quaternion: [1, 0, 0, 0]}}}
 joints:
   base: {revolute: {between: [ground, crank/origin]}}

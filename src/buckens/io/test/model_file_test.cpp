@@ -105,6 +105,30 @@ TEST(ModelFile, Solids) {
       8);
 }
 
+TEST(ModelFile, RoundSolidsAndOrthotropicMaterials) {
+  const ModelDescription& m = sample();
+  const auto& shaft = std::get<fem::MeshSpec>(entry(m.bodies, "shaft").kind);
+  const auto& bar = std::get<fem::CylinderMeshSpec>(shaft.shape);
+  EXPECT_EQ(bar.form(), fem::SolidForm::usual(fem::SolidKind::tet10));
+  EXPECT_EQ(bar.shape().to, Eigen::Vector3d(8, 0, 0));
+  EXPECT_DOUBLE_EQ(bar.shape().outer_radius, 0.1);
+  const auto& sleeve =
+      std::get<fem::TubeMeshSpec>(std::get<fem::MeshSpec>(entry(m.bodies, "sleeve").kind).shape);
+  EXPECT_EQ(sleeve.form(),
+            (fem::SolidForm{fem::SolidKind::hex8, fem::SolidIntegration::incompatible_modes}));
+  EXPECT_DOUBLE_EQ(sleeve.shape().inner_radius, 0.015);
+  const auto& wheel =
+      std::get<fem::DiscMeshSpec>(std::get<fem::MeshSpec>(entry(m.bodies, "wheel").kind).shape);
+  EXPECT_EQ(wheel.shape().from, Eigen::Vector3d(0, -0.05, 0));
+  EXPECT_DOUBLE_EQ(wheel.shape().inner_radius, 0.1);
+  const fem::Orthotropy ply = shaft.material->orthotropic->constants();
+  EXPECT_EQ(ply.E, Eigen::Vector3d(135e9, 10e9, 8e9));
+  EXPECT_DOUBLE_EQ(ply.G23, 3e9);
+  Eigen::Matrix3d axes;
+  axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  EXPECT_LE((ply.axes - axes).norm(), 1e-15);
+}
+
 TEST(ModelFile, JointsAndLoads) {
   const ModelDescription& m = sample();
   const auto& base_joint = std::get<joints::RevoluteSpec>(entry(m.joints, "base").kind);
