@@ -236,6 +236,7 @@ class Simulation {
   void write_records(const model::State& before, bool is_last) {
     const model::State& after = prepared_->state;
     const double near = 1e-6 * (after.t - before.t);
+    std::optional<results::EnergyLevels> first, last;  // of the step, where a record needs them
     for (; next_record() <= after.t + near; ++records_) {
       const double t = next_record();
       if (std::abs(t - after.t) <= near) {
@@ -243,7 +244,13 @@ class Simulation {
         state.lambda = results::multipliers_at(before, after, after.t);
         write_record(state);
       } else {
-        write_record(results::interpolate(before, after, t));
+        if (!first) {
+          first = {dynamics::energy(built_.model, before), work_->work_before()};
+          last = {dynamics::energy(built_.model, after), work_->work()};
+        }
+        const double share = (t - before.t) / (after.t - before.t);
+        write_record(results::interpolate(before, after, t),
+                     results::interpolate(*first, *last, share));
       }
     }
     if (is_last && last_written_ < after.t - near) {
@@ -255,9 +262,12 @@ class Simulation {
 
   double next_record() const { return static_cast<double>(records_) * every_; }
 
-  void write_record(const model::State& state) {
+  /// @param levels energies and work in place of those of the state
+  void write_record(const model::State& state,
+                    const std::optional<results::EnergyLevels>& levels = {}) {
     const auto start = std::chrono::steady_clock::now();
-    const results::Record record = recorder_->record(state, work_->work());
+    const results::Record record = levels ? recorder_->record(state, levels->work, levels->energy)
+                                          : recorder_->record(state, work_->work());
     const dynamics::Energy& e = recorder_->last_energy();
     const double scale = std::max(e.kinetic + e.strain + e.springs, work_->turnover());
     statistics_->add_record(state, recorder_->last_balance(), scale);

@@ -44,6 +44,7 @@ void WorkAccount::add(const model::State& state) {
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
   const double active = 0.5 * (before_.active + now.active) + drive;
   const double damping = 0.5 * (before_.damping + now.damping);
+  work_before_ = work_;
   work_.external += h * active;
   work_.dissipated += h * damping;
   turnover_ += h * (std::abs(active) + damping);

@@ -17,6 +17,8 @@ class WorkAccount {
   void add(const model::State& state);
 
   const results::WorkBalance& work() const { return work_; }
+  /// What work() was before the last add().
+  const results::WorkBalance& work_before() const { return work_before_; }
   /// ∫|P| dt [J]: measures how much energy went through the mechanism.
   double turnover() const { return turnover_; }
 
@@ -33,7 +35,7 @@ class WorkAccount {
   double t_ = 0;
   linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state
   double lambda_time_ = 0;                       ///< instant of lambda_before_
-  results::WorkBalance work_;
+  results::WorkBalance work_, work_before_;
   double turnover_ = 0;
 };
 

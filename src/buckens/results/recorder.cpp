@@ -142,7 +142,8 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
   }
 }
 
-Record Recorder::record(const model::State& state, WorkBalance work) {
+Record Recorder::record(const model::State& state, WorkBalance work,
+                        const std::optional<dynamics::Energy>& energy) {
   const model::Model& model = built_.model;
   Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, work, {}};
   for (const model::WholeBody& whole : model.wholes) {
@@ -164,7 +165,7 @@ Record Recorder::record(const model::State& state, WorkBalance work) {
     now.stresses[b] = recoveries_[b]->stresses(now.section_forces[b]);
     if (solids_[b]) now.solid_stresses[b] = solids_[b]->stresses(state.bodies[b].d);
   }
-  now.energy = dynamics::energy(model, state);
+  now.energy = energy ? *energy : dynamics::energy(model, state);
   if (!started_) first_energy_ = now.energy.total();
   now.work.balance = now.energy.total() - first_energy_ - now.work.external + now.work.dissipated;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "buckens/dynamics/mass_metric.h"
@@ -29,7 +30,9 @@ class Recorder {
   /// The record of a state. The first call fixes what sensors count from (t = 0).
   /// Cost: a product with M, K and the recovery rows per flexible body.
   /// @param work balance is filled in here
-  Record record(const model::State& state, WorkBalance work);
+  /// @param energy in place of that of the state, for states between steps
+  Record record(const model::State& state, WorkBalance work,
+                const std::optional<dynamics::Energy>& energy = {});
 
   /// Energies of the last record.
   const dynamics::Energy& last_energy() const { return energy_; }

@@ -58,4 +58,17 @@ linalg::Vector multipliers_at(const model::State& before, const model::State& af
   return linear(before.lambda, after.lambda, (t - before.lambda_time) / distance);
 }
 
+EnergyLevels interpolate(const EnergyLevels& before, const EnergyLevels& after, double share) {
+  const auto between = [share](double a, double b) { return (1.0 - share) * a + share * b; };
+  EnergyLevels out;
+  const dynamics::Energy &a = before.energy, &b = after.energy;
+  out.energy.kinetic = between(a.kinetic, b.kinetic);
+  out.energy.strain = between(a.strain, b.strain);
+  out.energy.gravity = between(a.gravity, b.gravity);
+  out.energy.springs = between(a.springs, b.springs);
+  out.work.external = between(before.work.external, after.work.external);
+  out.work.dissipated = between(before.work.dissipated, after.work.dissipated);
+  return out;
+}
+
 }  // namespace buckens::results
