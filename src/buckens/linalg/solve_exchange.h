@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "buckens/base/task_pool.h"
+#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/sparse_cholesky.h"
+
+namespace buckens::linalg {
+
+/// Lets computations that are independent but for common matrices share factors and solve together.
+///
+/// Each participant runs as if it were alone, until it asks for a solve; then the next one runs.
+/// When all wait, those with a common factor solve as the columns of one right-hand side, which
+/// reads the factor once for all of them. One participant runs at a time, in a fixed order, so
+/// results do not depend on timing.
+class SolveExchange {
+ public:
+  SolveExchange();
+  ~SolveExchange();
+
+  /// Factor of a symmetric positive definite matrix. Matrices that are equal to the last bit share
+  /// one as long as somebody holds it. Call from participants, or while nobody runs.
+  /// @throws NumericalError as SparseCholesky does
+  std::shared_ptr<const SparseCholesky> factor(const SparseMatrix& A);
+
+  /// X ← A⁻¹ X by a factor from factor(): together with the others if a participant calls.
+  void solve(const SparseCholesky& factor, Matrix& X, TaskPool* pool = nullptr);
+
+  /// Runs all participants to their ends, each on a thread of its own.
+  /// @throws the first exception that a participant left, after all have ended
+  void run(const std::vector<std::function<void()>>& participants);
+
+  long num_factorisations() const { return num_factorisations_; }
+  long num_columns() const { return num_columns_; }  ///< solved within run()
+  long num_passes() const { return num_passes_; }    ///< times that a factor was read for them
+
+ private:
+  struct Known;
+  struct Participant;
+  struct Turns;
+
+  void solve_waiting();
+  void solve_together(const SparseCholesky& factor);
+  void solve_group(const std::vector<Participant*>& group);
+
+  std::vector<Known> known_;
+  std::vector<std::unique_ptr<Participant>> participants_;  // of the run that goes on
+  std::unique_ptr<Turns> turns_;
+  Matrix columns_;
+  long num_factorisations_ = 0, num_columns_ = 0, num_passes_ = 0;
+};
+
+}  // namespace buckens::linalg
