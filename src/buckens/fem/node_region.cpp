@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/node_region.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace buckens::fem {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Squares of distances from a line, relative to the size: nodes within 1e-6 of it are on it.
+constexpr double kOnLine = 1e-12;
+
+Matrix3d cross_matrix(const Vector3d& r) {
+  Matrix3d out;
+  out << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return out;
+}
+
+/// Weights and what follows from them, from the area of each node.
+void complete(const std::vector<Node>& nodes, const Eigen::VectorXd& areas, NodeRegion& region) {
+  region.area = areas.sum();
+  region.weights = region.area > 0.0 ? Eigen::VectorXd(areas / region.area)
+                                     : Eigen::VectorXd::Constant(
+                                           areas.size(), 1.0 / static_cast<double>(areas.size()));
+  const auto place = [&](std::size_t k) -> const Vector3d& {
+    return nodes[static_cast<std::size_t>(region.nodes[k])].position;
+  };
+  region.centre.setZero();
+  for (std::size_t k = 0; k < region.nodes.size(); ++k) {
+    region.centre += region.weights[static_cast<Eigen::Index>(k)] * place(k);
+  }
+  region.spread.setZero();
+  for (std::size_t k = 0; k < region.nodes.size(); ++k) {
+    const Vector3d r = place(k) - region.centre;
+    region.spread += region.weights[static_cast<Eigen::Index>(k)] *
+                     (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+  }
+}
+
+/// Adds the shares of faces to the nodes they belong to.
+Eigen::VectorXd areas_of(const Structure& structure, const std::vector<ElementFace>& faces,
+                         const std::vector<int>& nodes) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+  for (const ElementFace& face : faces) {
+    const FaceIntegrals part = face_integrals(structure.solids, structure.nodes, face);
+    for (std::size_t k = 0; k < part.nodes.size(); ++k) {
+      const auto at = std::lower_bound(nodes.begin(), nodes.end(), part.nodes[k]);
+      areas[at - nodes.begin()] += part.positive_area[static_cast<Eigen::Index>(k)];
+    }
+  }
+  return areas;
+}
+
+/// Faces that one solid element only has and that lie on the given nodes altogether.
+std::vector<ElementFace> faces_within(const Structure& structure, const std::vector<int>& nodes) {
+  std::vector<bool> is_within(structure.nodes.size(), false);
+  for (const int node : nodes) is_within[static_cast<std::size_t>(node)] = true;
+  std::map<std::vector<int>, std::pair<ElementFace, int>> found;
+  for (int e = 0; e < structure.solids.num_elements(); ++e) {
+    const auto& faces = solid_topology(structure.solids.form(e).kind).faces;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const ElementFace face{e, static_cast<int>(f)};
+      std::vector<int> own = face_nodes(structure.solids, face);
+      if (!std::all_of(own.begin(), own.end(),
+                       [&](int node) { return is_within[static_cast<std::size_t>(node)]; })) {
+        continue;
+      }
+      std::sort(own.begin(), own.end());
+      ++found.try_emplace(std::move(own), face, 0).first->second.second;
+    }
+  }
+  std::vector<ElementFace> out;
+  for (const auto& [own, face] : found) {
+    if (face.second == 1) out.push_back(face.first);
+  }
+  return out;
+}
+
+}  // namespace
+
+bool NodeRegion::turns() const {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] > kOnLine * eigen.eigenvalues()[2];
+}
+
+NodeRegion face_region(const Structure& structure, const FaceSet& faces) {
+  NodeRegion out;
+  out.nodes = face_set_nodes(structure.solids, faces.faces);
+  complete(structure.nodes, areas_of(structure, faces.faces, out.nodes), out);
+  return out;
+}
+
+NodeRegion node_region(const Structure& structure, std::vector<int> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  NodeRegion out;
+  out.nodes = std::move(nodes);
+  complete(structure.nodes, areas_of(structure, faces_within(structure, out.nodes), out.nodes),
+           out);
+  return out;
+}
+
+NodeRegion renumbered(const NodeRegion& region, const std::vector<int>& nodes) {
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return nodes[a] < nodes[b]; });
+  NodeRegion out = region;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    out.nodes[k] = nodes[order[k]];
+    out.weights[static_cast<Eigen::Index>(k)] = region.weights[static_cast<Eigen::Index>(order[k])];
+  }
+  return out;
+}
+
+PointRows region_rows(const FeModel& fe, const NodeRegion& region, const Vector3d& at) {
+  PointRows out;
+  out.position = at;
+  out.has_rotation = region.turns();
+  Matrix3d inverse = Matrix3d::Zero();
+  if (out.has_rotation) inverse = region.spread.inverse();
+  const Matrix3d offset = cross_matrix(at - region.centre);
+  for (std::size_t k = 0; k < region.nodes.size(); ++k) {
+    const double weight = region.weights[static_cast<Eigen::Index>(k)];
+    if (weight == 0.0) continue;
+    const auto node = static_cast<std::size_t>(region.nodes[k]);
+    const Vector3d r = fe.nodes[node].position - region.centre;
+    const Matrix3d turn = weight * inverse * cross_matrix(r);
+    const Matrix3d move = weight * Matrix3d::Identity() - offset * turn;  // θ × s = −s × θ
+    for (int row = 0; row < 3; ++row) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int dof = fe.dofs.node_dofs[node][static_cast<std::size_t>(axis)];
+        if (move(row, axis) != 0.0) out.translation.emplace_back(row, dof, move(row, axis));
+        if (turn(row, axis) != 0.0) out.rotation.emplace_back(row, dof, turn(row, axis));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace buckens::fem
