@@ -10,6 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_modes.h"
+#include "buckens/linalg/conjugate_gradients.h"
 
 namespace buckens::body {
 
@@ -48,6 +49,13 @@ FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, Coupling
 void FlexiblePart::stiffen() {
   geometric = std::make_unique<const fem::GeometricStiffness>(fe);
   coupling.terms.stiffening = true;
+}
+
+linalg::Vector FlexiblePart::coordinates(const linalg::Vector& nodal_values) const {
+  if (recovery.is_identity()) return nodal_values;
+  const linalg::Vector momenta = recovery.transposed(full_mesh->M * nodal_values);
+  // The columns of a basis are M-orthonormal.
+  return is_reduced() ? momenta : linalg::conjugate_gradients(fe.M, momenta);
 }
 
 int Body::find_marker(const std::string& marker) const {

@@ -9,6 +9,7 @@
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/body/marker.h"
+#include "buckens/body/nodal_recovery.h"
 #include "buckens/body/sieve.h"
 #include "buckens/fem/fe_model.h"
 #include "buckens/fem/geometric_stiffness.h"
@@ -17,8 +18,9 @@ namespace buckens::body {
 
 /// The finite-element share of a body: everything with n rows.
 ///
-/// A reduced body is the same thing in other coordinates: `fe` then holds the projected matrices,
-/// `basis` leads from its coordinates to the nodal variables of mesh().
+/// A reduced body and one with rigid regions are the same thing in other coordinates: `fe` then
+/// holds the projected matrices, `recovery` leads from its coordinates to the nodal variables of
+/// mesh().
 struct FlexiblePart {
   fem::FeModel fe;  ///< of the equations of motion
   Sieve sieve;
@@ -27,8 +29,9 @@ struct FlexiblePart {
   CouplingChoice coupling;
   bool is_quasi_static = false;  ///< deforms without inertia of its own
 
-  std::shared_ptr<const fem::FeModel> full_mesh;  ///< of a reduced body, otherwise empty
-  linalg::Matrix basis;                           ///< of a reduced body: nodal variables d = Z η
+  /// Set where the coordinates are not the nodal variables, otherwise empty.
+  std::shared_ptr<const fem::FeModel> full_mesh;
+  NodalRecovery recovery;
   /// Stiffening by axial forces, empty unless asked for.
   std::unique_ptr<const fem::GeometricStiffness> geometric;
 
@@ -47,18 +50,14 @@ struct FlexiblePart {
 
   Eigen::Index num_dofs() const { return fe.M.rows(); }
   bool is_damped() const { return C.nonZeros() > 0; }
-  bool is_reduced() const { return full_mesh != nullptr; }
+  /// Whether the body is limited to a basis of vibrations and static shapes.
+  bool is_reduced() const { return recovery.is_dense(); }
   /// The mesh with its nodes and elements.
   const fem::FeModel& mesh() const { return full_mesh ? *full_mesh : fe; }
   /// Nodal variables of mesh() from those of the equations of motion.
-  linalg::Vector nodal(const linalg::Vector& d) const {
-    return is_reduced() ? linalg::Vector(basis * d) : d;
-  }
-  /// Coordinates that come nearest to nodal variables in the mass metric: Zᵀ M d.
-  linalg::Vector coordinates(const linalg::Vector& nodal_values) const {
-    return is_reduced() ? linalg::Vector(basis.transpose() * (full_mesh->M * nodal_values))
-                        : nodal_values;
-  }
+  linalg::Vector nodal(const linalg::Vector& d) const { return recovery.apply(d); }
+  /// Coordinates that come nearest to nodal variables in the mass metric: (TᵀMT)⁻¹TᵀM d.
+  linalg::Vector coordinates(const linalg::Vector& nodal_values) const;
 };
 
 /// A body of the model: a Buckens frame B that carries all large motion, and for flexible bodies a

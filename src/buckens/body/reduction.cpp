@@ -195,7 +195,7 @@ std::unique_ptr<FlexiblePart> reduce(const std::string& body, const FlexiblePart
                                      const ReducedBasis& basis) {
   const Matrix& Z = basis.Z;
   fem::FeModel fe;
-  fe.nodes = part.fe.nodes;
+  fe.nodes = part.mesh().nodes;
   fe.dofs.num_dofs = static_cast<int>(Z.cols());
   std::array<int, 6> none{};
   none.fill(-1);
@@ -208,8 +208,8 @@ std::unique_ptr<FlexiblePart> reduce(const std::string& body, const FlexiblePart
   if (part.is_quasi_static) drop_rates(fe);
   auto out = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);
   out->is_quasi_static = part.is_quasi_static;
-  out->full_mesh = std::make_shared<const fem::FeModel>(part.fe);
-  out->basis = Z;
+  out->full_mesh = part.full_mesh ? part.full_mesh : std::make_shared<const fem::FeModel>(part.fe);
+  out->recovery = part.recovery.of(Z);
   out->rows = Matrix(part.rows * Z).sparseView();
   out->num_interface_rows = part.num_interface_rows;
   return out;

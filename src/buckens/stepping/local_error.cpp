@@ -17,15 +17,17 @@ namespace {
 // is taken, so that a wild guess does not make later steps careless.
 constexpr double kTrusted = 0.1;
 
-/// Length that makes each nodal variable a displacement: rotations count by the body's size.
+/// Length that makes each nodal variable a displacement: rotations count by the body's size. That
+/// of another coordinate is the largest displacement in its shape.
 Vector lengths_of(const body::Body& body) {
-  Vector out = Vector::Ones(body.num_dofs());
-  for (const auto& dofs : body.flexible->fe.dofs.node_dofs) {
+  const body::FlexiblePart& part = *body.flexible;
+  Vector out = Vector::Ones(part.mesh().dofs.num_dofs);
+  for (const auto& dofs : part.mesh().dofs.node_dofs) {
     for (std::size_t k = 3; k < 6; ++k) {
       if (dofs[k] >= 0 && dofs[k] < out.size()) out[dofs[k]] = body.length_scale();
     }
   }
-  return out;
+  return part.recovery.column_sizes(out);
 }
 
 }  // namespace

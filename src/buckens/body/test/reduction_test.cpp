@@ -67,7 +67,7 @@ TEST_P(Reduction, WithAllModesIsTheFullBody) {
   const auto reduced = reduce("thing", *full, basis);
   EXPECT_EQ(reduced->num_dofs(), elastic);
   EXPECT_EQ(reduced->sieve.rank(), 0);
-  const Matrix& Z = reduced->basis;
+  const Matrix& Z = reduced->recovery.dense();
   EXPECT_LE((full->sieve.P().transpose() * Z).norm(), 1e-12);
   EXPECT_LE((Z.transpose() * (full->fe.M * Z) - Matrix::Identity(elastic, elastic)).norm(), 1e-11);
   const Matrix K = Z.transpose() * (full->fe.K * Z);
@@ -147,7 +147,8 @@ TEST_P(Reduction, QuasiStaticBodiesHaveNoInertiaOfTheirOwn) {
   // Centrifugal loads are answered as by the full mesh.
   const ElasticInverse inverse("thing", full->fe, full->sieve, kLength);
   const Matrix exact = inverse.solve_checked(full->invariants.centrifugal_patterns());
-  const Matrix found = reduced->basis * reduced->fe.K.diagonal().cwiseInverse().asDiagonal() *
+  const Matrix found = reduced->recovery.dense() *
+                       reduced->fe.K.diagonal().cwiseInverse().asDiagonal() *
                        reduced->invariants.centrifugal_patterns();
   EXPECT_LE((found - exact).norm(), 1e-9 * exact.norm());
 }
