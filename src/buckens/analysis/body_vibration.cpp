@@ -67,11 +67,11 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
               modes.factor_entries,
               modes.condition,
               took.count()};
-  const StrainEnergyGroups groups(part.fe);
+  const StrainEnergyGroups groups(part.mesh());
   out.energy_groups = groups.names();
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {
-    const linalg::Vector& shape = modes.shapes.col(k);
-    const double largest = largest_motion(part.fe, shape, size);
+    const linalg::Vector shape = part.nodal(modes.shapes.col(k));
+    const double largest = largest_motion(part.mesh(), shape, size);
     Vibration v;
     v.square = modes.omega[k] * modes.omega[k];
     v.frequency = modes.omega[k] / (2.0 * std::numbers::pi);

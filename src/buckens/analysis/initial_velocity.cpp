@@ -78,15 +78,15 @@ class Setter {
   Vector field(const body::Body& part) const {
     const model::NodalVelocitySpec& laws = *spec_.nodal_velocity;
     const model::PositionLaw* law[6] = {&laws.x, &laws.y, &laws.z, &laws.rx, &laws.ry, &laws.rz};
-    const fem::FeModel& fe = part.flexible->fe;
-    Vector out = Vector::Zero(part.num_dofs());
+    const fem::FeModel& fe = part.flexible->mesh();
+    Vector out = Vector::Zero(fe.M.rows());
     for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
       for (std::size_t k = 0; k < 6; ++k) {
         const int dof = fe.dofs.node_dofs[node][k];
         if (dof >= 0) out[dof] = (*law[k])(fe.nodes[node].position);
       }
     }
-    return out;
+    return part.flexible->coordinates(out);
   }
 
   /// Rigid motion of each part's field goes to its frame, less that of the whole.

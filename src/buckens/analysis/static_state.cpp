@@ -47,9 +47,10 @@ void set_static_state(const StaticPoint& point, const dynamics::Forces& forces,
 double largest_nodal_rotation(const body::Body& body, const Vector& d) {
   double largest = 0.0;
   if (!body.is_flexible()) return largest;
-  for (const auto& node : body.flexible->fe.dofs.node_dofs) {
+  const Vector nodal = body.flexible->nodal(d);
+  for (const auto& node : body.flexible->mesh().dofs.node_dofs) {
     for (std::size_t k = 3; k < 6; ++k) {
-      if (node[k] >= 0) largest = std::max(largest, std::abs(d[node[k]]));
+      if (node[k] >= 0) largest = std::max(largest, std::abs(nodal[node[k]]));
     }
   }
   return largest;

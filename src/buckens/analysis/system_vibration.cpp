@@ -151,7 +151,7 @@ double SystemVibrations::largest_motion_of(const std::vector<BodyShape>& shape) 
       for (const body::Marker& marker : body.markers) see(marker.X_BF.p, Vector3d::Zero());
       continue;
     }
-    const fem::FeModel& fe = body.flexible->fe;
+    const fem::FeModel& fe = body.flexible->mesh();
     for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
       Vector3d u = Vector3d::Zero(), theta = Vector3d::Zero();
       for (int a = 0; a < 3; ++a) {
@@ -185,7 +185,9 @@ void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, c
   for (const double energy : v.energy_shares) sum += energy;
   for (double& energy : v.energy_shares) energy = sum != 0.0 ? energy / sum : 0.0;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    v.shape.push_back({pencil.frame_part(b, x), pencil.nodal_part(b, x)});
+    Vector d = pencil.nodal_part(b, x);
+    if (model_.bodies[b].is_flexible()) d = model_.bodies[b].flexible->nodal(d);
+    v.shape.push_back({pencil.frame_part(b, x), std::move(d)});
   }
   const double largest = largest_motion_of(v.shape);
   v.generalised_mass = x.dot(pencil.M() * x) / (largest * largest);

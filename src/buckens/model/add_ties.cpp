@@ -47,7 +47,8 @@ class TieMaker {
   }
 
   bool has_rotations(const fem::PartPlace& copy) const {
-    const auto& dofs = body(copy).flexible->fe.dofs.node_dofs[static_cast<std::size_t>(copy.index)];
+    const auto& dofs =
+        body(copy).flexible->mesh().dofs.node_dofs[static_cast<std::size_t>(copy.index)];
     return std::any_of(dofs.begin() + 3, dofs.end(), [](int dof) { return dof >= 0; });
   }
 
@@ -76,7 +77,7 @@ class TieMaker {
     joints::Placement placement = find_.placement(joint.first, joint.second);
     // Solids keep their variables across the plane of a planar model, and must not part there.
     const auto& dofs =
-        body(first).flexible->fe.dofs.node_dofs[static_cast<std::size_t>(first.index)];
+        body(first).flexible->mesh().dofs.node_dofs[static_cast<std::size_t>(first.index)];
     if (std::all_of(dofs.begin(), dofs.begin() + 3, [](int dof) { return dof >= 0; })) {
       placement.planar.reset();
     }
@@ -87,7 +88,7 @@ class TieMaker {
   void tie_straight(const fem::PartPlace& first, const fem::PartPlace& second) {
     Joint joint = make(joints::JointType::fixed, first, second);
     joints::Placement placement = find_.placement(joint.first, joint.second);
-    const fem::FeModel& fe = body(first).flexible->fe;
+    const fem::FeModel& fe = body(first).flexible->mesh();
     for (const fem::LineElement& line : fem::line_elements(fe)) {
       if (line.a != first.index && line.b != first.index) continue;
       placement.axis_F = fe.nodes[static_cast<std::size_t>(line.b)].position -

@@ -99,7 +99,7 @@ void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape
 const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
   if (whole.is_divided()) return whole.mesh.get();
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
-  return body.is_flexible() ? &body.flexible->fe : nullptr;
+  return body.is_flexible() ? &body.flexible->mesh() : nullptr;
 }
 
 Geometry model_geometry(const model::Model& model) {

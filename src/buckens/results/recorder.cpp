@@ -21,10 +21,10 @@ Recorder::Recorder(const model::BuiltModel& built, const dynamics::MassMetric& m
                    bool has_redundant_joints)
     : built_(built), metric_(metric), has_redundant_joints_(has_redundant_joints) {
   for (const body::Body& body : built.model.bodies) {
-    recoveries_.push_back(body.is_flexible() ? std::make_unique<fem::Recovery>(body.flexible->fe)
-                                             : nullptr);
-    const bool has_solids = body.is_flexible() && fem::num_solids(body.flexible->fe) > 0;
-    solids_.push_back(has_solids ? std::make_unique<fem::SolidRecovery>(body.flexible->fe)
+    recoveries_.push_back(
+        body.is_flexible() ? std::make_unique<fem::Recovery>(body.flexible->mesh()) : nullptr);
+    const bool has_solids = body.is_flexible() && fem::num_solids(body.flexible->mesh()) > 0;
+    solids_.push_back(has_solids ? std::make_unique<fem::SolidRecovery>(body.flexible->mesh())
                                  : nullptr);
   }
   for (std::size_t k = 0; k < built.description.output.sensors.size(); ++k) {
@@ -130,8 +130,8 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
     }
     const auto b = static_cast<std::size_t>(whole.first);
     if (!recoveries_[b]) continue;
-    for (const auto& dofs : now.model.bodies[b].flexible->fe.dofs.node_dofs) {
-      for (const int dof : dofs) values.push_back(dof >= 0 ? now.state.bodies[b].d[dof] : 0.0);
+    for (const auto& dofs : now.model.bodies[b].flexible->mesh().dofs.node_dofs) {
+      for (const int dof : dofs) values.push_back(dof >= 0 ? now.nodal[b][dof] : 0.0);
     }
     const auto& mises = now.solid_stresses[b];
     for (Eigen::Index e = 0; e < mises.cols(); ++e) values.push_back(mises(fem::kMises, e));
@@ -145,7 +145,8 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
 Record Recorder::record(const model::State& state, WorkBalance work,
                         const std::optional<dynamics::Energy>& energy) {
   const model::Model& model = built_.model;
-  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, work, {}};
+  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {},
+                  work,  {}};
   for (const model::WholeBody& whole : model.wholes) {
     now.wholes.push_back(model::whole_motion(model, whole, state));
   }
@@ -156,14 +157,16 @@ Record Recorder::record(const model::State& state, WorkBalance work,
     lambda = dynamics::least_multipliers(model, metric_, constraints.rows, lambda);
   }
   now.joint_wrenches = joint_wrenches(model, now.motions, state.t, lambda);
+  now.nodal.resize(model.bodies.size());
   now.section_forces.resize(model.bodies.size());
   now.stresses.resize(model.bodies.size());
   now.solid_stresses.resize(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!recoveries_[b]) continue;
-    now.section_forces[b] = recoveries_[b]->section_forces(state.bodies[b].d);
+    now.nodal[b] = model.bodies[b].flexible->nodal(state.bodies[b].d);
+    now.section_forces[b] = recoveries_[b]->section_forces(now.nodal[b]);
     now.stresses[b] = recoveries_[b]->stresses(now.section_forces[b]);
-    if (solids_[b]) now.solid_stresses[b] = solids_[b]->stresses(state.bodies[b].d);
+    if (solids_[b]) now.solid_stresses[b] = solids_[b]->stresses(now.nodal[b]);
   }
   now.energy = energy ? *energy : dynamics::energy(model, state);
   if (!started_) first_energy_ = now.energy.total();
