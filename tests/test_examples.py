@@ -107,6 +107,26 @@ def test_double_pendulum_follows_the_reference(run):
     assert r.summary["residuals"]["position"] < 1e-12
 
 
+def test_block_pendulum_falls_like_a_rigid_one_that_bends_a_little(run):
+    coarse = run("block_pendulum/block_pendulum")
+    finer = run("block_pendulum/block_pendulum", bodies__block__mesh__box__divisions="[36,2,2]")
+    # Rigid block about the middle of its end face: I/m = 1/3 + 0.1^2/12.
+    def rate(y):
+        return numpy.array([y[1], -G * 0.5 / (1.0 / 3.0 + 0.01 / 12.0) * math.cos(y[0])])
+    y, h = numpy.zeros(2), 1e-4
+    for _ in range(1000):
+        k1 = rate(y)
+        k2 = rate(y + 0.5 * h * k1)
+        k3 = rate(y + 0.5 * h * k2)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(y + h * k3))
+    # The tip bends back by some w L^4 / (100 E I) = 4e-6 m, and the first vibration swings about that.
+    for r in (coarse, finer):
+        assert r.at("tip.y", 0.1) == pytest.approx(math.sin(y[0]), abs=2e-5)
+        assert numpy.abs(r["tip.z"]).max() < 1e-9
+        assert r.summary["bodies"]["block"]["factorisations"] == 1
+    assert 1e-9 < numpy.abs(coarse.vector("tip") - finer.vector("tip")).max() < 5e-6
+
+
 def test_flexible_pendulum_follows_the_reference(run):
     r = run("flexible_pendulum/flexible_pendulum", simulation__duration="0.3 s",
             output__every="50 ms")

@@ -67,12 +67,39 @@ std::string markers_text(const ModelReport& report) {
   return entries.empty() ? "" : "markers\n" + text_list(entries);
 }
 
+std::string interfaces_table(const ModelReport& report) {
+  std::vector<std::vector<std::string>> rows = {
+      {"interface", "kind", "nodes", "area [m^2]", "centre [m]", "carries"}};
+  for (const BodyReport& body : report.bodies) {
+    for (const analysis::InterfaceReport& interface : body.interfaces) {
+      const Eigen::Vector3d& c = interface.centre;
+      rows.push_back(
+          {body.name + "/" + interface.name, interface.is_rigid ? "rigid" : "average",
+           fmt::to_string(interface.nodes), interface.area > 0.0 ? number(interface.area) : "-",
+           triple(c.x(), c.y(), c.z()), interface.carries_moment ? "forces, moments" : "forces"});
+    }
+  }
+  return rows.size() == 1 ? "" : text_table(rows);
+}
+
 Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json json_of(const Eigen::Matrix3d& matrix) {
   Json rows = Json::array();
   for (int i = 0; i < 3; ++i) rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
   return rows;
+}
+
+Json json_of(const std::vector<analysis::InterfaceReport>& interfaces) {
+  Json out = Json::object();
+  for (const analysis::InterfaceReport& interface : interfaces) {
+    out[interface.name] = {{"kind", interface.is_rigid ? "rigid" : "average"},
+                           {"nodes", interface.nodes},
+                           {"area", interface.area},
+                           {"centre", json_of(interface.centre)},
+                           {"carries_moment", interface.carries_moment}};
+  }
+  return out;
 }
 
 Json json_of(const BodyReport& body) {
@@ -87,14 +114,16 @@ Json json_of(const BodyReport& body) {
           {"frames", body.frames},
           {"frame_coordinates", body.frame_coordinates},
           {"frequencies", body.frequencies},
-          {"markers", body.markers}};
+          {"markers", body.markers},
+          {"interfaces", json_of(body.interfaces)}};
 }
 
 }  // namespace
 
 std::string report_text(const std::string& title, const ModelReport& report) {
   std::string out = title.empty() ? "" : title + '\n';
-  out += bodies_table(report) + frequencies_text(report) + markers_text(report);
+  out += bodies_table(report) + frequencies_text(report) + markers_text(report) +
+         interfaces_table(report);
   out += "mechanism\n";
   std::vector<std::pair<std::string, std::string>> entries = {
       {"joints", fmt::format("{} with {}, {} redundant", counted(report.joints, "joint"),

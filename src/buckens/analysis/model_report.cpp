@@ -52,6 +52,11 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
   for (int b = whole.first; b < whole.first + whole.count; ++b) {
     add_body(model.bodies[static_cast<std::size_t>(b)], out);
   }
+  for (const model::InterfaceRegion& interface : whole.interfaces) {
+    out.interfaces.push_back({interface.name, interface.is_rigid, interface.region.turns(),
+                              static_cast<int>(interface.region.nodes.size()),
+                              interface.region.area, interface.region.centre});
+  }
   if (whole.is_divided()) {
     out.inertia = whole.mesh->shape.J0;
     describe(whole.mesh.get(), modes, out);
@@ -59,7 +64,7 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
   }
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   out.inertia = body.J0;
-  describe(body.is_flexible() ? &body.flexible->fe : nullptr, modes, out);
+  describe(body.is_flexible() ? &body.flexible->mesh() : nullptr, modes, out);
   return out;
 }
 

@@ -9,6 +9,16 @@
 
 namespace buckens::analysis {
 
+/// What can be said of an interface without running.
+struct InterfaceReport {
+  std::string name;
+  bool is_rigid = false;
+  bool carries_moment = true;
+  int nodes = 0;
+  double area = 0;         ///< [m²]
+  Eigen::Vector3d centre;  ///< model axes [m]
+};
+
 /// What can be said of one body without running.
 struct BodyReport {
   std::string name;
@@ -22,6 +32,7 @@ struct BodyReport {
   int frame_coordinates = 0;
   std::vector<double> frequencies;   ///< lowest elastic free-free frequencies [Hz]
   std::vector<std::string> markers;  ///< names that joints and sensors can use
+  std::vector<InterfaceReport> interfaces;
 };
 
 /// What can be said of a model without running: the content of `buckens check`.

@@ -13,6 +13,7 @@
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/frame_division.h"
 #include "buckens/fem/mesh_spec.h"
+#include "buckens/fem/region_spec.h"
 #include "buckens/fem/structure_spec.h"
 
 namespace buckens::body {
@@ -98,6 +99,43 @@ struct MarkerSpec {
               .like("end")
               .otherwise("give this or `position`"));
     visit(base::field("orientation", orientation, "orientation of the marker in model axes")
+              .like("{axis: [0, 0, 1], angle: 30 deg}")
+              .otherwise("parallel to the model axes"));
+  }
+};
+
+/// How the nodes of an interface move with its frame.
+enum class InterfaceKind {
+  average,  ///< the frame follows the mean motion of the nodes, which stay free to deform
+  rigid,    ///< the nodes move as a rigid body with the frame
+};
+
+constexpr std::array<const char*, 2> choice_names(InterfaceKind) { return {"average", "rigid"}; }
+
+/// A region of a mesh of solids with a frame that is used like a marker.
+struct InterfaceSpec {
+  std::string name;
+  SourceLocation where;
+  fem::RegionSpec region;
+  InterfaceKind kind = InterfaceKind::average;
+  std::optional<Eigen::Vector3d> at;  ///< model axes [m]
+  std::optional<OrientationSpec> orientation;
+
+  Eigen::Quaterniond rotation() const {
+    return orientation ? orientation->rotation() : Eigen::Quaterniond::Identity();
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(region, "which nodes belong to it").required());
+    visit(base::field("kind", kind,
+                      "average: the frame follows the mean displacement and rotation of the nodes "
+                      "and shares its forces out to them; rigid: the nodes move as a rigid body"));
+    visit(base::field("at", at, "place of the frame in model axes")
+              .in(base::kLength)
+              .like("[0, 0, 0]")
+              .otherwise("the centre of the region"));
+    visit(base::field("orientation", orientation, "orientation of the frame in model axes")
               .like("{axis: [0, 0, 1], angle: 30 deg}")
               .otherwise("parallel to the model axes"));
   }
@@ -205,6 +243,7 @@ struct BodySpec {
   std::string like;
   PlacementSpec at;
   std::vector<MarkerSpec> markers;
+  std::vector<InterfaceSpec> interfaces;
   FrameDivision frames;
   CouplingSpec coupling;
   Reduction reduction = Reduction::none;
@@ -219,6 +258,9 @@ struct BodySpec {
     visit(base::field("at", at, "where the model axes stand in the world at t = 0"));
     visit(base::field("markers", markers, "named points for joints, loads and sensors")
               .like("{pin: {position: [100 mm, 0, 0]}}"));
+    visit(base::field("interfaces", interfaces,
+                      "regions of a mesh of solids that joints, loads and sensors use like markers")
+              .like("{bearing: {face: x0}}"));
     visit(base::field("frames", frames,
                       "number of body frames that carry the mesh, each its own part of it")
               .positive()

@@ -199,6 +199,16 @@ Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
   return mass_problem(spec.masses, names_of(spec.nodes));
 }
 
+Finding problem(const fem::CylinderSelection& spec, const ReadContext&) {
+  if ((spec.to - spec.from).norm() > 0.0) return std::nullopt;
+  return Problem{"to", "the cylinder has the length zero: \"from\" and \"to\" are the same point"};
+}
+
+Finding problem(const fem::PlaneSelection& spec, const ReadContext&) {
+  if (spec.normal.norm() > 0.0) return std::nullopt;
+  return Problem{"normal", "a normal cannot be [0, 0, 0]; give its direction"};
+}
+
 Finding problem(const body::CouplingSpec& spec, const ReadContext&) {
   if (spec.level == body::CouplingLevel::automatic && !spec.drop.empty()) {
     return Problem{"drop", "`auto` chooses the terms itself; drop terms from another level"};

@@ -46,6 +46,8 @@ Finding problem(const fem::TubeMeshSpec& spec, const ReadContext& context);
 Finding problem(const fem::DiscMeshSpec& spec, const ReadContext& context);
 Finding problem(const fem::OrthotropicSpec& spec, const ReadContext& context);
 Finding problem(const fem::MaterialSpec& spec, const ReadContext& context);
+Finding problem(const fem::CylinderSelection& spec, const ReadContext& context);
+Finding problem(const fem::PlaneSelection& spec, const ReadContext& context);
 Finding problem(const body::OrientationSpec& spec, const ReadContext& context);
 Finding problem(const body::CouplingSpec& spec, const ReadContext& context);
 Finding problem(const body::MarkerSpec& spec, const ReadContext& context);

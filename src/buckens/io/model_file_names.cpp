@@ -54,6 +54,13 @@ void check_markers(const body::BodySpec& body, const ReadPlace& place) {
                                    place.path, marker.name));
     }
   }
+  for (const auto& interface : body.interfaces) {
+    if (std::count(places.begin(), places.end(), interface.name) == 1) continue;
+    throw InputError(interface.where,
+                     fmt::format("{}.interfaces: the name \"{}\" is taken by a node or "
+                                 "predefined marker; choose another",
+                                 place.path, interface.name));
+  }
   for (const auto& marker : body.markers) {
     std::erase(places, marker.name);
   }
@@ -105,6 +112,7 @@ std::vector<std::string> marker_names(const body::BodySpec& body) {
     const auto names = fem::named_nodes(*mesh);
     out.insert(out.end(), names.begin(), names.end());
   }
+  for (const auto& interface : body.interfaces) out.push_back(interface.name);
   for (const auto& marker : body.markers) out.push_back(marker.name);
   return out;
 }
@@ -143,6 +151,21 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) 
   return out;
 }
 
+namespace {
+
+/// Puts those of another body before one's own; those of the same name are replaced.
+template <class Named>
+void take_over(const std::vector<Named>& others, std::vector<Named>& own) {
+  std::vector<Named> all = others;
+  for (const Named& entry : own) {
+    std::erase_if(all, [&](const auto& m) { return m.name == entry.name; });
+    all.push_back(entry);
+  }
+  own = std::move(all);
+}
+
+}  // namespace
+
 void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadContext& context) {
   const auto& reserved = base::reserved_names();
   if (!base::is_identifier(parameter.name)) {
@@ -167,18 +190,17 @@ void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& con
                        base::suggestion(like->body, names_of(bodies))));
     }
     body.like = other->like.empty() ? other->name : other->like;
-    const std::vector<body::MarkerSpec> own = std::move(body.markers);
-    body.markers = other->markers;
-    for (const auto& marker : own) {
-      std::erase_if(body.markers, [&](const auto& m) { return m.name == marker.name; });
-      body.markers.push_back(marker);
-    }
+    take_over(other->markers, body.markers);
+    take_over(other->interfaces, body.interfaces);
     if (!body.damping) body.damping = other->damping;
     // The variant's old content is destroyed here; nothing of it is used from now on.
     body.kind = std::variant(other->kind);
   }
   if (body.is_rigid() && body.damping) {
     fail(place, "a rigid body has no damping of its own; remove the key \"damping\"");
+  }
+  if (body.is_rigid() && !body.interfaces.empty()) {
+    fail(place, "a rigid body has no mesh and no interfaces; use `markers`");
   }
   check_markers(body, place);
 }

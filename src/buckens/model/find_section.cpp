@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/find_section.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -49,6 +51,17 @@ void find_at(const MeshPlace& place, const fem::FeModel& fe, SensorPlace& found)
   found.solids = fem::solids_at_nodes(fe)[static_cast<std::size_t>(place.node)];
 }
 
+/// The solids that touch any of the nodes.
+void find_around(const std::vector<int>& nodes, const fem::FeModel& fe, SensorPlace& found) {
+  const auto solids = fem::solids_at_nodes(fe);
+  for (const int node : nodes) {
+    const auto& own = solids[static_cast<std::size_t>(node)];
+    found.solids.insert(found.solids.end(), own.begin(), own.end());
+  }
+  std::sort(found.solids.begin(), found.solids.end());
+  found.solids.erase(std::unique(found.solids.begin(), found.solids.end()), found.solids.end());
+}
+
 }  // namespace
 
 void find_section(const SectionPlace& kind, bool of_forces, MarkerFinder& find,
@@ -62,10 +75,12 @@ void find_section(const SectionPlace& kind, bool of_forces, MarkerFinder& find,
                                  "exist on meshes only",
                                  kind.of.text));
   }
-  const fem::FeModel& fe = model.bodies[b].flexible->fe;
+  const fem::FeModel& fe = model.bodies[b].flexible->mesh();
   const WholeBody& whole = model.wholes[static_cast<std::size_t>(model.whole_of(found.body))];
   if (kind.element) {
     find_numbered(kind, whole, fe, found);
+  } else if (const auto* interface = find.table(found.body).interface(kind.of.marker)) {
+    find_around(interface->region.nodes, fe, found);
   } else if (!whole.is_divided() || !kind.of.marker.empty()) {
     const auto place = find.table(found.body).place(kind.of);
     if (place) find_at(*place, fe, found);

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
+#include "buckens/model/interface_regions.h"
 
 namespace buckens::model {
 
@@ -63,10 +64,15 @@ void MarkerFinder::require_moment(const MarkerId& id, const std::string& what,
                                   const SourceLocation& where) const {
   const body::Marker* marker = on_body(id);
   if (marker == nullptr || marker->carries_moment()) return;
-  throw ModelError(where, fmt::format("{}: \"{}\" cannot carry a moment, bars and solids have no "
-                                      "rotations there; use spherical joints at several nodes or "
-                                      "forces, or join a beam to the node",
-                                      what, id.text));
+  const MarkerTable& table = *tables_[static_cast<std::size_t>(id.body)];
+  const InterfaceRegion* interface = table.interface(marker->name);
+  throw ModelError(
+      where, fmt::format("{}: \"{}\" cannot carry a moment, {}", what, id.text,
+                         interface != nullptr
+                             ? why_no_moment(*interface)
+                             : "bars and solids have no rotations there; use an interface that "
+                               "spans a surface, spherical joints at several nodes or forces, or "
+                               "join a beam to the node"));
 }
 
 void MarkerFinder::require_two_bodies(const MarkerId& first, const MarkerId& second,

@@ -52,6 +52,7 @@ MarkerTable::MarkerTable(const body::BodySpec& spec, body::Body& body, const Nam
 std::vector<std::string> MarkerTable::names() const {
   std::vector<std::string> out = {"com", "origin"};
   if (mesh_ != nullptr) out.insert(out.end(), mesh_->names.begin(), mesh_->names.end());
+  for (const body::InterfaceSpec& interface : spec_.interfaces) out.push_back(interface.name);
   for (const body::MarkerSpec& marker : spec_.markers) out.push_back(marker.name);
   return out;
 }
@@ -62,7 +63,7 @@ std::string MarkerTable::suggestion(const std::string& name) const {
 }
 
 std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
-  const fem::FeModel& fe = body_.flexible->fe;
+  const fem::FeModel& fe = body_.flexible->mesh();
   const auto lines = fem::line_elements(fe);
   for (std::size_t e = 0; e < lines.size(); ++e) {
     const Vector3d a = fe.nodes[static_cast<std::size_t>(lines[e].a)].position;
@@ -83,21 +84,24 @@ std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
 
 MarkerTable::Target MarkerTable::named(const std::string& name, const base::MarkerRef& ref) const {
   if (name.empty() || name == "com") {
-    if (!whole_com_) return {body_.com, Eigen::Quaterniond::Identity(), {}};
-    return {*whole_com_, Eigen::Quaterniond::Identity(), place_at(*whole_com_)};
+    if (!whole_com_) return {body_.com, Eigen::Quaterniond::Identity(), {}, nullptr};
+    return {*whole_com_, Eigen::Quaterniond::Identity(), place_at(*whole_com_), nullptr};
   }
   if (mesh_ != nullptr) {
     if (const auto place = mesh_->find(name)) {
-      const fem::FeModel& fe = body_.flexible->fe;
+      const fem::FeModel& fe = body_.flexible->mesh();
       const fem::PointRows rows = place->node >= 0 ? fem::node_rows(fe, place->node)
                                                    : fem::point_rows(fe, place->element, place->xi);
-      return {rows.position, Eigen::Quaterniond::Identity(), place};
+      return {rows.position, Eigen::Quaterniond::Identity(), place, nullptr};
+    }
+    if (const InterfaceRegion* interface = mesh_->find_interface(name)) {
+      return {interface->at, interface->orientation, {}, interface};
     }
   }
   if (name == "origin") {
     const Vector3d origin = Vector3d::Zero();
     return {origin, Eigen::Quaterniond::Identity(),
-            mesh_ != nullptr ? place_at(origin) : std::nullopt};
+            mesh_ != nullptr ? place_at(origin) : std::nullopt, nullptr};
   }
   throw InputError(ref.where,
                    fmt::format("body \"{}\" has no marker \"{}\"{}; markers there: {}", spec_.name,
@@ -114,7 +118,15 @@ std::optional<MeshPlace> MarkerTable::find_place(const std::string& name) const 
   return name == "origin" ? place_at(Vector3d::Zero()) : std::nullopt;
 }
 
-bool MarkerTable::holds(const std::string& name) const { return find_place(name).has_value(); }
+const InterfaceRegion* MarkerTable::interface(const std::string& marker) const {
+  if (mesh_ == nullptr) return nullptr;
+  const body::MarkerSpec* own = base::find_named(spec_.markers, marker);
+  return mesh_->find_interface(own != nullptr ? own->at : marker);
+}
+
+bool MarkerTable::holds(const std::string& name) const {
+  return interface(name) != nullptr || find_place(name).has_value();
+}
 
 double MarkerTable::distance(const std::string& name) const {
   const body::MarkerSpec* own = base::find_named(spec_.markers, name);
@@ -138,8 +150,9 @@ int MarkerTable::cut_marker(int node) {
   const std::string name = fmt::format("#{}", node);
   const auto known = found_.find(name);
   if (known != found_.end()) return known->second;
-  const Vector3d position = body_.flexible->fe.nodes.at(static_cast<std::size_t>(node)).position;
-  return add(name, {position, Eigen::Quaterniond::Identity(), MeshPlace{node, -1, 0}});
+  const Vector3d position =
+      body_.flexible->mesh().nodes.at(static_cast<std::size_t>(node)).position;
+  return add(name, {position, Eigen::Quaterniond::Identity(), MeshPlace{node, -1, 0}, nullptr});
 }
 
 std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
@@ -147,7 +160,7 @@ std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
 }
 
 void MarkerTable::refuse_place(const body::MarkerSpec& marker) const {
-  const fem::FeModel& fe = body_.flexible->fe;
+  const fem::FeModel& fe = body_.flexible->mesh();
   const NearNode near = nearest_node(fe.nodes, *marker.position);
   const Vector3d& at = fe.nodes.at(static_cast<std::size_t>(near.node)).position;
   throw InputError(
@@ -164,7 +177,8 @@ MarkerTable::Target MarkerTable::target(const base::MarkerRef& ref) const {
   if (own == nullptr) return named(ref.marker, ref);
   Target target;
   if (own->position) {
-    target = {*own->position, {}, mesh_ != nullptr ? place_at(*own->position) : std::nullopt};
+    target = {
+        *own->position, {}, mesh_ != nullptr ? place_at(*own->position) : std::nullopt, nullptr};
     if (mesh_ != nullptr && !target.place) refuse_place(*own);
   } else {
     base::MarkerRef at = ref;
@@ -175,10 +189,22 @@ MarkerTable::Target MarkerTable::target(const base::MarkerRef& ref) const {
   return target;
 }
 
-void MarkerTable::add_rows(const std::vector<linalg::Triplet>& entries, int first) {
+void MarkerTable::add_entries(const std::vector<linalg::Triplet>& entries, int first) {
   for (const auto& entry : entries) {
     entries_.emplace_back(first + entry.row(), entry.col(), entry.value());
   }
+}
+
+std::pair<int, int> MarkerTable::add_rows(const fem::PointRows& rows) {
+  std::pair<int, int> first{num_rows_, -1};
+  add_entries(rows.translation, num_rows_);
+  num_rows_ += 3;
+  if (rows.has_rotation) {
+    first.second = num_rows_;
+    add_entries(rows.rotation, num_rows_);
+    num_rows_ += 3;
+  }
+  return first;
 }
 
 std::pair<int, int> MarkerTable::rows_at(const MeshPlace& place) {
@@ -186,26 +212,27 @@ std::pair<int, int> MarkerTable::rows_at(const MeshPlace& place) {
   if (const auto known = rows_of_place_.find(key); known != rows_of_place_.end()) {
     return known->second;
   }
-  const fem::FeModel& fe = body_.flexible->fe;
-  const fem::PointRows rows = place.node >= 0 ? fem::node_rows(fe, place.node)
-                                              : fem::point_rows(fe, place.element, place.xi);
-  std::pair<int, int> first{num_rows_, -1};
-  add_rows(rows.translation, num_rows_);
-  num_rows_ += 3;
-  if (rows.has_rotation) {
-    first.second = num_rows_;
-    add_rows(rows.rotation, num_rows_);
-    num_rows_ += 3;
-  }
-  rows_of_place_.emplace(key, first);
-  return first;
+  const fem::FeModel& fe = body_.flexible->mesh();
+  return rows_of_place_[key] =
+             add_rows(place.node >= 0 ? fem::node_rows(fe, place.node)
+                                      : fem::point_rows(fe, place.element, place.xi));
+}
+
+std::pair<int, int> MarkerTable::rows_of(const InterfaceRegion& interface) {
+  const auto known = rows_of_interface_.find(interface.name);
+  if (known != rows_of_interface_.end()) return known->second;
+  return rows_of_interface_[interface.name] =
+             add_rows(fem::region_rows(body_.flexible->mesh(), interface.region, interface.at));
 }
 
 int MarkerTable::add(const std::string& name, const Target& where) {
   body::Marker marker;
   marker.name = name;
   marker.X_BF = {where.position - body_.com, where.orientation};
-  if (where.place) {
+  if (where.interface != nullptr) {
+    std::tie(marker.translation_row, marker.rotation_row) = rows_of(*where.interface);
+    marker.node = nearest_of(where.interface->region.nodes, where.position);
+  } else if (where.place) {
     std::tie(marker.translation_row, marker.rotation_row) = rows_at(*where.place);
     marker.node = where.place->node;
   }
@@ -213,6 +240,15 @@ int MarkerTable::add(const std::string& name, const Target& where) {
   body_.markers.push_back(marker);
   found_.emplace(name, index);
   return index;
+}
+
+int MarkerTable::nearest_of(const std::vector<int>& nodes, const Vector3d& position) const {
+  const auto& all = body_.flexible->mesh().nodes;
+  const auto distance = [&](int node) {
+    return (all[static_cast<std::size_t>(node)].position - position).squaredNorm();
+  };
+  return *std::min_element(nodes.begin(), nodes.end(),
+                           [&](int a, int b) { return distance(a) < distance(b); });
 }
 
 int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
@@ -233,13 +269,14 @@ int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> MarkerTable::rows() const {
-  Eigen::SparseMatrix<double, Eigen::RowMajor> N(num_rows_, body_.num_dofs());
+  if (!body_.is_flexible()) return {};
+  Eigen::SparseMatrix<double, Eigen::RowMajor> N(num_rows_, body_.flexible->mesh().dofs.num_dofs);
   std::vector<linalg::Triplet> kept;
   for (const auto& entry : entries_) {
     if (entry.col() >= 0) kept.push_back(entry);
   }
   N.setFromTriplets(kept.begin(), kept.end());
-  return N;
+  return body_.flexible->recovery.rows(N);
 }
 
 }  // namespace buckens::model

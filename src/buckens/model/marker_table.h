@@ -32,6 +32,9 @@ class MarkerTable {
   /// Where on the mesh the marker lies; empty if it is fixed to the body frame.
   std::optional<MeshPlace> place(const base::MarkerRef& ref) const;
 
+  /// The interface that the marker is or stands at, null for all other places.
+  const InterfaceRegion* interface(const std::string& marker) const;
+
   /// Whether the named place lies on this mesh: in a divided body it may lie on another part.
   bool holds(const std::string& name) const;
   /// Least distance of a node from the named place [m]; HUGE_VAL where the name is unknown.
@@ -52,6 +55,7 @@ class MarkerTable {
     Eigen::Vector3d position;  // model axes
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
     std::optional<MeshPlace> place;
+    const InterfaceRegion* interface = nullptr;
   };
   Target target(const base::MarkerRef& ref) const;
   Target named(const std::string& name, const base::MarkerRef& ref) const;
@@ -61,8 +65,11 @@ class MarkerTable {
   std::optional<MeshPlace> find_place(const std::string& name) const;
   std::optional<MeshPlace> place_at(const Eigen::Vector3d& position) const;
   std::pair<int, int> rows_at(const MeshPlace& place);
+  std::pair<int, int> rows_of(const InterfaceRegion& interface);
+  std::pair<int, int> add_rows(const fem::PointRows& rows);
   int add(const std::string& name, const Target& where);
-  void add_rows(const std::vector<linalg::Triplet>& entries, int first);
+  int nearest_of(const std::vector<int>& nodes, const Eigen::Vector3d& position) const;
+  void add_entries(const std::vector<linalg::Triplet>& entries, int first);
 
   const body::BodySpec& spec_;
   body::Body& body_;
@@ -70,6 +77,7 @@ class MarkerTable {
   std::optional<Eigen::Vector3d> whole_com_;
   std::map<std::string, int> found_;
   std::map<std::tuple<int, int, double>, std::pair<int, int>> rows_of_place_;
+  std::map<std::string, std::pair<int, int>> rows_of_interface_;
   std::vector<linalg::Triplet> entries_;
   int num_rows_ = 0;
 };

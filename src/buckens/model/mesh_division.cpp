@@ -20,6 +20,27 @@ int num_cut_nodes(const MeshDivision& division) {
   return count;
 }
 
+/// Gives an interface to the first part that has all its nodes.
+void add_interface(const InterfaceRegion& interface,
+                   const std::vector<std::vector<fem::PartPlace>>& copies, MeshDivision& out) {
+  for (std::size_t p = 0; p < out.parts.size(); ++p) {
+    std::vector<int> nodes;
+    for (const int node : interface.region.nodes) {
+      for (const fem::PartPlace& copy : copies[static_cast<std::size_t>(node)]) {
+        if (copy.part == static_cast<int>(p)) nodes.push_back(copy.index);
+      }
+    }
+    if (nodes.size() < interface.region.nodes.size()) continue;
+    InterfaceRegion& own = out.parts[p].interfaces.emplace_back(interface);
+    own.region = fem::renumbered(interface.region, nodes);
+    return;
+  }
+  throw ModelError(fmt::format(
+      "the nodes of interface \"{}\" lie in several of its {} frames, and a frame cannot rest on "
+      "two of them; use fewer frames or a smaller region",
+      interface.name, out.parts.size()));
+}
+
 }  // namespace
 
 double usable_memory() {
@@ -76,6 +97,9 @@ MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision&
     } else {
       add(divided.lines[static_cast<std::size_t>(place.element)], false);
     }
+  }
+  for (const InterfaceRegion& interface : whole.interfaces) {
+    add_interface(interface, divided.nodes, out);
   }
   out.nodes = std::move(divided.nodes);
   out.lines = std::move(divided.lines);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/rigid_regions.h"
 #include "buckens/fem/assemble.h"
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
@@ -112,6 +113,7 @@ class Builder {
                                                spec.name));
     }
     meshes_[w] = std::make_unique<NamedStructure>(structure_from_spec(spec));
+    whole.interfaces = meshes_[w]->interfaces;
     if (spec.frames.is_one()) return;
     // The whole mesh comes first: it finds what is wrong with nodes and elements.
     auto mesh = std::make_shared<fem::FeModel>(fem::assemble(meshes_[w]->structure, model_.planar));
@@ -197,6 +199,7 @@ class Builder {
           std::make_unique<body::FlexiblePart>(body.name, std::move(fe), spec.coupling.choice());
       refuse_mechanisms(body);
       if (spec.geometric_stiffness) body.flexible->stiffen();
+      hold_rigid_interfaces(whole, *mesh, body);
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,
@@ -209,6 +212,29 @@ class Builder {
                             spatial::Pose{body.com, Eigen::Quaterniond::Identity()});
     tables_.push_back(std::make_unique<MarkerTable>(
         spec, body, mesh, whole.is_divided() ? std::optional(whole.com) : std::nullopt));
+  }
+
+  void hold_rigid_interfaces(const WholeBody& whole, const NamedStructure& mesh,
+                             body::Body& body) const {
+    std::vector<body::RigidRegion> regions;
+    for (const InterfaceRegion& interface : mesh.interfaces) {
+      if (!interface.is_rigid) continue;
+      regions.push_back({interface.name, interface.region.nodes, interface.region.centre});
+    }
+    if (regions.empty()) return;
+    if (whole.is_divided()) {
+      throw ModelError(
+          fmt::format("rigid interface \"{}\": a body with several frames can have "
+                      "`average` interfaces only; change its kind or remove `frames`",
+                      regions.front().name));
+    }
+    if (body.flexible->geometric) {
+      throw ModelError(fmt::format(
+          "geometric stiffness and the rigid interface \"{}\" exclude each other; make it "
+          "`average`, or give the body more `frames`",
+          regions.front().name));
+    }
+    body.flexible = body::with_rigid_regions(body.name, *body.flexible, regions);
   }
 
   void close_interfaces() {
@@ -258,11 +284,15 @@ class Builder {
     for (const body::BodySpec& spec : out_->description.bodies) {
       base::MarkerRef ref;
       ref.body = spec.name;
-      for (const body::MarkerSpec& marker : spec.markers) {
-        ref.marker = marker.name;
-        ref.where = marker.where;
-        find.marker(ref, false);
-      }
+      const auto find_all = [&](const auto& named) {
+        for (const auto& entry : named) {
+          ref.marker = entry.name;
+          ref.where = entry.where;
+          find.marker(ref, false);
+        }
+      };
+      find_all(spec.markers);
+      find_all(spec.interfaces);
     }
   }
 
@@ -275,7 +305,7 @@ class Builder {
         box.extend((model_.placed[b] * marker.X_BF).p);
       }
       if (!body.is_flexible()) continue;
-      for (const auto& node : body.flexible->fe.nodes) {
+      for (const auto& node : body.flexible->mesh().nodes) {
         box.extend(model_.placed[b] * Vector3d(node.position - body.com));
       }
     }

@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/generate_mesh.h"
+#include "buckens/model/interface_regions.h"
 
 namespace buckens::model {
 
@@ -173,6 +174,14 @@ std::optional<MeshPlace> NamedStructure::find(const std::string& name) const {
   return places[static_cast<std::size_t>(found - names.begin())];
 }
 
-NamedStructure structure_from_spec(const body::BodySpec& spec) { return Builder(spec).run(); }
+const InterfaceRegion* NamedStructure::find_interface(const std::string& name) const {
+  return base::find_named(interfaces, name);
+}
+
+NamedStructure structure_from_spec(const body::BodySpec& spec) {
+  NamedStructure out = Builder(spec).run();
+  out.interfaces = find_interfaces(spec, out);
+  return out;
+}
 
 }  // namespace buckens::model

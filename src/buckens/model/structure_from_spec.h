@@ -7,6 +7,7 @@
 
 #include "buckens/body/body_spec.h"
 #include "buckens/fem/structure.h"
+#include "buckens/model/interface_region.h"
 
 namespace buckens::model {
 
@@ -23,8 +24,11 @@ struct NamedStructure {
   std::vector<fem::BeamDivision> beams;  ///< one per beam of the file
   std::vector<std::string> names;        ///< of places: start, mid, end, nodes
   std::vector<MeshPlace> places;
+  std::vector<InterfaceRegion> interfaces;
 
   std::optional<MeshPlace> find(const std::string& name) const;
+  /// Null if there is none with this name.
+  const InterfaceRegion* find_interface(const std::string& name) const;
 };
 
 /// Turns a `beam`, `structure` or `mesh` of the model file into nodes and elements.

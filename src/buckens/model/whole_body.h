@@ -8,6 +8,7 @@
 #include "buckens/base/source_location.h"
 #include "buckens/body/marker.h"
 #include "buckens/fem/fe_model.h"
+#include "buckens/model/interface_region.h"
 
 namespace buckens::model {
 
@@ -35,6 +36,8 @@ struct WholeBody {
   std::vector<MeshCopy> nodes;   ///< first copy of each node of `mesh`
   std::vector<MeshCopy> lines;   ///< place of each line element of `mesh`
   std::vector<MeshCopy> solids;  ///< place of each solid element of `mesh`
+
+  std::vector<InterfaceRegion> interfaces;  ///< node numbers of the undivided mesh
 
   bool is_divided() const { return count > 1; }
 };

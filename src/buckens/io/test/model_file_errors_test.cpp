@@ -256,6 +256,37 @@ TEST(ModelFileErrors, OrthotropicMaterials) {
       "buckens: 1\nmaterials: {m: {rho: 7", "}}\nbodies: {}\n");
 }
 
+TEST(ModelFileErrors, Interfaces) {
+  const std::string unit = "box: {size: [1, 1, 1], divisions: [1, 1, 1]";
+  expect_messages(
+      {
+          {"{mesh: {" + unit + "}, material: m}, interfaces: {q: {kind: rigid}}}",
+           {"interfaces.q: one of these keys is missing: face, set, sphere, box, cylinder, plane"}},
+          {"{mesh: {" + unit + "}, material: m}, interfaces: {q: {face: x0, set: [centre]}}}",
+           {"only one of these keys"}},
+          {"{mesh: {" + unit + "}, material: m}, interfaces: {q: {face: x0, kind: stiff}}}",
+           {"interfaces.q.kind", "rigid"}},
+          {"{mesh: {" + unit + "}, material: m}, interfaces: {corner_000: {face: x0}}}",
+           {"bodies.a.interfaces: the name \"corner_000\" is taken"}},
+          {"{mesh: {" + unit +
+               "}, material: m}, markers: {q: {at: com}}, interfaces: {q: {face: x0}}}",
+           {"the name \"q\" is taken"}},
+          {"{rigid: {mass: 1}, interfaces: {q: {face: x0}}}",
+           {"a rigid body has no mesh and no interfaces"}},
+          {"{mesh: {" + unit +
+               "}, material: m}, interfaces: {q: {cylinder: {from: [1, 1, 1], to: [1, 1, 1], "
+               "radius: 1}}}}",
+           {"interfaces.q.cylinder.to", "length zero"}},
+          {"{mesh: {" + unit +
+               "}, material: m}, interfaces: {q: {plane: {point: [1, 1, 1], normal: [0, 0, 0]}}}}",
+           {"interfaces.q.plane.normal", "cannot be [0, 0, 0]"}},
+          {"{mesh: {" + unit +
+               "}, material: m}, interfaces: {q: {sphere: {center: [1, 1, 1], radius: -1}}}}",
+           {"interfaces.q.sphere.radius", "negative"}},
+      },
+      "buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: ", "}\n");
+}
+
 TEST(ModelFileErrors, Coupling) {
   expect_messages(
       {

@@ -48,7 +48,14 @@ bodies:
       box: {from: [2 m, 2 m, 0], size: [1 m, 0.2 m, 0.2 m], divisions: [4, 2, 2], element: hex8, integration: full}
       material: steel
       masses: [{at: centre, mass: 1 kg}]
-    markers: {corner: {at: corner_111}, middle: {position: [2.5 m, 2.1 m, 0.1 m]}}
+    markers: {corner: {at: corner_111}, middle: {position: [2.5 m, 2.1 m, 0.1 m]}, turned: {at: left, orientation: {axis: [1, 0, 0], angle: 10 deg}}}
+    interfaces:
+      left: {face: x0, kind: rigid, at: [2 m, 2.1 m, 50 mm], orientation: {axis: [0, 0, 1], angle: 30 deg}}
+      edge: {set: [corner_100, corner_101]}
+      lump: {sphere: {center: [3 m, 2.2 m, 0], radius: 60 mm, tolerance: 1 mm}}
+      top: {box: {from: [2 m, 2 m, 0.2 m], to: [3 m, 2.2 m, 0.2 m]}}
+      bore: {cylinder: {from: [2.5 m, 2 m, 0.1 m], to: [2.5 m, 2.2 m, 0.1 m], radius: 10 mm}}
+      cut: {plane: {point: [2.5 m, 0, 0], normal: [1, 0, 0]}}
   lump:
     structure:
       nodes: {a: [4, 0, 0], b: [5, 0, 0], c: [5, 1, 0], d: [4, 1, 0], e: [4, 0, 1], f: [5, 0, 1], g: [5, 1, 1], h: [4, 1, 1]}

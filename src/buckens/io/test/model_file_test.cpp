@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -103,6 +104,29 @@ TEST(ModelFile, Solids) {
       std::get<fem::BoxMeshSpec>(std::get<fem::MeshSpec>(entry(finer.bodies, "block").kind).shape)
           .divisions[0],
       8);
+}
+
+TEST(ModelFile, Interfaces) {
+  const auto& block = entry(sample().bodies, "block");
+  ASSERT_EQ(block.interfaces.size(), 6u);
+  const body::InterfaceSpec& left = entry(block.interfaces, "left");
+  EXPECT_EQ(std::get<fem::NamedFaceSpec>(left.region).name, "x0");
+  EXPECT_EQ(left.kind, body::InterfaceKind::rigid);
+  EXPECT_EQ(*left.at, Eigen::Vector3d(2, 2.1, 0.05));
+  EXPECT_NEAR(left.rotation().z(), std::sin(std::numbers::pi / 12), 1e-15);
+  const body::InterfaceSpec& edge = entry(block.interfaces, "edge");
+  EXPECT_EQ(edge.kind, body::InterfaceKind::average);
+  EXPECT_THAT(std::get<fem::NodeSetSpec>(edge.region).nodes,
+              testing::ElementsAre("corner_100", "corner_101"));
+  const auto& lump = std::get<fem::SphereSelection>(entry(block.interfaces, "lump").region);
+  EXPECT_DOUBLE_EQ(lump.radius, 0.06);
+  EXPECT_DOUBLE_EQ(*lump.tolerance, 1e-3);
+  EXPECT_EQ(std::get<fem::BoxSelection>(entry(block.interfaces, "top").region).to.z(), 0.2);
+  const auto& bore = std::get<fem::CylinderSelection>(entry(block.interfaces, "bore").region);
+  EXPECT_EQ(bore.to, Eigen::Vector3d(2.5, 2.2, 0.1));
+  EXPECT_FALSE(bore.tolerance);
+  EXPECT_EQ(std::get<fem::PlaneSelection>(entry(block.interfaces, "cut").region).normal,
+            Eigen::Vector3d::UnitX());
 }
 
 TEST(ModelFile, RoundSolidsAndOrthotropicMaterials) {
