@@ -110,3 +110,59 @@ def test_joints_that_hold_a_direction_need_rotations(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(hinge)
     buckens("run", "model.yaml", "-o", "out").must(
         3, "joint \"hook\"", "solids have no rotations there", "spherical joints at several nodes")
+
+
+def test_chords_need_ends(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(HANGING)
+    sensor = "output.sensors.low={deflection: bar/centre}"
+    buckens("check", "model.yaml", "--set", sensor).must(
+        2, "from", "no marker \"start\"", "write `from: frame`")
+    sensor = "output.sensors.low={deflection: {of: bar/centre, from: frame}}"
+    buckens("check", "model.yaml", "--set", sensor).must(0)
+
+
+MIXED = """
+buckens: 1
+gravity: [0, 0, -9.81 m/s^2]
+materials: {{steel: {{E: 210 GPa, nu: 0.3, rho: 7850}}}}
+sections: {{round: {{circle: {{diameter: 50 mm}}}}}}
+bodies:
+  lump:
+    structure:
+      nodes: {{a: [0, 0, 0], b: [1, 0, 0], c: [1, 1, 0], d: [0, 1, 0],
+              e: [0, 0, 1], f: [1, 0, 1], g: [1, 1, 1], h: [0, 1, 1], tip: [3, 0, 0]}}
+      solids: [{{nodes: [a, b, c, d, e, f, g, h], element: hex8, integration: full, material: steel}}]
+      beams:
+{beams}
+joints:
+  one: {{spherical: {{between: [ground, lump/a]}}}}
+  two: {{spherical: {{between: [{{ground: [0, 1, 0]}}, lump/d]}}}}
+  three: {{spherical: {{between: [{{ground: [0, 0, 1]}}, lump/e]}}}}
+initial: {{start: static}}
+simulation: {{duration: 1 ms, step: 0.1 ms}}
+output:
+  every: 1 ms
+  sensors:
+    root: {{section-force: {{of: lump, element: {root}}}}}
+    peak: {{stress: lump}}
+    corner: {{stress: {{of: lump, element: {solid}}}}}
+"""
+
+
+def beams(*ends):
+    return "\n".join(f"        - {{between: [{a}, {b}], elements: 2, section: round, material: steel}}"
+                     for a, b in ends)
+
+
+def test_beams_and_solids_share_nodes(sensors):
+    # Edges b-a and b-c turn with the corner b and hold the beam that juts out.
+    out = sensors(MIXED.format(beams=beams("ab", "bc", ("b", "tip")), root=5, solid=7))
+    weight = 7850 * 9.81 * numpy.pi * 0.025**2 * 2
+    # The beam's own weight acts on both nodes of its elements: half an element is missing there.
+    assert numpy.abs(out["root.force.Qz"]) == pytest.approx(0.75 * weight, rel=1e-4)
+    assert (out["peak.mises"] >= out["corner.mises"]).all() and (out["corner.mises"] > 0).all()
+
+
+def test_a_beam_hinges_at_a_solid(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(MIXED.format(beams=beams(("b", "tip")), root=1, solid=3))
+    buckens("run", "model.yaml", "-o", "out").must(3, "\"lump\"", "mechanism in itself")

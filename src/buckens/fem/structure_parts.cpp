@@ -2,9 +2,11 @@
 #include "buckens/fem/structure_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -102,14 +104,30 @@ std::vector<int> divide_chain(const std::vector<Holder>& lines, const std::vecto
   return part_of;
 }
 
-/// Pairs of elements that share nodes, one entry per node they share.
-using Pairs = std::map<std::pair<int, int>, int>;
+using Pair = std::pair<int, int>;  // of elements, the lower number first
+/// Pairs of elements that share nodes, and how many.
+using Pairs = std::map<Pair, int>;
 
 Pairs neighbours(const std::vector<std::vector<int>>& at_node) {
   Pairs out;
   for (const auto& list : at_node) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       for (std::size_t j = i + 1; j < list.size(); ++j) ++out[{list[i], list[j]}];
+    }
+  }
+  return out;
+}
+
+/// Pairs of solids that share a face.
+std::set<Pair> face_neighbours(const Structure& structure) {
+  const int lines = structure.beams.num_elements() + structure.bars.num_elements();
+  std::map<std::array<int, 4>, int> seen;  // element that was met with the face
+  std::set<Pair> out;
+  for (int e = 0; e < structure.solids.num_elements(); ++e) {
+    for (std::array<int, 4> face : structure.solids.faces(e)) {
+      std::sort(face.begin(), face.end());
+      const auto [entry, is_new] = seen.emplace(face, lines + e);
+      if (!is_new) out.emplace(entry->second, lines + e);
     }
   }
   return out;
@@ -133,17 +151,19 @@ bool is_connected(const linalg::Graph& graph) {
   return pieces <= 1;
 }
 
-/// The elements and how they hang together. Solids that share an edge or a node only could turn
-/// about it: such pairs count where the mesh falls to pieces without them.
-linalg::Graph graph_of(const std::vector<Holder>& holders, const Pairs& pairs, bool by_faces) {
+/// The elements and how they hang together: solids by their faces, lines by their nodes. With
+/// `faces` null every common node counts.
+linalg::Graph graph_of(const std::vector<Holder>& holders, const Pairs& pairs,
+                       const std::set<Pair>* faces) {
   linalg::Graph graph;
   for (const Holder& holder : holders) graph.vertex_weights.push_back(holder.length);
   const auto is_line = [&holders](int e) {
     return holders[static_cast<std::size_t>(e)].nodes.size() == 2;
   };
   for (const auto& [pair, count] : pairs) {
-    const bool holds = count >= 3 || is_line(pair.first) || is_line(pair.second);
-    for (int k = 0; k < count && (holds || !by_faces); ++k) graph.edges.push_back(pair);
+    const bool holds =
+        faces == nullptr || faces->contains(pair) || is_line(pair.first) || is_line(pair.second);
+    for (int k = 0; k < count && holds; ++k) graph.edges.push_back(pair);
   }
   return graph;
 }
@@ -261,9 +281,12 @@ std::vector<int> choose_parts(const Structure& structure, int count) {
   const auto at_node = holders_at_nodes(structure.nodes.size(), holders);
   if (const auto chain = as_chain(holders, at_node)) return divide_chain(holders, *chain, count);
   const Pairs pairs = neighbours(at_node);
-  const linalg::Graph by_faces = graph_of(holders, pairs, true);
+  // Solids that share an edge or a node only could turn about it: such pairs count only where the
+  // mesh falls to pieces without them.
+  const std::set<Pair> faces = face_neighbours(structure);
+  const linalg::Graph by_faces = graph_of(holders, pairs, &faces);
   if (is_connected(by_faces)) return linalg::divide_graph(by_faces, count);
-  return linalg::divide_graph(graph_of(holders, pairs, false), count);
+  return linalg::divide_graph(graph_of(holders, pairs, nullptr), count);
 }
 
 StructureParts divide(const Structure& structure, const std::vector<int>& part_of) {

@@ -251,12 +251,16 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   if (spec.is_rigid() && spec.geometric_stiffness) {
     return Problem{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
   }
-  if (std::holds_alternative<fem::MeshSpec>(spec.kind) && spec.geometric_stiffness) {
+  const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind);
+  const bool is_solid =
+      std::holds_alternative<fem::MeshSpec>(spec.kind) ||
+      (structure != nullptr && structure->beams.empty() && structure->bars.empty());
+  if (is_solid && spec.geometric_stiffness) {
     return Problem{"geometric-stiffness",
                    "it belongs to beams and bars, a solid has none; remove the key, or give the "
                    "body more `frames`"};
   }
-  if (const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind)) {
+  if (structure != nullptr) {
     for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {
       if (structure->bars[i].elements == 1) continue;
       return Problem{fmt::format("structure.bars.{}.elements", i),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/model_file_checks.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
@@ -41,6 +43,21 @@ Finding flexible_problem(const base::MarkerRef& marker, const char* key,
   return Problem{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
 }
 
+/// A chord runs between two named ends.
+Finding deflection_problem(const model::DeflectionSensor& spec, const ReadContext& context) {
+  if (Finding found = flexible_problem(spec.of, "of", context)) return found;
+  if (spec.from == model::DeflectionBase::frame) return std::nullopt;
+  const auto names = marker_names(*base::find_named(context.model->bodies, spec.of.body));
+  for (const char* end : {"start", "end"}) {
+    if (std::find(names.begin(), names.end(), end) != names.end()) continue;
+    return Problem{"from",
+                   fmt::format("body \"{}\" has no marker \"{}\", between `start` and `end` "
+                               "runs the chord; write `from: frame`, or define both",
+                               spec.of.body, end)};
+  }
+  return std::nullopt;
+}
+
 /// Rules of the alternatives; overloads for those that have any.
 struct AlternativeRules {
   const ReadContext& context;
@@ -70,8 +87,9 @@ struct AlternativeRules {
       const auto known = names_of(context.model->joints);
       return Problem{"joint", fmt::format("unknown joint \"{}\".{}", spec.joint,
                                           base::suggestion(spec.joint, known))};
-    } else if constexpr (
-        requires { spec.element; } || requires { spec.from; }) {
+    } else if constexpr (std::is_same_v<T, model::DeflectionSensor>) {
+      return deflection_problem(spec, context);
+    } else if constexpr (requires { spec.element; }) {
       return flexible_problem(spec.of, "of", context);
     } else {
       return std::nullopt;

@@ -187,6 +187,10 @@ TEST(ModelFileErrors, Solids) {
            {"bodies.a.mesh.masses.0.at: unknown node \"centre\""}},
           {"{mesh: {" + unit + "}, material: m}, geometric-stiffness: on}",
            {"bodies.a.geometric-stiffness", "remove the key"}},
+          {"{structure: {" + nodes +
+               ", solids: [{nodes: [a, b, c, d, e, f, g, h], material: m}]}, "
+               "geometric-stiffness: on}",
+           {"bodies.a.geometric-stiffness", "remove the key"}},
           {"{mesh: {" + unit + "}, material: m}, markers: {corner_000: {at: node_last}}}",
            {"\"corner_000\" is taken"}},
           {"{mesh: {" + unit + "}, material: m}, markers: {q: {at: corner_002}}}",

@@ -200,21 +200,35 @@ TEST(SolidBody, StressesAreFoundByNodeOrNumber) {
   EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(HasSubstr("observe their `stress`")));
 }
 
-TEST(SolidBody, PartsOfADividedBlockHangTogetherByFaces) {
+class DividedBlock : public testing::TestWithParam<fem::SolidKind> {};
+
+TEST_P(DividedBlock, PartsHangTogetherByFaces) {
   Described m;
-  m.block("block", kSize, {6, 3, 3}).frames.count = 5;
+  body::BodySpec& spec = m.block("block", kSize, {6, 3, 3});
+  spec.frames.count = 5;
+  // Quadratic elements that share an edge have three nodes in common, as many as a triangle.
+  std::get<fem::BoxMeshSpec>(std::get<fem::MeshSpec>(spec.kind).shape).element = GetParam();
   const auto built = m.build();
   ASSERT_EQ(built->model.bodies.size(), 5u);
   double mass = 0;
+  std::size_t solids = 0;
   for (const body::Body& part : built->model.bodies) {
     EXPECT_TRUE(fem::solids_join_by_faces(part.flexible->fe)) << part.name;
     mass += part.mass;
+    solids += static_cast<std::size_t>(fem::num_solids(part.flexible->fe));
   }
   EXPECT_NEAR(mass, built->model.wholes[0].mass, 1e-11);
-  EXPECT_EQ(built->model.wholes[0].solids.size(), 54u);
+  EXPECT_EQ(built->model.wholes[0].solids.size(), solids);
   // A tie holds the place of a node: three rows per copy beyond the first.
   for (const Joint& tie : built->model.joints) EXPECT_EQ(tie.rows.size(), 3u);
 }
+
+INSTANTIATE_TEST_SUITE_P(SolidBody, DividedBlock,
+                         testing::Values(fem::SolidKind::hex8, fem::SolidKind::hex20,
+                                         fem::SolidKind::tet10),
+                         [](const auto& kind) {
+                           return choice_names(kind.param)[static_cast<std::size_t>(kind.param)];
+                         });
 
 }  // namespace
 }  // namespace buckens::model
