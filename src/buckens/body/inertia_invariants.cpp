@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "buckens/body/deformation_coupling.h"
 #include "buckens/body/nodal_inertia.h"
-#include "buckens/spatial/rotation.h"
 
 namespace buckens::body {
 
@@ -27,9 +27,6 @@ Matrix3d to_inertia(const Matrix3d& second_moment) {
 Vector3d axial(const Matrix3d& T) {
   return {T(1, 2) - T(2, 1), T(2, 0) - T(0, 2), T(0, 1) - T(1, 0)};
 }
-
-/// Weights A with Σ A_ab W_ab = Σ w_a H_a.
-Matrix3d gyroscopic_weights(const Vector3d& w) { return -spatial::skew(w); }
 
 /// T_ab = xᵀ W_ab y for all nine pairs, from the stored six and the scalar mass matrix.
 Matrix3d bilinear(const fem::ShapeIntegrals& shape, const Vector& x, const Vector& y) {
@@ -93,37 +90,8 @@ DeformedMoments InertiaInvariants::moments(const Vector& d, const Vector& d_dot,
 
 DeformedMoments InertiaInvariants::quadratic_moments(const Vector& d, const Vector& d_dot,
                                                      const Vector& d_ddot) const {
-  // One pass over W with W_ab d and W_abᵀ d gives xᵀW_ab d and dᵀW_ab x for every x.
-  Matrix3d T_dd = Matrix3d::Zero();
-  Matrix3d T_d_rate = Matrix3d::Zero();
-  Matrix3d T_d_acceleration = Matrix3d::Zero();
-  for (std::size_t k = 0; k < kPairs.size(); ++k) {
-    const auto [a, b] = kPairs[k];
-    const auto& W = shape_->W[k];
-    if (W.nonZeros() == 0) continue;
-    const Vector left = W.transpose() * d;  // dᵀW_ab x = left·x
-    T_dd(a, b) = left.dot(d);
-    T_d_rate(a, b) = left.dot(d_dot);
-    T_d_acceleration(a, b) = left.dot(d_ddot);
-    if (a == b) continue;
-    const Vector right = W * d;  // dᵀW_ba x = right·x
-    T_dd(b, a) = T_dd(a, b);
-    T_d_rate(b, a) = right.dot(d_dot);
-    T_d_acceleration(b, a) = right.dot(d_ddot);
-  }
-  const NodalInertia nodal(shape_->nodal);
-  if (!nodal.empty()) {
-    const Eigen::Matrix3Xd weighted = nodal.times_mass(d);
-    T_dd += weighted * nodal.by_node(d).transpose();
-    T_d_rate += weighted * nodal.by_node(d_dot).transpose();
-    T_d_acceleration += weighted * nodal.by_node(d_ddot).transpose();
-  }
-  DeformedMoments out;
-  out.J = to_inertia(T_dd);
-  out.J_dot = to_inertia(T_d_rate + T_d_rate.transpose());
-  out.l = axial(T_d_rate);
-  out.l_dot = axial(T_d_acceleration);
-  return out;
+  Vector no_load;
+  return evaluate_deformation(*shape_, d, d_dot, d_ddot, {}, no_load);
 }
 
 void InertiaInvariants::add_weighted(const Matrix3d& A, const Vector& x, Vector& y) const {
@@ -141,11 +109,8 @@ void InertiaInvariants::add_weighted(const Matrix3d& A, const Vector& x, Vector&
 Vector InertiaInvariants::deformation_load(const Vector& d, const Vector& d_dot, const Vector3d& w,
                                            const Vector3d& w_dot, const CouplingTerms& kept) const {
   Vector load = Vector::Zero(d.size());
-  Matrix3d with_d = Matrix3d::Zero();
-  if (kept.cent1) with_d += w.squaredNorm() * Matrix3d::Identity() - w * w.transpose();
-  if (kept.eul_fe) with_d += gyroscopic_weights(w_dot);
-  add_weighted(with_d, d, load);
-  if (kept.cor_fe) add_weighted(2.0 * gyroscopic_weights(w), d_dot, load);
+  const auto weights = DeformationWeights::of_motion(w, w_dot, kept);
+  if (!weights.are_zero()) evaluate_deformation(*shape_, d, d_dot, d_dot, weights, load);
   return load;
 }
 

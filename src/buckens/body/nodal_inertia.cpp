@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/nodal_inertia.h"
 
+#include <array>
+
 namespace buckens::body {
 
 using Eigen::Matrix3Xd;
@@ -18,6 +20,24 @@ Matrix3Xd NodalInertia::by_node(const Vector& x) const {
 }
 
 Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * mass_->Ms; }
+
+void NodalInertia::multiply(const Vector& x, Vector& y) const {
+  y.setZero();
+  const linalg::SparseMatrix& Ms = mass_->Ms;
+  for (int node = 0; node < Ms.outerSize(); ++node) {
+    const auto& to = mass_->dofs[static_cast<std::size_t>(node)];
+    std::array<double, 3> sum{};
+    for (linalg::SparseMatrix::InnerIterator it(Ms, node); it; ++it) {
+      const auto& from = mass_->dofs[static_cast<std::size_t>(it.row())];
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (from[a] >= 0) sum[a] += it.value() * x[from[a]];
+      }
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (to[a] >= 0) y[to[a]] = sum[a];
+    }
+  }
+}
 
 void NodalInertia::add(const Matrix3Xd& by_node, Vector& y) const {
   for (std::size_t node = 0; node < mass_->dofs.size(); ++node) {

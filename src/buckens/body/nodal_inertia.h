@@ -20,6 +20,8 @@ class NodalInertia {
   Eigen::Matrix3Xd times_mass(const linalg::Vector& x) const;
   /// y ← y + Y, node by node.
   void add(const Eigen::Matrix3Xd& by_node, linalg::Vector& y) const;
+  /// y = (Ms ⊗ 1) x, zero where no node has the variable. Allocates nothing.
+  void multiply(const linalg::Vector& x, linalg::Vector& y) const;
 
  private:
   const fem::NodalMass* mass_;

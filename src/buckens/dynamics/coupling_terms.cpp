@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "buckens/body/deformation_coupling.h"
 #include "buckens/dynamics/frame_equation.h"
 
 namespace buckens::dynamics {
@@ -19,16 +20,29 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
                                   const Vector& d, const Vector& d_dot, const Vector& d_ddot,
                                   const Vector3d& w, const Vector3d& w_dot) {
   model::Coupling out;
-  if (!body.is_flexible()) return out;
-  const body::InertiaInvariants& invariants = body.flexible->invariants;
-  if (terms.quad_ref) {
-    out.moments = invariants.quadratic_moments(d, d_dot, d_ddot);
-    if (!terms.jvar) out.moments.J.setZero();
-    if (!terms.cor_ref) out.moments.J_dot.setZero();
-  }
-  if (terms.have_load()) out.load = invariants.deformation_load(d, d_dot, w, w_dot, terms);
-  if (terms.stiffening && body.flexible->geometric) out.load += body.flexible->geometric->load(d);
+  evaluate_coupling(body, terms, d, d_dot, d_ddot, w, w_dot, out);
   return out;
+}
+
+void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms, const Vector& d,
+                       const Vector& d_dot, const Vector& d_ddot, const Vector3d& w,
+                       const Vector3d& w_dot, model::Coupling& out) {
+  out.t = 0;
+  out.moments = {};
+  out.load.resize(terms.have_load() ? d.size() : 0);
+  out.load.setZero();
+  if (!body.is_flexible()) return;
+  const body::FlexiblePart& part = *body.flexible;
+  body::DeformationWeights weights;
+  if (terms.have_load()) weights = body::DeformationWeights::of_motion(w, w_dot, terms);
+  if (terms.quad_ref || !weights.are_zero()) {
+    const body::DeformedMoments moments =
+        body::evaluate_deformation(part.fe.shape, d, d_dot, d_ddot, weights, out.load);
+    if (terms.quad_ref) out.moments = moments;
+  }
+  if (!terms.jvar) out.moments.J.setZero();
+  if (!terms.cor_ref) out.moments.J_dot.setZero();
+  if (terms.stiffening && part.geometric) out.load += part.geometric->load(d);
 }
 
 body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
@@ -47,7 +61,7 @@ Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms
   return body::InertiaInvariants::centrifugal_weights(w);
 }
 
-model::Coupling extrapolate(const model::BodyState& state, int history, double t) {
+void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out) {
   const std::array<const model::Coupling*, 3> known = {&state.coupling, &state.coupling_before,
                                                        &state.coupling_earlier};
   auto count = static_cast<std::size_t>(std::clamp(history, 1, 3));
@@ -56,7 +70,7 @@ model::Coupling extrapolate(const model::BodyState& state, int history, double t
   for (std::size_t k = 1; k < count; ++k) {
     if (known[k - 1]->t - known[k]->t < kLeastSpacing * ahead) count = k;
   }
-  model::Coupling out;
+  out.moments = {};
   for (std::size_t k = 0; k < count; ++k) {
     double weight = 1.0;  // Lagrange's polynomial
     for (std::size_t j = 0; j < count; ++j) {
@@ -74,7 +88,6 @@ model::Coupling extrapolate(const model::BodyState& state, int history, double t
     }
   }
   out.t = t;
-  return out;
 }
 
 }  // namespace buckens::dynamics

@@ -12,6 +12,11 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
                                   const linalg::Vector& d, const linalg::Vector& d_dot,
                                   const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
                                   const Eigen::Vector3d& w_dot);
+/// The same into `out`, whose memory serves again.
+void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
+                       const linalg::Vector& d, const linalg::Vector& d_dot,
+                       const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
+                       const Eigen::Vector3d& w_dot, model::Coupling& out);
 
 /// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and what is
 /// quadratic.
@@ -26,6 +31,6 @@ Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms
 
 /// Coupling at t from the instants of the state, by the parabola, the line or the value through
 /// `history` of them. Steps may differ in length.
-model::Coupling extrapolate(const model::BodyState& state, int history, double t);
+void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out);
 
 }  // namespace buckens::dynamics

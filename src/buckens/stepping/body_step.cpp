@@ -32,12 +32,11 @@ void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
   u = frame.predicted;
   correction.setZero();
   if (op == nullptr) return;
-  y_before = op->N() * state.d;
-  y = scheme.history<VectorXd>(op->N() * state.d_dot, op->N() * state.d_ddot,
-                               op->N() * state.d_alg);
+  op->row_values(state, y_before, y_dot_before, y_ddot_before, y_alg_before);
+  scheme.history(y_dot_before, y_ddot_before, y_alg_before, y);
   y_end = y_before + y.predicted;
-  load = VectorXd::Zero(y_before.size());
-  correction_load = VectorXd::Zero(y_before.size());
+  load.setZero(y_before.size());
+  correction_load.setZero(y_before.size());
 }
 
 dynamics::BodyMotion BodyStep::motion_at_end(const Scheme& scheme,

@@ -27,6 +27,7 @@ struct BodyStep {
 
   Eigen::VectorXd y_before;  ///< interface values at the start
   History<Eigen::VectorXd> y;
+  Eigen::VectorXd y_dot_before, y_ddot_before, y_alg_before;
   Eigen::VectorXd y_free;           ///< at the end, without interface loads
   Eigen::VectorXd y_end;            ///< at the end, without correction
   Eigen::VectorXd load;             ///< f at the evaluation instant, centrifugal weights with it

@@ -69,7 +69,8 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
       K_hat_(step_matrix(part, scheme)),
       is_shared_(twin != nullptr && are_equal(K_hat_, twin->K_hat_)),
       factor_(is_shared_ ? twin->factor_ : std::make_shared<const linalg::SparseCholesky>(K_hat_)),
-      N_(rows_of(part)) {
+      N_(rows_of(part)),
+      inertial_(part, scheme) {
   if (part.num_dofs() <= kSmall) {
     inverse_ = factor_->solve(Matrix::Identity(part.num_dofs(), part.num_dofs()));
     part.sieve.apply(inverse_);
@@ -99,25 +100,40 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
 
 void BodyStepOperator::free_response(const model::BodyState& before, const History<Vector>& history,
                                      const Vector& load, Vector& free) {
+  form_right_side(before, history, load, free);
+  solve_right_side(free);
+  finish_response(before, history, free);
+}
+
+void BodyStepOperator::form_right_side(const model::BodyState& before,
+                                       const History<Vector>& history, const Vector& load,
+                                       Vector& right) {
   // With x₀ = x + offset:  K̂ x_e = c θ F + M (m x₀ − cθ ẍ₀) + C (d x₀ − cθ ẋ₀),
   // x⁺ = x + (x_e − x₀)/θ.
   const double c_theta = scheme_.force * scheme_.weight;
-  scratch_ = scheme_.mass * before.d - c_theta * history.acceleration;
-  if (scheme_.has_offset()) scratch_ += scheme_.mass * history.offset;
-  right_side_.noalias() = part_->fe.M * scratch_;
+  with_mass_ = scheme_.mass * before.d - c_theta * history.acceleration;
+  if (scheme_.has_offset()) with_mass_ += scheme_.mass * history.offset;
   if (part_->is_damped()) {
-    scratch_ = scheme_.damping * before.d - c_theta * history.mean_velocity;
-    if (scheme_.has_offset()) scratch_ += scheme_.damping * history.offset;
-    right_side_.noalias() += part_->C * scratch_;
+    with_damping_ = scheme_.damping * before.d - c_theta * history.mean_velocity;
+    if (scheme_.has_offset()) with_damping_ += scheme_.damping * history.offset;
   }
-  if (load.size() > 0) right_side_ += c_theta * load;
+  inertial_.form(with_mass_, with_damping_, right);
+  if (load.size() > 0) right += c_theta * load;
+}
+
+void BodyStepOperator::solve_right_side(Vector& x, TaskPool* pool) {
   if (inverse_.size() > 0) {
-    free.noalias() = inverse_ * right_side_;
+    with_mass_ = x;
+    x.noalias() = inverse_ * with_mass_;
   } else {
-    free = right_side_;
-    factor_->solve_in_place(free);
+    factor_->solve_in_place(x, pool);
   }
+}
+
+void BodyStepOperator::finish_response(const model::BodyState& before,
+                                       const History<Vector>& history, Vector& free) {
   ++solves_;
+  if (inertial_.share() != 0.0) free += inertial_.share() * with_damping_;
   if (scheme_.has_offset()) {
     // Sieved where the equations hold: at the end of the step the rule of linear acceleration would
     // let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
@@ -138,6 +154,24 @@ void BodyStepOperator::solve(Vector& x) {
 void BodyStepOperator::complete(const Vector& load, const Vector& correction, Vector& x) const {
   x.noalias() += G_ * (scheme_.force * load);
   if (!correction.isZero(0.0)) x.noalias() += D_ * correction;
+}
+
+void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vector& y_dot,
+                                  Vector& y_ddot, Vector& y_alg) const {
+  for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->resize(N_.rows());
+  for (int row = 0; row < N_.outerSize(); ++row) {
+    double sum = 0, sum_dot = 0, sum_ddot = 0, sum_alg = 0;
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(N_, row); it; ++it) {
+      sum += it.value() * state.d[it.col()];
+      sum_dot += it.value() * state.d_dot[it.col()];
+      sum_ddot += it.value() * state.d_ddot[it.col()];
+      sum_alg += it.value() * state.d_alg[it.col()];
+    }
+    y[row] = sum;
+    y_dot[row] = sum_dot;
+    y_ddot[row] = sum_ddot;
+    y_alg[row] = sum_alg;
+  }
 }
 
 }  // namespace buckens::stepping

@@ -6,6 +6,7 @@
 #include "buckens/body/body.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/inertial_load.h"
 #include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
@@ -23,7 +24,7 @@ namespace buckens::stepping {
 class BodyStepOperator {
  public:
   /// @param twin operator of a body that may have the same K̂ to the last bit; then its factor
-  ///        serves both. Solves with one factor must not run at the same time.
+  ///        serves both.
   BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
                    const BodyStepOperator* twin = nullptr);
   /// Whether a body has the step matrix of this one.
@@ -34,14 +35,29 @@ class BodyStepOperator {
   void free_response(const model::BodyState& before, const History<linalg::Vector>& history,
                      const linalg::Vector& load, linalg::Vector& free);
 
+  /// The three parts of free_response(), for bodies that solve together: the right-hand side,
+  void form_right_side(const model::BodyState& before, const History<linalg::Vector>& history,
+                       const linalg::Vector& load, linalg::Vector& right);
+  /// the solve in place,
+  void solve_right_side(linalg::Vector& x, TaskPool* pool = nullptr);
+  /// and x⁺ from its solution. Counts the solve.
+  void finish_response(const model::BodyState& before, const History<linalg::Vector>& history,
+                       linalg::Vector& free);
+  /// The factor that several bodies may share; empty where the solve needs none.
+  const linalg::SparseCholesky* shared_factor() const {
+    return inverse_.size() > 0 ? nullptr : factor_.get();
+  }
+
   /// x ← Y K̂⁻¹ x, outside of steps: counts as set-up.
   void solve(linalg::Vector& x);
 
   /// x⁺ ← free + c G f + D e. @param load along the rows of N, centrifugal weights included
   void complete(const linalg::Vector& load, const linalg::Vector& correction,
                 linalg::Vector& x) const;
-  /// G e: the position correction itself, which carries no velocity.
-  linalg::Vector correction(const linalg::Vector& e) const { return G_ * e; }
+  /// x ← x − G e: without the position correction itself, which carries no velocity.
+  void subtract_correction(const linalg::Vector& e, linalg::Vector& x) const {
+    x.noalias() -= G_ * e;
+  }
 
   /// N G: values of all rows per load along each, before the factor c.
   const linalg::Matrix& compliance() const { return NG_; }
@@ -49,6 +65,9 @@ class BodyStepOperator {
   const linalg::Matrix& interface_compliance() const { return interface_; }
   /// N D: change of the total interface values per correction load.
   const linalg::Matrix& correction_compliance() const { return ND_; }
+  /// N d, N ḋ, N d̈ and N times the algorithmic accelerations, in one pass over N.
+  void row_values(const model::BodyState& state, linalg::Vector& y, linalg::Vector& y_dot,
+                  linalg::Vector& y_ddot, linalg::Vector& y_alg) const;
   /// Rows of the interface, then the six patterns.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
@@ -70,7 +89,8 @@ class BodyStepOperator {
   linalg::Matrix G_;  // Y K̂⁻¹ Nᵀ
   linalg::Matrix D_;  // effect of a correction on x⁺; none by patterns
   linalg::Matrix NG_, ND_, interface_;
-  linalg::Vector right_side_, scratch_;
+  InertialLoad inertial_;
+  linalg::Vector with_mass_, with_damping_;  // scratch of form_right_side()
   long solves_ = 0, setup_solves_ = 0;
 };
 

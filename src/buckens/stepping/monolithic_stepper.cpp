@@ -171,7 +171,7 @@ void MonolithicStepper::start(const model::State& state) {
     if (!s.terms.are_lagged()) {
       part.coupling = {};
     } else if (state.history > 0) {
-      part.coupling = dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t));
+      dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t), part.coupling);
     } else {
       part.coupling = dynamics::evaluate_coupling(part.body, s.terms, s.d, s.d_dot, s.d_ddot,
                                                   s.frame.w, s.w_dot);

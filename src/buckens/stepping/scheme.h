@@ -62,34 +62,71 @@ class Scheme {
 
   template <class V>
   History<V> history(const V& rate, const V& acceleration, const V& algorithmic) const {
-    if (method == Method::newmark) {
-      return {-rate, (-2.0 / h) * rate, 0.0 * rate, h * rate + (0.5 * h * h) * acceleration,
-              0.0 * rate};
+    History<V> out;
+    history(rate, acceleration, algorithmic, out);
+    return out;
+  }
+  /// The same into `out`, whose memory serves again.
+  template <class V>
+  void history(const V& rate, const V& acceleration, const V& algorithmic, History<V>& out) const {
+    if (method == Method::wilson) {
+      linear_acceleration(rate, acceleration, out);
+    } else if (method == Method::newmark) {
+      out.velocity = -rate;
+      out.acceleration = (-2.0 / h) * rate;
+      out.mean_velocity = 0.0 * rate;
+      out.predicted = h * rate + (0.5 * h * h) * acceleration;
+      out.offset = 0.0 * rate;
+    } else {
+      const double ahead = h * h * (0.5 - beta_);
+      out.velocity =
+          (1.0 - end_rate * h) * rate + (h * (1.0 - gamma_) - end_rate * ahead) * algorithmic;
+      out.acceleration = (alpha_m_ / (1.0 - alpha_f_) - acceleration_rate * ahead) * algorithmic -
+                         (alpha_f_ / (1.0 - alpha_f_)) * acceleration -
+                         (acceleration_rate * h) * rate;
+      out.mean_velocity = out.velocity;
+      out.predicted = h * rate + (ahead + beta_ * h * h) * algorithmic;
+      out.offset = 0.0 * rate;
     }
-    if (method == Method::wilson) return linear_acceleration(rate, acceleration);
-    const V predicted = h * rate + (h * h * (0.5 - beta_)) * algorithmic;
-    const V velocity = rate + (h * (1.0 - gamma_)) * algorithmic - end_rate * predicted;
-    const V mixed = (alpha_m_ * algorithmic - alpha_f_ * acceleration) / (1.0 - alpha_f_);
-    const V start = mixed - acceleration_rate * predicted;
-    return {velocity, start, velocity, predicted + (beta_ * h * h) * algorithmic, 0.0 * rate};
   }
 
   /// Acceleration to be carried on: at t + h, for Newmark the mean of the step.
   /// @param evaluated ẍ_e
   template <class V>
   V carried_acceleration(const V& acceleration_before, const V& evaluated) const {
-    if (method != Method::wilson) return evaluated;
-    return acceleration_before + (evaluated - acceleration_before) / instant;
+    V out;
+    carried_acceleration(acceleration_before, evaluated, out);
+    return out;
+  }
+  /// The same into `out`, which must be neither of the others.
+  template <class V>
+  void carried_acceleration(const V& acceleration_before, const V& evaluated, V& out) const {
+    if (method != Method::wilson) {
+      out = evaluated;
+    } else {
+      out = acceleration_before + (evaluated - acceleration_before) / instant;
+    }
   }
 
   /// Algorithmic acceleration at the end of the step from the carried one there.
   template <class V>
   V algorithmic(const V& acceleration_before, const V& algorithmic_before,
                 const V& acceleration) const {
-    if (!has_algorithmic()) return acceleration;
-    return ((1.0 - alpha_f_) * acceleration + alpha_f_ * acceleration_before -
-            alpha_m_ * algorithmic_before) /
-           (1.0 - alpha_m_);
+    V out;
+    algorithmic(acceleration_before, algorithmic_before, acceleration, out);
+    return out;
+  }
+  /// The same into `out`, which must be none of the others.
+  template <class V>
+  void algorithmic(const V& acceleration_before, const V& algorithmic_before, const V& acceleration,
+                   V& out) const {
+    if (!has_algorithmic()) {
+      out = acceleration;
+    } else {
+      out = ((1.0 - alpha_f_) * acceleration + alpha_f_ * acceleration_before -
+             alpha_m_ * algorithmic_before) /
+            (1.0 - alpha_m_);
+    }
   }
 
   /// Whether accelerations of their own are carried beside the true ones.
@@ -106,14 +143,14 @@ class Scheme {
 
  private:
   template <class V>
-  History<V> linear_acceleration(const V& rate, const V& acceleration) const {
+  void linear_acceleration(const V& rate, const V& acceleration, History<V>& out) const {
     const double th = instant;
-    return {
-        -2.0 * rate - (0.5 * h) * acceleration,
-        (1.0 - 3.0 * th) * acceleration - (6.0 * th / h) * rate,
-        (1.0 - 3.0 * th * th) * rate + (h * th * (1.0 - 1.5 * th)) * acceleration,
-        h * rate + (0.5 * h * h) * acceleration,
-        (h * th * (1.0 - th * th)) * rate + (0.5 * h * h * th * th * (1.0 - th)) * acceleration};
+    out.velocity = -2.0 * rate - (0.5 * h) * acceleration;
+    out.acceleration = (1.0 - 3.0 * th) * acceleration - (6.0 * th / h) * rate;
+    out.mean_velocity = (1.0 - 3.0 * th * th) * rate + (h * th * (1.0 - 1.5 * th)) * acceleration;
+    out.predicted = h * rate + (0.5 * h * h) * acceleration;
+    out.offset =
+        (h * th * (1.0 - th * th)) * rate + (0.5 * h * h * th * th * (1.0 - th)) * acceleration;
   }
   void set_average_acceleration();
   void set_alpha_method();

@@ -19,6 +19,7 @@ struct StepSettings {
                                     ///< last if its coupling load was right to 1e-4
   int max_newton = 40;
   int max_outer = 30;
+  int threads = 1;  ///< ≥ 1; has no influence on results
 
   /// The parameter that the method takes, for Scheme.
   double method_parameter() const {

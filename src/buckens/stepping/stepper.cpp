@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,6 +34,9 @@ constexpr double kSecondSolve = 1e-4;
 // Where the coupling load passes through zero, what matters is the motion that the rest would cause
 // in the step, relative to the model's length.
 constexpr double kSecondSolveMotion = 1e-9;
+// Fewer variables in all bodies together are not worth waking a thread for.
+constexpr Eigen::Index kSharedDofs = 2000;
+constexpr int kPartsPerThread = 4;
 }  // namespace
 
 /// The n-sized share of one flexible body in a step.
@@ -48,10 +52,11 @@ struct Stepper::Large {
   Vector increment;           // Δ: end value without correction, minus the start
   Vector inverse_diagonal;    // of K̂: measures loads
   bool load_changed = true;
+  // Where the equations hold; `difference` of coupling loads and the load of the undeformed body.
+  Vector d_e, rate_e, acceleration_e, difference, undeformed;
 
-  Vector rate(const Scheme& scheme) const { return scheme.end_rate * increment + history.velocity; }
-  Vector acceleration(const Scheme& scheme) const {
-    return scheme.acceleration_rate * increment + history.acceleration;
+  void evaluate_acceleration(const Scheme& scheme) {
+    acceleration_e = scheme.acceleration_rate * increment + history.acceleration;
   }
   double norm(const Vector& load) const {
     return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
@@ -60,6 +65,37 @@ struct Stepper::Large {
   double moved_by(const Vector& load) const {
     return load.cwiseProduct(inverse_diagonal).cwiseAbs().maxCoeff();
   }
+};
+
+/// Bodies whose solves read the same factor, so that they go together as right-hand sides.
+struct Stepper::FactorGroup {
+  const linalg::SparseCholesky* factor = nullptr;
+  std::vector<std::size_t> bodies;
+  std::vector<std::size_t> active;  // those that solve in this round
+  linalg::Matrix sides;
+
+  void solve(std::vector<std::unique_ptr<Large>>& large, TaskPool* pool) {
+    if (active.empty()) return;
+    if (active.size() == 1) {
+      factor->solve_in_place(large[active.front()]->free, pool);
+      return;
+    }
+    sides.resize(factor->size(), static_cast<Eigen::Index>(active.size()));
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      sides.col(static_cast<Eigen::Index>(k)) = large[active[k]]->free;
+    }
+    factor->solve_in_place(sides, pool);
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      large[active[k]]->free = sides.col(static_cast<Eigen::Index>(k));
+    }
+  }
+};
+
+/// How far the coupling of one body is from what the step was computed with.
+struct Stepper::CouplingGap {
+  bool is_settled = true;
+  double change = 0;  // relative
+  double motion = 0;  // that it causes, relative to the model's length
 };
 
 namespace {
@@ -115,117 +151,181 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
   }
   newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
                                           std::move(rows_in_use));
+  gaps_.resize(bodies_.size());
+  if (settings_.threads > 1) pool_ = std::make_unique<TaskPool>(settings_.threads);
+  group_factors();
 }
 
 Stepper::~Stepper() = default;
 
+void Stepper::group_factors() {
+  for (std::size_t b = 0; b < operators_.size(); ++b) {
+    if (!operators_[b]) continue;
+    num_dofs_ += model_.bodies[b].num_dofs();
+    const linalg::SparseCholesky* factor = operators_[b]->shared_factor();
+    if (factor == nullptr) continue;
+    auto group = std::find_if(groups_.begin(), groups_.end(),
+                              [&](const FactorGroup& known) { return known.factor == factor; });
+    if (group == groups_.end()) {
+      groups_.push_back({factor, {}, {}, {}});
+      group = groups_.end() - 1;
+    }
+    group->bodies.push_back(b);
+    group->active.reserve(group->bodies.size());
+  }
+}
+
+template <class F>
+void Stepper::for_bodies(F&& f) {
+  const std::size_t count = bodies_.size();
+  const bool is_shared = pool_ && num_dofs_ >= kSharedDofs;
+  const std::size_t parts =
+      is_shared ? std::min(count, static_cast<std::size_t>(kPartsPerThread * pool_->threads())) : 1;
+  run_tasks(pool_.get(), static_cast<int>(parts), [&](int part) {
+    const auto k = static_cast<std::size_t>(part);
+    for (std::size_t b = count * k / parts; b < count * (k + 1) / parts; ++b) f(b);
+  });
+}
+
 void Stepper::start_bodies(const model::State& state) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+  for_bodies([&](std::size_t b) {
     const model::BodyState& s = state.bodies[b];
-    const body::Body& body = model_.bodies[b];
     bodies_[b].start(s, operators_[b].get(), scheme_);
-    if (!large_[b]) continue;
+    if (!large_[b]) return;
     Large& large = *large_[b];
-    large.history = scheme_.history(s.d_dot, s.d_ddot, s.d_alg);
+    scheme_.history(s.d_dot, s.d_ddot, s.d_alg, large.history);
     if (!s.terms.are_lagged()) {
       large.used = large.evaluated = {};
     } else if (state.history > 0) {
-      large.used = dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t));
+      dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t), large.used);
     } else {
-      large.used =
-          dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
+      dynamics::evaluate_coupling(model_.bodies[b], s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w,
+                                  s.w_dot, large.used);
     }
     large.load_changed = true;
     bodies_[b].quadratic = large.used.moments;
-  }
+  });
 }
 
 bool Stepper::free_responses(const model::State& state, bool first_round) {
-  bool any = false;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!large_[b] || !(first_round || large_[b]->load_changed)) continue;
+  const auto is_active = [&](std::size_t b) {
+    return large_[b] && (first_round || large_[b]->load_changed);
+  };
+  for_bodies([&](std::size_t b) {
+    if (!is_active(b)) return;
+    BodyStepOperator& op = *operators_[b];
     Large& large = *large_[b];
-    operators_[b]->free_response(state.bodies[b], large.history, large.used.load, large.free);
-    bodies_[b].y_free = operators_[b]->N() * large.free;
-    any = true;
+    op.form_right_side(state.bodies[b], large.history, large.used.load, large.free);
+    if (op.shared_factor() == nullptr) op.solve_right_side(large.free);
+  });
+  for (FactorGroup& group : groups_) {
+    group.active.clear();
+    std::copy_if(group.bodies.begin(), group.bodies.end(), std::back_inserter(group.active),
+                 is_active);
   }
-  return any;
+  // One factor is shared between threads by its subtrees, several one by one.
+  run_tasks(pool_.get(), static_cast<int>(groups_.size()),
+            [&](int g) { groups_[static_cast<std::size_t>(g)].solve(large_, pool_.get()); });
+  for_bodies([&](std::size_t b) {
+    if (!is_active(b)) return;
+    Large& large = *large_[b];
+    operators_[b]->finish_response(state.bodies[b], large.history, large.free);
+    bodies_[b].y_free.noalias() = operators_[b]->N() * large.free;
+  });
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (is_active(b)) return true;
+  }
+  return false;
 }
 
 void Stepper::complete(const model::State& state) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!large_[b]) continue;
+  for_bodies([&](std::size_t b) {
+    if (!large_[b]) return;
     Large& large = *large_[b];
     const BodyStep& step = bodies_[b];
     large.d_end = large.free;
     operators_[b]->complete(step.load, step.correction_load, large.d_end);
     large.increment = large.d_end - state.bodies[b].d;
     if (!step.correction_load.isZero(0.0)) {
-      large.increment -= operators_[b]->correction(step.correction_load);
+      operators_[b]->subtract_correction(step.correction_load, large.increment);
     }
+  });
+}
+
+Stepper::CouplingGap Stepper::coupling_gap(const model::State& state, std::size_t b) {
+  const body::Body& body = model_.bodies[b];
+  const BodyStep& step = bodies_[b];
+  Large& large = *large_[b];
+  const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
+  const Vector6 acceleration = step.frame_acceleration(scheme_);
+  const Vector3d w = rate.head<3>();
+  const Vector3d w_dot = acceleration.head<3>();
+  // The correction belongs to the evaluated position where the method ends there.
+  if (scheme_.weight == 1.0) {
+    large.d_e = large.d_end;
+  } else {
+    large.d_e = state.bodies[b].d + scheme_.weight * large.increment;
   }
+  if (scheme_.has_offset()) large.d_e += large.history.offset;
+  large.rate_e = scheme_.mean_rate * large.increment + large.history.mean_velocity;
+  large.evaluate_acceleration(scheme_);
+  dynamics::evaluate_coupling(body, step.terms, large.d_e, large.rate_e, large.acceleration_e, w,
+                              w_dot, large.evaluated);
+  large.evaluated.t = scheme_.evaluation_time(state.t);
+
+  CouplingGap gap;
+  double load_change = 0;
+  if (step.terms.have_load()) {
+    large.undeformed = large.evaluated.load;
+    large.undeformed.noalias() += body.flexible->invariants.centrifugal_patterns() *
+                                  dynamics::centrifugal_weights(step.terms, w);
+    large.difference = large.evaluated.load - large.used.load;
+    const double load_size = large.norm(large.undeformed);
+    if (load_size != 0.0) load_change = large.norm(large.difference) / load_size;
+    gap.motion = scheme_.force * large.moved_by(large.difference) / model_.length;
+  }
+  const Vector3d frame_change =
+      (dynamics::frame_inertia(body, large.evaluated.moments, w, w_dot, Vector3d::Zero()) -
+       dynamics::frame_inertia(body, large.used.moments, w, w_dot, Vector3d::Zero()))
+          .head<3>();
+  const double frame_size = body.J0.norm() * (w_dot.norm() + w.squaredNorm());
+  const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
+  gap.motion = std::max(
+      gap.motion, scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm());
+  large.load_changed = load_change > settings_.outer_tolerance;
+  gap.is_settled = !large.load_changed && !(frame_relative > settings_.outer_tolerance);
+  gap.change = std::max(load_change, frame_relative);
+  return gap;
 }
 
 bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
+  for_bodies([&](std::size_t b) {
+    const bool matters = large_[b] && bodies_[b].terms.are_lagged();
+    gaps_[b] = matters ? coupling_gap(state, b) : CouplingGap{};
+  });
   bool settled = true;
   report.coupling_change = 0;
   coupling_motion_ = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const body::Body& body = model_.bodies[b];
-    const BodyStep& step = bodies_[b];
-    if (!large_[b] || !step.terms.are_lagged()) continue;
-    Large& large = *large_[b];
-    const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
-    const Vector6 acceleration = step.frame_acceleration(scheme_);
-    const Vector3d w = rate.head<3>();
-    const Vector3d w_dot = acceleration.head<3>();
-    // The correction belongs to the evaluated position where the method ends there.
-    Vector d_e = scheme_.weight == 1.0
-                     ? large.d_end
-                     : Vector(state.bodies[b].d + scheme_.weight * large.increment);
-    if (scheme_.has_offset()) d_e += large.history.offset;
-    const Vector d_dot = scheme_.mean_rate * large.increment + large.history.mean_velocity;
-    large.evaluated = dynamics::evaluate_coupling(body, step.terms, d_e, d_dot,
-                                                  large.acceleration(scheme_), w, w_dot);
-    large.evaluated.t = scheme_.evaluation_time(state.t);
-
-    double load_change = 0;
-    double moved = 0;
-    if (step.terms.have_load()) {
-      const Vector undeformed = body.flexible->invariants.centrifugal_patterns() *
-                                dynamics::centrifugal_weights(step.terms, w);
-      const Vector difference = large.evaluated.load - large.used.load;
-      const double load_size = large.norm(large.evaluated.load + undeformed);
-      if (load_size != 0.0) load_change = large.norm(difference) / load_size;
-      moved = scheme_.force * large.moved_by(difference) / model_.length;
-    }
-    const Vector3d frame_change =
-        (dynamics::frame_inertia(body, large.evaluated.moments, w, w_dot, Vector3d::Zero()) -
-         dynamics::frame_inertia(body, large.used.moments, w, w_dot, Vector3d::Zero()))
-            .head<3>();
-    const double frame_size = body.J0.norm() * (w_dot.norm() + w.squaredNorm());
-    const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
-    const double turned =
-        scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm();
-    coupling_motion_ = std::max({coupling_motion_, moved, turned});
-    large.load_changed = load_change > settings_.outer_tolerance;
-    if (large.load_changed || frame_relative > settings_.outer_tolerance) settled = false;
-    const double change = std::max(load_change, frame_relative);
-    if (!(change <= report.coupling_change)) least_settled_ = b;
-    report.coupling_change = std::max(report.coupling_change, change);
+    if (!large_[b] || !bodies_[b].terms.are_lagged()) continue;
+    const CouplingGap& gap = gaps_[b];
+    settled = settled && gap.is_settled;
+    coupling_motion_ = std::max(coupling_motion_, gap.motion);
+    if (!(gap.change <= report.coupling_change)) least_settled_ = b;
+    report.coupling_change = std::max(report.coupling_change, gap.change);
   }
   return settled;
 }
 
-model::State Stepper::next_state(const model::State& state, const Vector& lambda) const {
-  model::State next;
+void Stepper::form_next_state(const model::State& state, const Vector& lambda) {
+  model::State& next = next_;
   next.t = state.t + scheme_.h;
   next.lambda = lambda;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.bodies.resize(bodies_.size());
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+  for_bodies([&](std::size_t b) {
     const model::BodyState& old = state.bodies[b];
     model::BodyState& s = next.bodies[b];
     s.frame = newton_->motions_at_end()[b].frame;
@@ -235,16 +335,17 @@ model::State Stepper::next_state(const model::State& state, const Vector& lambda
     s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     s.terms = old.terms;
-    if (!large_[b]) continue;
-    s.d = large_[b]->d_end;
-    s.d_dot = large_[b]->rate(scheme_);
-    s.d_ddot = scheme_.carried_acceleration(old.d_ddot, large_[b]->acceleration(scheme_));
-    s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
-    s.coupling = large_[b]->evaluated;
+    if (!large_[b]) return;
+    Large& large = *large_[b];
+    large.evaluate_acceleration(scheme_);
+    s.d = large.d_end;
+    s.d_dot = scheme_.end_rate * large.increment + large.history.velocity;
+    scheme_.carried_acceleration(old.d_ddot, large.acceleration_e, s.d_ddot);
+    scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot, s.d_alg);
+    s.coupling = large.evaluated;
     s.coupling_before = old.coupling;
     s.coupling_earlier = old.coupling_before;
-  }
-  return next;
+  });
 }
 
 void Stepper::take_over_coupling() {
@@ -275,28 +376,28 @@ void Stepper::compute_round(const model::State& state, bool is_first, Vector& la
   seconds_.completion += seconds(Clock::now() - iterated);
 }
 
-StepReport Stepper::step(model::State& state) {
-  if (!must_rescale(state, scheme_)) return take_step(state, state);
-  model::State rescaled = state;
+StepReport Stepper::step(const model::State& before, model::State& after) {
+  if (!must_rescale(before, scheme_)) return take_step(before, after);
+  model::State rescaled = before;
   rescale_algorithmic(rescaled, scheme_);
-  return take_step(rescaled, state);
+  return take_step(rescaled, after);
 }
 
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   Vector lambda = state.lambda;
   start_bodies(state);
-  double before = HUGE_VAL;
+  double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {
     compute_round(state, round == 0, lambda, report);
     if (coupling_settled(state, report)) break;
     const double change = report.coupling_change;
     const bool is_rounding = change <= kCouplingRounding || coupling_motion_ <= kPositionRounding;
-    if (is_rounding && change > 0.5 * before) break;
+    if (is_rounding && change > 0.5 * last_change) break;
     const bool is_second = report.large_solve_rounds >= 2 && !settings_.iterate_coupling;
-    const bool is_small = coupling_motion_ <= kSecondSolveMotion && change <= 0.5 * before;
+    const bool is_small = coupling_motion_ <= kSecondSolveMotion && change <= 0.5 * last_change;
     if (is_second && (change <= kSecondSolve || is_small)) break;
-    before = change;
+    last_change = change;
     if (round + 1 >= settings_.max_outer || !std::isfinite(change)) {
       throw StepFailure(fmt::format(
           "step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not settle "
@@ -306,9 +407,9 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
     }
     take_over_coupling();
   }
-  model::State next = next_state(state, lambda);
-  refuse_infinite(model_, next);
-  end = std::move(next);
+  form_next_state(state, lambda);
+  refuse_infinite(model_, next_);
+  std::swap(end, next_);  // what was `end` lends its memory to the next step
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/neglected_terms.h"
@@ -28,6 +29,10 @@ struct StepSeconds {
 
 /// Advances a mechanism by steps of one length with one factorisation per flexible body.
 ///
+/// With several threads, bodies advance at the same time, and large solves are shared between two;
+/// the result is the same to the last bit. Bodies with equal matrices share one factor and solve
+/// together. Once the first step has been taken, no memory of the size of a mesh is allocated.
+///
 /// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the
 /// small Newton in frame coordinates and λ; a thin product to complete the nodal variables;
 /// inertial coupling evaluated there, with a further solve if it changed by more than the outer
@@ -40,7 +45,9 @@ class Stepper {
 
   /// Advances `state` by one step. The step before may have had another length.
   /// @throws StepFailure naming joint or body that resists; `state` is then unchanged bit for bit
-  StepReport step(model::State& state);
+  StepReport step(model::State& state) { return step(state, state); }
+  /// The same into `after`, which may be `before`; its memory serves again.
+  StepReport step(const model::State& before, model::State& after);
 
   SolveCounts counts(std::size_t body) const;
   /// What a flexible body would leave out at a state if it kept these terms only.
@@ -56,7 +63,9 @@ class Stepper {
   int num_row_selections() const { return newton_->num_selections(); }
 
  private:
-  struct Large;  // n-sized vectors of one flexible body
+  struct Large;        // n-sized vectors of one flexible body
+  struct FactorGroup;  // bodies that share a factor
+  struct CouplingGap;
   StepReport take_step(const model::State& state, model::State& end);
   void start_bodies(const model::State& state);
   /// @return whether any large solve was needed
@@ -66,7 +75,12 @@ class Stepper {
   void compute_round(const model::State& state, bool is_first, linalg::Vector& lambda,
                      StepReport& report);
   bool coupling_settled(const model::State& state, StepReport& report);
-  model::State next_state(const model::State& state, const linalg::Vector& lambda) const;
+  CouplingGap coupling_gap(const model::State& state, std::size_t b);
+  void form_next_state(const model::State& state, const linalg::Vector& lambda);
+  void group_factors();
+  /// Calls f(b) for every body, in parallel where that pays; results must not depend on the order.
+  template <class F>
+  void for_bodies(F&& f);
 
   const model::Model& model_;
   StepSettings settings_;
@@ -75,6 +89,11 @@ class Stepper {
   std::unique_ptr<SmallNewton> newton_;
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<Large>> large_;
+  std::vector<FactorGroup> groups_;
+  std::vector<CouplingGap> gaps_;   // per body
+  std::unique_ptr<TaskPool> pool_;  // empty with one thread
+  model::State next_;
+  Eigen::Index num_dofs_ = 0;      // of all bodies
   std::size_t least_settled_ = 0;  // body with the largest change of coupling
   StepSeconds seconds_;
   double coupling_motion_ = 0;  // caused by the last change of coupling loads, relative to L

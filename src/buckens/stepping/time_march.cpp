@@ -52,10 +52,9 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
   first_failure_.clear();
   for (;;) {
     Stepper& stepper = ladder_.rung(k_);
-    after = before;
     StepReport report;
     try {
-      report = stepper.step(after);
+      report = stepper.step(before, after);
     } catch (const StepFailure& failure) {
       ++report_.failed;
       if (first_failure_.empty()) {

@@ -10,6 +10,7 @@
 namespace buckens::test {
 
 inline std::atomic<long> num_allocations{0};
+inline std::atomic<std::size_t> least_counted{0};  // bytes
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 inline constexpr bool kCountsAllocations = true;
@@ -17,12 +18,19 @@ inline constexpr bool kCountsAllocations = true;
 inline constexpr bool kCountsAllocations = false;  // sanitizers have a malloc of their own
 #endif
 
-/// Allocations of all threads while f runs.
+/// Allocations of all threads while f runs. @param least only those of as many bytes or more
 template <class F>
-long count_allocations(F&& f) {
+long count_allocations(F&& f, std::size_t least = 0) {
+  least_counted = least;
   const long before = num_allocations.load();
   f();
   return num_allocations.load() - before;
+}
+
+inline void note_allocation(std::size_t size) {
+  if (size >= least_counted.load(std::memory_order_relaxed)) {
+    num_allocations.fetch_add(1, std::memory_order_relaxed);
+  }
 }
 
 }  // namespace buckens::test
@@ -32,11 +40,11 @@ extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void* malloc(std::size_t size) {
-  buckens::test::num_allocations.fetch_add(1, std::memory_order_relaxed);
+  buckens::test::note_allocation(size);
   return __libc_malloc(size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  buckens::test::num_allocations.fetch_add(1, std::memory_order_relaxed);
+  buckens::test::note_allocation(size);
   return __libc_memalign(alignment, size);
 }
 }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/deformation_coupling.h"
+
+#include <array>
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::body {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+// Places (a, b) of the six stored matrices W_ab, a ≤ b.
+constexpr std::array<std::array<int, 2>, 6> kPairs = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+Matrix3d to_inertia(const Matrix3d& second_moment) {
+  return second_moment.trace() * Matrix3d::Identity() - second_moment;
+}
+
+/// (T_23 − T_32, T_31 − T_13, T_12 − T_21).
+Vector3d axial(const Matrix3d& T) {
+  return {T(1, 2) - T(2, 1), T(2, 0) - T(0, 2), T(0, 1) - T(1, 0)};
+}
+
+/// One pass over the integrals: T_ab(x, y) = xᵀ W_ab y and the loads.
+class Pass {
+ public:
+  Pass(const Vector& d, const Vector& d_dot, const Vector& d_ddot,
+       const DeformationWeights& weights, Vector& load)
+      : d_(d), v_(d_dot), a_(d_ddot), weights_(weights), load_(load), loads_(!weights.are_zero()) {}
+
+  /// W_ab with a ≤ b, and W_ba, its transpose.
+  void add(const SparseMatrix& W, int a, int b) {
+    const bool is_mixed = a != b;
+    for (int j = 0; j < W.outerSize(); ++j) {
+      double Wd = 0, Wv = 0, Wa = 0;  // row j of Wᵀ times d, ḋ, d̈
+      const double spread = weights_.with_d(a, b) * d_[j] + weights_.with_rate(a, b) * v_[j];
+      for (SparseMatrix::InnerIterator it(W, j); it; ++it) {
+        Wd += it.value() * d_[it.row()];
+        Wv += it.value() * v_[it.row()];
+        Wa += it.value() * a_[it.row()];
+        if (loads_) load_[it.row()] += spread * it.value();
+      }
+      dd_(a, b) += Wd * d_[j];
+      dv_(a, b) += Wd * v_[j];
+      da_(a, b) += Wd * a_[j];
+      if (!is_mixed) continue;
+      dv_(b, a) += Wv * d_[j];
+      da_(b, a) += Wa * d_[j];
+      if (loads_) load_[j] += weights_.with_d(b, a) * Wd + weights_.with_rate(b, a) * Wv;
+    }
+    if (is_mixed) dd_(b, a) = dd_(a, b);
+  }
+
+  /// The share of the scalar mass matrix: Ms ⊗ E_ab for all pairs at once.
+  void add(const fem::NodalMass& mass) {
+    const SparseMatrix& Ms = mass.Ms;
+    for (int node = 0; node < Ms.outerSize(); ++node) {
+      Vector3d Md = Vector3d::Zero(), Mv = Vector3d::Zero();
+      for (SparseMatrix::InnerIterator it(Ms, node); it; ++it) {
+        const auto& dofs = mass.dofs[static_cast<std::size_t>(it.row())];
+        Md += it.value() * at(d_, dofs);
+        if (loads_) Mv += it.value() * at(v_, dofs);
+      }
+      const auto& dofs = mass.dofs[static_cast<std::size_t>(node)];
+      dd_ += Md * at(d_, dofs).transpose();
+      dv_ += Md * at(v_, dofs).transpose();
+      da_ += Md * at(a_, dofs).transpose();
+      if (!loads_) continue;
+      const Vector3d f = weights_.with_d * Md + weights_.with_rate * Mv;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (dofs[k] >= 0) load_[dofs[k]] += f[static_cast<Eigen::Index>(k)];
+      }
+    }
+  }
+
+  /// J₂, J̇₂, l and l̇.
+  DeformedMoments moments() const {
+    DeformedMoments out;
+    out.J = to_inertia(dd_);
+    out.J_dot = to_inertia(dv_ + dv_.transpose());
+    out.l = axial(dv_);
+    out.l_dot = axial(da_);
+    return out;
+  }
+
+ private:
+  /// Translations of a node, zero where it has no variable.
+  static Vector3d at(const Vector& x, const std::array<int, 3>& dofs) {
+    return {dofs[0] >= 0 ? x[dofs[0]] : 0.0, dofs[1] >= 0 ? x[dofs[1]] : 0.0,
+            dofs[2] >= 0 ? x[dofs[2]] : 0.0};
+  }
+
+  const Vector& d_;
+  const Vector& v_;
+  const Vector& a_;
+  const DeformationWeights& weights_;
+  Vector& load_;
+  const bool loads_;
+  Matrix3d dd_ = Matrix3d::Zero();  // T(d, d)
+  Matrix3d dv_ = Matrix3d::Zero();  // T(d, ḋ)
+  Matrix3d da_ = Matrix3d::Zero();  // T(d, d̈)
+};
+
+}  // namespace
+
+DeformationWeights DeformationWeights::of_motion(const Vector3d& w, const Vector3d& w_dot,
+                                                 const CouplingTerms& kept) {
+  // Σ w_a H_a = Σ A_ab W_ab with A = −w×.
+  DeformationWeights out;
+  if (kept.cent1) out.with_d += w.squaredNorm() * Matrix3d::Identity() - w * w.transpose();
+  if (kept.eul_fe) out.with_d -= spatial::skew(w_dot);
+  if (kept.cor_fe) out.with_rate = -2.0 * spatial::skew(w);
+  return out;
+}
+
+DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vector& d,
+                                     const Vector& d_dot, const Vector& d_ddot,
+                                     const DeformationWeights& weights, Vector& load) {
+  Pass pass(d, d_dot, d_ddot, weights, load);
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    if (shape.W[k].nonZeros() > 0) pass.add(shape.W[k], kPairs[k][0], kPairs[k][1]);
+  }
+  if (!shape.nodal.empty()) pass.add(shape.nodal);
+  return pass.moments();
+}
+
+}  // namespace buckens::body

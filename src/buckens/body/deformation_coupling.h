@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/body/inertia_invariants.h"
+#include "buckens/fem/shape_integrals.h"
+
+namespace buckens::body {
+
+/// Nodal loads Σ (A_ab W_ab d + B_ab W_ab ḋ) of the deformation, by the matrices A and B.
+struct DeformationWeights {
+  Eigen::Matrix3d with_d = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d with_rate = Eigen::Matrix3d::Zero();
+
+  /// Those of FM (22)–(24) without ĉ. @param kept which of the three terms
+  static DeformationWeights of_motion(const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot,
+                                      const CouplingTerms& kept);
+  bool are_zero() const { return with_d.isZero(0.0) && with_rate.isZero(0.0); }
+};
+
+/// The moments quadratic in d and the nodal loads of a deformation, from one pass over the inertia
+/// integrals. Allocates nothing.
+/// @param load n, what is there is added to; not touched where the weights are zero
+DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const linalg::Vector& d,
+                                     const linalg::Vector& d_dot, const linalg::Vector& d_ddot,
+                                     const DeformationWeights& weights, linalg::Vector& load);
+
+}  // namespace buckens::body

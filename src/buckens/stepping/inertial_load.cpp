@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/inertial_load.h"
+
+#include <optional>
+
+#include "buckens/body/nodal_inertia.h"
+#include "buckens/linalg/inverse_iteration.h"
+
+namespace buckens::stepping {
+
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+// Entries of C and of M are sums of a few numbers each.
+constexpr double kRounding = 1e-14;
+
+/// β with C = α M + β K, empty if there is none.
+std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
+  const SparseMatrix elastic = part.C - part.fe.mass_damping * part.fe.M;
+  const double size = part.fe.K.squaredNorm();
+  if (!(size > 0.0)) return std::nullopt;
+  double beta = 0;
+  SparseMatrix rest = elastic;
+  for (int pass = 0; pass < 2; ++pass) {  // the second takes the rounding of a long sum out
+    beta += rest.cwiseProduct(part.fe.K).sum() / size;
+    rest = elastic - beta * part.fe.K;
+  }
+  if (rest.norm() > kRounding * part.C.norm()) return std::nullopt;
+  return beta;
+}
+
+/// Whether M is the scalar mass matrix, node by node.
+bool acts_by_node(const body::FlexiblePart& part) {
+  const body::NodalInertia nodal(part.fe.shape.nodal);
+  if (nodal.empty()) return false;
+  const Vector x = linalg::scattered_block(part.num_dofs(), 1, 5);
+  Vector y(x.size());
+  nodal.multiply(x, y);
+  const Vector expected = part.fe.M * x;
+  return (y - expected).norm() <= kRounding * expected.norm();
+}
+
+}  // namespace
+
+InertialLoad::InertialLoad(const body::FlexiblePart& part, const Scheme& scheme)
+    : part_(&part), is_by_node_(acts_by_node(part)) {
+  if (!part.is_damped()) return;
+  const std::optional<double> beta = stiffness_damping(part);
+  if (!beta) return;
+  is_proportional_ = true;
+  const double alpha = part.fe.mass_damping;
+  share_ = *beta / (scheme.stiffness + scheme.damping * *beta);
+  zeta_ = alpha - share_ * (scheme.mass + scheme.damping * alpha);
+}
+
+void InertialLoad::form(Vector& a, const Vector& b, Vector& right) const {
+  if (is_proportional_) a += zeta_ * b;
+  right.resize(a.size());
+  if (is_by_node_) {
+    body::NodalInertia(part_->fe.shape.nodal).multiply(a, right);
+  } else {
+    right.noalias() = part_->fe.M * a;
+  }
+  if (is_damped() && !is_proportional_) right.noalias() += part_->C * b;
+}
+
+}  // namespace buckens::stepping

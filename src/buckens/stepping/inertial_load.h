@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/body/body.h"
+#include "buckens/stepping/scheme.h"
+
+namespace buckens::stepping {
+
+/// The terms M a + C b of a step's right-hand side, without a product with K where damping is
+/// proportional: C = α M + β K and K̂ = m M + c C + k K give
+///
+///     K̂⁻¹ C b = β' b + K̂⁻¹ ζ M b,   β' = β/(k + cβ),   ζ = α − β'(m + cα),
+///
+/// so that b joins a under one product with M and β'b is added after the solve. M itself acts node
+/// by node through the scalar mass matrix where that is all of it (solids): a third of the bytes.
+class InertialLoad {
+ public:
+  InertialLoad(const body::FlexiblePart& part, const Scheme& scheme);
+
+  /// right = M a + C b − K̂ (share() b). Allocates nothing once `right` has its size.
+  /// @param a used as scratch
+  void form(linalg::Vector& a, const linalg::Vector& b, linalg::Vector& right) const;
+  /// What of b is to be added to the solution: β', zero if undamped or damped otherwise.
+  double share() const { return share_; }
+  /// Whether b matters at all.
+  bool is_damped() const { return part_->is_damped(); }
+  bool is_proportional() const { return is_proportional_; }
+  bool is_by_node() const { return is_by_node_; }
+
+ private:
+  const body::FlexiblePart* part_;
+  bool is_proportional_ = false;
+  bool is_by_node_ = false;
+  double share_ = 0;
+  double zeta_ = 0;
+};
+
+}  // namespace buckens::stepping
