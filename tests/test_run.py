@@ -107,6 +107,22 @@ def test_two_runs_give_the_same_numbers(buckens, models, tmp_path):
             == (tmp_path / "two" / "sensors.csv").read_bytes())
 
 
+def test_threads_change_no_bit(buckens, models, tmp_path):
+    for threads in ("1", "2", "3"):
+        buckens("run", models / "twin_beams.yaml", "-o", threads, "--threads", threads).must(0)
+    alone = (tmp_path / "1" / "sensors.csv").read_bytes()
+    assert alone.count(b"\n") > 10
+    assert (tmp_path / "2" / "sensors.csv").read_bytes() == alone
+    assert (tmp_path / "3" / "sensors.csv").read_bytes() == alone
+    bodies = summary_of(tmp_path / "2")["bodies"]
+    assert bodies["left"]["factorisations"] + bodies["right"]["factorisations"] == 1
+
+
+def test_a_number_of_threads_that_makes_no_sense(buckens, models):
+    buckens("run", models / "pendulum.yaml", "--threads", "0").must(2, "--threads")
+    buckens("run", models / "pendulum.yaml", "--threads", "many").must(2, "--threads")
+
+
 def test_a_second_run_replaces_the_first(buckens, models, tmp_path):
     buckens("run", models / "beam.yaml", "-o", "out").must(0)
     buckens("run", models / "pendulum.yaml", "-o", "out").must(0)

@@ -29,10 +29,13 @@ namespace {
 namespace fs = std::filesystem;
 using base::LogLevel;
 
+constexpr int kMostThreads = 256;
+
 struct RunArguments {
   std::string model, out;
   std::vector<std::string> overrides;
   bool quiet = false;
+  int threads = 1;
 
   fs::path directory() const {
     return out.empty() ? fs::path(model).stem() += ".out" : fs::path(out);
@@ -82,13 +85,14 @@ class Watch {
 };
 
 results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink,
-                             const fs::path& directory, ProgressDisplay& display,
+                             const RunArguments& arguments, ProgressDisplay& display,
                              RunJournal& journal) {
   // Said to whoever pressed the key, not into a pipe.
   const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   Watch watch(display, journal, interruption);
   analysis::SimulationOptions options;
   options.stop_reason = "interrupted by the user";
+  options.threads = arguments.threads;
   options.on_progress = [&watch](const analysis::Progress& progress) { return watch(progress); };
   try {
     results::RunSummary summary = analysis::simulate(built, sink, options);
@@ -101,7 +105,7 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
       journal.say(
           LogLevel::warning,
           fmt::format("the run ended early; its {} records up to t = {:.6g} s are kept in {}",
-                      sink.num_records(), sink.last_time(), directory.string()));
+                      sink.num_records(), sink.last_time(), arguments.directory().string()));
     }
     throw;
   }
@@ -122,7 +126,7 @@ ExitCode run(const RunArguments& arguments, bool json) {
   journal.open(directory);
   journal.say(LogLevel::info, fmt::format("results go to {}", path.string()));
   JournaledSink sink(directory, journal);
-  const results::RunSummary summary = simulate(*built, sink, path, display, journal);
+  const results::RunSummary summary = simulate(*built, sink, arguments, display, journal);
 
   if (json) {
     print(io::read_text_file(path / io::kSummaryName));
@@ -161,6 +165,10 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
       ->type_name("OUT");
   verb.add_flag("-q,--quiet", arguments->quiet,
                 "No progress and no summary; warnings and errors only");
+  verb.add_option("--threads", arguments->threads,
+                  "Threads that advance bodies at the same time, two of them also one large\n"
+                  "body; 1 if not given. Results are the same to the last bit")
+      ->check(CLI::Range(1, kMostThreads));
   add_json_option(verb, invocation);
   verb.footer(kFooter);
   verb.callback([arguments, &invocation] {

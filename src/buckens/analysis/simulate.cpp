@@ -132,7 +132,9 @@ class Simulation {
     metric_.emplace(built_.model);
     prepared_.emplace(prepare(built_, *metric_));
     const stepping::MarchSettings march = march_settings(spec_);
-    march_.emplace(built_.model, step_settings(spec_), prepared_->rows_in_use, march);
+    stepping::StepSettings settings = step_settings(spec_);
+    settings.threads = options_.threads;
+    march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
     if (!march.tolerance) steps_ = march.longest_steps;
     every_ = built_.description.output.every.value_or(
         march.tolerance ? spec_.duration / kDefaultRecords

@@ -21,6 +21,7 @@ struct SimulationOptions {
   std::function<bool(const Progress&)> on_progress;
   /// Why on_progress said no, for the summary: "interrupted by the user".
   std::string stop_reason = "stopped";
+  int threads = 1;  ///< ≥ 1; has no influence on results
 };
 
 /// Runs the simulation the model file asks for: set-up, one factorisation per flexible body, steps,
