@@ -21,13 +21,14 @@ struct Running {
   std::unique_ptr<stepping::Stepper> stepper;
 };
 
-inline Running start(const std::string& text, double step) {
+inline Running start(const std::string& text, double step, int threads = 1) {
   Running run;
   run.built = model::build_model(io::read_model_text(text, "bench.yaml", {}));
   run.metric = std::make_unique<dynamics::MassMetric>(run.built->model);
   run.prepared = analysis::prepare(*run.built, *run.metric);
   stepping::StepSettings settings;
   settings.step = step;
+  settings.threads = threads;
   run.stepper =
       std::make_unique<stepping::Stepper>(run.built->model, settings, run.prepared.rows_in_use);
   return run;
