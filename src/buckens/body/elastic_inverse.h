@@ -12,9 +12,14 @@ namespace buckens::body {
 
 /// K⁺ of a free mesh: the sieved deformation under loads from which their inertia relief is taken.
 ///
-/// K is singular by the rigid motions. Grounding as many variables as there are rigid motions,
-/// isostatically, makes it positive definite without straining anything: for self-equilibrated
-/// loads the grounds carry nothing. So K⁺ = Y K_g⁻¹ Yᵀ with Y the sieve.
+/// K is singular by the rigid modes Φ. With exactly rank(Φ) variables held (isostatic grounding)
+/// the rest, K_ff, is positive definite, and
+///
+///     K⁺ = Y K_g⁻¹ Yᵀ,      K_g⁻¹ = [K_ff⁻¹ 0; 0 0]                        FM (38), (39)
+///
+/// does not depend on which variables are held: sieved loads need no reaction there, and the sieve
+/// takes out the rigid motion that holding them brings in. K K⁺ f = Yᵀ f, Pᵀ K⁺ f = 0.
+/// Theory: docs/theory/06-initial-state.md §3.
 class ElasticInverse {
  public:
   /// @param length scale that makes rotations and translations comparable [m]
