@@ -11,6 +11,7 @@ enum class ExitCode : int {
   model = 3,          ///< readable, but the mechanism cannot be built or solved
   numerical = 4,      ///< a calculation failed, or memory ran out
   io = 5,             ///< a file cannot be read or written
+  different = 6,      ///< two runs differ by more than was accepted
   interrupted = 130,  ///< Ctrl-C, SIGTERM or SIGHUP; what was computed is complete
 };
 

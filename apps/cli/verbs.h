@@ -22,6 +22,7 @@ void add_run_verb(CLI::App& program, Invocation& invocation);
 void add_static_verb(CLI::App& program, Invocation& invocation);
 void add_check_verb(CLI::App& program, Invocation& invocation);
 void add_modes_verb(CLI::App& program, Invocation& invocation);
+void add_compare_verb(CLI::App& program, Invocation& invocation);
 void add_view_verb(CLI::App& program, Invocation& invocation);
 void add_schema_verb(CLI::App& program, Invocation& invocation);
 void add_reference_verb(CLI::App& program, Invocation& invocation);
