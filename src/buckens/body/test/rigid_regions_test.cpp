@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/reduction.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/box_mesh.h"
@@ -168,6 +169,24 @@ TEST(RigidRegions, FindTheNearestMotionInTheMassMetric) {
   const auto held = Block().held();
   const Vector x = Vector::Random(held->num_dofs());
   EXPECT_NEAR((held->coordinates(held->nodal(x)) - x).norm(), 0, 1e-9 * x.norm());
+}
+
+TEST(RigidRegions, CanBeReduced) {
+  const auto held = Block().held();
+  const auto n = held->num_dofs();
+  held->rows.resize(12, n);
+  for (Eigen::Index k = 0; k < 12; ++k) held->rows.insert(k, n - 12 + k) = 1.0;
+  held->num_interface_rows = 12;
+  const ReducedBasis basis = free_free_basis("block", *held, 6, true, 0.2);
+  const auto reduced = reduce("block", *held, basis);
+  EXPECT_TRUE(reduced->is_reduced());
+  EXPECT_FALSE(held->is_reduced());
+  EXPECT_EQ(&reduced->mesh(), &held->mesh());
+  const Vector eta = Vector::Random(basis.Z.cols());
+  const Vector d = held->nodal(basis.Z * eta);
+  EXPECT_NEAR((reduced->nodal(eta) - d).norm(), 0, 1e-13 * d.norm());
+  EXPECT_NEAR((reduced->coordinates(d) - eta).norm(), 0, 1e-9 * eta.norm());
+  EXPECT_NEAR((reduced->rows * eta - held->rows * (basis.Z * eta)).norm(), 0, 1e-13 * d.norm());
 }
 
 TEST(RigidRegions, WithCommonNodesAreRefused) {

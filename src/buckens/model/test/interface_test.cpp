@@ -223,6 +223,13 @@ TEST(Interfaces, RigidOnesHaveNoNodeInCommon) {
           .build());
 }
 
+TEST(Interfaces, RigidOnesAndGeometricStiffnessExcludeEachOther) {
+  Described m = block({interface("hinge", face("x0"), body::InterfaceKind::rigid)});
+  m.d.bodies[0].geometric_stiffness = true;
+  expect_refused<ModelError>(m, {"test.yaml:10:1", "\"block\"", "geometric stiffness",
+                                 "rigid interface \"hinge\"", "`average`"});
+}
+
 TEST(Interfaces, ObserveStressInTheElementsAround) {
   Described m = block({interface("hinge", face("x0"))});
   m.sensor_of<StressSensor>("root", "block/hinge");
