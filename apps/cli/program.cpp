@@ -88,6 +88,7 @@ int run_program(int argc, const char* const* argv) {
     CLI::App app;
     describe(app);
     add_run_verb(app, invocation);
+    add_sweep_verb(app, invocation);
     add_static_verb(app, invocation);
     add_check_verb(app, invocation);
     add_modes_verb(app, invocation);

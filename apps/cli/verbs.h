@@ -19,6 +19,7 @@ struct Invocation {
 
 /// Each adds one verb with its options and help. The action may throw whatever the library throws.
 void add_run_verb(CLI::App& program, Invocation& invocation);
+void add_sweep_verb(CLI::App& program, Invocation& invocation);
 void add_static_verb(CLI::App& program, Invocation& invocation);
 void add_check_verb(CLI::App& program, Invocation& invocation);
 void add_modes_verb(CLI::App& program, Invocation& invocation);

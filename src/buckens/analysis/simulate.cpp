@@ -134,6 +134,7 @@ class Simulation {
     const stepping::MarchSettings march = march_settings(spec_);
     stepping::StepSettings settings = step_settings(spec_);
     settings.threads = options_.threads;
+    settings.exchange = options_.exchange;
     march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
     if (!march.tolerance) steps_ = march.longest_steps;
     every_ = built_.description.output.every.value_or(

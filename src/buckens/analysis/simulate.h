@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "buckens/linalg/solve_exchange.h"
 #include "buckens/model/model_builder.h"
 #include "buckens/results/record_sink.h"
 
@@ -22,6 +23,8 @@ struct SimulationOptions {
   /// Why on_progress said no, for the summary: "interrupted by the user".
   std::string stop_reason = "stopped";
   int threads = 1;  ///< ≥ 1; has no influence on results
+  /// Shares factors and solves with other simulations that run side by side; null: alone.
+  linalg::SolveExchange* exchange = nullptr;
 };
 
 /// Runs the simulation the model file asks for: set-up, one factorisation per flexible body, steps,

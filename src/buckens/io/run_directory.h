@@ -54,6 +54,7 @@ class RunDirectory : public results::RecordSink {
   void log(std::string_view lines);
 
   const std::filesystem::path& path() const { return path_; }
+  bool is_complete() const { return finished_; }  ///< `finish` has been called
 
  private:
   void take_directory();

@@ -6,22 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "buckens/io/csv_row.h"
+
 namespace buckens::io {
 
 namespace {
 
 constexpr std::string_view kSensors = "sensors/";
-
-/// A name as RFC 4180 wants it: quoted if it holds a comma, a quote or a line break.
-std::string quote(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == name.npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 }  // namespace
 
@@ -48,7 +39,7 @@ SensorsCsv::SensorsCsv(const std::filesystem::path& path, const results::RecordL
     if (!channel.path.starts_with(kSensors)) continue;
     std::size_t position = layout.offset(index);
     for (const std::string& name : csv_column_names(channel)) {
-      line_ += ',' + quote(name);
+      line_ += ',' + csv_cell(name);
       positions_.push_back(position++);
     }
   }

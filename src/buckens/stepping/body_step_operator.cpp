@@ -63,14 +63,13 @@ bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
 }
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
-                                   const BodyStepOperator* twin)
+                                   const BodyStepOperator* twin, linalg::SolveExchange* exchange)
     : part_(&part),
       scheme_(scheme),
       K_hat_(step_matrix(part, scheme)),
-      is_shared_(twin != nullptr && are_equal(K_hat_, twin->K_hat_)),
-      factor_(is_shared_ ? twin->factor_ : std::make_shared<const linalg::SparseCholesky>(K_hat_)),
       N_(rows_of(part)),
       inertial_(part, scheme) {
+  find_factor(twin, exchange);
   if (part.num_dofs() <= kSmall) {
     inverse_ = factor_->solve(Matrix::Identity(part.num_dofs(), part.num_dofs()));
     part.sieve.apply(inverse_);
@@ -96,6 +95,19 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   NG_ = N_ * G_;
   interface_ = NG_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
   ND_ = N_ * D_;
+}
+
+void BodyStepOperator::find_factor(const BodyStepOperator* twin, linalg::SolveExchange* exchange) {
+  if (twin != nullptr && are_equal(K_hat_, twin->K_hat_)) {
+    factor_ = twin->factor_;
+    is_shared_ = true;
+  } else if (exchange != nullptr) {
+    const long factorisations = exchange->num_factorisations();
+    factor_ = exchange->factor(K_hat_);
+    is_shared_ = exchange->num_factorisations() == factorisations;
+  } else {
+    factor_ = std::make_shared<const linalg::SparseCholesky>(K_hat_);
+  }
 }
 
 void BodyStepOperator::free_response(const model::BodyState& before, const History<Vector>& history,

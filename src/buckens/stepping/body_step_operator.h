@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "buckens/body/body.h"
+#include "buckens/linalg/solve_exchange.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/inertial_load.h"
@@ -25,8 +26,10 @@ class BodyStepOperator {
  public:
   /// @param twin operator of a body that may have the same K̂ to the last bit; then its factor
   ///        serves both.
+  /// @param exchange where other simulations may have the factor; null: nowhere
   BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
-                   const BodyStepOperator* twin = nullptr);
+                   const BodyStepOperator* twin = nullptr,
+                   linalg::SolveExchange* exchange = nullptr);
   /// Whether a body has the step matrix of this one.
   bool fits(const body::FlexiblePart& part) const;
 
@@ -73,16 +76,18 @@ class BodyStepOperator {
 
   const linalg::SparseMatrix& K_hat() const { return K_hat_; }
   double factor_entries() const { return factor_->num_factor_entries(); }
-  /// 1, or 0 where the factor is that of a twin.
+  /// 1, or 0 where the factor is that of a twin or of another simulation.
   long factorisations() const { return is_shared_ ? 0 : 1; }
   long solves() const { return solves_; }
   long setup_solves() const { return setup_solves_; }
 
  private:
+  void find_factor(const BodyStepOperator* twin, linalg::SolveExchange* exchange);
+
   const body::FlexiblePart* part_;
   Scheme scheme_;
   linalg::SparseMatrix K_hat_;
-  bool is_shared_;
+  bool is_shared_ = false;
   std::shared_ptr<const linalg::SparseCholesky> factor_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
@@ -20,6 +21,8 @@ struct StepSettings {
   int max_newton = 40;
   int max_outer = 30;
   int threads = 1;  ///< ≥ 1; has no influence on results
+  /// Shares factors and solves with steppers that run side by side; null: alone.
+  linalg::SolveExchange* exchange = nullptr;
 
   /// The parameter that the method takes, for Scheme.
   double method_parameter() const {

@@ -74,9 +74,10 @@ struct Stepper::FactorGroup {
   std::vector<std::size_t> active;  // those that solve in this round
   linalg::Matrix sides;
 
-  void solve(std::vector<std::unique_ptr<Large>>& large, TaskPool* pool) {
+  void solve(std::vector<std::unique_ptr<Large>>& large, TaskPool* pool,
+             linalg::SolveExchange* exchange) {
     if (active.empty()) return;
-    if (active.size() == 1) {
+    if (active.size() == 1 && exchange == nullptr) {
       factor->solve_in_place(large[active.front()]->free, pool);
       return;
     }
@@ -84,7 +85,11 @@ struct Stepper::FactorGroup {
     for (std::size_t k = 0; k < active.size(); ++k) {
       sides.col(static_cast<Eigen::Index>(k)) = large[active[k]]->free;
     }
-    factor->solve_in_place(sides, pool);
+    if (exchange != nullptr) {
+      exchange->solve(*factor, sides, pool);
+    } else {
+      factor->solve_in_place(sides, pool);
+    }
     for (std::size_t k = 0; k < active.size(); ++k) {
       large[active[k]]->free = sides.col(static_cast<Eigen::Index>(k));
     }
@@ -103,14 +108,14 @@ namespace {
 /// @param known operators of other bodies, one of which may have the factor already
 std::unique_ptr<BodyStepOperator> factorised(
     const body::Body& body, const Scheme& scheme,
-    const std::vector<std::unique_ptr<BodyStepOperator>>& known) {
+    const std::vector<std::unique_ptr<BodyStepOperator>>& known, linalg::SolveExchange* exchange) {
   if (!body.is_flexible()) return nullptr;
   const auto twin = std::find_if(known.begin(), known.end(), [&](const auto& other) {
     return other != nullptr && other->fits(*body.flexible);
   });
   try {
-    return std::make_unique<BodyStepOperator>(*body.flexible, scheme,
-                                              twin == known.end() ? nullptr : twin->get());
+    return std::make_unique<BodyStepOperator>(
+        *body.flexible, scheme, twin == known.end() ? nullptr : twin->get(), exchange);
   } catch (const NumericalError& error) {
     throw NumericalError(
         fmt::format("body \"{}\": {}; a mesh far finer than its sections also comes to this: use "
@@ -145,7 +150,7 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       bodies_(model.bodies.size()) {
   std::vector<const BodyStepOperator*> views;
   for (const body::Body& body : model.bodies) {
-    operators_.push_back(factorised(body, scheme_, operators_));
+    operators_.push_back(factorised(body, scheme_, operators_, settings_.exchange));
     large_.push_back(body.is_flexible() ? std::make_unique<Large>(*operators_.back()) : nullptr);
     views.push_back(operators_.back().get());
   }
@@ -223,9 +228,12 @@ bool Stepper::free_responses(const model::State& state, bool first_round) {
     std::copy_if(group.bodies.begin(), group.bodies.end(), std::back_inserter(group.active),
                  is_active);
   }
-  // One factor is shared between threads by its subtrees, several one by one.
-  run_tasks(pool_.get(), static_cast<int>(groups_.size()),
-            [&](int g) { groups_[static_cast<std::size_t>(g)].solve(large_, pool_.get()); });
+  // One factor is shared between threads by its subtrees, several one by one; those that wait for
+  // other simulations must not wait inside of tasks.
+  TaskPool* across = settings_.exchange == nullptr ? pool_.get() : nullptr;
+  run_tasks(across, static_cast<int>(groups_.size()), [&](int g) {
+    groups_[static_cast<std::size_t>(g)].solve(large_, pool_.get(), settings_.exchange);
+  });
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
     Large& large = *large_[b];

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/interruption.h"
+#include "cli/output.h"
+#include "cli/progress_display.h"
+#include "cli/text_table.h"
+#include "cli/verbs.h"
+
+#include "buckens/base/errors.h"
+#include "buckens/io/output_file.h"
+#include "buckens/io/sweep_summary.h"
+#include "buckens/io/sweep_table.h"
+#include "buckens/io/variant_runs.h"
+
+namespace buckens::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepArguments {
+  std::string model, table, out;
+  std::vector<std::string> overrides, ranges;
+  int together = io::SweepOptions{}.together;
+  bool quiet = false;
+
+  fs::path directory() const {
+    return out.empty() ? fs::path(model).stem() += ".sweep" : fs::path(out);
+  }
+};
+
+io::SweepTable variants_of(const SweepArguments& arguments) {
+  if (arguments.table.empty() == arguments.ranges.empty()) {
+    throw InputError({},
+                     "a sweep needs its variants: either a table in CSV, `buckens sweep MODEL "
+                     "TABLE`, or ranges, `--vary PATH=[VALUE, ...]`, and not both");
+  }
+  return arguments.table.empty() ? io::combinations(arguments.ranges)
+                                 : io::read_sweep_table(arguments.table);
+}
+
+/// Tells the user about every variant that ends, and now and then how far the others are.
+class SweepDisplay {
+ public:
+  explicit SweepDisplay(bool quiet) : quiet_(quiet) {}
+
+  void show(const io::SweepProgress& progress) {
+    const double now = seconds();
+    if (progress.ended != nullptr && (!quiet_ || is_failure(*progress.ended))) {
+      const std::string why = progress.ended->message.empty() ? "" : ": " + progress.ended->message;
+      say(fmt::format("{} {}{} ({} of {}, ETA {})", progress.ended->name,
+                      io::to_string(progress.ended->status), why, progress.num_ended,
+                      progress.num_variants, time_to_go(progress.share)));
+    } else if (!quiet_ && now > next_) {
+      say(fmt::format("{:.0f} % of all steps, ETA {}", 100 * progress.share,
+                      time_to_go(progress.share)));
+    } else {
+      return;
+    }
+    next_ = now + kInterval;
+  }
+
+ private:
+  static constexpr double kInterval = 10;  // between lines that only say how far [s]
+
+  static bool is_failure(const io::VariantOutcome& variant) {
+    return variant.status == io::VariantStatus::failed;
+  }
+  static void say(const std::string& line) {
+    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fflush(stderr);
+  }
+  std::string time_to_go(double share) const {
+    return clock_text(share > 0 ? seconds() * (1 - share) / share : -1);
+  }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  bool quiet_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double next_ = kInterval;
+};
+
+std::string outcome_text(const io::SweepOutcome& outcome, const fs::path& table) {
+  const auto count = [&](io::VariantStatus status) {
+    return std::count_if(outcome.variants.begin(), outcome.variants.end(),
+                         [&](const auto& variant) { return variant.status == status; });
+  };
+  std::string text =
+      fmt::format("{}: {} done, {} kept from before, {} failed, {} not finished\n",
+                  counted(static_cast<long>(outcome.variants.size()), "variant"),
+                  count(io::VariantStatus::done), count(io::VariantStatus::kept),
+                  count(io::VariantStatus::failed), count(io::VariantStatus::interrupted));
+  if (outcome.passes > 0) {
+    text += fmt::format("large bodies: {}, {} in {} passes over a factor\n",
+                        counted(outcome.factorisations, "factorisation"),
+                        counted(outcome.solves, "solve"), outcome.passes);
+  }
+  return text + fmt::format("table: {}\n", table.string());
+}
+
+nlohmann::ordered_json outcome_json(const io::SweepOutcome& outcome, const fs::path& directory,
+                                    const fs::path& table) {
+  nlohmann::ordered_json variants = nlohmann::ordered_json::array();
+  for (const io::VariantOutcome& variant : outcome.variants) {
+    variants.push_back({{"name", variant.name},
+                        {"status", io::to_string(variant.status)},
+                        {"directory", (directory / variant.name).string()}});
+    if (!variant.message.empty()) variants.back()["message"] = variant.message;
+  }
+  return {{"table", table.string()},
+          {"variants", std::move(variants)},
+          {"factorisations", outcome.factorisations},
+          {"solves", outcome.solves},
+          {"passes", outcome.passes}};
+}
+
+ExitCode exit_code_of(const io::SweepOutcome& outcome) {
+  const auto any = [&](io::VariantStatus status) {
+    return std::any_of(outcome.variants.begin(), outcome.variants.end(),
+                       [&](const auto& variant) { return variant.status == status; });
+  };
+  if (any(io::VariantStatus::interrupted)) return ExitCode::interrupted;
+  return any(io::VariantStatus::failed) ? ExitCode::numerical : ExitCode::ok;
+}
+
+ExitCode sweep(const SweepArguments& arguments, bool json) {
+  const io::SweepTable variants = variants_of(arguments);
+  const fs::path directory = arguments.directory();
+  const fs::path table = directory / io::kSweepName;
+  const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
+  SweepDisplay display(arguments.quiet || json);
+  io::SweepOptions options;
+  options.together = arguments.together;
+  options.on_progress = [&](const io::SweepProgress& progress) {
+    display.show(progress);
+    return !interruption.requested();
+  };
+  const io::SweepOutcome outcome =
+      io::run_variants(arguments.model, arguments.overrides, variants, directory, options);
+  io::replace_text_file(table, io::sweep_summary_csv(directory, variants, outcome));
+  if (json) {
+    print(to_text(outcome_json(outcome, directory, table)));
+  } else if (!arguments.quiet) {
+    print(outcome_text(outcome, table));
+  }
+  return exit_code_of(outcome);
+}
+
+constexpr char kFooter[] = R"(
+Example:
+  buckens sweep slider_crank.yaml variants.csv -o speeds
+  buckens sweep slider_crank.yaml --vary "parameters.speed=[100, 125, 150]" -o speeds
+
+TABLE is a CSV file. Its first line names quantities of the model file as --set does, every further
+line is a variant; a column `name` names the run directories. Values that hold commas stand in
+double quotes: "[36, 2, 2]". With several --vary all combinations are run.
+
+Each variant becomes the run directory OUT/NAME; OUT/sweep.csv has a row per variant with effort,
+energy error, trust, and the last value and extremes of every sensor. Variants whose bodies have
+equal matrices advance side by side: one factorisation serves all, and their solves read it once.
+
+A variant that fails does not stop the others. Ctrl-C ends the sweep after the steps that go on; the
+same command later keeps what is finished and runs the rest.
+
+Exit codes: 0 all done, 2 bad input, 4 some variants failed, 5 files, 130 interrupted.
+Details: docs/tutorials/sweeps.md)";
+
+}  // namespace
+
+void add_sweep_verb(CLI::App& program, Invocation& invocation) {
+  CLI::App& verb = *program.add_subcommand("sweep", "Simulate variants of a model side by side");
+  const auto arguments = std::make_shared<SweepArguments>();
+  add_model_options(verb, arguments->model, arguments->overrides);
+  verb.add_option("TABLE", arguments->table, "Table of variants (CSV)");
+  verb.add_option("--vary", arguments->ranges, "Values of one quantity; may be given repeatedly")
+      ->type_name("PATH=[VALUE,...]")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_option("-o,--out", arguments->out,
+                  "Directory for the runs; without it the model's name with .sweep in\n"
+                  "place of its ending, in the current directory")
+      ->type_name("OUT");
+  verb.add_option("--together", arguments->together, "Most variants that advance side by side")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 32));
+  verb.add_flag("-q,--quiet", arguments->quiet, "Failures only");
+  add_json_option(verb, invocation);
+  verb.footer(kFooter);
+  verb.callback([arguments, &invocation] {
+    invocation.action = [arguments, &invocation] { return sweep(*arguments, invocation.json); };
+  });
+}
+
+}  // namespace buckens::cli
