@@ -11,6 +11,7 @@
 #include "buckens/io/model_file.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
+#include "buckens/io/summary_json.h"
 #include "buckens/io/text_file.h"
 #include "buckens/linalg/solve_exchange.h"
 

@@ -68,12 +68,13 @@ struct ModelDescription {
   void fields(Visitor& visit) {
     visit(base::field("buckens", format, "version of the file format, 1").required().like("1"));
     visit(base::field("title", title, "one line about the model").like("Flexible slider-crank"));
+    // Before everything that may hold an expression.
+    visit(base::field("parameters", parameters, "named values for use in expressions")
+              .like("{L: 300 mm, speed: 150}"));
     visit(base::field("gravity", gravity, "acceleration of gravity, world axes")
               .in(base::kAcceleration)
               .like("[0, -9.81 m/s^2, 0]"));
     visit(base::field("planar", planar, "plane of a planar model").otherwise("a model in space"));
-    visit(base::field("parameters", parameters, "named values for use in expressions")
-              .like("{L: 300 mm, speed: 150}"));
     visit(base::field("materials", materials, "materials by name")
               .like("{steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}"));
     visit(base::field("sections", sections, "cross-sections by name")
