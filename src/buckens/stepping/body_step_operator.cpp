@@ -44,6 +44,16 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const body::FlexiblePart& p
   return out;
 }
 
+/// 1/K̂_ii where K̂ is diagonal and nothing has to be sieved, as for reduced bodies; else empty.
+Vector diagonal_inverse(const body::FlexiblePart& part, const SparseMatrix& K_hat) {
+  if (part.sieve.rank() > 0 || K_hat.nonZeros() != K_hat.rows()) return {};
+  for (int j = 0; j < K_hat.outerSize(); ++j) {
+    const SparseMatrix::InnerIterator entry(K_hat, j);
+    if (!entry || entry.row() != j) return {};
+  }
+  return K_hat.diagonal().cwiseInverse();
+}
+
 /// Equal to the last bit.
 bool are_equal(const SparseMatrix& A, const SparseMatrix& B) {
   if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
@@ -67,28 +77,25 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
     : part_(&part),
       scheme_(scheme),
       K_hat_(step_matrix(part, scheme)),
+      diagonal_inverse_(diagonal_inverse(part, K_hat_)),
       N_(rows_of(part)),
       inertial_(part, scheme) {
-  find_factor(twin, exchange);
-  if (part.num_dofs() <= kSmall) {
+  if (!is_diagonal()) find_factor(twin, exchange);
+  if (!is_diagonal() && part.num_dofs() <= kSmall) {
     inverse_ = factor_->solve(Matrix::Identity(part.num_dofs(), part.num_dofs()));
     part.sieve.apply(inverse_);
   }
-  const Matrix loads = Matrix(SparseMatrix(N_.transpose()));
-  G_ = factor_->solve(loads);
-  part.sieve.apply(G_);
-  setup_solves_ += loads.cols();
+  G_ = Matrix(SparseMatrix(N_.transpose()));
+  solve_columns(G_);
   if (scheme.weight == 1.0) {
     // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
     // G e leaves Y K̂⁻¹ (m M + c C) G e.
     const Matrix interface = G_.leftCols(part.num_interface_rows);
     Matrix inertia = scheme.mass * (part.fe.M * interface);
     if (part.is_damped()) inertia += scheme.damping * (part.C * interface);
-    Matrix answer = factor_->solve(inertia);
-    part.sieve.apply(answer);
+    solve_columns(inertia);
     D_ = Matrix::Zero(G_.rows(), G_.cols());
-    D_.leftCols(interface.cols()) = answer;
-    setup_solves_ += inertia.cols();
+    D_.leftCols(interface.cols()) = inertia;
   } else {
     D_ = G_;
   }
@@ -108,6 +115,16 @@ void BodyStepOperator::find_factor(const BodyStepOperator* twin, linalg::SolveEx
   } else {
     factor_ = std::make_shared<const linalg::SparseCholesky>(K_hat_);
   }
+}
+
+void BodyStepOperator::solve_columns(Matrix& X) {
+  if (is_diagonal()) {
+    X = diagonal_inverse_.asDiagonal() * X;
+  } else {
+    X = factor_->solve(X);
+    part_->sieve.apply(X);
+  }
+  setup_solves_ += X.cols();
 }
 
 void BodyStepOperator::free_response(const model::BodyState& before, const History<Vector>& history,
@@ -134,7 +151,9 @@ void BodyStepOperator::form_right_side(const model::BodyState& before,
 }
 
 void BodyStepOperator::solve_right_side(Vector& x, TaskPool* pool) {
-  if (inverse_.size() > 0) {
+  if (is_diagonal()) {
+    x = x.cwiseProduct(diagonal_inverse_);
+  } else if (inverse_.size() > 0) {
     with_mass_ = x;
     x.noalias() = inverse_ * with_mass_;
   } else {
@@ -158,8 +177,12 @@ void BodyStepOperator::finish_response(const model::BodyState& before,
 }
 
 void BodyStepOperator::solve(Vector& x) {
-  factor_->solve_in_place(x);
-  part_->sieve.apply(x);
+  if (is_diagonal()) {
+    x = x.cwiseProduct(diagonal_inverse_);
+  } else {
+    factor_->solve_in_place(x);
+    part_->sieve.apply(x);
+  }
   ++setup_solves_;
 }
 

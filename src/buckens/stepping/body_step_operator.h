@@ -21,7 +21,8 @@ namespace buckens::stepping {
 ///
 /// Per step it performs one solve; interface forces cost a thin product only, FM (37)–(42).
 /// All columns are sieved. Bodies of at most 24 variables, such as the parts of a divided beam,
-/// multiply by a dense inverse in place of the sparse solve.
+/// multiply by a dense inverse in place of the sparse solve; reduced bodies, whose K̂ is diagonal,
+/// divide.
 class BodyStepOperator {
  public:
   /// @param twin operator of a body that may have the same K̂ to the last bit; then its factor
@@ -48,7 +49,7 @@ class BodyStepOperator {
                        linalg::Vector& free);
   /// The factor that several bodies may share; empty where the solve needs none.
   const linalg::SparseCholesky* shared_factor() const {
-    return inverse_.size() > 0 ? nullptr : factor_.get();
+    return inverse_.size() > 0 || is_diagonal() ? nullptr : factor_.get();
   }
 
   /// x ← Y K̂⁻¹ x, outside of steps: counts as set-up.
@@ -75,19 +76,25 @@ class BodyStepOperator {
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
   const linalg::SparseMatrix& K_hat() const { return K_hat_; }
-  double factor_entries() const { return factor_->num_factor_entries(); }
-  /// 1, or 0 where the factor is that of a twin or of another simulation.
-  long factorisations() const { return is_shared_ ? 0 : 1; }
+  /// Whether the body deforms without rates.
+  bool is_quasi_static() const { return part_->is_quasi_static; }
+  bool is_diagonal() const { return diagonal_inverse_.size() > 0; }
+  double factor_entries() const { return factor_ ? factor_->num_factor_entries() : 0.0; }
+  /// 1, or 0 where the factor is that of a twin or of another simulation, or K̂ is diagonal.
+  long factorisations() const { return is_shared_ || is_diagonal() ? 0 : 1; }
   long solves() const { return solves_; }
   long setup_solves() const { return setup_solves_; }
 
  private:
   void find_factor(const BodyStepOperator* twin, linalg::SolveExchange* exchange);
+  /// X ← Y K̂⁻¹ X, as part of the set-up.
+  void solve_columns(linalg::Matrix& X);
 
   const body::FlexiblePart* part_;
   Scheme scheme_;
   linalg::SparseMatrix K_hat_;
   bool is_shared_ = false;
+  linalg::Vector diagonal_inverse_;  // of diagonal K̂, else empty; then there is no factor
   std::shared_ptr<const linalg::SparseCholesky> factor_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
