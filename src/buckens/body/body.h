@@ -16,6 +16,18 @@
 
 namespace buckens::body {
 
+/// What a reduced body has kept of its mesh.
+struct ReductionFigures {
+  std::string basis;        ///< "free-free", "craig-bampton" or "quasi-static"
+  int modes = 0;            ///< vibrations in it
+  int static_shapes = 0;    ///< deformations by static loads
+  int full_dofs = 0;        ///< nodal variables of the mesh
+  double highest_mode = 0;  ///< highest frequency among the vibrations [rad/s]
+  /// Largest share of the static interface compliance that the vibrations alone do not have, over
+  /// all interface directions; static shapes make up for it. 0 without interface.
+  double static_share = 0;
+};
+
 /// The finite-element share of a body: everything with n rows.
 ///
 /// A reduced body and one with rigid regions are the same thing in other coordinates: `fe` then
@@ -27,11 +39,13 @@ struct FlexiblePart {
   InertiaInvariants invariants;
   linalg::SparseMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
   CouplingChoice coupling;
-  bool is_quasi_static = false;  ///< deforms without inertia of its own
+  /// Deforms without inertia of its own: rates of deformation are zero throughout.
+  bool is_quasi_static = false;
 
   /// Set where the coordinates are not the nodal variables, otherwise empty.
   std::shared_ptr<const fem::FeModel> full_mesh;
   NodalRecovery recovery;
+  ReductionFigures reduction;  ///< of a reduced body
   /// Stiffening by axial forces, empty unless asked for.
   std::unique_ptr<const fem::GeometricStiffness> geometric;
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/reduced_basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "buckens/body/elastic_inverse.h"
+#include "buckens/body/fixed_interface_modes.h"
+#include "buckens/body/free_modes.h"
+
+namespace buckens::body {
+
+using linalg::Matrix;
+using linalg::SparseMatrix;
+using linalg::Vector;
+
+namespace {
+
+// Residuals whose mass is below this share of the largest follow from the others and the modes:
+// rounding leaves 1e-16 · (ω/ω₁)², a real one some 1e-6.
+constexpr double kDependent = 1e-11;
+// Rounding of the sieve leaves 1e-15.
+constexpr double kStraining = 1e-9;
+// Vibrations computed at first where only a cutoff frequency is given.
+constexpr int kFirstTrial = 16;
+
+/// M-orthonormal basis of the span of the columns, dependent ones left out.
+Matrix orthonormalised(const SparseMatrix& M, const Matrix& columns) {
+  if (columns.cols() == 0) return columns;
+  const Vector size = (columns.transpose() * (M * columns)).diagonal().cwiseMax(0.0).cwiseSqrt();
+  Matrix scaled = columns;
+  for (Eigen::Index k = 0; k < size.size(); ++k) {
+    if (size[k] > 0.0) scaled.col(k) /= size[k];
+  }
+  const Matrix gram = scaled.transpose() * (M * scaled);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
+  Matrix out(columns.rows(), 0);
+  for (Eigen::Index k = gram.cols() - 1; k >= 0; --k) {
+    if (eigen.eigenvalues()[k] < kDependent) break;
+    out.conservativeResize(Eigen::NoChange, out.cols() + 1);
+    out.rightCols<1>() = scaled * eigen.eigenvectors().col(k) / std::sqrt(eigen.eigenvalues()[k]);
+  }
+  return out;
+}
+
+/// Unit loads on the interface rows, Nᵀ.
+Matrix interface_loads(const FlexiblePart& part) {
+  const SparseMatrix N = part.rows.topRows(part.num_interface_rows);
+  return Matrix(SparseMatrix(N.transpose()));
+}
+
+/// The loads that do more than accelerate the body as a whole: those whose sieved part is not
+/// rounding.
+Matrix straining(const FlexiblePart& part, const Matrix& loads) {
+  const Vector weight = part.fe.K.diagonal().unaryExpr(
+      [](double stiffness) { return stiffness > 0.0 ? 1.0 / std::sqrt(stiffness) : 0.0; });
+  Matrix kept(loads.rows(), 0);
+  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+    Vector sieved = loads.col(k);
+    part.sieve.apply_transposed(sieved);
+    const double whole = weight.cwiseProduct(loads.col(k)).norm();
+    if (!(weight.cwiseProduct(sieved).norm() > kStraining * whole)) continue;
+    kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);
+    kept.rightCols<1>() = sieved;
+  }
+  return kept;
+}
+
+/// Straining loads and what they deform, K⁺f.
+struct StaticShapes {
+  Matrix loads, shapes;
+};
+
+StaticShapes static_shapes(const FlexiblePart& part, const ElasticInverse& inverse,
+                           const Matrix& all_loads) {
+  StaticShapes out{straining(part, all_loads), {}};
+  out.shapes = inverse.solve_checked(out.loads);
+  return out;
+}
+
+/// What the shapes have beyond the modes, (1 − φφᵀM) s, M-orthonormal.
+Matrix residuals(const SparseMatrix& M, const Matrix& modes, Matrix shapes) {
+  const Vector whole = (shapes.transpose() * (M * shapes)).diagonal();
+  // Twice, so that what is left is orthogonal to rounding.
+  for (int pass = 0; pass < 2; ++pass) shapes -= modes * (modes.transpose() * (M * shapes));
+  const Vector left = (shapes.transpose() * (M * shapes)).diagonal();
+  Matrix kept(shapes.rows(), 0);
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    if (!(left[k] > kDependent * whole[k])) continue;
+    kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);
+    kept.rightCols<1>() = shapes.col(k);
+  }
+  return orthonormalised(M, kept);
+}
+
+/// Largest share of the static compliance fᵀK⁺f that K-orthogonal shapes lack.
+double lacking_share(const StaticShapes& exact, const Matrix& Z, const Vector& omega) {
+  double share = 0;
+  for (Eigen::Index k = 0; k < exact.loads.cols(); ++k) {
+    const double whole = exact.loads.col(k).dot(exact.shapes.col(k));
+    const Vector amplitudes = (Z.transpose() * exact.loads.col(k)).cwiseQuotient(omega);
+    if (whole > 0.0) share = std::max(share, 1.0 - amplitudes.squaredNorm() / whole);
+  }
+  return share;
+}
+
+Matrix beside(const Matrix& left, const Matrix& right) {
+  Matrix out(left.rows(), left.cols() + right.cols());
+  out << left, right;
+  return out;
+}
+
+/// Brings the columns to ZᵀMZ = 1 and ZᵀKZ = diag(ω²).
+void diagonalise(const FlexiblePart& part, const Matrix& columns, ReducedBasis& out) {
+  const Matrix K = columns.transpose() * (part.fe.K * columns);
+  const Matrix M = columns.transpose() * (part.fe.M * columns);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(0.5 * (K + K.transpose()),
+                                                               0.5 * (M + M.transpose()));
+  out.omega = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  out.Z = columns * eigen.eigenvectors();
+  out.num_residuals = static_cast<int>(columns.cols()) - out.num_modes;
+}
+
+/// Interface loads that only strain the body, whatever its inertia: ΦᵀNᵀE = 0.
+Matrix self_equilibrated(const FlexiblePart& part, const Matrix& loads) {
+  const Matrix resultants = part.sieve.Phi().transpose() * loads;
+  Eigen::ColPivHouseholderQR<Matrix> qr(resultants.transpose());
+  qr.setThreshold(kStraining);
+  Matrix E = Matrix::Zero(loads.cols(), loads.cols() - qr.rank());
+  E.bottomRows(E.cols()).setIdentity();
+  return loads * (qr.householderQ() * E);
+}
+
+/// Elastic vibrations with held interface, sieved.
+struct HeldModes {
+  Matrix shapes;
+  Vector omega;
+};
+
+HeldModes held_modes(const FlexiblePart& part, const CraigBamptonChoice& choice) {
+  const Matrix N = part.rows.topRows(part.num_interface_rows);
+  Eigen::ColPivHouseholderQR<Matrix> held(N * part.sieve.Phi());
+  held.setThreshold(kStraining);
+  const auto loose = static_cast<int>(part.sieve.rank() - held.rank());
+  int count = choice.modes.value_or(kFirstTrial) + loose;
+  FreeModes found = fixed_interface_modes(part, count);
+  while (!choice.modes && found.omega.size() == count &&
+         found.omega[found.omega.size() - 1] <= choice.cutoff) {
+    count *= 2;
+    found = fixed_interface_modes(part, count);
+  }
+  Eigen::Index last = found.omega.size();
+  while (!choice.modes && last > 0 && found.omega[last - 1] > choice.cutoff) --last;
+  const Eigen::Index first = std::min<Eigen::Index>(loose, last);
+  HeldModes out{found.shapes.middleCols(first, last - first),
+                found.omega.segment(first, last - first)};
+  part.sieve.apply(out.shapes);
+  return out;
+}
+
+}  // namespace
+
+ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, int modes,
+                             bool static_correction, double length) {
+  const FreeModes free = free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), modes);
+  ReducedBasis out;
+  out.num_modes = static_cast<int>(free.omega.size());
+  Matrix columns = free.shapes;
+  if (part.num_interface_rows > 0 && free.omega.size() > 0) {
+    const ElasticInverse inverse(body, part.fe, part.sieve, length);
+    const StaticShapes exact = static_shapes(part, inverse, interface_loads(part));
+    out.static_share = lacking_share(exact, free.shapes, free.omega);
+    if (static_correction) {
+      columns = beside(free.shapes, residuals(part.fe.M, free.shapes, exact.shapes));
+    }
+  }
+  if (free.omega.size() > 0) out.highest_mode = free.omega[free.omega.size() - 1];
+  diagonalise(part, columns, out);
+  return out;
+}
+
+ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& part,
+                                 const CraigBamptonChoice& choice, double length) {
+  const SparseMatrix& M = part.fe.M;
+  const ElasticInverse inverse(body, part.fe, part.sieve, length);
+  const Matrix loads = interface_loads(part);
+  const Matrix displaced = inverse.solve_checked(self_equilibrated(part, loads));
+  const HeldModes held = held_modes(part, choice);
+  ReducedBasis out;
+  out.num_modes = static_cast<int>(held.omega.size());
+  if (held.omega.size() > 0) out.highest_mode = held.omega[held.omega.size() - 1];
+  Matrix columns = orthonormalised(M, beside(held.shapes, displaced));
+  diagonalise(part, columns, out);
+  out.static_share = lacking_share(static_shapes(part, inverse, loads), out.Z, out.omega);
+  if (choice.static_correction) {
+    const Matrix& patterns = part.invariants.centrifugal_patterns();
+    const Matrix spun = static_shapes(part, inverse, patterns).shapes;
+    columns = beside(columns, residuals(M, columns, spun));
+    diagonalise(part, columns, out);
+  }
+  return out;
+}
+
+ReducedBasis quasi_static_basis(const std::string& body, const FlexiblePart& part, int modes,
+                                double length) {
+  ReducedBasis out;
+  Matrix shapes(part.num_dofs(), 0);
+  if (modes > 0) {
+    const FreeModes free = free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), modes);
+    shapes = free.shapes;
+    out.num_modes = static_cast<int>(shapes.cols());
+    if (out.num_modes > 0) out.highest_mode = free.omega[free.omega.size() - 1];
+  }
+  const ElasticInverse inverse(body, part.fe, part.sieve, length);
+  const Matrix loads = beside(interface_loads(part), part.invariants.centrifugal_patterns());
+  const StaticShapes exact = static_shapes(part, inverse, loads);
+  diagonalise(part, beside(shapes, residuals(part.fe.M, shapes, exact.shapes)), out);
+  return out;
+}
+
+}  // namespace buckens::body

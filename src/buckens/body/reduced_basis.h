@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "buckens/body/body.h"
+
+namespace buckens::body {
+
+/// Vectors in which a body may deform, d = Z η, and what they leave.
+struct ReducedBasis {
+  linalg::Matrix Z;         ///< n×r, M-orthonormal, K-orthogonal, free of rigid motion
+  linalg::Vector omega;     ///< √(zᵀKz) of each [rad/s], ascending
+  int num_modes = 0;        ///< vibrations in it
+  int num_residuals = 0;    ///< deformations by static loads
+  double highest_mode = 0;  ///< highest frequency of its vibrations [rad/s]
+  double static_share = 0;  ///< see ReductionFigures
+};
+
+/// The lowest free vibrations of a body, with the deformations that unit interface loads cause
+/// beyond them (inertia-relief residuals) if asked for.
+///
+/// Modes and residuals carry no rigid motion, so a body reduced to them needs no sieve. Residuals
+/// make the answer to slow interface loads that of the full mesh whatever the number of modes.
+/// @param modes wanted; fewer come back where the body has fewer
+/// @param length scale that makes rotations and translations comparable [m]
+/// @throws ModelError naming the body if its mesh is a mechanism
+ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, int modes,
+                             bool static_correction, double length);
+
+/// Which vibrations with held interfaces a Craig–Bampton basis takes: the lowest ones, as many as
+/// `modes` says or all up to `cutoff`.
+struct CraigBamptonChoice {
+  std::optional<int> modes;
+  double cutoff = 0;  ///< [rad/s], used where `modes` is empty
+  bool static_correction = true;
+};
+
+/// Vibrations with held interface and the deformations by displaced interfaces [Craig and Bampton,
+/// 1968]. Rigid motion is sieved out and the rest brought to ZᵀMZ = 1: with interface rows that fix
+/// the body, rows + modes − 6 coordinates remain. The static correction adds the answers to the six
+/// centrifugal load patterns.
+ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& part,
+                                 const CraigBamptonChoice& choice, double length);
+
+/// What a body without elastic inertia can be deformed to: the answers K⁺ to unit interface loads
+/// and to the six centrifugal load patterns, with the lowest free vibrations as further shapes if
+/// asked for. Exact for all loads that do not depend on the deformation.
+/// @param modes 0: none
+ReducedBasis quasi_static_basis(const std::string& body, const FlexiblePart& part, int modes,
+                                double length);
+
+}  // namespace buckens::body
