@@ -2,6 +2,7 @@
 #include "cli/model_report_text.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 /// Columns of the frequency list; the rest stands in the JSON output.
 constexpr std::size_t kFrequenciesShown = 6;
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 std::string number(double value) { return fmt::format("{:.5g}", value); }
 
@@ -55,6 +57,27 @@ std::string frequencies_text(const ModelReport& report) {
     entries.emplace_back(body.name, list + " Hz");
   }
   return entries.empty() ? "" : "lowest free-free frequencies\n" + text_list(entries);
+}
+
+/// What reduced bodies keep, and what their vibrations alone would miss.
+std::string reductions_text(const ModelReport& report) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const BodyReport& body : report.bodies) {
+    if (!body.reduction) continue;
+    const body::ReductionFigures& r = *body.reduction;
+    std::string text = fmt::format("{}: {} of {} variables, {}", r.basis, body.dof, r.full_dofs,
+                                   counted(r.modes, "vibration"));
+    if (r.modes > 0) text += fmt::format(" up to {:.5g} Hz", r.highest_mode / kTurn);
+    text += fmt::format(" and {}", counted(r.static_shapes, "static shape"));
+    if (r.static_share > 0) {
+      text += fmt::format(
+          "; without static correction the answer to slow joint forces lacks up "
+          "to {:.2g} %",
+          100.0 * r.static_share);
+    }
+    entries.emplace_back(body.name, text);
+  }
+  return entries.empty() ? "" : "reduced bodies\n" + text_list(entries);
 }
 
 std::string markers_text(const ModelReport& report) {
@@ -102,28 +125,39 @@ Json json_of(const std::vector<analysis::InterfaceReport>& interfaces) {
   return out;
 }
 
+Json json_of(const body::ReductionFigures& r) {
+  return {{"basis", r.basis},
+          {"modes", r.modes},
+          {"static_shapes", r.static_shapes},
+          {"full_dof", r.full_dofs},
+          {"highest_mode", r.highest_mode / kTurn},
+          {"static_share", r.static_share}};
+}
+
 Json json_of(const BodyReport& body) {
-  return {{"flexible", body.is_flexible},
-          {"mass", body.mass},
-          {"com", json_of(body.com)},
-          {"inertia", json_of(body.inertia)},
-          {"principal_inertia", body.principal_inertia},
-          {"nodes", body.nodes},
-          {"elements", body.elements},
-          {"dof", body.dof},
-          {"frames", body.frames},
-          {"frame_coordinates", body.frame_coordinates},
-          {"frequencies", body.frequencies},
-          {"markers", body.markers},
-          {"interfaces", json_of(body.interfaces)}};
+  Json out = {{"flexible", body.is_flexible},
+              {"mass", body.mass},
+              {"com", json_of(body.com)},
+              {"inertia", json_of(body.inertia)},
+              {"principal_inertia", body.principal_inertia},
+              {"nodes", body.nodes},
+              {"elements", body.elements},
+              {"dof", body.dof},
+              {"frames", body.frames},
+              {"frame_coordinates", body.frame_coordinates},
+              {"frequencies", body.frequencies},
+              {"markers", body.markers},
+              {"interfaces", json_of(body.interfaces)}};
+  if (body.reduction) out["reduction"] = json_of(*body.reduction);
+  return out;
 }
 
 }  // namespace
 
 std::string report_text(const std::string& title, const ModelReport& report) {
   std::string out = title.empty() ? "" : title + '\n';
-  out += bodies_table(report) + frequencies_text(report) + markers_text(report) +
-         interfaces_table(report);
+  out += bodies_table(report) + frequencies_text(report) + reductions_text(report) +
+         markers_text(report) + interfaces_table(report);
   out += "mechanism\n";
   std::vector<std::pair<std::string, std::string>> entries = {
       {"joints", fmt::format("{} with {}, {} redundant", counted(report.joints, "joint"),

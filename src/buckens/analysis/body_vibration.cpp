@@ -43,6 +43,12 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
     throw ModelError(fmt::format(
         "body \"{}\" is rigid: it has no free vibrations; choose a flexible body", w.name));
   }
+  if (b.flexible->is_quasi_static) {
+    throw ModelError(fmt::format(
+        "body \"{}\" is quasi-static: it does not vibrate; remove `flexibility: quasi-static` to "
+        "see its free vibrations",
+        w.name));
+  }
   std::optional<body::FlexiblePart> undivided;
   if (w.is_divided()) undivided.emplace(w.name, *w.mesh, b.flexible->coupling);
   const body::FlexiblePart& part = undivided ? *undivided : *b.flexible;

@@ -92,7 +92,9 @@ class Accelerations {
     }
   }
 
+  /// M⁻¹ of a load; zero where deformation has no rates.
   Vector mass_solve(const body::Body& body, Vector load) const {
+    if (body.flexible->is_quasi_static) return Vector::Zero(load.size());
     body.flexible->sieve.apply_transposed(load);
     Vector x = linalg::conjugate_gradients(body.flexible->fe.M, load);
     body.flexible->sieve.apply(x);

@@ -34,6 +34,11 @@ class Setter {
                                                 "velocities; give `velocity` instead",
                                                 spec_.name));
     }
+    if (body(whole_.first).flexible->is_quasi_static) {
+      throw InputError(spec_.where, fmt::format("initial: body \"{}\" is quasi-static, it deforms "
+                                                "without rates; remove `nodal-velocity`",
+                                                spec_.name));
+    }
     for_each_part([&](const body::Body& part, model::BodyState& s) {
       s.d_dot = field(part);
       if (!whole_.is_divided()) part.flexible->sieve.apply(s.d_dot);

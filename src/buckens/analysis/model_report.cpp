@@ -65,6 +65,7 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   out.inertia = body.J0;
   describe(body.is_flexible() ? &body.flexible->mesh() : nullptr, modes, out);
+  if (body.is_flexible() && body.flexible->is_reduced()) out.reduction = body.flexible->reduction;
   return out;
 }
 

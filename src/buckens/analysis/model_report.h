@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,9 @@ struct BodyReport {
   std::array<double, 3> principal_inertia;  ///< ascending [kg m²]
   int nodes = 0, elements = 0, dof = 0;
   int frame_coordinates = 0;
-  std::vector<double> frequencies;   ///< lowest elastic free-free frequencies [Hz]
-  std::vector<std::string> markers;  ///< names that joints and sensors can use
+  std::vector<double> frequencies;                  ///< lowest elastic free-free frequencies [Hz]
+  std::vector<std::string> markers;                 ///< names that joints and sensors can use
+  std::optional<body::ReductionFigures> reduction;  ///< of reduced bodies
   std::vector<InterfaceReport> interfaces;
 };
 

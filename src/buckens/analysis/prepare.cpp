@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/initial_acceleration.h"
 #include "buckens/analysis/initial_velocity.h"
 #include "buckens/analysis/position_assembly.h"
+#include "buckens/analysis/quasi_static_start.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/velocity_change.h"
 #include "buckens/base/errors.h"
@@ -69,7 +69,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
     out.notes.push_back(std::move(text));
   }
-  compute_accelerations(model, metric, out.rows_in_use, out.state);
+  settle_accelerations(model, metric, out.rows_in_use, out.state);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "buckens/analysis/run_statistics.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@ constexpr double kLargeEnergyError = 0.05;
 // |ω|/ω₁: effects of the missing stiffening grow with its square.
 constexpr double kFastSpin = 0.1;
 constexpr double kTooFastSpin = 0.3;
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 }  // namespace
 
@@ -84,6 +86,15 @@ void fill_step_control(const stepping::TimeMarch& march, results::StepControlEff
   }
 }
 
+void add_reduction(const body::Body& body, results::BodyEffort& effort) {
+  if (!body.is_flexible() || !body.flexible->is_reduced()) return;
+  const body::ReductionFigures& figures = body.flexible->reduction;
+  effort.measures.emplace_back("kept_modes", figures.modes);
+  effort.measures.emplace_back("static_shapes", figures.static_shapes);
+  effort.measures.emplace_back("dof_of_mesh", figures.full_dofs);
+  effort.measures.emplace_back("highest_mode_hz", figures.highest_mode / kTurn);
+}
+
 }  // namespace
 
 void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::StepLadder& ladder,
@@ -105,6 +116,7 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
     if (spin_ratio(b) > spin_ratio(fast)) fast = b;
   }
   if (whole.is_divided()) effort.measures.emplace_back("frames", whole.count);
+  add_reduction(built_.model.bodies[first], effort);
   if (built_.model.bodies[first].is_flexible()) {
     effort.measures.emplace_back("largest_rotation_rad", deformation.rotation);
     effort.measures.emplace_back("largest_strain", deformation.strain);

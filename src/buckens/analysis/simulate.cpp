@@ -10,6 +10,7 @@
 
 #include "buckens/analysis/coupling_watch.h"
 #include "buckens/analysis/drive_laws.h"
+#include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/run_statistics.h"
 #include "buckens/analysis/step_advice.h"
@@ -126,7 +127,24 @@ class Simulation {
                                     {"coupling_and_rest", rest}};
   }
 
+  /// Equations that hold within a step leave a quasi-static body no shape at its end.
+  void check_method() {
+    const bool is_within = spec_.method == model::IntegrationMethod::newmark ||
+                           spec_.method == model::IntegrationMethod::wilson;
+    for (const body::Body& body : built_.model.bodies) {
+      if (!body.is_flexible() || !body.flexible->is_quasi_static) continue;
+      has_quasi_static_ = true;
+      if (!is_within) continue;
+      throw InputError(spec_.where,
+                       fmt::format("simulation: method {} satisfies the equations within a step, "
+                                   "the shape of the quasi-static body \"{}\" at its end would be "
+                                   "unknown; use generalized-alpha or hht",
+                                   stepping::to_string(method_of(spec_.method)), body.name));
+    }
+  }
+
   void set_up() {
+    check_method();
     summary_.title = built_.model.title;
     summary_.version = kVersion;
     metric_.emplace(built_.model);
@@ -219,6 +237,8 @@ class Simulation {
     try {
       const stepping::StepReport report = march_->advance(before, after);
       drives_->check(before.t, after.t);
+      // The step has closed velocities with the shapes that quasi-static bodies had at its start.
+      if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
       return report;
     } catch (const NumericalError&) {
       after = before;
@@ -296,6 +316,7 @@ class Simulation {
   double every_ = 0;
   long records_ = 1;  // the state at t = 0 is written before the first step
   double last_written_ = 0;
+  bool has_quasi_static_ = false;
   double recording_seconds_ = 0;
 };
 

@@ -16,6 +16,13 @@ constexpr double kExcitedShare = 0.01;
 constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
+/// The lowest free vibrations of a mesh.
+body::FreeModes modes_of_mesh(const fem::FeModel& fe, int count) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
+  return body::free_modes(fe.M, fe.K, body::rigid_modes(positions, fe.dofs, fe.shape.com), count);
+}
+
 /// Adds the compliance that each mode gives to a point.
 void add_share(const body::FreeModes& modes, const linalg::Matrix& moved, linalg::Vector& share) {
   share += moved.colwise().squaredNorm().transpose().cwiseQuotient(modes.omega.cwiseAbs2());
@@ -35,6 +42,7 @@ ExcitedBand band_of(const body::FreeModes& modes, const linalg::Vector& share) {
 
 ExcitedBand band_of_body(const body::Body& body, const body::FreeModes& modes) {
   if (modes.omega.size() == 0) return {};
+  if (body.flexible->is_quasi_static) return {modes.omega[0], 0.0, 0.0};  // nothing vibrates
   linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
   for (const body::Marker& marker : body.markers) {
     if (!marker.follows_mesh() || marker.translation_row >= body.num_interface_rows()) continue;
@@ -47,20 +55,18 @@ ExcitedBand band_of_body(const body::Body& body, const body::FreeModes& modes) {
 }  // namespace
 
 body::FreeModes reported_modes(const model::Model& model, const model::WholeBody& whole) {
-  if (whole.is_divided()) {
-    const fem::FeModel& fe = *whole.mesh;
-    std::vector<Eigen::Vector3d> positions;
-    for (const fem::Node& node : fe.nodes) positions.push_back(node.position);
-    return body::free_modes(fe.M, fe.K, body::rigid_modes(positions, fe.dofs, fe.shape.com),
-                            kReportedModes);
-  }
+  if (whole.is_divided()) return modes_of_mesh(*whole.mesh, kReportedModes);
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   if (!body.is_flexible()) return {};
+  if (body.flexible->is_quasi_static) return modes_of_mesh(body.flexible->mesh(), kReportedModes);
   return body::free_free_modes(*body.flexible, kReportedModes);
 }
 
 ExcitedBand excited_band(const body::Body& body) {
   if (!body.is_flexible()) return {};
+  if (body.flexible->is_quasi_static) {
+    return band_of_body(body, modes_of_mesh(body.flexible->mesh(), 1));
+  }
   return band_of_body(body, body::free_free_modes(*body.flexible, kReportedModes));
 }
 

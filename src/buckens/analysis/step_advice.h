@@ -19,7 +19,8 @@ struct ExcitedBand {
 /// Number of free vibrations that a report gives and excited_band() judges by.
 inline constexpr int kReportedModes = 10;
 
-/// The lowest free vibrations of a body of the model file, of its undivided mesh; none if rigid.
+/// The lowest free vibrations of a body of the model file, of its undivided mesh; none if rigid. A
+/// reduced body has those of its basis, a quasi-static one those that its mesh would have.
 /// Cost: one dense eigenproblem up to 600 DOF, a factorisation of its own above.
 body::FreeModes reported_modes(const model::Model& model, const model::WholeBody& whole);
 

@@ -12,6 +12,7 @@
 #include "buckens/base/field.h"
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/frame_division.h"
+#include "buckens/body/reduction_spec.h"
 #include "buckens/fem/mesh_spec.h"
 #include "buckens/fem/region_spec.h"
 #include "buckens/fem/structure_spec.h"
@@ -224,15 +225,6 @@ struct CouplingSpec {
   }
 };
 
-/// Reduced basis of a flexible body.
-enum class Reduction { none };
-
-constexpr std::array<const char*, 1> choice_names(Reduction) { return {"none"}; }
-/// Bases that are known but cannot be chosen yet.
-constexpr std::array<const char*, 2> planned_names(Reduction) {
-  return {"free-free", "craig-bampton"};
-}
-
 /// A rigid or flexible body.
 struct BodySpec {
   std::string name;
@@ -246,7 +238,8 @@ struct BodySpec {
   std::vector<InterfaceSpec> interfaces;
   FrameDivision frames;
   CouplingSpec coupling;
-  Reduction reduction = Reduction::none;
+  ReductionSpec reduction;
+  Flexibility flexibility = Flexibility::elastic;
   bool geometric_stiffness = false;
   std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
 
@@ -268,7 +261,12 @@ struct BodySpec {
     visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion")
               .like("first-order")
               .otherwise("full"));
-    visit(base::field("reduction", reduction, "reduced basis of the mesh; only `none` for now"));
+    visit(base::field("reduction", reduction, "reduced basis of the mesh")
+              .like("{free-free: 8}")
+              .otherwise("none"));
+    visit(base::field("flexibility", flexibility,
+                      "elastic, or quasi-static: the body moves like a rigid one of deformed shape "
+                      "and deforms under the loads of that motion without vibrating"));
     visit(base::field("geometric-stiffness", geometric_stiffness,
                       "axial forces of beams and bars stiffen or soften their bending within a "
                       "frame; approximate and not conserving, `frames` is the exact way")

@@ -43,7 +43,10 @@ Energy energy(const model::Model& model, const model::State& state) {
     const model::BodyState& s = state.bodies[b];
     out.kinetic += kinetic_energy(body, s);
     out.gravity -= body.mass * model.gravity.dot(s.frame.X_WB.p);
-    if (body.is_flexible()) out.strain += 0.5 * s.d.dot(body.flexible->fe.K * s.d);
+    // The motion of a quasi-static body does no work on its deformation.
+    if (body.is_flexible() && !body.flexible->is_quasi_static) {
+      out.strain += 0.5 * s.d.dot(body.flexible->fe.K * s.d);
+    }
   }
   Forces forces;
   evaluate_forces(model, motions_of(model, state), state.t, forces);

@@ -53,7 +53,8 @@ MassMetric::MassMetric(const model::Model& model) : model_(model) {
     if (body.is_flexible()) {
       const auto N = body.flexible->rows.topRows(body.num_interface_rows());
       const Matrix loads = Matrix(SparseMatrix(N.transpose()));
-      for (Eigen::Index k = 0; k < H.cols(); ++k) {
+      if (body.flexible->is_quasi_static) H.setZero();
+      for (Eigen::Index k = 0; k < H.cols() && !body.flexible->is_quasi_static; ++k) {
         H.col(k) = linalg::conjugate_gradients(body.flexible->fe.M, loads.col(k));
       }
       body.flexible->sieve.apply(H);

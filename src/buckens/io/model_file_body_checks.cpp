@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/body/reduction_conflict.h"
 #include "buckens/fem/generate_mesh.h"
 #include "buckens/io/model_file_checks.h"
 #include "buckens/io/model_file_names.h"
@@ -245,6 +246,9 @@ Finding problem(const body::RigidSpec& spec, const ReadContext&) {
 }
 
 Finding problem(const body::BodySpec& spec, const ReadContext&) {
+  if (const auto conflict = body::reduction_conflict(spec)) {
+    return Problem{conflict->key, conflict->text};
+  }
   if (spec.is_rigid() && !spec.frames.is_one()) {
     return Problem{"frames", "a rigid body has one frame; remove the key \"frames\""};
   }

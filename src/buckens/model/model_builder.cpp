@@ -17,6 +17,7 @@
 #include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
+#include "buckens/model/reduce_bodies.h"
 
 namespace buckens::model {
 
@@ -30,8 +31,8 @@ constexpr double kInPlane = 1e-6;
 
 class Builder {
  public:
-  explicit Builder(ModelDescription description)
-      : out_(std::make_unique<BuiltModel>()), model_(out_->model) {
+  Builder(ModelDescription description, body::BasisStore* bases)
+      : out_(std::make_unique<BuiltModel>()), model_(out_->model), bases_(bases) {
     out_->description = std::move(description);
   }
 
@@ -55,6 +56,7 @@ class Builder {
       if (model_.bodies[b].is_flexible()) model_.bodies[b].flexible->rows = tables_[b]->rows();
     }
     model_.length = characteristic_length();
+    reduce_bodies(out_->description, model_, bases_);
     return std::move(out_);
   }
 
@@ -315,6 +317,7 @@ class Builder {
 
   std::unique_ptr<BuiltModel> out_;
   Model& model_;
+  body::BasisStore* bases_;
   std::vector<std::unique_ptr<NamedStructure>> meshes_;   // one per whole body
   std::vector<std::unique_ptr<MeshDivision>> divisions_;  // empty unless divided
   std::vector<std::unique_ptr<MarkerTable>> tables_;
@@ -322,8 +325,8 @@ class Builder {
 
 }  // namespace
 
-std::unique_ptr<BuiltModel> build_model(ModelDescription description) {
-  return Builder(std::move(description)).run();
+std::unique_ptr<BuiltModel> build_model(ModelDescription description, body::BasisStore* bases) {
+  return Builder(std::move(description), bases).run();
 }
 
 }  // namespace buckens::model

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/body/basis_store.h"
 #include "buckens/model/model.h"
 #include "buckens/model/model_description.h"
 
@@ -29,6 +30,8 @@ struct BuiltModel {
 /// Builds and checks the mechanism.
 /// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and
 /// markers
-std::unique_ptr<BuiltModel> build_model(ModelDescription description);
+/// @param bases keeps reduced bases between runs; null: nothing is kept
+std::unique_ptr<BuiltModel> build_model(ModelDescription description,
+                                        body::BasisStore* bases = nullptr);
 
 }  // namespace buckens::model

@@ -49,7 +49,16 @@ dynamics::BodyMotion BodyStep::motion_at_end(const Scheme& scheme,
   if (op != nullptr) {
     motion.y = y_end + op->compliance() * correction_load;
     motion.y_dot = scheme.end_rate * (y_end - y_before) + y.velocity;
+    if (op->is_quasi_static()) motion.y_dot.setZero();
   }
+  return motion;
+}
+
+dynamics::BodyMotion BodyStep::uncorrected_motion(const Scheme& scheme,
+                                                  const BodyStepOperator* op) const {
+  dynamics::BodyMotion motion = motion_at_end(scheme, op);
+  motion.frame.X_WB = moved(before.X_WB, u);
+  if (op != nullptr) motion.y = op->is_quasi_static() ? y_before : y_end;
   return motion;
 }
 

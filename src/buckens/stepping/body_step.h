@@ -37,6 +37,9 @@ struct BodyStep {
   void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme);
 
   dynamics::BodyMotion motion_at_end(const Scheme& scheme, const BodyStepOperator* op) const;
+  /// The same with the pose that the velocities alone lead to, and the shape of the start where the
+  /// body deforms without rates.
+  dynamics::BodyMotion uncorrected_motion(const Scheme& scheme, const BodyStepOperator* op) const;
   dynamics::BodyMotion motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op) const;
   /// All moments of the frame equation at a motion of this step.
   body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;

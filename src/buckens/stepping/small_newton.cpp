@@ -94,10 +94,23 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
   correction_u_.assign(count, Vector6::Zero());
   for (std::size_t b = 0; b < count; ++b) {
     const Eigen::Index rows = operators_[b] ? operators_[b]->N().rows() : 0;
+    has_quasi_static_ = has_quasi_static_ || is_quasi_static(b);
     residual_y_[b] = VectorXd::Zero(rows);
     correction_[b].interface_load = VectorXd::Zero(rows);
     response_[b].interface_load = VectorXd::Zero(rows);
   }
+}
+
+bool SmallNewton::is_quasi_static(std::size_t body) const {
+  return operators_[body] != nullptr && operators_[body]->is_quasi_static();
+}
+
+dynamics::SystemRow SmallNewton::without_rates(dynamics::SystemRow row) const {
+  for (dynamics::BodyRow* part : {&row.first, &row.second}) {
+    if (part->body == model::kGround) continue;
+    if (is_quasi_static(static_cast<std::size_t>(part->body))) part->interface.setZero();
+  }
+  return row;
 }
 
 const dynamics::Constraints& SmallNewton::at_evaluation() const {
@@ -119,6 +132,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   const auto& motions = same ? end_ : evaluation_;
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_constraints(model_, end_, t + scheme_.h, constraints_end_);
+  keep_shapes_in_rates(bodies, t + scheme_.h);
   if (!same) dynamics::evaluate_constraints(model_, motions, t_e, constraints_evaluation_);
   dynamics::evaluate_forces(model_, motions, t_e, forces_);
   dynamics::add_joint_forces(at_evaluation(), lambda, forces_);
@@ -126,6 +140,17 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
     if (operators_[b] == nullptr) continue;
     bodies[b].load = bodies[b].total_load(forces_.interface[b], motions[b].frame.w);
   }
+}
+
+void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end) {
+  if (!has_quasi_static_) return;
+  std::vector<dynamics::BodyMotion> motions;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    motions.push_back(bodies[b].uncorrected_motion(scheme_, operators_[b]));
+  }
+  dynamics::Constraints constraints;
+  dynamics::evaluate_constraints(model_, motions, t_end, constraints);
+  constraints_end_.g_dot = constraints.g_dot;
 }
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
@@ -164,7 +189,7 @@ bool SmallNewton::condense() {
   test_rows_.clear();
   force_rows_.clear();
   for (const int row : rows_in_use_) {
-    test_rows_.push_back(constraints_end_.rows[static_cast<std::size_t>(row)]);
+    test_rows_.push_back(without_rates(constraints_end_.rows[static_cast<std::size_t>(row)]));
     force_rows_.push_back(at_evaluation().rows[static_cast<std::size_t>(row)]);
   }
   std::vector<double> soft_compliance;
@@ -192,7 +217,11 @@ bool SmallNewton::condense() {
 
 bool SmallNewton::select_rows_anew() {
   has_open_rows_ = false;
-  linalg::RowRank rank = select_rows(constraints_end_.rows, compliance_);
+  std::vector<dynamics::BodyCompliance> compliance = compliance_;
+  for (std::size_t b = 0; b < compliance.size(); ++b) {
+    if (is_quasi_static(b)) compliance[b].interface = nullptr;
+  }
+  linalg::RowRank rank = select_rows(constraints_end_.rows, compliance);
   dependent_ = std::move(rank.dependent);
   // Fewer rows mean a dead centre: the step goes on with those it has, or fails and says so.
   if (rank.independent == rows_in_use_ || rank.independent.size() < rows_in_use_.size()) {
@@ -251,6 +280,8 @@ void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
   condensation_->gather(force_rows_, E_, correction_);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     correction_u_[b] = bodies[b].compliance * correction_[b].frame_load;
+    // Frames alone close what a changed deformation opens.
+    if (is_quasi_static(b)) correction_[b].interface_load.setZero();
   }
 }
 

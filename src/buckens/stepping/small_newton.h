@@ -55,6 +55,12 @@ class SmallNewton {
   bool settled(const Change& change, const Change& before) const;
   void record_residuals(StepReport& report) const;
   const dynamics::Constraints& at_evaluation() const;
+  bool is_quasi_static(std::size_t body) const;
+  /// Replaces ġ by that without position corrections and with shapes as at the start of the step: a
+  /// quasi-static shape that changes must not throw the mechanism about, Δλ ~ m w Δy/h.
+  void keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end);
+  /// A joint row as it closes velocities: deformation without rates has no part in it.
+  dynamics::SystemRow without_rates(dynamics::SystemRow row) const;
   bool corrects_positions() const;
   /// Assembles and factorises S for the rows in use. @return false if it is singular
   bool condense();
@@ -75,6 +81,7 @@ class SmallNewton {
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   double largest_gap_ = 0;      // of rows not in use
   bool has_open_rows_ = false;
+  bool has_quasi_static_ = false;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
 

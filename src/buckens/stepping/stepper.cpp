@@ -42,7 +42,7 @@ constexpr int kPartsPerThread = 4;
 /// The n-sized share of one flexible body in a step.
 struct Stepper::Large {
   explicit Large(const BodyStepOperator& op)
-      : inverse_diagonal(op.K_hat().diagonal().cwiseInverse()) {}
+      : inverse_diagonal(op.K_hat().diagonal().cwiseInverse()), has_rates(!op.is_quasi_static()) {}
 
   History<Vector> history;
   model::Coupling used;       // what the step was computed with
@@ -51,12 +51,14 @@ struct Stepper::Large {
   Vector d_end;               // end value
   Vector increment;           // Δ: end value without correction, minus the start
   Vector inverse_diagonal;    // of K̂: measures loads
+  bool has_rates;             // quasi-static bodies deform without
   bool load_changed = true;
   // Where the equations hold; `difference` of coupling loads and the load of the undeformed body.
   Vector d_e, rate_e, acceleration_e, difference, undeformed;
 
   void evaluate_acceleration(const Scheme& scheme) {
     acceleration_e = scheme.acceleration_rate * increment + history.acceleration;
+    if (!has_rates) acceleration_e.setZero();
   }
   double norm(const Vector& load) const {
     return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
@@ -276,6 +278,7 @@ Stepper::CouplingGap Stepper::coupling_gap(const model::State& state, std::size_
   }
   if (scheme_.has_offset()) large.d_e += large.history.offset;
   large.rate_e = scheme_.mean_rate * large.increment + large.history.mean_velocity;
+  if (!large.has_rates) large.rate_e.setZero();
   large.evaluate_acceleration(scheme_);
   dynamics::evaluate_coupling(body, step.terms, large.d_e, large.rate_e, large.acceleration_e, w,
                               w_dot, large.evaluated);
@@ -348,6 +351,7 @@ void Stepper::form_next_state(const model::State& state, const Vector& lambda) {
     large.evaluate_acceleration(scheme_);
     s.d = large.d_end;
     s.d_dot = scheme_.end_rate * large.increment + large.history.velocity;
+    if (!large.has_rates) s.d_dot.setZero();
     scheme_.carried_acceleration(old.d_ddot, large.acceleration_e, s.d_ddot);
     scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot, s.d_alg);
     s.coupling = large.evaluated;

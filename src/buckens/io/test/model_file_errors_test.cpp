@@ -117,7 +117,6 @@ TEST(ModelFileErrors, Bodies) {
           {"{rigid: {mass: 1}, geometric-stiffness: on}", {"a rigid body has no stiffness"}},
           {"{rigid: {mass: 1}, frames: 2}", {"a rigid body has one frame"}},
           {"{rigid: {mass: 1}, frames: per-node}", {"\"per-node\" is no number of frames"}},
-          {"{rigid: {mass: 1}, reduction: free-free}", {"not available yet"}},
           {"{rigid: {mass: 1}, damping: {mass: 1}}", {"has no damping of its own"}},
           {"{rigid: {mass: 1}, markers: {com: {at: origin}}}", {"\"com\" is taken"}},
           {"{rigid: {mass: 1}, markers: {q: {at: end}}}", {"body \"a\" has no place \"end\""}},
@@ -157,6 +156,20 @@ TEST(ModelFileErrors, Bodies) {
               HasSubstr("materials.s.rho: -7 kg/m^3 is not allowed"));
   EXPECT_THAT(message("buckens: 1\nmaterials: {s: {E: 1, rho: 1, damping: {ratio: 2 %}}}\n"),
               HasSubstr("belong together"));
+}
+
+TEST(ModelFileErrors, Reduction) {
+  expect_messages(
+      {
+          {"{rigid: {mass: 1}, reduction: {free-free: 4}}", {"reduction", "rigid"}},
+          {"{rigid: {mass: 1}, flexibility: quasi-static}", {"flexibility", "rigid"}},
+          {"{rigid: {mass: 1}, reduction: {free-free: 0}}", {"free-free", "positive", "0"}},
+          {"{rigid: {mass: 1}, reduction: {free-free: {modes: -2}}}", {"modes", "-2"}},
+          {"{rigid: {mass: 1}, reduction: {free-free: 2, craig-bampton: 3}}", {"one basis"}},
+          {"{rigid: {mass: 1}, reduction: {craig-bampton: {}}}", {"modes", "cutoff"}},
+          {"{rigid: {mass: 1}, reduction: {file: a.h5}}", {"reduction.file", "no basis"}},
+      },
+      "buckens: 1\nbodies: {a: ", "}\n");
 }
 
 TEST(ModelFileErrors, Solids) {

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "buckens/body/reduction.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/body_step_operator.h"
@@ -111,6 +112,40 @@ TEST(BodyStepOperator, OneFactorServesBodiesWithTheSameMatrices) {
   // Another step length is another matrix.
   const Scheme longer(Method::generalized_alpha, 2e-3, 0.9);
   EXPECT_EQ(BodyStepOperator(part, longer, &op).factorisations(), 1);
+}
+
+TEST(BodyStepOperator, ReducedBodiesDivideAndAnswerAsTheFullOne) {
+  const model::Model model = test::spatial_beam_pendulum(damped_beam());
+  const body::FlexiblePart& full = *model.bodies[0].flexible;
+  const body::ReducedBasis basis = body::free_free_basis("beam", full, 1000, true, 1.0);
+  const auto part = body::reduce("beam", full, basis);
+  const model::BodyState state = some_state(full);
+  model::BodyState reduced_state;
+  reduced_state.d = part->coordinates(state.d);
+  reduced_state.d_dot = part->coordinates(state.d_dot);
+  reduced_state.d_ddot = part->coordinates(state.d_ddot);
+  reduced_state.d_alg = part->coordinates(state.d_alg);
+  const Vector load = 50 * some(full.num_dofs(), 4.0);
+  const Scheme scheme(Method::generalized_alpha, 1e-3, 0.9);
+  BodyStepOperator op(*part, scheme);
+  BodyStepOperator full_op(full, scheme);
+  EXPECT_TRUE(op.is_diagonal());
+  EXPECT_FALSE(full_op.is_diagonal());
+  EXPECT_EQ(op.factorisations(), 0);
+  EXPECT_EQ(op.factor_entries(), 0);
+  // Rounding of modes: 1e-16 (ω_max/ω_1)².
+  EXPECT_LE((op.compliance() - full_op.compliance()).norm(), 1e-9 * full_op.compliance().norm());
+  const Vector f = 30 * some(op.compliance().rows(), 5.0);
+  Vector x, expected;
+  op.free_response(reduced_state,
+                   scheme.history(reduced_state.d_dot, reduced_state.d_ddot, reduced_state.d_alg),
+                   basis.Z.transpose() * load, x);
+  op.complete(f, Vector::Zero(f.size()), x);
+  full_op.free_response(state, scheme.history(state.d_dot, state.d_ddot, state.d_alg), load,
+                        expected);
+  full_op.complete(f, Vector::Zero(f.size()), expected);
+  const Matrix K_hat = full_op.K_hat();
+  EXPECT_LE(energy_norm(K_hat, part->nodal(x) - expected), 1e-9 * energy_norm(K_hat, expected));
 }
 
 TEST(BodyStepOperator, CorrectionsMoveStrainButNotInertia) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// Gives quasi-static bodies the deformation that belongs to their motion at the start.
+///
+/// In turn: accelerations and joint forces of the mechanism whose bodies keep their shape, the
+/// deformation K η = load that these forces and the inertia of the motion cause, positions and
+/// velocities of the frames that close the joints again; until nothing changes [Popp, Dirr and
+/// Jahnke]. Without quasi-static bodies accelerations alone are computed.
+/// @param rows_in_use independent rows of λ
+/// @throws NumericalError naming a body whose deformation does not settle
+void settle_accelerations(const model::Model& model, const dynamics::MassMetric& metric,
+                          const std::vector<int>& rows_in_use, model::State& state);
+
+}  // namespace buckens::analysis

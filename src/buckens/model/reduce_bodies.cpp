@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/reduce_bodies.h"
+
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/body/reduction.h"
+#include "buckens/body/reduction_conflict.h"
+
+namespace buckens::model {
+
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// The choice of a basis in words: part of the key under which it is kept.
+std::string describe(const body::BodySpec& spec) {
+  const body::ReductionSpec& r = spec.reduction;
+  std::string out =
+      spec.flexibility == body::Flexibility::quasi_static ? "quasi-static" : "elastic";
+  if (r.free_free) {
+    out += fmt::format(" free-free {} {}", r.free_free->modes, r.free_free->static_correction);
+  }
+  if (r.craig_bampton) {
+    const body::CraigBamptonSpec& c = *r.craig_bampton;
+    out += fmt::format(" craig-bampton {} {} {}", c.modes.value_or(-1), c.cutoff.value_or(0.0),
+                       c.static_correction);
+  }
+  return out;
+}
+
+body::ReducedBasis make_basis(const body::BodySpec& spec, const body::Body& body) {
+  const body::FlexiblePart& part = *body.flexible;
+  const double length = body.length_scale();
+  const body::ReductionSpec& r = spec.reduction;
+  if (part.is_quasi_static) {
+    return body::quasi_static_basis(body.name, part, r.free_free ? r.free_free->modes : 0, length);
+  }
+  if (r.free_free) {
+    return body::free_free_basis(body.name, part, r.free_free->modes,
+                                 r.free_free->static_correction, length);
+  }
+  const body::CraigBamptonSpec& c = *r.craig_bampton;
+  body::CraigBamptonChoice choice;
+  choice.modes = c.modes;
+  choice.cutoff = kTurn * c.cutoff.value_or(0.0);
+  choice.static_correction = c.static_correction;
+  return body::craig_bampton_basis(body.name, part, choice, length);
+}
+
+std::string basis_name(const body::BodySpec& spec) {
+  if (spec.flexibility == body::Flexibility::quasi_static) return "quasi-static";
+  return spec.reduction.free_free ? "free-free" : "craig-bampton";
+}
+
+void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore* store) {
+  body.flexible->is_quasi_static = spec.flexibility == body::Flexibility::quasi_static;
+  const bool is_kept = store != nullptr && !spec.reduction.file.empty();
+  const std::uint64_t key = is_kept ? body::basis_key(*body.flexible, describe(spec)) : 0;
+  std::optional<body::ReducedBasis> basis;
+  if (is_kept) basis = store->find(spec.reduction.file, key);
+  if (!basis) {
+    basis = make_basis(spec, body);
+    if (is_kept) store->keep(spec.reduction.file, key, *basis);
+  }
+  if (basis->Z.cols() == 0) {
+    throw ModelError(
+        spec.where,
+        fmt::format("body \"{}\" has no deformation to reduce it to; make it rigid", body.name));
+  }
+  body.flexible = body::reduce(body.name, *body.flexible, *basis);
+  body.flexible->reduction.basis = basis_name(spec);
+}
+
+}  // namespace
+
+void reduce_bodies(const ModelDescription& description, Model& model, body::BasisStore* store) {
+  for (std::size_t w = 0; w < model.wholes.size(); ++w) {
+    const body::BodySpec& spec = description.bodies[w];
+    if (const auto conflict = body::reduction_conflict(spec)) {
+      throw InputError(spec.where, fmt::format("body \"{}\": {}", spec.name, conflict->text));
+    }
+    const bool is_quasi_static = spec.flexibility == body::Flexibility::quasi_static;
+    if (spec.reduction.is_none() && !is_quasi_static) continue;
+    if (spec.reduction.is_automatic()) {
+      throw InputError(spec.where, fmt::format("body \"{}\": `reduction: auto` is chosen by trial "
+                                               "runs before the model is built; give the number of "
+                                               "modes",
+                                               spec.name));
+    }
+    reduce_body(spec, model.bodies[static_cast<std::size_t>(model.wholes[w].first)], store);
+    if (!is_quasi_static) continue;
+    model.notes.push_back(fmt::format(
+        "body \"{}\" is quasi-static: it does not vibrate, and work that goes into its deformation "
+        "stays out of the energy balance",
+        spec.name));
+  }
+}
+
+}  // namespace buckens::model
