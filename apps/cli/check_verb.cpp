@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/build.h"
 #include "cli/model_report_text.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 
 #include "buckens/analysis/model_report.h"
-#include "buckens/io/model_file.h"
 #include "buckens/model/model_builder.h"
 
 namespace buckens::cli {
@@ -21,7 +21,7 @@ struct CheckArguments {
 };
 
 ExitCode check(const CheckArguments& arguments, bool json) {
-  const auto built = model::build_model(io::read_model_file(arguments.model, arguments.overrides));
+  const auto built = read_and_build(arguments.model, arguments.overrides);
   const analysis::ModelReport report = analysis::report_model(*built);
   const std::string& title = built->description.title;
   print(json ? report_json(title, report) : report_text(title, report));

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/build.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 #include "cli/vibration_text.h"
@@ -16,7 +17,6 @@
 #include "buckens/analysis/vibration_record.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
-#include "buckens/io/model_file.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
 
@@ -53,11 +53,13 @@ std::vector<int> wanted_bodies(const model::Model& model, const ModesArguments& 
   std::vector<int> out;
   for (std::size_t k = 0; k < model.wholes.size(); ++k) {
     const auto first = static_cast<std::size_t>(model.wholes[k].first);
-    if (model.bodies[first].is_flexible()) out.push_back(static_cast<int>(k));
+    const body::Body& body = model.bodies[first];
+    if (body.is_flexible() && !body.flexible->is_quasi_static) out.push_back(static_cast<int>(k));
   }
   if (out.empty()) {
     throw ModelError(
-        "all bodies are rigid, so none has free vibrations; use --system for those of the "
+        "all bodies are rigid or quasi-static, so none has free vibrations; use --system for those "
+        "of the "
         "mechanism");
   }
   return out;
@@ -85,7 +87,7 @@ std::vector<analysis::VibrationReport> analyse(const model::BuiltModel& built,
 }
 
 ExitCode modes(const ModesArguments& arguments, bool json) {
-  const auto built = model::build_model(io::read_model_file(arguments.model, arguments.overrides));
+  const auto built = read_and_build(arguments.model, arguments.overrides);
   const std::string& title = built->description.title;
   const auto reports = analyse(*built, arguments);
   if (!arguments.out.empty()) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/build.h"
 #include "cli/failure.h"
 #include "cli/interruption.h"
 #include "cli/journaled_sink.h"
@@ -49,7 +50,7 @@ std::unique_ptr<model::BuiltModel> read_and_build(const RunArguments& arguments)
                      "there is no `simulation:`, so it is not known how far to simulate. Add for "
                      "instance `simulation: {duration: 1 s, step: 1 ms}`, or use `buckens check`.");
   }
-  return model::build_model(std::move(description));
+  return build(std::move(description));
 }
 
 /// Shows progress until the user asks to stop.

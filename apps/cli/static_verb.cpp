@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/build.h"
 #include "cli/failure.h"
 #include "cli/interruption.h"
 #include "cli/journaled_sink.h"
@@ -17,7 +18,6 @@
 
 #include "buckens/analysis/static_path.h"
 #include "buckens/base/version.h"
-#include "buckens/io/model_file.h"
 #include "buckens/io/output_file.h"
 
 namespace buckens::cli {
@@ -71,7 +71,7 @@ ExitCode run(const StaticArguments& arguments, bool json) {
   const fs::path path = arguments.directory();
   journal.record(fmt::format("buckens {}, static path of {}", kVersion, arguments.model));
   for (const std::string& text : arguments.overrides) journal.record("--set " + text);
-  const auto built = model::build_model(io::read_model_file(arguments.model, arguments.overrides));
+  const auto built = read_and_build(arguments.model, arguments.overrides);
   for (const std::string& text : built->model.notes) journal.say(LogLevel::info, text);
 
   io::RunDirectory directory(path, {built->description.title, built->description.source, {}});

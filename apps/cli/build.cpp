@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/build.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "buckens/analysis/choose_modes.h"
+#include "buckens/base/log.h"
+#include "buckens/io/basis_files.h"
+#include "buckens/io/model_file.h"
+
+namespace buckens::cli {
+
+std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
+  std::vector<std::string> notes;
+  analysis::choose_modes(description, notes,
+                         [](const std::string& text) { base::log(base::LogLevel::info, text); });
+  io::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
+  auto built = model::build_model(std::move(description), &bases);
+  built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());
+  return built;
+}
+
+std::unique_ptr<model::BuiltModel> read_and_build(const std::string& model,
+                                                  const std::vector<std::string>& overrides) {
+  return build(io::read_model_file(model, overrides));
+}
+
+}  // namespace buckens::cli

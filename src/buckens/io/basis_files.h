@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "buckens/body/basis_store.h"
+
+namespace buckens::io {
+
+/// Reduced bases in HDF5 files, one per file: `Z` (n×r), `omega`, counts, and the key of what they
+/// belong to.
+class BasisFiles : public body::BasisStore {
+ public:
+  /// @param directory where relative names begin: that of the model file
+  explicit BasisFiles(std::filesystem::path directory) : directory_(std::move(directory)) {}
+
+  /// @throws InputError if the file belongs to another mesh, interface or choice, IoError if it
+  ///         cannot be read
+  std::optional<body::ReducedBasis> find(const std::string& file, std::uint64_t key) override;
+  /// Writes under another name first, so that no half a file is ever found. @throws IoError
+  void keep(const std::string& file, std::uint64_t key, const body::ReducedBasis& basis) override;
+
+ private:
+  std::filesystem::path directory_;
+};
+
+}  // namespace buckens::io
