@@ -7,7 +7,9 @@ import sys
 
 from conftest import PROGRAM
 
-COMPARE = pathlib.Path(__file__).parents[1] / "examples" / "method_comparison" / "compare.py"
+EXAMPLES = pathlib.Path(__file__).parents[1] / "examples"
+MODEL = (EXAMPLES / "method_comparison/method_comparison").with_suffix(".yaml")
+COMPARE = MODEL.with_name("compare.py")
 
 
 def test_methods_compare_as_the_page_says():

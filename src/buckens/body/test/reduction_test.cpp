@@ -204,7 +204,8 @@ TEST_P(Reduction, CraigBamptonKeepsInterfaceAndModesLessSix) {
   const auto reduced = reduce("thing", *full, corrected);
   const ElasticInverse inverse("thing", full->fe, full->sieve, kLength);
   const Matrix exact = inverse.solve_checked(full->invariants.centrifugal_patterns());
-  const Matrix found = reduced->recovery.dense() * reduced->fe.K.diagonal().cwiseInverse().asDiagonal() *
+  const Matrix found = reduced->recovery.dense() *
+                       reduced->fe.K.diagonal().cwiseInverse().asDiagonal() *
                        reduced->invariants.centrifugal_patterns();
   EXPECT_LE((found - exact).norm(), 1e-8 * exact.norm());
 }
