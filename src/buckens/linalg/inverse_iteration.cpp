@@ -17,6 +17,15 @@ namespace {
 constexpr double kNothing = 1e-13;
 // The same for a fresh block of unit length: what is left of it where the basis holds all there is.
 constexpr double kNothingNew = 1e-9;
+// Orthogonalised twice, columns are orthogonal unless the second time shortened them, too.
+constexpr int kMostPasses = 4;
+constexpr double kUnit = 0.01;
+
+/// √ of the largest wᵀM w. @param MW M W
+double longest_column(const Matrix& W, const Matrix& MW) {
+  if (W.cols() == 0) return 0.0;
+  return std::sqrt(std::max(0.0, W.cwiseProduct(MW).colwise().sum().maxCoeff()));
+}
 // A fresh block says nothing about missing pairs before it has gone through this many sweeps.
 constexpr int kSearchSweeps = 3;
 constexpr int kJudgedAfter = 2;
@@ -26,7 +35,13 @@ class Subspace {
  public:
   Subspace(const SparseMatrix& M, const InverseOperator& inverse, const Matrix& deflated,
            const InverseIterationSettings& settings)
-      : M_(M), inverse_(inverse), settings_(settings), deflated_(deflated), MD_(M * deflated) {}
+      : M_(M),
+        inverse_(inverse),
+        settings_(settings),
+        deflated_(deflated),
+        MD_(M * deflated),
+        V_(M.rows(), std::min<Eigen::Index>(M.rows(), basis_limit())),
+        MV_(M.rows(), V_.cols()) {}
 
   InversePairs run();
 
@@ -35,8 +50,10 @@ class Subspace {
   void sweep();
   void solve_projected();
   void restart(Eigen::Index keep);
-  Matrix orthonormalise(Matrix W, double nothing, Matrix* coefficients);
-  void remove_known(Matrix& W) const;
+  void orthonormalise(Matrix W, Matrix MW, double nothing, Matrix* coefficients);
+  void remove_known(Matrix& W, Matrix& MW) const;
+  auto basis() const { return V_.leftCols(size_); }
+  auto mass_basis() const { return MV_.leftCols(size_); }
   Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
   bool is_converged(Eigen::Index count) const;
   bool is_nothing_missed() const;
@@ -54,9 +71,10 @@ class Subspace {
   const InverseIterationSettings settings_;
   const Matrix& deflated_;
   Matrix MD_;
-  Matrix V_, MV_;       // basis, n×m, and its product with M
-  Matrix T_;            // m×m
-  Matrix block_;        // next block, M-orthonormal to V
+  Matrix V_, MV_;              // basis and its product with M, n×(room for all)
+  Eigen::Index size_ = 0;      // m: columns of the basis
+  Matrix T_;                   // m×m
+  Matrix block_, mass_block_;  // next block, M-orthonormal to V, and its product with M
   Matrix coupling_;     // A⁻¹M V's share along the next block, b×(width of the last block)
   Vector theta_;        // Ritz values, largest magnitude first
   Matrix Z_;            // their coordinates in V
@@ -70,18 +88,28 @@ class Subspace {
   long solves_ = 0;
 };
 
-void Subspace::remove_known(Matrix& W) const {
-  if (deflated_.cols() > 0) W -= deflated_ * (MD_.transpose() * W);
-  if (V_.cols() > 0) W -= V_ * (MV_.transpose() * W);
+void Subspace::remove_known(Matrix& W, Matrix& MW) const {
+  if (deflated_.cols() > 0) {
+    const Matrix shares = MD_.transpose() * W;
+    W.noalias() -= deflated_ * shares;
+    MW.noalias() -= MD_ * shares;
+  }
+  if (size_ > 0) {
+    const Matrix shares = mass_basis().transpose() * W;
+    W.noalias() -= basis() * shares;
+    MW.noalias() -= mass_basis() * shares;
+  }
 }
 
-/// M-orthonormal basis of the span of W without what V holds, directions shorter than `nothing`
-/// left out; W = basis · coefficients.
-Matrix Subspace::orthonormalise(Matrix W, double nothing, Matrix* coefficients) {
+/// Makes block_ the M-orthonormal basis of the span of W without what V holds, directions shorter
+/// than `nothing` left out; W = block_ · coefficients. @param MW M W
+void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, Matrix* coefficients) {
   if (coefficients != nullptr) *coefficients = Matrix::Identity(W.cols(), W.cols());
-  for (int pass = 0; pass < 3 && W.cols() > 0; ++pass) {
-    remove_known(W);
-    const Matrix G = W.transpose() * (M_ * W);
+  for (int pass = 0; pass < kMostPasses && W.cols() > 0; ++pass) {
+    // The first pass may have taken most of W away; what it left of M W is then rounding.
+    if (pass == 1) MW.noalias() = M_ * W;
+    remove_known(W, MW);
+    const Matrix G = W.transpose() * MW;
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (G + G.transpose()));
     const double least = pass == 0 ? nothing : 0.1;
     Eigen::Index dropped = 0;
@@ -92,12 +120,17 @@ Matrix Subspace::orthonormalise(Matrix W, double nothing, Matrix* coefficients) 
     const Eigen::Index kept = W.cols() - dropped;
     const Matrix U = eigen.eigenvectors().rightCols(kept);
     const Vector size = eigen.eigenvalues().tail(kept).cwiseSqrt();
-    W = (W * (U * size.cwiseInverse().asDiagonal())).eval();
+    const Matrix to_unit = U * size.cwiseInverse().asDiagonal();
+    W = (W * to_unit).eval();
+    MW = (MW * to_unit).eval();
     if (coefficients != nullptr) {
       *coefficients = (size.asDiagonal() * U.transpose() * *coefficients).eval();
     }
+    const bool was_unit = dropped == 0 && (size.array() - 1.0).abs().maxCoeff() < kUnit;
+    if (pass > 0 && was_unit) break;
   }
-  return W;
+  block_ = std::move(W);
+  mass_block_ = std::move(MW);
 }
 
 void Subspace::start(unsigned seed) {
@@ -113,33 +146,35 @@ void Subspace::start(unsigned seed) {
       if (size > 0.0) X.col(j) /= size;
     }
   }
-  block_ = orthonormalise(std::move(X), kNothingNew, nullptr);
+  Matrix MX = M_ * X;
+  orthonormalise(std::move(X), std::move(MX), kNothingNew, nullptr);
 }
 
 void Subspace::sweep() {
-  const Eigen::Index before = V_.cols();
+  const Eigen::Index before = size_;
   const Eigen::Index width = block_.cols();
-  V_.conservativeResize(M_.rows(), before + width);
-  V_.rightCols(width) = block_;
-  MV_.conservativeResize(M_.rows(), before + width);
-  MV_.rightCols(width) = M_ * block_;
-  Matrix W = MV_.rightCols(width);
+  size_ += width;
+  if (size_ > V_.cols()) {  // the search for missed pairs may go beyond the limit
+    V_.conservativeResize(M_.rows(), size_);
+    MV_.conservativeResize(M_.rows(), size_);
+  }
+  V_.middleCols(before, width) = block_;
+  MV_.middleCols(before, width) = mass_block_;
+  Matrix W = mass_block_;
   inverse_(W);
   solves_ += width;
   ++sweeps_;
-  const Matrix MW = M_ * W;
-  for (Eigen::Index j = 0; j < width; ++j) {
-    longest_ = std::max(longest_, std::sqrt(std::max(0.0, W.col(j).dot(MW.col(j)))));
-  }
-  const Matrix H = MV_.transpose() * W;
+  Matrix MW = M_ * W;
+  longest_ = std::max(longest_, longest_column(W, MW));
+  const Matrix H = mass_basis().transpose() * W;
   const Matrix square = H.bottomRows(width);
   if (longest_ > 0.0) {
     rounding_ = std::max(rounding_, (square - square.transpose()).norm() / longest_);
   }
-  T_.conservativeResize(before + width, before + width);
+  T_.conservativeResize(size_, size_);
   T_.rightCols(width) = H;
   T_.bottomRows(width) = H.transpose();
-  block_ = orthonormalise(std::move(W), kNothing * longest_, &coupling_);
+  orthonormalise(std::move(W), std::move(MW), kNothing * longest_, &coupling_);
 }
 
 void Subspace::solve_projected() {
@@ -163,8 +198,9 @@ void Subspace::solve_projected() {
 
 void Subspace::restart(Eigen::Index keep) {
   const Matrix Z = Z_.leftCols(keep);
-  V_ = (V_ * Z).eval();
-  MV_ = (MV_ * Z).eval();
+  V_.leftCols(keep) = (basis() * Z).eval();
+  MV_.leftCols(keep) = (mass_basis() * Z).eval();
+  size_ = keep;
   T_ = theta_.head(keep).asDiagonal();
 }
 
@@ -190,7 +226,7 @@ InversePairs Subspace::result(bool is_complete) const {
   Eigen::Index count = wanted();
   while (count > 0 && std::abs(theta_[count - 1]) <= kNothing * std::abs(theta_[0])) --count;
   out.theta = theta_.head(count);
-  out.shapes = count > 0 ? Matrix(V_ * Z_.leftCols(count)) : Matrix(M_.rows(), 0);
+  out.shapes = count > 0 ? Matrix(basis() * Z_.leftCols(count)) : Matrix(M_.rows(), 0);
   out.residual = residual_.head(count).cwiseQuotient(out.theta.cwiseAbs());
   out.sweeps = sweeps_;
   out.solves = solves_;
@@ -244,7 +280,7 @@ InversePairs Subspace::run() {
       }
     }
     if (sweeps_ >= settings_.max_sweeps) return result(false);
-    if (V_.cols() + block_.cols() > basis_limit()) {
+    if (size_ + block_.cols() > basis_limit()) {
       restart(std::min(theta_.size(), std::max<Eigen::Index>(settings_.count + settings_.block,
                                                              basis_limit() / 2 - settings_.block)));
     }
