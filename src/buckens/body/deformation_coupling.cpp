@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "buckens/body/second_moments.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::body {
@@ -13,19 +14,6 @@ using linalg::SparseMatrix;
 using linalg::Vector;
 
 namespace {
-
-// Places (a, b) of the six stored matrices W_ab, a ≤ b.
-constexpr std::array<std::array<int, 2>, 6> kPairs = {
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-
-Matrix3d to_inertia(const Matrix3d& second_moment) {
-  return second_moment.trace() * Matrix3d::Identity() - second_moment;
-}
-
-/// (T_23 − T_32, T_31 − T_13, T_12 − T_21).
-Vector3d axial(const Matrix3d& T) {
-  return {T(1, 2) - T(2, 1), T(2, 0) - T(0, 2), T(0, 1) - T(1, 0)};
-}
 
 /// One pass over the integrals: T_ab(x, y) = xᵀ W_ab y and the loads.
 class Pass {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/second_moments.h"
 
 namespace buckens::body {
 
@@ -138,8 +139,6 @@ class Elimination {
 /// Splits the scalar mass matrix: entries between free nodes stay, all others become W_ab.
 void condense_nodal_mass(const fem::NodalMass& full, const Elimination& elimination,
                          const std::vector<int>& region_of, fem::ShapeIntegrals& out) {
-  constexpr std::array<std::array<int, 2>, 6> kPairs = {
-      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
   std::vector<Triplet> kept, taken;
   for (int column = 0; column < full.Ms.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator it(full.Ms, column); it; ++it) {
