@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "buckens/fem/cylinder.h"
+#include "buckens/fem/mesh_file_spec.h"
 #include "buckens/fem/solid_element_spec.h"
 #include "buckens/fem/structure_spec.h"
 
@@ -166,22 +167,36 @@ struct DiscMeshSpec : RoundMeshSpec {
   }
 };
 
-/// A mesh of solid elements that the program generates, made a body.
-struct MeshSpec {
+/// A mesh that the program generates or reads from a file, made a body.
+struct MeshSpec : GroupMaterials {
   static constexpr const char* kKey = "mesh";
-  static constexpr const char* kDoc = "flexible body: a generated mesh of solid elements";
+  static constexpr const char* kDoc = "flexible body: a mesh, generated or from a file";
   SourceLocation where;
-  std::variant<BoxMeshSpec, CylinderMeshSpec, TubeMeshSpec, DiscMeshSpec> shape;
-  base::Reference<MaterialSpec> material;
+  std::variant<BoxMeshSpec, CylinderMeshSpec, TubeMeshSpec, DiscMeshSpec, MeshFileSpec> shape;
+  std::optional<LengthUnit> length_unit;
+  std::optional<MassUnit> mass_unit;
   std::vector<PointMassSpec> masses;
+
+  bool is_file() const { return std::holds_alternative<MeshFileSpec>(shape); }
+  LengthUnit unit_of_length() const { return length_unit.value_or(LengthUnit::m); }
+  /// Tonnes go with millimetres: then forces are in N and stresses in MPa.
+  MassUnit unit_of_mass() const {
+    return mass_unit.value_or(unit_of_length() == LengthUnit::mm ? MassUnit::t : MassUnit::kg);
+  }
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::inlined(shape, "shape of the mesh").required());
-    visit(base::field("material", material, "material: a name from `materials` or written in place")
-              .required()
-              .like("steel"));
-    visit(base::field("masses", masses, "point masses at named nodes"));
+    visit(base::inlined(shape, "shape of the mesh, or its file").required());
+    visit(base::field("length-unit", length_unit, "of a file: unit of its lengths")
+              .like("mm")
+              .otherwise("m"));
+    visit(base::field("mass-unit", mass_unit,
+                      "of a file: unit of mass of the constants in it; time is in seconds")
+              .like("t")
+              .otherwise("t with millimetres, so that stresses are in MPa; else kg"));
+    material_fields(visit);
+    visit(base::field("masses", masses,
+                      "point masses at named nodes; those of a file are `n` and the number"));
   }
 };
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/base/field.h"
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/material_spec.h"
+#include "buckens/fem/structure_spec.h"
+
+namespace buckens::fem {
+
+/// Units of length of mesh files. The files themselves do not say theirs.
+enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
+
+constexpr std::array<const char*, 7> choice_names(LengthUnit) {
+  return {"m", "dm", "cm", "mm", "um", "in", "ft"};
+}
+
+/// [m]
+constexpr double size_of(LengthUnit unit) {
+  constexpr std::array<double, 7> sizes = {1.0, 0.1, 0.01, 1e-3, 1e-6, 0.0254, 0.3048};
+  return sizes[static_cast<std::size_t>(unit)];
+}
+
+/// Units of mass of mesh files.
+enum class MassUnit { kg, t, g, lb, slinch };
+
+constexpr std::array<const char*, 5> choice_names(MassUnit) {
+  return {"kg", "t", "g", "lb", "slinch"};
+}
+
+/// [kg]; a slinch is 1 lbf s²/in.
+constexpr double size_of(MassUnit unit) {
+  constexpr std::array<double, 5> sizes = {1.0, 1000.0, 1e-3, 0.45359237, 175.126835246};
+  return sizes[static_cast<std::size_t>(unit)];
+}
+
+/// The material of one part of a mesh file.
+struct GroupMaterialSpec {
+  std::string name;  ///< of the property, element set or physical group
+  SourceLocation where;
+  base::Reference<MaterialSpec> material;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("material", material, "material: a name from `materials` or written in place")
+              .required()
+              .shorthand()
+              .like("steel"));
+  }
+};
+
+/// The file of another program that holds a mesh.
+struct MeshFileSpec {
+  static constexpr const char* kKey = "file";
+  static constexpr const char* kDoc =
+      "mesh from a file of Gmsh (.msh, .unv), Abaqus or CalculiX (.inp) or Nastran (.bdf, .dat, "
+      ".nas)";
+  SourceLocation where;
+  std::string path;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("path", path, "name of the file, relative to the model file")
+              .required()
+              .shorthand()
+              .like("housing.inp"));
+  }
+};
+
+/// Which materials the parts of a foreign mesh have.
+struct GroupMaterials {
+  std::optional<base::Reference<MaterialSpec>> material;
+  std::vector<GroupMaterialSpec> materials;
+  /// In SI units; set by the reader of model files.
+  std::shared_ptr<const ImportedMesh> imported;
+
+  template <class Visitor>
+  void material_fields(Visitor& visit) {
+    visit(base::field("material", material,
+                      "material: a name from `materials` or written in place; of a file: for all "
+                      "elements to which neither `materials` here nor the file gives one")
+              .like("steel")
+              .otherwise("that of the file"));
+    visit(base::field("materials", materials,
+                      "of a file: material by the name of an element set, a physical group or a "
+                      "property; stands above that of the file")
+              .like("{HOUSING: steel, LID: aluminium}")
+              .otherwise("those of the file"));
+  }
+};
+
+/// A part from a STEP file, meshed by Gmsh, made a body.
+struct GeometrySpec : GroupMaterials {
+  static constexpr const char* kKey = "geometry";
+  static constexpr const char* kDoc = "flexible body: a part from a STEP file, meshed with Gmsh";
+  SourceLocation where;
+  std::string step;
+  double size = 0;  ///< of the elements [m]
+  int order = 2;
+  std::vector<PointMassSpec> masses;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("step", step, "name of the STEP file, relative to the model file")
+              .required()
+              .like("rod.step"));
+    visit(base::field("size", size, "length of the edges of the elements")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("5 mm"));
+    visit(base::field("order", order, "1: tet4; 2: tet10 with mid-side nodes on the true surface"));
+    material_fields(visit);
+    visit(base::field("masses", masses, "point masses at nodes, written `n` and the number"));
+  }
+};
+
+}  // namespace buckens::fem
