@@ -20,7 +20,7 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/buckensConfigVersion.cma
 install(
   FILES "${PROJECT_BINARY_DIR}/buckensConfig.cmake" "${PROJECT_BINARY_DIR}/buckensConfigVersion.cmake"
         cmake/FindSuiteSparse.cmake cmake/FindOpenBLAS.cmake cmake/FindMETIS.cmake
-        cmake/FindHDF5Serial.cmake
+        cmake/FindHDF5Serial.cmake cmake/FindGmsh.cmake
   DESTINATION "${package_dir}")
 install(FILES LICENSE NOTICE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 

@@ -6,8 +6,8 @@
 namespace buckens::fem {
 
 /// Shapes of the elements that mesh files hold, named by their nodes. Corners come first, then the
-/// mid-side nodes in the order of Abaqus (C3D20, C3D15, C3D10), which is that of VTK except where
-/// VTK counts the upper and the vertical edges of hex20 and wedge15 the other way round.
+/// mid-side nodes in the order of Abaqus (C3D20, C3D15, C3D10), which is that of VTK, too. Gmsh,
+/// Nastran and the universal file order those of some kinds otherwise; their readers sort them.
 enum class CellKind {
   point1,
   line2,

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "buckens/base/field.h"
 #include "buckens/fem/imported_mesh.h"
 #include "buckens/fem/material_spec.h"
+#include "buckens/fem/region_spec.h"
 #include "buckens/fem/structure_spec.h"
 
 namespace buckens::fem {
@@ -95,6 +97,71 @@ struct GroupMaterials {
   }
 };
 
+/// The faces of a STEP file that have a colour there.
+struct FaceColorSpec {
+  static constexpr const char* kKey = "color";
+  static constexpr const char* kDoc = "the faces that have this colour in the STEP file";
+  SourceLocation where;
+  std::array<int, 3> rgb = {0, 0, 0};  ///< 0 … 255, as CAD programs show them
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("rgb", rgb, "red, green and blue, from 0 to 255")
+              .required()
+              .shorthand()
+              .non_negative()
+              .like("[255, 0, 0]"));
+  }
+};
+
+/// Faces of a STEP file by their numbers there.
+struct FaceNumbersSpec {
+  static constexpr const char* kKey = "numbers";
+  static constexpr const char* kDoc = "faces by number, as `buckens mesh-info` lists them";
+  SourceLocation where;
+  std::vector<int> numbers;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("numbers", numbers, "numbers of faces")
+              .required()
+              .shorthand()
+              .positive()
+              .like("[3, 4]"));
+  }
+};
+
+/// Faces of a STEP file by a name that the file gives them.
+struct FaceLabelSpec {
+  static constexpr const char* kKey = "label";
+  static constexpr const char* kDoc = "the faces that have this name in the STEP file";
+  SourceLocation where;
+  std::string label;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("label", label, "the name in the file")
+              .required()
+              .shorthand()
+              .like("bearing seat"));
+  }
+};
+
+/// Faces of a STEP file under a name for interfaces and loads. By place: those that lie wholly in
+/// the sphere, box, cylinder or plane.
+struct GeometryFaceSpec {
+  std::string name;
+  SourceLocation where;
+  std::variant<FaceLabelSpec, FaceColorSpec, FaceNumbersSpec, SphereSelection, BoxSelection,
+               CylinderSelection, PlaneSelection>
+      selection;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(selection, "which faces belong to it").required());
+  }
+};
+
 /// A part from a STEP file, meshed by Gmsh, made a body.
 struct GeometrySpec : GroupMaterials {
   static constexpr const char* kKey = "geometry";
@@ -103,6 +170,7 @@ struct GeometrySpec : GroupMaterials {
   std::string step;
   double size = 0;  ///< of the elements [m]
   int order = 2;
+  std::vector<GeometryFaceSpec> faces;
   std::vector<PointMassSpec> masses;
 
   template <class Visitor>
@@ -116,6 +184,10 @@ struct GeometrySpec : GroupMaterials {
               .positive()
               .like("5 mm"));
     visit(base::field("order", order, "1: tet4; 2: tet10 with mid-side nodes on the true surface"));
+    visit(base::field("faces", faces,
+                      "names for faces, used as `face:` of interfaces and loads; by label, colour, "
+                      "number or place")
+              .like("{bore: {color: [255, 0, 0]}}"));
     material_fields(visit);
     visit(base::field("masses", masses, "point masses at nodes, written `n` and the number"));
   }
