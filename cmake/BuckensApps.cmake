@@ -16,7 +16,6 @@ if(BUCKENS_BENCH)
     cmake_path(GET source STEM name)
     add_executable(${name} ${source})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
-    target_compile_definitions(${name} PRIVATE BUCKENS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     target_link_libraries(
       ${name} PRIVATE buckens buckens_common benchmark::benchmark
                       nlohmann_json::nlohmann_json OpenBLAS::OpenBLAS SuiteSparse::CHOLMOD)

@@ -18,11 +18,15 @@ if(NOT BUCKENS_PYTHON)
   find_program(BUCKENS_PYTHON python3 REQUIRED)
 endif()
 
+# Where the checkout lies stands in one object alone (src/buckens/base/test/source_directory.h).
+file(CONFIGURE OUTPUT "${BUCKENS_GENERATED_DIR}/source_directory.cpp" CONTENT
+     "#include \"buckens/base/test/source_directory.h\"\nconst char* const buckens::test::kSourceDirectory = \"@PROJECT_SOURCE_DIR@\";\n" @ONLY)
+add_library(buckens_source_directory OBJECT "${BUCKENS_GENERATED_DIR}/source_directory.cpp")
+target_link_libraries(buckens_source_directory PRIVATE buckens_common)
+
 # buckens_test(name label library source...)
 function(buckens_test name label library)
-  add_executable(${name} ${ARGN})
-  target_compile_definitions(${name} PRIVATE BUCKENS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                             BUCKENS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  add_executable(${name} ${ARGN} $<TARGET_OBJECTS:buckens_source_directory>)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${library} buckens_common nlohmann_json::nlohmann_json
                                         GTest::gmock GTest::gtest GTest::gtest_main)

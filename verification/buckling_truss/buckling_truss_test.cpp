@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/analysis/static_path.h"
+#include "buckens/base/test/source_directory.h"
 #include "buckens/io/model_file.h"
 #include "buckens/results/table.h"
 
@@ -29,9 +30,10 @@ double buckling_load() {
 }
 
 results::RunSummary trace(const std::vector<std::string>& overrides) {
-  const auto built = model::build_model(io::read_model_file(
-      std::string(BUCKENS_SOURCE_DIR) + "/examples/snap_through_bending/snap_through_bending.yaml",
-      overrides));
+  const auto built = model::build_model(
+      io::read_model_file(std::string(buckens::test::kSourceDirectory) +
+                              "/examples/snap_through_bending/snap_through_bending.yaml",
+                          overrides));
   results::Table table;
   return analysis::trace_static_path(*built, table);
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/test/simulate.h"
 
@@ -16,7 +17,7 @@ namespace {
 using stepping::Method;
 
 nlohmann::json read_reference() {
-  std::ifstream file(std::string(BUCKENS_SOURCE_DIR) +
+  std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                      "/verification/flexible_pendulum/reference.json");
   return nlohmann::json::parse(file);
 }

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/analysis/simulate.h"
+#include "buckens/base/test/source_directory.h"
 #include "buckens/io/model_file.h"
 #include "buckens/results/table.h"
 
@@ -22,7 +23,8 @@ namespace {
 using Eigen::Vector3d;
 
 nlohmann::json reference(const char* part) {
-  std::ifstream file(std::string(BUCKENS_SOURCE_DIR) + "/verification/frames/reference.json");
+  std::ifstream file(std::string(buckens::test::kSourceDirectory) +
+                     "/verification/frames/reference.json");
   return nlohmann::json::parse(file)[part];
 }
 

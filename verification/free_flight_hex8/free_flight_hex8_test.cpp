@@ -15,6 +15,7 @@
 
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/simulate.h"
+#include "buckens/base/test/source_directory.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/io/model_file.h"
@@ -27,7 +28,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-const std::string kFolder = std::string(BUCKENS_SOURCE_DIR) + "/verification/free_flight_hex8/";
+const std::string kFolder =
+    std::string(buckens::test::kSourceDirectory) + "/verification/free_flight_hex8/";
 
 nlohmann::json read_reference() {
   std::ifstream file(kFolder + "reference.json");

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/body/free_modes.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/fem/assemble.h"
@@ -19,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 json read_reference() {
-  std::ifstream file(std::string(BUCKENS_SOURCE_DIR) +
+  std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                      "/verification/free_free_beam/reference.json");
   return json::parse(file);
 }

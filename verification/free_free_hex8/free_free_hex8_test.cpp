@@ -8,13 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/analysis/body_vibration.h"
+#include "buckens/base/test/source_directory.h"
 #include "buckens/io/model_file.h"
 #include "buckens/model/model_builder.h"
 
 namespace buckens::verification {
 namespace {
 
-const std::string kFolder = std::string(BUCKENS_SOURCE_DIR) + "/verification/free_free_hex8/";
+const std::string kFolder =
+    std::string(buckens::test::kSourceDirectory) + "/verification/free_free_hex8/";
 
 /// Compares every tabulated frequency with those that `buckens modes` finds.
 void expect_frequencies(const std::string& model, const std::string& name) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/body/free_free_modes.h"
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/box_mesh.h"
@@ -20,7 +21,7 @@ using body::FreeModeMethod;
 using nlohmann::json;
 
 json read(const std::string& path) {
-  std::ifstream file(std::string(BUCKENS_SOURCE_DIR) + "/verification/" + path);
+  std::ifstream file(std::string(buckens::test::kSourceDirectory) + "/verification/" + path);
   return json::parse(file);
 }
 

@@ -10,6 +10,7 @@
 
 #include "verification/planar_levels/paper_equations.h"
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/test/simulate.h"
@@ -29,7 +30,7 @@ const std::vector<std::pair<std::string, CouplingLevel>> kTabulated = {
     {"nojvar", CouplingLevel::nojvar}, {"noquad", CouplingLevel::noquad}};
 
 nlohmann::json read_reference() {
-  std::ifstream file(std::string(BUCKENS_SOURCE_DIR) +
+  std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                      "/verification/planar_levels/reference.json");
   return nlohmann::json::parse(file);
 }

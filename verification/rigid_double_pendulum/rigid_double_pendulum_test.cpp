@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/test/simulate.h"
 
@@ -19,7 +20,7 @@ using stepping::Method;
 
 /// θ1, θ2 from the downward vertical [rad] and their rates at t = 1 s.
 Eigen::Vector4d reference() {
-  std::ifstream file(std::string(BUCKENS_SOURCE_DIR) +
+  std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                      "/verification/rigid_double_pendulum/reference.json");
   const auto json = nlohmann::json::parse(file);
   const auto& row = json["theta1_theta2_w1_w2"][2];

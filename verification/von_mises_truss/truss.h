@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/source_directory.h"
+
 namespace buckens::verification {
 
 inline const nlohmann::json& truss_reference() {
   static const nlohmann::json json = [] {
-    std::ifstream file(std::string(BUCKENS_SOURCE_DIR) +
+    std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                        "/verification/von_mises_truss/reference.json");
     return nlohmann::json::parse(file);
   }();

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/base/units.h"
 #include "buckens/io/model_file.h"
 #include "buckens/io/test/model_file_sample.h"
@@ -19,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::string file_text(const std::string& name) {
-  std::ifstream stream(std::string(BUCKENS_SOURCE_DIR) + "/" + name);
+  std::ifstream stream(std::string(buckens::test::kSourceDirectory) + "/" + name);
   std::ostringstream out;
   out << stream.rdbuf();
   return out.str();
