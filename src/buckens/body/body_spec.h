@@ -231,7 +231,9 @@ struct BodySpec {
   SourceLocation where;
   /// What the body is made of. The reader replaces LikeSpec by the other body's content; `like`
   /// then holds the other body's name.
-  std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, fem::MeshSpec, LikeSpec> kind;
+  std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, fem::MeshSpec, fem::GeometrySpec,
+               LikeSpec>
+      kind;
   std::string like;
   PlacementSpec at;
   std::vector<MarkerSpec> markers;

@@ -2,10 +2,12 @@
 #include "buckens/fem/generate_mesh.h"
 
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "buckens/base/errors.h"
 #include "buckens/fem/box_mesh.h"
 #include "buckens/fem/cylinder_mesh.h"
 
@@ -33,6 +35,8 @@ std::vector<std::string> names_of(const BoxMeshSpec& spec) {
   }
   return out;
 }
+
+std::vector<std::string> names_of(const MeshFileSpec& /*spec*/) { return {}; }
 
 template <class Round>
 std::vector<std::string> names_of(const Round& spec) {
@@ -63,8 +67,16 @@ std::vector<std::string> named_nodes(const MeshSpec& spec) {
 }
 
 std::optional<std::string> size_problem(const MeshSpec& spec) {
+  if (spec.is_file()) return std::nullopt;
   const auto [kind, cells] = std::visit(
-      [](const auto& shape) { return std::pair(shape.element, cells_in(shape)); }, spec.shape);
+      []<class Shape>(const Shape& shape) {
+        if constexpr (std::is_same_v<Shape, MeshFileSpec>) {
+          return std::pair(SolidKind::hex8, 0.0);
+        } else {
+          return std::pair(shape.element, cells_in(shape));
+        }
+      },
+      spec.shape);
   const SolidTopology& topology = solid_topology(kind);
   const double count = cells * (topology.is_hexahedron() ? 1 : 6);
   const double most = kMostEntries / (9.0 * topology.num_nodes * topology.num_nodes);
@@ -77,8 +89,12 @@ std::optional<std::string> size_problem(const MeshSpec& spec) {
 
 GeneratedMesh add_mesh(Structure& structure, const MeshSpec& spec, const Material& material) {
   return std::visit(
-      [&](const auto& shape) {
-        return add_cells(structure, cells_of(shape), shape.form(), material);
+      [&]<class Shape>(const Shape& shape) -> GeneratedMesh {
+        if constexpr (std::is_same_v<Shape, MeshFileSpec>) {
+          throw ModelError("a mesh from a file is not generated");
+        } else {
+          return add_cells(structure, cells_of(shape), shape.form(), material);
+        }
       },
       spec.shape);
 }

@@ -44,7 +44,8 @@ constexpr double size_of(MassUnit unit) {
 
 /// The material of one part of a mesh file.
 struct GroupMaterialSpec {
-  std::string name;  ///< of the property, element set or physical group
+  static constexpr bool kHasForeignName = true;  ///< any characters
+  std::string name;                              ///< of the property, element set or physical group
   SourceLocation where;
   base::Reference<MaterialSpec> material;
 

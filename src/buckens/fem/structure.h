@@ -13,6 +13,18 @@
 
 namespace buckens::fem {
 
+/// Nodes under one name.
+struct NodeSet {
+  std::string name;
+  std::vector<int> nodes;  ///< ascending
+};
+
+/// Elements under one name, numbered within their kind.
+struct ElementSet {
+  std::string name;
+  std::vector<int> beams, bars, solids;
+};
+
 /// The mesh of one body before assembly: nodes and elements in model axes.
 ///
 /// Elements are numbered through all kinds: beams first, then bars, point masses, solids.
@@ -24,8 +36,11 @@ struct Structure {
   SolidBlock solids;
   /// Nodes that only divide a bar. Bars there keep one direction although they are hinged.
   std::vector<int> straight_nodes;
-  /// Faces that generators named. The parts of a divided mesh have none.
+  /// Faces, nodes and elements that generators or mesh files named. The parts of a divided mesh
+  /// have none.
   std::vector<FaceSet> face_sets;
+  std::vector<NodeSet> node_sets;
+  std::vector<ElementSet> element_sets;
 };
 
 /// Elements and nodes made from one beam.

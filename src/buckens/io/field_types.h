@@ -58,6 +58,12 @@ inline constexpr bool kIsNamedList<std::vector<T>> = requires(T& entry) {
   entry.name;
 };
 
+/// Entries whose names come from another program and may hold any characters.
+template <class T>
+inline constexpr bool kIsForeignNamed = requires {
+  T::kHasForeignName;
+};
+
 /// Key and description of one alternative of a variant.
 struct AlternativeNote {
   std::string key, doc;

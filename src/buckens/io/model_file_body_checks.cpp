@@ -174,8 +174,24 @@ Finding mass_problem(const std::vector<fem::PointMassSpec>& masses,
 }  // namespace
 
 Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
+  if (spec.is_file()) return std::nullopt;
+  if (!spec.material) {
+    return Problem{"", "the key \"material\" is missing; add it, for example material: steel"};
+  }
+  if (!spec.materials.empty()) {
+    return Problem{"materials", "a generated mesh is of one `material`; remove this key"};
+  }
+  if (spec.length_unit || spec.mass_unit) {
+    return Problem{spec.length_unit ? "length-unit" : "mass-unit",
+                   "only files need to be told their units; write the unit behind the number"};
+  }
   if (const auto found = fem::size_problem(spec)) return Problem{"", *found};
   return mass_problem(spec.masses, fem::named_nodes(spec));
+}
+
+Finding problem(const fem::GeometrySpec& spec, const ReadContext&) {
+  if (spec.order == 1 || spec.order == 2) return std::nullopt;
+  return Problem{"order", "elements are linear (1) or quadratic (2)"};
 }
 
 Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
@@ -258,6 +274,7 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind);
   const bool is_solid =
       std::holds_alternative<fem::MeshSpec>(spec.kind) ||
+      std::holds_alternative<fem::GeometrySpec>(spec.kind) ||
       (structure != nullptr && structure->beams.empty() && structure->bars.empty());
   if (is_solid && spec.geometric_stiffness) {
     return Problem{"geometric-stiffness",

@@ -152,7 +152,7 @@ void read_named(const ReadPlace& place, ReadContext& context, std::vector<T>& ou
   }
   for (const YamlEntry& entry : place.node.entries) {
     const std::string path = join_path(place.path, entry.key);
-    check_name(entry, path);
+    if constexpr (!kIsForeignNamed<T>) check_name(entry, path);
     T value;
     value.name = entry.key;
     read_record({entry.value, path}, context, value);
@@ -229,6 +229,10 @@ void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext
     read_reference(place, note, context, out);
   } else if constexpr (kIsNamedList<T>) {
     read_named(place, context, out);
+  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+    if (place.node.is_scalar()) return read_value(place, note, context, out.emplace_back());
+    out.resize(place.node.items.size());
+    read_items(place, note, context, -1, read_item(out));
   } else if constexpr (kIsVector<T>) {
     out.resize(place.node.items.size());
     read_items(place, note, context, -1, read_item(out));

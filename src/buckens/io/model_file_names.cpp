@@ -9,6 +9,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/fem/generate_mesh.h"
+#include "buckens/io/body_mesh.h"
 
 namespace buckens::io {
 
@@ -65,7 +66,8 @@ void check_markers(const body::BodySpec& body, const ReadPlace& place) {
     std::erase(places, marker.name);
   }
   for (const auto& marker : body.markers) {
-    if (marker.at.empty() || std::find(places.begin(), places.end(), marker.at) != places.end()) {
+    if (marker.at.empty() || is_numbered_node(body, marker.at) ||
+        std::find(places.begin(), places.end(), marker.at) != places.end()) {
       continue;
     }
     throw InputError(
@@ -144,7 +146,8 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) 
   }
   if (slash == std::string::npos) return out;
   const std::vector<std::string> markers = marker_names(*body);
-  if (std::find(markers.begin(), markers.end(), out.marker) == markers.end()) {
+  if (std::find(markers.begin(), markers.end(), out.marker) == markers.end() &&
+      !is_numbered_node(*body, out.marker)) {
     fail(place, fmt::format("body \"{}\" has no marker \"{}\".{}", out.body, out.marker,
                             base::suggestion(out.marker, markers)));
   }
@@ -196,6 +199,7 @@ void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& con
     // The variant's old content is destroyed here; nothing of it is used from now on.
     body.kind = std::variant(other->kind);
   }
+  load_body_mesh(body, context);
   if (body.is_rigid() && body.damping) {
     fail(place, "a rigid body has no damping of its own; remove the key \"damping\"");
   }

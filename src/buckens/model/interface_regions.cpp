@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/field.h"
 #include "buckens/base/nearest.h"
 
 namespace buckens::model {
@@ -49,14 +50,9 @@ class RegionFinder {
 
   fem::NodeRegion operator()(const fem::NodeSetSpec& set) const {
     std::vector<int> nodes;
-    for (const std::string& name : set.nodes) {
-      const auto place = mesh_.find(name);
-      if (!place || place->node < 0) {
-        fail(set.where, fmt::format("the mesh has no node \"{}\".{}", name,
-                                    base::suggestion(name, mesh_.names)));
-      }
-      nodes.push_back(place->node);
-    }
+    for (const std::string& name : set.nodes) add_named(name, set.where, nodes);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (nodes.empty()) fail(set.where, "the set is empty; name at least one node");
     return fem::node_region(mesh_.structure, std::move(nodes));
   }
@@ -84,6 +80,29 @@ class RegionFinder {
   }
 
  private:
+  void add_named(const std::string& name, const SourceLocation& where,
+                 std::vector<int>& nodes) const {
+    const fem::Structure& structure = mesh_.structure;
+    if (const auto place = mesh_.find(name); place && place->node >= 0) {
+      nodes.push_back(place->node);
+      return;
+    }
+    if (const auto* set = base::find_named(structure.node_sets, name)) {
+      nodes.insert(nodes.end(), set->nodes.begin(), set->nodes.end());
+      return;
+    }
+    if (const auto* set = base::find_named(structure.face_sets, name)) {
+      const auto more = fem::face_set_nodes(structure.solids, set->faces);
+      nodes.insert(nodes.end(), more.begin(), more.end());
+      return;
+    }
+    std::vector<std::string> known = mesh_.names;
+    for (const fem::NodeSet& set : structure.node_sets) known.push_back(set.name);
+    for (const fem::FaceSet& set : structure.face_sets) known.push_back(set.name);
+    fail(where,
+         fmt::format("the mesh has no node or set \"{}\".{}", name, base::suggestion(name, known)));
+  }
+
   [[noreturn]] void fail(const SourceLocation& where, const std::string& what) const {
     throw InputError(
         where, fmt::format("interface \"{}\" of body \"{}\": {}", spec_.name, body_.name, what));

@@ -98,6 +98,11 @@ MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision&
       add(divided.lines[static_cast<std::size_t>(place.element)], false);
     }
   }
+  for (const auto& [number, node] : whole.numbers) {
+    for (const fem::PartPlace& copy : divided.nodes[static_cast<std::size_t>(node)]) {
+      out.parts[static_cast<std::size_t>(copy.part)].numbers.emplace(number, copy.index);
+    }
+  }
   for (const InterfaceRegion& interface : whole.interfaces) {
     add_interface(interface, divided.nodes, out);
   }

@@ -7,43 +7,14 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/generate_mesh.h"
+#include "buckens/fem/node_number.h"
+#include "buckens/model/imported_structure.h"
 #include "buckens/model/interface_regions.h"
+#include "buckens/model/spec_properties.h"
 
 namespace buckens::model {
 
 namespace {
-
-fem::Section make_section(const fem::SectionSpec& spec) {
-  struct Maker {
-    fem::Section operator()(const fem::CircleSpec& s) const {
-      return fem::Section::circle(s.diameter);
-    }
-    fem::Section operator()(const fem::TubeSpec& s) const {
-      return fem::Section::tube(s.outer_diameter, s.inner());
-    }
-    fem::Section operator()(const fem::RectangleSpec& s) const {
-      return fem::Section::rectangle(s.width, s.height);
-    }
-    fem::Section operator()(const fem::BoxSpec& s) const {
-      return fem::Section::box(s.width, s.height, s.thickness);
-    }
-    fem::Section operator()(const fem::GeneralSectionSpec& s) const {
-      fem::Section section =
-          fem::Section::general(s.A, s.Iy, s.Iz, s.J, s.shear_factor_y, s.shear_factor_z);
-      if (s.stress_points.empty()) return section;
-      section.stress_points.clear();
-      for (const auto& point : s.stress_points) {
-        section.stress_points.emplace_back(point[0], point[1]);
-      }
-      return section;
-    }
-  };
-  try {
-    return std::visit(Maker{}, spec.shape);
-  } catch (const ModelError& error) {
-    throw InputError(spec.where, error.what());
-  }
-}
 
 class Builder {
  public:
@@ -53,7 +24,13 @@ class Builder {
     if (const auto* beam = std::get_if<fem::BeamSpec>(&spec_.kind)) {
       add_single_beam(*beam);
     } else if (const auto* mesh = std::get_if<fem::MeshSpec>(&spec_.kind)) {
-      add_generated(*mesh);
+      if (mesh->is_file()) {
+        add_imported(*mesh, mesh->masses, mesh->where);
+      } else {
+        add_generated(*mesh);
+      }
+    } else if (const auto* part = std::get_if<fem::GeometrySpec>(&spec_.kind)) {
+      add_imported(*part, part->masses, part->where);
     } else {
       add_structure(std::get<fem::StructureSpec>(spec_.kind));
     }
@@ -61,20 +38,9 @@ class Builder {
   }
 
  private:
-  fem::Material make_material(const fem::MaterialSpec& spec) const {
-    fem::Material material{spec.E, spec.nu, spec.shear_modulus(), spec.rho, 0.0, 0.0, {}};
-    if (spec.orthotropic) material.orthotropy = spec.orthotropic->constants();
-    const auto& damping = spec_.damping ? spec_.damping : spec.damping;
-    if (damping) {
-      material.damping_mass = damping->alpha();
-      material.damping_stiffness = damping->beta();
-    }
-    return material;
-  }
-
   fem::BeamProperties make_properties(const fem::BeamPropertySpec& spec) const {
     fem::BeamProperties properties;
-    properties.material = make_material(*spec.material);
+    properties.material = make_material(*spec.material, spec_.damping);
     properties.section = make_section(*spec.section);
     properties.theory = spec.theory;
     properties.rotary_inertia = spec.has_rotary_inertia();
@@ -89,6 +55,8 @@ class Builder {
 
   void add_single_beam(const fem::BeamSpec& beam);
   void add_generated(const fem::MeshSpec& mesh);
+  void add_imported(const fem::GroupMaterials& source,
+                    const std::vector<fem::PointMassSpec>& masses, const SourceLocation& where);
   void add_structure(const fem::StructureSpec& structure);
   void add_solid(const fem::SolidMemberSpec& solid);
   int node_called(const std::string& name, const SourceLocation& where) const;
@@ -131,8 +99,8 @@ void Builder::add_structure(const fem::StructureSpec& spec) {
     const fem::Section section =
         bar.section ? make_section(**bar.section) : fem::Section::area(bar.area.value_or(0.0));
     fem::add_bar(structure, node_called(bar.between[0], bar.where),
-                 node_called(bar.between[1], bar.where), bar.elements, make_material(*bar.material),
-                 section);
+                 node_called(bar.between[1], bar.where), bar.elements,
+                 make_material(*bar.material, spec_.damping), section);
   }
   for (const fem::SolidMemberSpec& solid : spec.solids) add_solid(solid);
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
@@ -142,14 +110,24 @@ void Builder::add_solid(const fem::SolidMemberSpec& solid) {
   std::vector<int> nodes;
   for (const std::string& name : solid.nodes) nodes.push_back(node_called(name, solid.where));
   fem::SolidBlock& block = out_.structure.solids;
-  block.add(solid.form(), nodes, block.add_material(make_material(*solid.material)));
+  block.add(solid.form(), nodes, block.add_material(make_material(*solid.material, spec_.damping)));
 }
 
 void Builder::add_generated(const fem::MeshSpec& spec) {
   const fem::GeneratedMesh mesh =
-      fem::add_mesh(out_.structure, spec, make_material(*spec.material));
+      fem::add_mesh(out_.structure, spec, make_material(**spec.material, spec_.damping));
   for (const auto& [name, node] : mesh.names) name_place(name, {node, -1, 0});
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
+}
+
+void Builder::add_imported(const fem::GroupMaterials& source,
+                           const std::vector<fem::PointMassSpec>& masses,
+                           const SourceLocation& where) {
+  if (!source.imported) throw InputError(where, "the file of the mesh has not been read");
+  ImportedStructure imported = imported_structure(*source.imported, source, spec_.damping, where);
+  out_.structure = std::move(imported.structure);
+  out_.numbers = std::move(imported.numbers);
+  for (const fem::PointMassSpec& mass : masses) add_mass(mass);
 }
 
 int Builder::node_called(const std::string& name, const SourceLocation& where) const {
@@ -170,7 +148,12 @@ int Builder::node_called(const std::string& name, const SourceLocation& where) c
 
 std::optional<MeshPlace> NamedStructure::find(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
+  if (found == names.end()) {
+    const auto number = fem::node_number(name);
+    const auto node = number ? numbers.find(*number) : numbers.end();
+    if (node == numbers.end()) return std::nullopt;
+    return MeshPlace{node->second, -1, 0};
+  }
   return places[static_cast<std::size_t>(found - names.begin())];
 }
 

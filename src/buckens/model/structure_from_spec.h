@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "buckens/body/body_spec.h"
@@ -24,8 +26,10 @@ struct NamedStructure {
   std::vector<fem::BeamDivision> beams;  ///< one per beam of the file
   std::vector<std::string> names;        ///< of places: start, mid, end, nodes
   std::vector<MeshPlace> places;
+  std::unordered_map<std::int64_t, int> numbers;  ///< nodes by their number in a mesh file
   std::vector<InterfaceRegion> interfaces;
 
+  /// A named place; nodes of mesh files are `n` and the number.
   std::optional<MeshPlace> find(const std::string& name) const;
   /// Null if there is none with this name.
   const InterfaceRegion* find_interface(const std::string& name) const;

@@ -90,7 +90,7 @@ TEST(ModelFile, Solids) {
   EXPECT_EQ(box.from, Eigen::Vector3d(2, 2, 0));
   EXPECT_EQ(box.size, Eigen::Vector3d(1, 0.2, 0.2));
   EXPECT_THAT(box.divisions, testing::ElementsAre(4, 2, 2));
-  EXPECT_EQ(mesh.material.name, "steel");
+  EXPECT_EQ(mesh.material->name, "steel");
   EXPECT_EQ(mesh.masses.at(0).at, "centre");
   const auto& lump = std::get<fem::StructureSpec>(entry(m.bodies, "lump").kind);
   EXPECT_THAT(lump.solids.at(0).nodes,
@@ -145,7 +145,7 @@ TEST(ModelFile, RoundSolidsAndOrthotropicMaterials) {
       std::get<fem::DiscMeshSpec>(std::get<fem::MeshSpec>(entry(m.bodies, "wheel").kind).shape);
   EXPECT_EQ(wheel.shape().from, Eigen::Vector3d(0, -0.05, 0));
   EXPECT_DOUBLE_EQ(wheel.shape().inner_radius, 0.1);
-  const fem::Orthotropy ply = shaft.material->orthotropic->constants();
+  const fem::Orthotropy ply = (*shaft.material)->orthotropic->constants();
   EXPECT_EQ(ply.E, Eigen::Vector3d(135e9, 10e9, 8e9));
   EXPECT_DOUBLE_EQ(ply.G23, 3e9);
   Eigen::Matrix3d axes;

@@ -115,9 +115,10 @@ struct Described {
     box.integration = fem::SolidIntegration::full;
     fem::MeshSpec kind;
     kind.shape = box;
-    kind.material.value.E = kE;
-    kind.material.value.nu = 0.3;
-    kind.material.value.rho = kRho;
+    kind.material.emplace();
+    kind.material->value.E = kE;
+    kind.material->value.nu = 0.3;
+    kind.material->value.rho = kRho;
     body::BodySpec& spec = body(name);
     spec.kind = kind;
     return spec;

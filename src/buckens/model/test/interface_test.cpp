@@ -129,7 +129,7 @@ TEST(Interfaces, NameTheFacesAndNodesThatThereAre) {
   expect_refused<InputError>(block({interface("a", face("x2"))}),
                              {"test.yaml:46:1", "no face \"x2\"", "x0, x1, y0, y1, z0, z1"});
   expect_refused<InputError>(block({interface("a", set({"corner_000", "corner_020"}))}),
-                             {"no node \"corner_020\"", "Did you mean \"corner_0"});
+                             {"no node or set \"corner_020\"", "Did you mean \"corner_0"});
   expect_refused<InputError>(block({interface("a", set({}))}), {"the set is empty"});
 }
 

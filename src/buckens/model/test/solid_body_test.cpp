@@ -130,7 +130,7 @@ TEST(SolidBody, PointMassesSitOnNamedNodesAndHaveNoInertiaThere) {
 TEST(SolidBody, MaterialsThatNoSolidHasAreRefusedWithThePlace) {
   Described m;
   body::BodySpec& spec = m.block("block", kSize, {1, 1, 1});
-  std::get<fem::MeshSpec>(spec.kind).material.value.nu = 0.5;
+  std::get<fem::MeshSpec>(spec.kind).material->value.nu = 0.5;
   EXPECT_THAT([&] { m.build(); },
               ThrowsMessage<ModelError>(AllOf(HasSubstr("test.yaml:10:1"), HasSubstr("\"block\""),
                                               HasSubstr("use 0.49 for rubber"))));

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/imported_materials.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+#include "buckens/model/spec_properties.h"
+
+namespace buckens::model {
+
+ImportedMaterials::ImportedMaterials(const fem::ImportedMesh& mesh,
+                                     const fem::GroupMaterials& given,
+                                     const std::optional<fem::DampingSpec>& damping,
+                                     const SourceLocation& where)
+    : mesh_(mesh),
+      given_(given),
+      damping_(damping),
+      where_(where),
+      by_set_(static_cast<std::size_t>(mesh.num_elements()), nullptr) {
+  for (const fem::GroupMaterialSpec& group : given.materials) {
+    const auto* set = base::find_named(mesh.element_sets, group.name);
+    if (set != nullptr) {
+      for (const int element : set->elements) {
+        by_set_.at(static_cast<std::size_t>(element)) = &*group.material;
+      }
+    }
+    if (set != nullptr || base::find_named(mesh.properties, group.name) != nullptr) continue;
+    std::vector<std::string> known;
+    for (const auto& property : mesh.properties) known.push_back(property.name);
+    for (const auto& other : mesh.element_sets) known.push_back(other.name);
+    throw InputError(group.where,
+                     fmt::format("{} has neither a property nor an element set \"{}\".{}",
+                                 mesh.file, group.name, base::suggestion(group.name, known)));
+  }
+}
+
+const fem::MaterialSpec* ImportedMaterials::chosen(const fem::ImportedBlock& block,
+                                                   int element) const {
+  if (const auto* own = by_set_.at(static_cast<std::size_t>(element))) return own;
+  if (block.property >= 0) {
+    const auto& property = mesh_.properties.at(static_cast<std::size_t>(block.property));
+    if (const auto* group = base::find_named(given_.materials, property.name)) {
+      return &*group->material;
+    }
+    if (!property.material.empty()) return base::find_named(mesh_.materials, property.material);
+  }
+  return given_.material ? &**given_.material : nullptr;
+}
+
+void ImportedMaterials::refuse(const fem::ImportedBlock& block, const std::string& what) const {
+  const std::string of =
+      block.property < 0
+          ? "without a property"
+          : fmt::format("of \"{}\"",
+                        mesh_.properties.at(static_cast<std::size_t>(block.property)).name);
+  throw InputError(where_, fmt::format("{}: the {} elements {} {}; give `material`, or `materials` "
+                                       "by the name of the property or of an element set",
+                                       mesh_.file, block.source, of, what));
+}
+
+int ImportedMaterials::number_of(const fem::MaterialSpec& spec) {
+  const auto [entry, is_new] = numbers_.emplace(&spec, static_cast<int>(materials_.size()));
+  if (is_new) materials_.push_back(make_material(spec, damping_));
+  return entry->second;
+}
+
+int ImportedMaterials::number(const fem::ImportedBlock& block, int element) {
+  const fem::MaterialSpec* spec = chosen(block, element);
+  if (spec == nullptr) refuse(block, "have no material");
+  if (!(spec->E > 0.0) && !spec->orthotropic) {
+    refuse(block, fmt::format("have the material \"{}\" without elastic constants", spec->name));
+  }
+  return number_of(*spec);
+}
+
+int ImportedMaterials::number(const std::string& name) {
+  const fem::MaterialSpec* spec = nullptr;
+  if (const auto* group = base::find_named(given_.materials, name)) spec = &*group->material;
+  if (spec == nullptr) spec = base::find_named(mesh_.materials, name);
+  if (spec == nullptr) {
+    throw InputError(
+        where_, fmt::format("{} has no material \"{}\"; give it in `materials`", mesh_.file, name));
+  }
+  return number_of(*spec);
+}
+
+}  // namespace buckens::model

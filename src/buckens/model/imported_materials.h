@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/fem/material.h"
+#include "buckens/fem/mesh_file_spec.h"
+
+namespace buckens::model {
+
+/// Which material each element of a mesh file has. In the order of precedence: `materials` by the
+/// name of an element set, then by that of the property, the file's own material, `material`.
+class ImportedMaterials {
+ public:
+  /// @throws InputError if a name in `materials` is neither a property nor an element set
+  ImportedMaterials(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
+                    const std::optional<fem::DampingSpec>& damping, const SourceLocation& where);
+
+  /// Elements with the same number have the same material.
+  /// @param element counted through all blocks
+  /// @throws InputError if it has none, or one without density
+  int number(const fem::ImportedBlock& block, int element);
+  /// Number of a material of the file, for the layers of a laminate.
+  int number(const std::string& name);
+
+  const fem::Material& material(int number) const {
+    return materials_[static_cast<std::size_t>(number)];
+  }
+
+ private:
+  const fem::MaterialSpec* chosen(const fem::ImportedBlock& block, int element) const;
+  [[noreturn]] void refuse(const fem::ImportedBlock& block, const std::string& what) const;
+  int number_of(const fem::MaterialSpec& spec);
+
+  const fem::ImportedMesh& mesh_;
+  const fem::GroupMaterials& given_;
+  const std::optional<fem::DampingSpec>& damping_;
+  SourceLocation where_;
+  std::vector<const fem::MaterialSpec*> by_set_;  // per element, null where no set names one
+  std::map<const fem::MaterialSpec*, int> numbers_;
+  std::vector<fem::Material> materials_;
+};
+
+}  // namespace buckens::model

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/imported_structure.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/model/imported_materials.h"
+#include "buckens/model/spec_properties.h"
+
+namespace buckens::model {
+
+namespace {
+
+using fem::CellKind;
+
+std::optional<fem::SolidKind> solid_kind(CellKind kind) {
+  switch (kind) {
+    case CellKind::hex8:
+      return fem::SolidKind::hex8;
+    case CellKind::hex20:
+      return fem::SolidKind::hex20;
+    case CellKind::tet4:
+      return fem::SolidKind::tet4;
+    case CellKind::tet10:
+      return fem::SolidKind::tet10;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Where an element of the file went.
+struct Place {
+  enum class Block { none, beams, bars, solids };
+  Block block = Block::none;
+  int index = -1;
+};
+
+class Import {
+ public:
+  Import(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
+         const std::optional<fem::DampingSpec>& damping, const SourceLocation& where)
+      : mesh_(mesh), materials_(mesh, given, damping, where), where_(where) {}
+
+  ImportedStructure run() {
+    number_nodes();
+    for (const fem::ImportedBlock& block : mesh_.blocks) add_block(block);
+    for (const fem::ImportedMass& mass : mesh_.masses) add_mass(mass);
+    add_sets();
+    return std::move(out_);
+  }
+
+ private:
+  void number_nodes();
+  void add_block(const fem::ImportedBlock& block);
+  void add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
+  void add_line(const fem::ImportedBlock& block, int in_block, const std::vector<int>& nodes,
+                int element);
+  void add_mass(const fem::ImportedMass& mass);
+  void add_sets();
+  fem::ElementFace solid_face(const fem::ImportedFace& face, const std::string& set) const;
+  int node(int imported) const { return new_numbers_[static_cast<std::size_t>(imported)]; }
+  const fem::ImportedProperty* property(const fem::ImportedBlock& block) const {
+    return block.property < 0 ? nullptr
+                              : &mesh_.properties[static_cast<std::size_t>(block.property)];
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError(where_, fmt::format("{}: {}", mesh_.file, what));
+  }
+
+  const fem::ImportedMesh& mesh_;
+  ImportedMaterials materials_;
+  SourceLocation where_;
+  ImportedStructure out_;
+  std::vector<int> new_numbers_;        // per node of the file, −1 where nothing uses it
+  std::vector<Place> places_;           // per element of the file
+  std::map<int, int> solid_materials_;  // number in the block by that of ImportedMaterials
+};
+
+void Import::number_nodes() {
+  const auto count = static_cast<std::size_t>(mesh_.num_nodes());
+  std::vector<bool> used(count, false);
+  const auto use = [&used](int k) { used[static_cast<std::size_t>(k)] = true; };
+  for (const fem::ImportedBlock& block : mesh_.blocks) {
+    std::for_each(block.nodes.begin(), block.nodes.end(), use);
+  }
+  for (const fem::ImportedMass& mass : mesh_.masses) use(mass.node);
+  new_numbers_.assign(count, -1);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!used[k]) continue;
+    new_numbers_[k] = static_cast<int>(out_.structure.nodes.size());
+    out_.numbers.emplace(mesh_.node_ids[k], new_numbers_[k]);
+    out_.structure.nodes.push_back({fmt::format("n{}", mesh_.node_ids[k]), mesh_.positions[k]});
+  }
+}
+
+void Import::add_block(const fem::ImportedBlock& block) {
+  const int per_element = fem::num_nodes(block.kind);
+  for (int k = 0; k < block.num_elements(); ++k) {
+    const int element = static_cast<int>(places_.size());
+    std::vector<int> nodes;
+    for (int i = 0; i < per_element; ++i) {
+      nodes.push_back(node(block.nodes[static_cast<std::size_t>(k * per_element + i)]));
+    }
+    places_.emplace_back();
+    if (fem::dimension_of(block.kind) == 3) {
+      add_solid(block, nodes, element);
+    } else if (block.kind == CellKind::line2) {
+      add_line(block, k, nodes, element);
+    } else {
+      refuse(fmt::format("elements {} ({}) cannot be used in a body", block.source,
+                         fem::name_of(block.kind)));
+    }
+  }
+}
+
+void Import::add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes,
+                       int element) {
+  const auto kind = solid_kind(block.kind);
+  if (!kind) {
+    refuse(fmt::format("elements {} ({}) cannot be used in a body", block.source,
+                       fem::name_of(block.kind)));
+  }
+  fem::SolidBlock& solids = out_.structure.solids;
+  const int number = materials_.number(block, element);
+  const auto [known, is_new] = solid_materials_.emplace(number, 0);
+  if (is_new) known->second = solids.add_material(materials_.material(number));
+  places_.back() = {Place::Block::solids,
+                    solids.add(fem::SolidForm::usual(*kind), nodes, known->second)};
+}
+
+void Import::add_line(const fem::ImportedBlock& block, int in_block, const std::vector<int>& nodes,
+                      int element) {
+  const fem::ImportedProperty* of = property(block);
+  if (of == nullptr || !of->section) {
+    refuse(fmt::format("the {} elements have no section; give them one in the file", block.source));
+  }
+  const fem::Material& material = materials_.material(materials_.number(block, element));
+  const fem::Section section = make_section(*of->section);
+  if (of->kind == fem::PropertyKind::bar) {
+    places_.back() = {Place::Block::bars,
+                      out_.structure.bars.add(nodes[0], nodes[1], material, section)};
+    return;
+  }
+  fem::BeamProperties beam;
+  beam.material = material;
+  beam.section = section;
+  if (of->shear_flexible.value_or(false)) beam.theory = fem::BeamTheory::timoshenko;
+  beam.rotary_inertia = beam.theory == fem::BeamTheory::timoshenko;
+  if (!block.up.empty()) beam.up = block.up[static_cast<std::size_t>(in_block)];
+  fem::BeamBlock& beams = out_.structure.beams;
+  places_.back() = {Place::Block::beams, beams.add(nodes[0], nodes[1], beams.add_properties(beam))};
+}
+
+void Import::add_mass(const fem::ImportedMass& mass) {
+  if (!mass.offset.isZero()) {
+    refuse(
+        fmt::format("the point mass at node {} lies beside its node; put it at a node of its own",
+                    mesh_.node_ids[static_cast<std::size_t>(mass.node)]));
+  }
+  out_.structure.masses.add(node(mass.node), mass.mass, mass.inertia);
+}
+
+fem::ElementFace Import::solid_face(const fem::ImportedFace& face, const std::string& set) const {
+  const Place& place = places_.at(static_cast<std::size_t>(face.element));
+  if (place.block != Place::Block::solids) {
+    refuse(fmt::format("surface \"{}\" has a face of an element that is no solid", set));
+  }
+  std::vector<int> corners;
+  for (const int corner : face.corners) corners.push_back(node(corner));
+  std::sort(corners.begin(), corners.end());
+  const fem::SolidBlock& solids = out_.structure.solids;
+  const auto& faces = fem::solid_topology(solids.form(place.index).kind).faces;
+  const auto nodes = solids.nodes(place.index);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    std::vector<int> own;
+    for (const int corner : faces[f].corners) {
+      own.push_back(nodes[static_cast<std::size_t>(corner)]);
+    }
+    std::sort(own.begin(), own.end());
+    if (own == corners) return {place.index, static_cast<int>(f)};
+  }
+  refuse(fmt::format("surface \"{}\" has a face that its element does not have", set));
+}
+
+void Import::add_sets() {
+  fem::Structure& structure = out_.structure;
+  for (const fem::ImportedNodeSet& set : mesh_.node_sets) {
+    fem::NodeSet& own = structure.node_sets.emplace_back(fem::NodeSet{set.name, {}});
+    for (const int imported : set.nodes) {
+      if (node(imported) >= 0) own.nodes.push_back(node(imported));
+    }
+  }
+  for (const fem::ImportedElementSet& set : mesh_.element_sets) {
+    fem::ElementSet& own = structure.element_sets.emplace_back();
+    own.name = set.name;
+    for (const int element : set.elements) {
+      const Place& place = places_.at(static_cast<std::size_t>(element));
+      if (place.block == Place::Block::beams) own.beams.push_back(place.index);
+      if (place.block == Place::Block::bars) own.bars.push_back(place.index);
+      if (place.block == Place::Block::solids) own.solids.push_back(place.index);
+    }
+  }
+  for (const fem::ImportedFaceSet& set : mesh_.face_sets) {
+    fem::FaceSet& own = structure.face_sets.emplace_back(fem::FaceSet{set.name, {}});
+    for (const fem::ImportedFace& face : set.faces) {
+      own.faces.push_back(solid_face(face, set.name));
+    }
+  }
+}
+
+}  // namespace
+
+ImportedStructure imported_structure(const fem::ImportedMesh& mesh,
+                                     const fem::GroupMaterials& materials,
+                                     const std::optional<fem::DampingSpec>& damping,
+                                     const SourceLocation& where) {
+  return Import(mesh, materials, damping, where).run();
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/imported_structure.h"
+
+#include <gtest/gtest.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/fem/assemble.h"
+
+namespace buckens::model {
+namespace {
+
+fem::MaterialSpec material(const std::string& name, double E, double rho) {
+  fem::MaterialSpec out;
+  out.name = name;
+  out.E = E;
+  out.nu = 0.3;
+  out.rho = rho;
+  return out;
+}
+
+/// Two unit cubes in a row along x in millimetres, nodes numbered from 101, and a node that nothing
+/// uses. The deck has steel for both; the second cube is the element set LID.
+fem::ImportedMesh two_cubes() {
+  fem::ImportedMesh mesh;
+  mesh.file = "part.inp";
+  for (int i = 0; i < 3; ++i) {
+    for (const auto& [y, z] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+      mesh.node_ids.push_back(101 + mesh.num_nodes());
+      mesh.positions.emplace_back(i, y, z);
+    }
+  }
+  mesh.node_ids.push_back(999);
+  mesh.positions.emplace_back(50, 0, 0);
+  fem::ImportedBlock block;
+  block.kind = fem::CellKind::hex8;
+  block.source = "C3D8";
+  block.property = 0;
+  block.ids = {1, 2};
+  block.nodes = {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11};
+  mesh.blocks = {block};
+  fem::ImportedProperty property;
+  property.name = "HOUSING";
+  property.material = "STEEL";
+  mesh.properties = {property};
+  mesh.materials = {material("STEEL", 210000, 7.85e-9)};  // t, mm, s
+  mesh.node_sets = {{"END", {8, 9, 10, 11}}};
+  mesh.element_sets = {{"LID", {1}}};
+  mesh.face_sets = {{"TIP", {{1, {11, 10, 9, 8}}}}};
+  mesh.masses = {{8, 2e-9, Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()}};
+  return fem::in_si(std::move(mesh), 1e-3, 1e3);
+}
+
+fem::GroupMaterialSpec group(const std::string& name, const fem::MaterialSpec& spec) {
+  fem::GroupMaterialSpec out;
+  out.name = name;
+  out.where = {"model.yaml", 7, 3};
+  out.material.value = spec;
+  return out;
+}
+
+ImportedStructure imported(const fem::ImportedMesh& mesh, const fem::GroupMaterials& materials) {
+  return imported_structure(mesh, materials, std::nullopt, {"model.yaml", 5, 3});
+}
+
+std::string message(const fem::ImportedMesh& mesh, const fem::GroupMaterials& materials) {
+  try {
+    imported(mesh, materials);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ImportedStructure, TakesUnitsAndMaterialsOfTheFile) {
+  const ImportedStructure out = imported(two_cubes(), {});
+  EXPECT_EQ(out.structure.nodes.size(), 12U) << "the unused node is left out";
+  EXPECT_EQ(out.numbers.at(112), 11);
+  EXPECT_FALSE(out.numbers.contains(999));
+  ASSERT_EQ(out.structure.solids.num_elements(), 2);
+  EXPECT_NEAR(out.structure.solids.material(0)->E, 210e9, 1.0);
+  const fem::FeModel fe = fem::assemble(out.structure);
+  EXPECT_NEAR(fe.shape.mass, 2 * 7850e-9 + 2e-6, 1e-18);
+  EXPECT_NEAR(fe.shape.com.y(), (2 * 7850e-9 * 5e-4) / fe.shape.mass, 1e-12);
+}
+
+TEST(ImportedStructure, KeepsSets) {
+  const fem::Structure out = imported(two_cubes(), {}).structure;
+  EXPECT_EQ(out.node_sets.at(0).nodes, (std::vector<int>{8, 9, 10, 11}));
+  EXPECT_EQ(out.element_sets.at(0).solids, (std::vector<int>{1}));
+  const fem::FaceIntegrals face =
+      fem::face_integrals(out.solids, out.nodes, out.face_sets.at(0).faces.at(0));
+  EXPECT_NEAR(face.area.sum(), 1e-6, 1e-18);
+  EXPECT_NEAR(face.normal.row(0).sum(), 1e-6, 1e-18) << "outwards, along +x";
+}
+
+TEST(ImportedStructure, MaterialsOfTheModelStandAboveThoseOfTheFile) {
+  fem::GroupMaterials given;
+  given.materials = {group("LID", material("al", 70e9, 2700))};
+  const fem::Structure by_set = imported(two_cubes(), given).structure;
+  EXPECT_NEAR(by_set.solids.material(0)->E, 210e9, 1.0);
+  EXPECT_EQ(by_set.solids.material(1)->E, 70e9);
+  given.materials = {group("HOUSING", material("al", 70e9, 2700))};
+  EXPECT_EQ(imported(two_cubes(), given).structure.solids.material(0)->E, 70e9);
+}
+
+TEST(ImportedStructure, SaysWhatIsMissing) {
+  fem::ImportedMesh mesh = two_cubes();
+  mesh.properties[0].material.clear();
+  EXPECT_EQ(message(mesh, {}),
+            "model.yaml:5:3: part.inp: the C3D8 elements of \"HOUSING\" have no material; give "
+            "`material`, or `materials` by the name of the property or of an element set");
+  fem::GroupMaterials given;
+  given.material.emplace().value = material("steel", 2e11, 7850);
+  EXPECT_EQ(imported(mesh, given).structure.solids.material(1)->rho, 7850);
+  given.materials = {group("HOUSIN", material("al", 70e9, 2700))};
+  EXPECT_EQ(message(mesh, given),
+            "model.yaml:7:3: part.inp has neither a property nor an element set \"HOUSIN\". Did "
+            "you mean \"HOUSING\"?");
+  mesh = two_cubes();
+  mesh.face_sets[0].faces[0].corners = {0, 1, 2, 8};
+  EXPECT_EQ(message(mesh, {}),
+            "model.yaml:5:3: part.inp: surface \"TIP\" has a face that its element does not have");
+}
+
+}  // namespace
+}  // namespace buckens::model
