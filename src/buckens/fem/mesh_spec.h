@@ -58,19 +58,13 @@ struct RoundMeshSpec : SolidElementSpec {
   }
 };
 
-/// A straight round bar.
-struct CylinderMeshSpec : RoundMeshSpec {
-  static constexpr const char* kKey = "cylinder";
-  static constexpr const char* kDoc = "round bar between two points";
-  SourceLocation where;
+/// What round solids between two points have in common.
+struct StraightRoundMeshSpec : RoundMeshSpec {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< centre of the bottom [m]
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< centre of the top [m]
-  double diameter = 0;                             ///< [m]
-
-  Cylinder shape() const { return {from, to, 0.5 * diameter, 0.0, divisions}; }
 
   template <class Visitor>
-  void fields(Visitor& visit) {
+  void end_fields(Visitor& visit) {
     visit(base::field("from", from, "centre of the face `bottom`, in model axes")
               .in(base::kLength)
               .like("[0, 0, 0]"));
@@ -78,6 +72,21 @@ struct CylinderMeshSpec : RoundMeshSpec {
               .in(base::kLength)
               .required()
               .like("[300 mm, 0, 0]"));
+  }
+};
+
+/// A straight round bar.
+struct CylinderMeshSpec : StraightRoundMeshSpec {
+  static constexpr const char* kKey = "cylinder";
+  static constexpr const char* kDoc = "round bar between two points";
+  SourceLocation where;
+  double diameter = 0;  ///< [m]
+
+  Cylinder shape() const { return {from, to, 0.5 * diameter, 0.0, divisions}; }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    end_fields(visit);
     visit(base::field("diameter", diameter, "diameter")
               .in(base::kLength)
               .required()
@@ -88,14 +97,12 @@ struct CylinderMeshSpec : RoundMeshSpec {
 };
 
 /// A straight round tube.
-struct TubeMeshSpec : RoundMeshSpec {
+struct TubeMeshSpec : StraightRoundMeshSpec {
   static constexpr const char* kKey = "tube";
   static constexpr const char* kDoc = "round tube between two points";
   SourceLocation where;
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< centre of the bottom [m]
-  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< centre of the top [m]
-  double outer_diameter = 0;                       ///< [m]
-  double inner_diameter = 0;                       ///< [m]
+  double outer_diameter = 0;  ///< [m]
+  double inner_diameter = 0;  ///< [m]
 
   Cylinder shape() const {
     return {from, to, 0.5 * outer_diameter, 0.5 * inner_diameter, divisions};
@@ -103,13 +110,7 @@ struct TubeMeshSpec : RoundMeshSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("from", from, "centre of the face `bottom`, in model axes")
-              .in(base::kLength)
-              .like("[0, 0, 0]"));
-    visit(base::field("to", to, "centre of the face `top`, in model axes")
-              .in(base::kLength)
-              .required()
-              .like("[300 mm, 0, 0]"));
+    end_fields(visit);
     visit(base::field("outer-diameter", outer_diameter, "outer diameter")
               .in(base::kLength)
               .required()

@@ -13,7 +13,7 @@
 
 namespace buckens::fem {
 
-/// Nodes of a face that the generator of the mesh has named.
+/// Nodes of a face that the generator of the mesh or its file has named.
 struct NamedFaceSpec {
   static constexpr const char* kKey = "face";
   static constexpr const char* kDoc = "the nodes of a named face of the mesh, weighted by area";
@@ -24,23 +24,25 @@ struct NamedFaceSpec {
   void fields(Visitor& visit) {
     visit(base::field("name", name,
                       "x0, x1, y0, y1, z0, z1 of a box; bottom, top, side or inner, outer of round "
-                      "meshes")
+                      "meshes; a surface of a mesh file")
               .required()
               .shorthand()
               .like("x0"));
   }
 };
 
-/// Nodes by name.
+/// Nodes by their own name or that of a set.
 struct NodeSetSpec {
   static constexpr const char* kKey = "set";
-  static constexpr const char* kDoc = "nodes by name";
+  static constexpr const char* kDoc = "nodes by name, one by one or as sets of a mesh file";
   SourceLocation where;
   std::vector<std::string> nodes;
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("nodes", nodes, "names of nodes")
+    visit(base::field("nodes", nodes,
+                      "names of nodes; of a mesh file: nodes (`n` and the number), node sets, "
+                      "surfaces")
               .required()
               .shorthand()
               .like("[corner_000, corner_010, corner_001, corner_011]"));

@@ -106,6 +106,7 @@ std::string type_text(const Shape& shape, const base::FieldNote& note) {
     case Shape::Kind::marker:
       return "marker";
     case Shape::Kind::list:
+      if (takes_single_text(shape)) return "text or list of text";
       return fmt::format("list of {}{}", shape.count < 0 ? "" : fmt::format("{} × ", shape.count),
                          type_text(shape.element[0], note));
     case Shape::Kind::reference:

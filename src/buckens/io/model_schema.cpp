@@ -131,7 +131,8 @@ Json schema_of(const Shape& shape, const base::FieldNote& note) {
     case Shape::Kind::marker:
       return marker_schema();
     case Shape::Kind::list:
-      return list_schema(shape, note);
+      if (!takes_single_text(shape)) return list_schema(shape, note);
+      return any_of({schema_of(shape.element[0], note), list_schema(shape, note)});
     case Shape::Kind::reference:
       return any_of({Json{{"type", "string"}, {"minLength", 1}}, record_schema(shape.element[0])});
     case Shape::Kind::named:

@@ -51,6 +51,12 @@ struct FieldShape {
   std::string standard;  ///< value if left out, as text
 };
 
+/// Whether one text may stand for a list of texts.
+inline bool takes_single_text(const Shape& shape) {
+  return shape.kind == Shape::Kind::list && shape.count < 0 &&
+         shape.element[0].kind == Shape::Kind::text;
+}
+
 /// Shape of the whole model file.
 const Shape& model_file_shape();
 

@@ -106,6 +106,13 @@ TEST(ModelFile, Solids) {
       8);
 }
 
+TEST(ModelFile, OneNameStandsForAListOfNames) {
+  const ModelDescription m =
+      read_model_text(kSampleModel, "sample.yaml", {"bodies.block.interfaces.edge.set=corner_100"});
+  const auto& edge = entry(entry(m.bodies, "block").interfaces, "edge");
+  EXPECT_THAT(std::get<fem::NodeSetSpec>(edge.region).nodes, testing::ElementsAre("corner_100"));
+}
+
 TEST(ModelFile, Interfaces) {
   const auto& block = entry(sample().bodies, "block");
   ASSERT_EQ(block.interfaces.size(), 6u);
