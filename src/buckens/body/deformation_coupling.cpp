@@ -45,6 +45,31 @@ class Pass {
     if (is_mixed) dd_(b, a) = dd_(a, b);
   }
 
+  /// The same for an integral without zeros, as reduced bodies have them.
+  void add_full(const SparseMatrix& W, int a, int b) {
+    const Eigen::Index n = W.rows();
+    const Eigen::Map<const linalg::Matrix> columns(W.valuePtr(), n, n);
+    const bool is_mixed = a != b;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto column = columns.col(j);
+      const double Wd = column.dot(d_);
+      dd_(a, b) += Wd * d_[j];
+      dv_(a, b) += Wd * v_[j];
+      da_(a, b) += Wd * a_[j];
+      const double Wv = is_mixed || weights_.with_rate(a, b) != 0.0 ? column.dot(v_) : 0.0;
+      if (!is_mixed) {  // W is symmetric
+        if (loads_) load_[j] += weights_.with_d(a, a) * Wd + weights_.with_rate(a, a) * Wv;
+        continue;
+      }
+      dv_(b, a) += Wv * d_[j];
+      da_(b, a) += column.dot(a_) * d_[j];
+      if (!loads_) continue;
+      load_ += (weights_.with_d(a, b) * d_[j] + weights_.with_rate(a, b) * v_[j]) * column;
+      load_[j] += weights_.with_d(b, a) * Wd + weights_.with_rate(b, a) * Wv;
+    }
+    if (is_mixed) dd_(b, a) = dd_(a, b);
+  }
+
   /// The share of the scalar mass matrix: Ms ⊗ E_ab for all pairs at once.
   void add(const fem::NodalMass& mass) {
     const SparseMatrix& Ms = mass.Ms;
@@ -112,7 +137,13 @@ DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vec
                                      const DeformationWeights& weights, Vector& load) {
   Pass pass(d, d_dot, d_ddot, weights, load);
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
-    if (shape.W[k].nonZeros() > 0) pass.add(shape.W[k], kPairs[k][0], kPairs[k][1]);
+    const SparseMatrix& W = shape.W[k];
+    if (W.nonZeros() == 0) continue;
+    if (W.isCompressed() && W.nonZeros() == W.rows() * W.cols()) {
+      pass.add_full(W, kPairs[k][0], kPairs[k][1]);
+    } else {
+      pass.add(W, kPairs[k][0], kPairs[k][1]);
+    }
   }
   if (!shape.nodal.empty()) pass.add(shape.nodal);
   return pass.moments();

@@ -11,6 +11,11 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// Rᵀ v, written out: Eigen calls a function for it, and there are many of these.
+Vector3d turned_back(const Matrix3d& R, const Vector3d& v) {
+  return {R.col(0).dot(v), R.col(1).dot(v), R.col(2).dot(v)};
+}
+
 Vector3d rows(const VectorXd& y, int first) {
   return first < 0 ? Vector3d::Zero() : Vector3d(y.segment<3>(first));
 }
@@ -19,15 +24,15 @@ Vector3d rows(const VectorXd& y, int first) {
 
 Eigen::Matrix<double, 6, 1> MarkerKinematics::frame_load(const spatial::Wrench& wrench) const {
   Eigen::Matrix<double, 6, 1> load;
-  load.head<3>() = R_WB.transpose() * wrench.torque + z.cross(R_WB.transpose() * wrench.force);
+  load.head<3>() = turned_back(R_WB, wrench.torque) + z.cross(turned_back(R_WB, wrench.force));
   load.tail<3>() = wrench.force;
   return load;
 }
 
 Eigen::Matrix<double, 6, 1> MarkerKinematics::interface_load(const spatial::Wrench& wrench) const {
   Eigen::Matrix<double, 6, 1> load;
-  load.head<3>() = R_WB.transpose() * wrench.force;
-  load.tail<3>() = rotation_map.transpose() * (R_WB.transpose() * wrench.torque);
+  load.head<3>() = turned_back(R_WB, wrench.force);
+  load.tail<3>() = turned_back(rotation_map, turned_back(R_WB, wrench.torque));
   return load;
 }
 

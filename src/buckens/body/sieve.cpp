@@ -14,6 +14,8 @@ using linalg::Vector;
 namespace {
 // Eigenvalues of the diagonally scaled S below this are motions without inertia.
 constexpr double kNoInertia = 1e-12;
+// Of at most six motions: needs no memory of its own.
+using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 }  // namespace
 
 Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
@@ -39,14 +41,20 @@ Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
   P_ = M * Phi_;
 }
 
-void Sieve::apply(Vector& d) const { d.noalias() -= Phi_ * (P_.transpose() * d); }
+void Sieve::apply(Vector& d) const {
+  const Amplitudes rigid = P_.transpose() * d;
+  d.noalias() -= Phi_ * rigid;
+}
 
 void Sieve::apply(Matrix& columns) const {
   const Matrix amplitudes = P_.transpose() * columns;
   columns.noalias() -= Phi_ * amplitudes;
 }
 
-void Sieve::apply_transposed(Vector& f) const { f.noalias() -= P_ * (Phi_.transpose() * f); }
+void Sieve::apply_transposed(Vector& f) const {
+  const Amplitudes rigid = Phi_.transpose() * f;
+  f.noalias() -= P_ * rigid;
+}
 
 Eigen::Matrix<double, 6, 1> Sieve::rigid_part(const Vector& d) const {
   return to_axes_ * (P_.transpose() * d);
