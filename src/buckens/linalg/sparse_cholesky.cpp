@@ -10,6 +10,7 @@
 #include <cholmod.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/blas_kernels.h"
 #include "buckens/linalg/panel_factor.h"
 
 namespace buckens::linalg {
@@ -86,6 +87,7 @@ void SparseCholesky::Backend::factorise(const SparseMatrix& A, const CholeskyOpt
   }
   // Several threads of BLAS gain little on supernodes of this size and lose much where other
   // processes want the processor; their number is one for the whole process, also in solves.
+  choose_blas_kernels();
   openblas_set_num_threads(1);
   factor = cholmod_analyze(&view, &common);
   if (factor == nullptr) {
@@ -166,6 +168,13 @@ int SparseCholesky::num_parts() const {
   return backend_->panels ? backend_->panels->num_groups() : 1;
 }
 
+bool SparseCholesky::take_panels(SimdLevel simd) {
+  if (backend_->panels) return true;
+  if (backend_->factor->is_super == 0) return false;
+  backend_->lay_out(simd);
+  return true;
+}
+
 double SparseCholesky::bytes() const {
   if (backend_->panels) return backend_->panels->bytes();
   const cholmod_factor& factor = *backend_->factor;
@@ -179,6 +188,10 @@ void SparseCholesky::solve_in_place(Vector& x, TaskPool* pool) const {
 
 void SparseCholesky::solve_in_place(Matrix& X, TaskPool* pool) const {
   backend_->solve(X.data(), X.data(), X.rows(), X.cols(), pool);
+}
+
+void SparseCholesky::solve_first(Matrix& X, Eigen::Index columns, TaskPool* pool) const {
+  backend_->solve(X.data(), X.data(), X.rows(), columns, pool);
 }
 
 Matrix SparseCholesky::solve(const Matrix& B, TaskPool* pool) const {

@@ -45,12 +45,17 @@ class SparseCholesky {
   int num_parts() const;
   /// Never `automatic`.
   SolveRoute route() const;
+  /// Solves over panels from now on; CHOLMOD's copy is freed. Not while others solve.
+  /// @return false if the factor has no dense parts to lay out; then nothing changes
+  bool take_panels(SimdLevel simd = best_simd_level());
 
   /// x ← A⁻¹ x. Cost: two passes over the factor.
   /// @param pool shares the work of large factors between two threads; the result is the same
   void solve_in_place(Vector& x, TaskPool* pool = nullptr) const;
   /// X ← A⁻¹ X for several right-hand sides at once: up to 32 read the factor together.
   void solve_in_place(Matrix& X, TaskPool* pool = nullptr) const;
+  /// The same for the first columns of X only.
+  void solve_first(Matrix& X, Eigen::Index columns, TaskPool* pool = nullptr) const;
   /// A⁻¹ B.
   Matrix solve(const Matrix& B, TaskPool* pool = nullptr) const;
 

@@ -3,6 +3,7 @@
 #include "buckens/linalg/panel_factor.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/test/allocation_count.h"
+#include "buckens/linalg/blas_kernels.h"
 #include "buckens/linalg/inverse_iteration.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
@@ -224,6 +226,45 @@ TEST(PanelFactor, ReadsFewerBytesThanCholmod) {
   EXPECT_EQ(panels.num_factor_entries(), cholmod.num_factor_entries());
   EXPECT_GE(panels.bytes(), 8.0 * panels.num_factor_entries());
   EXPECT_LT(panels.bytes(), cholmod.bytes());
+}
+
+TEST(SparseCholesky, TakesPanelsInPlaceOfCholmodsSupernodes) {
+  const SparseMatrix A = grid(12, 1e-3);
+  const Matrix B = scattered_block(A.rows(), 3, 4);
+  SparseCholesky solver(A, {SolveRoute::cholmod});
+  const Matrix before = solver.solve(B);
+  ASSERT_TRUE(solver.take_panels());
+  EXPECT_EQ(solver.route(), SolveRoute::panels);
+  EXPECT_TRUE(solver.take_panels());  // has them
+  // Rounding times the condition of the matrix, some 1e4.
+  EXPECT_LE((solver.solve(B) - before).norm(), 1e-11 * before.norm());
+
+  SparseMatrix line(50, 50);  // too sparse for supernodes
+  for (int k = 0; k < 50; ++k) line.insert(k, k) = 2.0 + k;
+  line.makeCompressed();
+  SparseCholesky sparse(line);
+  EXPECT_FALSE(sparse.take_panels());
+  EXPECT_EQ(sparse.route(), SolveRoute::cholmod);
+}
+
+TEST(SparseCholesky, SolvesTheFirstColumnsOnly) {
+  const SparseMatrix A = grid(8, 1e-3);
+  const SparseCholesky solver(A, {SolveRoute::panels});
+  const Matrix B = scattered_block(A.rows(), 3, 4);
+  Matrix X = B;
+  solver.solve_first(X, 2);
+  EXPECT_EQ(X.leftCols(2), solver.solve(B.leftCols(2)));
+  EXPECT_EQ(X.col(2), B.col(2));
+}
+
+TEST(BlasKernels, FitTheProcessor) {
+  choose_blas_kernels();
+  if (best_simd_level() == SimdLevel::portable || std::getenv("OPENBLAS_CORETYPE") != nullptr) {
+    GTEST_SKIP() << "nothing to choose";
+  }
+  EXPECT_NE(blas_kernels(), "Prescott");
+  // What was set for the choice is not left behind.
+  EXPECT_EQ(std::getenv("OPENBLAS_CORETYPE"), nullptr);
 }
 
 }  // namespace
