@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/test/allocation_count.h"
+#include "buckens/body/reduction.h"
 #include "buckens/dynamics/test/mechanism.h"
 #include "buckens/fem/box_mesh.h"
 #include "buckens/stepping/stepper.h"
@@ -124,23 +125,46 @@ TEST(LargeBodies, EqualOnesShareOneFactorAndMoveAsAlone) {
   EXPECT_EQ(factorisations, 1);
 }
 
-TEST(LargeBodies, StepsAllocateNothingOfTheirSize) {
+/// Allocations of any size in ten steps, once the coupling has its history.
+long allocations_in_steps(const model::Model& model, const StepSettings& settings) {
+  const test::Start start = test::consistent_start(model);
+  Stepper stepper(model, settings, start.rows_in_use);
+  model::State state = start.state;
+  for (int k = 0; k < 8; ++k) stepper.step(state);
+  return test::count_allocations([&] {
+    for (int k = 0; k < 10; ++k) stepper.step(state);
+  });
+}
+
+constexpr std::array<CouplingLevel, 3> kLevels = {CouplingLevel::none, CouplingLevel::first_order,
+                                                  CouplingLevel::full};
+
+TEST(LargeBodies, StepsAllocateNothing) {
   if (!test::kCountsAllocations) GTEST_SKIP() << "malloc belongs to a sanitizer";
-  for (const CouplingLevel level :
-       {CouplingLevel::none, CouplingLevel::first_order, CouplingLevel::full}) {
+  for (const CouplingLevel level : kLevels) {
+    const model::Model model = chain({{20, 4, 4}, {20, 4, 4}, {12, 3, 3}}, level);
     for (const int threads : {1, 2}) {
-      const model::Model model = chain({{20, 4, 4}, {20, 4, 4}}, level);
-      const test::Start start = test::consistent_start(model);
-      Stepper stepper(model, settings(threads), start.rows_in_use);
-      model::State state = start.state;
-      for (int k = 0; k < 4; ++k) stepper.step(state);  // until the coupling has its history
-      const auto size = static_cast<std::size_t>(model.bodies[0].num_dofs());
-      const auto steps = [&] {
-        for (int k = 0; k < 10; ++k) stepper.step(state);
-      };
-      // A quarter of a vector over all variables; the small Newton's own matrices are below.
-      EXPECT_EQ(test::count_allocations(steps, size * sizeof(double) / 4), 0) << threads;
+      EXPECT_EQ(allocations_in_steps(model, settings(threads)), 0)
+          << body::to_string(level) << ", " << threads;
     }
+    for (const auto method :
+         {stepping::Method::newmark, stepping::Method::hht, stepping::Method::wilson}) {
+      StepSettings other = settings(1);
+      other.method = method;
+      EXPECT_EQ(allocations_in_steps(model, other), 0) << to_string(method);
+    }
+  }
+}
+
+TEST(LargeBodies, StepsOfReducedBodiesAllocateNothing) {
+  if (!test::kCountsAllocations) GTEST_SKIP() << "malloc belongs to a sanitizer";
+  for (const CouplingLevel level : kLevels) {
+    model::Model model = chain({{12, 2, 2}}, level);
+    body::Body& body = model.bodies[0];
+    body.flexible = body::reduce(
+        body.name, *body.flexible,
+        body::free_free_basis(body.name, *body.flexible, 8, true, body.length_scale()));
+    EXPECT_EQ(allocations_in_steps(model, settings(1)), 0) << body::to_string(level);
   }
 }
 

@@ -47,7 +47,8 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
 
 body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
                                     const body::DeformedMoments& quadratic,
-                                    const Eigen::VectorXd& z, const Eigen::VectorXd& z_dot) {
+                                    const Eigen::Matrix<double, 6, 1>& z,
+                                    const Eigen::Matrix<double, 6, 1>& z_dot) {
   body::DeformedMoments out = quadratic;
   out.J += body.J0;
   if (terms.jvar) out.J += body::InertiaInvariants::linear_inertia(z);

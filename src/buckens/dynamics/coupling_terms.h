@@ -23,7 +23,8 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
 /// @param z InertiaInvariants::centrifugal_patterns()ᵀ d; not read where the terms do not need it
 body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
                                     const body::DeformedMoments& quadratic,
-                                    const Eigen::VectorXd& z, const Eigen::VectorXd& z_dot);
+                                    const Eigen::Matrix<double, 6, 1>& z,
+                                    const Eigen::Matrix<double, 6, 1>& z_dot);
 
 /// Weights of the six centrifugal load patterns; zero if the term is not kept.
 Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms,

@@ -7,8 +7,6 @@
 
 namespace buckens::dynamics {
 
-namespace {
-
 void add_wrench(const model::Model& model, const model::MarkerId& id,
                 const body::MarkerKinematics& kinematics, const spatial::Wrench& wrench,
                 Forces& out) {
@@ -21,6 +19,8 @@ void add_wrench(const model::Model& model, const model::MarkerId& id,
   out.interface[b].segment<3>(marker.translation_row) += load.head<3>();
   if (marker.rotation_row >= 0) out.interface[b].segment<3>(marker.rotation_row) += load.tail<3>();
 }
+
+namespace {
 
 void add_row(const BodyRow& row, double multiplier, Forces& out) {
   if (row.body == model::kGround) return;
@@ -92,7 +92,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
   out.rows.clear();
   out.stiffness.clear();
   out.damping.clear();
-  std::vector<loads::SoftRow> rows;
+  std::vector<loads::SoftRow>& rows = out.of_one;
   for (const model::Load& load : model.loads) {
     if (load.element->num_soft_rows() == 0) continue;
     const auto first = evaluate_marker(model, load.first, motions);

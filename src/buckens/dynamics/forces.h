@@ -27,6 +27,11 @@ struct Forces {
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor = 1.0);
 
+/// Adds what a wrench on a marker does to its body; on the ground nothing.
+void add_wrench(const model::Model& model, const model::MarkerId& id,
+                const body::MarkerKinematics& kinematics, const spatial::Wrench& wrench,
+                Forces& out);
+
 /// Adds Gᵀλ.
 void add_joint_forces(const Constraints& constraints, const linalg::Vector& lambda, Forces& out);
 
@@ -34,6 +39,7 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 struct SoftRows {
   std::vector<SystemRow> rows;
   std::vector<double> stiffness, damping;
+  std::vector<loads::SoftRow> of_one;  ///< scratch
 };
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out);

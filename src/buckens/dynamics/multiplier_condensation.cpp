@@ -56,28 +56,26 @@ void MultiplierCondensation::add_body(std::size_t b, const std::vector<SystemRow
                                       const BodyCompliance& compliance) {
   const auto& list = rows_on_body_[b];
   std::size_t position = 0;
-  Eigen::VectorXd interface_image;
   for (const RowOnBody& j : list) {
     const BodyRow& acting = share(force[static_cast<std::size_t>(j.row)], j.is_first);
     const Eigen::Matrix<double, 6, 1> frame_image = compliance.frame * acting.frame.transpose();
     const bool on_interface = compliance.interface != nullptr && acting.translation_row >= 0;
     if (on_interface) {
-      interface_image = compliance.interface->middleCols<3>(acting.translation_row) *
-                        acting.interface.head<3>().transpose();
+      image_.resize(compliance.interface->rows());
+      image_.noalias() = compliance.interface->middleCols<3>(acting.translation_row) *
+                         acting.interface.head<3>().transpose();
       if (acting.rotation_row >= 0) {
-        interface_image += compliance.interface->middleCols<3>(acting.rotation_row) *
-                           acting.interface.tail<3>().transpose();
+        image_.noalias() += compliance.interface->middleCols<3>(acting.rotation_row) *
+                            acting.interface.tail<3>().transpose();
       }
     }
     for (const RowOnBody& i : list) {
       const BodyRow& closing = share(test[static_cast<std::size_t>(i.row)], i.is_first);
       double value = closing.frame.dot(frame_image);
       if (on_interface && closing.translation_row >= 0) {
-        value +=
-            closing.interface.head<3>().dot(interface_image.segment<3>(closing.translation_row));
+        value += closing.interface.head<3>().dot(image_.segment<3>(closing.translation_row));
         if (closing.rotation_row >= 0) {
-          value +=
-              closing.interface.tail<3>().dot(interface_image.segment<3>(closing.rotation_row));
+          value += closing.interface.tail<3>().dot(image_.segment<3>(closing.rotation_row));
         }
       }
       S_.valuePtr()[positions_[b][position++]] += value;

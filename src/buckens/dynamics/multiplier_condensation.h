@@ -66,6 +66,7 @@ class MultiplierCondensation {
   std::vector<int> diagonal_;
   linalg::SparseMatrix S_;
   std::optional<linalg::SparseLu> lu_;
+  Eigen::VectorXd image_;  // scratch of add_body()
 };
 
 }  // namespace buckens::dynamics

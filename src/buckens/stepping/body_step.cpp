@@ -7,7 +7,6 @@
 namespace buckens::stepping {
 
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 namespace {
 
@@ -17,8 +16,10 @@ Vector6 stack(const Vector3d& rotation, const Vector3d& translation) {
   return out;
 }
 
-spatial::Pose moved(const spatial::Pose& X, const Vector6& u) {
-  return {X.p + u.tail<3>(), (X.q * spatial::exp_rotation(u.head<3>())).normalized()};
+void move(const spatial::Pose& X, const Vector6& u, spatial::Pose& out) {
+  out.p = X.p + u.tail<3>();
+  out.q = X.q * spatial::exp_rotation(u.head<3>());
+  out.q.normalize();
 }
 
 }  // namespace
@@ -37,61 +38,53 @@ void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
   y_end = y_before + y.predicted;
   load.setZero(y_before.size());
   correction_load.setZero(y_before.size());
+  y_correction.setZero(y_before.size());
 }
 
-dynamics::BodyMotion BodyStep::motion_at_end(const Scheme& scheme,
-                                             const BodyStepOperator* op) const {
-  dynamics::BodyMotion motion;
-  motion.frame.X_WB = moved(before.X_WB, u + correction);
-  const Vector6 rate = scheme.end_rate * u + frame.velocity;
-  motion.frame.w = rate.head<3>();
-  motion.frame.v = rate.tail<3>();
-  if (op != nullptr) {
-    motion.y = y_end + op->compliance() * correction_load;
-    motion.y_dot = scheme.end_rate * (y_end - y_before) + y.velocity;
-    if (op->is_quasi_static()) motion.y_dot.setZero();
-  }
-  return motion;
+void BodyStep::motion_at_end(const Scheme& scheme, const BodyStepOperator* op,
+                             dynamics::BodyMotion& out) const {
+  move(before.X_WB, u + correction, out.frame.X_WB);
+  out.frame.w = scheme.end_rate * u.head<3>() + frame.velocity.head<3>();
+  out.frame.v = scheme.end_rate * u.tail<3>() + frame.velocity.tail<3>();
+  if (op == nullptr) return;
+  out.y = y_end + y_correction;
+  out.y_dot = scheme.end_rate * (y_end - y_before) + y.velocity;
+  if (op->is_quasi_static()) out.y_dot.setZero();
 }
 
-dynamics::BodyMotion BodyStep::uncorrected_motion(const Scheme& scheme,
-                                                  const BodyStepOperator* op) const {
-  dynamics::BodyMotion motion = motion_at_end(scheme, op);
-  motion.frame.X_WB = moved(before.X_WB, u);
-  if (op != nullptr) motion.y = op->is_quasi_static() ? y_before : y_end;
-  return motion;
+void BodyStep::uncorrected_motion(const Scheme& scheme, const BodyStepOperator* op,
+                                  dynamics::BodyMotion& out) const {
+  motion_at_end(scheme, op, out);
+  move(before.X_WB, u, out.frame.X_WB);
+  if (op != nullptr) out.y = op->is_quasi_static() ? y_before : y_end;
 }
 
-dynamics::BodyMotion BodyStep::motion_at_evaluation(const Scheme& scheme,
-                                                    const BodyStepOperator* op) const {
-  if (scheme.weight == 1.0) return motion_at_end(scheme, op);
-  dynamics::BodyMotion motion;
-  motion.frame.X_WB = moved(before.X_WB, scheme.weight * u + frame.offset);
-  const Vector6 rate = scheme.mean_rate * u + frame.mean_velocity;
-  motion.frame.w = rate.head<3>();
-  motion.frame.v = rate.tail<3>();
-  if (op != nullptr) {
-    motion.y = y_before + scheme.weight * (y_end - y_before) + y.offset;
-    motion.y_dot = scheme.mean_rate * (y_end - y_before) + y.mean_velocity;
-  }
-  return motion;
+void BodyStep::motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op,
+                                    dynamics::BodyMotion& out) const {
+  if (scheme.weight == 1.0) return motion_at_end(scheme, op, out);
+  move(before.X_WB, scheme.weight * u + frame.offset, out.frame.X_WB);
+  out.frame.w = scheme.mean_rate * u.head<3>() + frame.mean_velocity.head<3>();
+  out.frame.v = scheme.mean_rate * u.tail<3>() + frame.mean_velocity.tail<3>();
+  if (op == nullptr) return;
+  out.y = y_before + scheme.weight * (y_end - y_before) + y.offset;
+  out.y_dot = scheme.mean_rate * (y_end - y_before) + y.mean_velocity;
 }
 
 body::DeformedMoments BodyStep::moments(const body::Body& body,
                                         const dynamics::BodyMotion& motion) const {
   // Rows beyond those of the interface are the patterns.
   if (motion.y.size() <= body.num_interface_rows()) {
-    return dynamics::frame_moments(body, body::CouplingTerms::none(), quadratic, {}, {});
+    body::DeformedMoments out = quadratic;
+    out.J += body.J0;
+    return out;
   }
   return dynamics::frame_moments(body, terms, quadratic, motion.y.tail<6>(),
                                  motion.y_dot.tail<6>());
 }
 
-VectorXd BodyStep::total_load(const VectorXd& interface, const Vector3d& w) const {
-  VectorXd out(y_before.size());
-  out.head(interface.size()) = interface;
-  if (out.size() > interface.size()) out.tail<6>() = dynamics::centrifugal_weights(terms, w);
-  return out;
+void BodyStep::set_load(const Eigen::VectorXd& interface, const Vector3d& w) {
+  load.head(interface.size()) = interface;
+  if (load.size() > interface.size()) load.tail<6>() = dynamics::centrifugal_weights(terms, w);
 }
 
 }  // namespace buckens::stepping

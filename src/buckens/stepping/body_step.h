@@ -32,20 +32,25 @@ struct BodyStep {
   Eigen::VectorXd y_end;            ///< at the end, without correction
   Eigen::VectorXd load;             ///< f at the evaluation instant, centrifugal weights with it
   Eigen::VectorXd correction_load;  ///< e
+  Eigen::VectorXd y_correction;     ///< N G e
 
   /// Prepares everything but the free response.
   void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme);
 
-  dynamics::BodyMotion motion_at_end(const Scheme& scheme, const BodyStepOperator* op) const;
+  /// Motions are written to `out`, whose memory serves again.
+  void motion_at_end(const Scheme& scheme, const BodyStepOperator* op,
+                     dynamics::BodyMotion& out) const;
   /// The same with the pose that the velocities alone lead to, and the shape of the start where the
   /// body deforms without rates.
-  dynamics::BodyMotion uncorrected_motion(const Scheme& scheme, const BodyStepOperator* op) const;
-  dynamics::BodyMotion motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op) const;
+  void uncorrected_motion(const Scheme& scheme, const BodyStepOperator* op,
+                          dynamics::BodyMotion& out) const;
+  void motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op,
+                            dynamics::BodyMotion& out) const;
   /// All moments of the frame equation at a motion of this step.
   body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;
-  /// Interface load and centrifugal weights at the evaluation instant. @param interface loads of
-  /// joints and forces, @param w angular velocity there
-  Eigen::VectorXd total_load(const Eigen::VectorXd& interface, const Eigen::Vector3d& w) const;
+  /// Sets `load`: interface load and centrifugal weights at the evaluation instant.
+  /// @param interface loads of joints and forces, @param w angular velocity there
+  void set_load(const Eigen::VectorXd& interface, const Eigen::Vector3d& w);
   Vector6 frame_acceleration(const Scheme& scheme) const {
     return scheme.acceleration_rate * u + frame.acceleration;
   }

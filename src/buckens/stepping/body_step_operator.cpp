@@ -44,14 +44,18 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const body::FlexiblePart& p
   return out;
 }
 
-/// 1/K̂_ii where K̂ is diagonal and nothing has to be sieved, as for reduced bodies; else empty.
-Vector diagonal_inverse(const body::FlexiblePart& part, const SparseMatrix& K_hat) {
-  if (part.sieve.rank() > 0 || K_hat.nonZeros() != K_hat.rows()) return {};
+/// Whether K̂ is diagonal and nothing has to be sieved, as for reduced bodies.
+bool is_division_enough(const body::FlexiblePart& part, const SparseMatrix& K_hat) {
+  if (part.sieve.rank() > 0 || K_hat.nonZeros() != K_hat.rows()) return false;
   for (int j = 0; j < K_hat.outerSize(); ++j) {
     const SparseMatrix::InnerIterator entry(K_hat, j);
-    if (!entry || entry.row() != j) return {};
+    if (!entry || entry.row() != j) return false;
   }
-  return K_hat.diagonal().cwiseInverse();
+  return true;
+}
+
+bool have_one_matrix(const Scheme& a, const Scheme& b) {
+  return a.mass == b.mass && a.damping == b.damping && a.stiffness == b.stiffness;
 }
 
 /// Equal to the last bit.
@@ -74,18 +78,21 @@ bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
                                    const BodyStepOperator* twin, linalg::SolveExchange* exchange)
-    : part_(&part),
-      scheme_(scheme),
-      K_hat_(step_matrix(part, scheme)),
-      diagonal_inverse_(diagonal_inverse(part, K_hat_)),
-      N_(rows_of(part)),
-      inertial_(part, scheme) {
-  if (!is_diagonal()) find_factor(twin, exchange);
+    : part_(&part), scheme_(scheme), N_(rows_of(part)), inertial_(part, scheme) {
+  {
+    const SparseMatrix K_hat = step_matrix(part, scheme);
+    diagonal_ = K_hat.diagonal();
+    if (is_division_enough(part, K_hat)) {
+      diagonal_inverse_ = diagonal_.cwiseInverse();
+    } else {
+      find_factor(K_hat, twin, exchange);
+    }
+  }
   if (!is_diagonal() && part.num_dofs() <= kSmall) {
     inverse_ = factor_->solve(Matrix::Identity(part.num_dofs(), part.num_dofs()));
     part.sieve.apply(inverse_);
   }
-  G_ = Matrix(SparseMatrix(N_.transpose()));
+  G_ = N_.transpose();
   solve_columns(G_);
   if (scheme.weight == 1.0) {
     // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
@@ -101,19 +108,23 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   }
   NG_ = N_ * G_;
   interface_ = NG_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
-  ND_ = N_ * D_;
+  answer_ = N_ * D_ - NG_;
 }
 
-void BodyStepOperator::find_factor(const BodyStepOperator* twin, linalg::SolveExchange* exchange) {
-  if (twin != nullptr && are_equal(K_hat_, twin->K_hat_)) {
+SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_); }
+
+void BodyStepOperator::find_factor(const SparseMatrix& K_hat, const BodyStepOperator* twin,
+                                   linalg::SolveExchange* exchange) {
+  if (twin != nullptr && twin->factor_ && have_one_matrix(scheme_, twin->scheme_) &&
+      twin->fits(*part_)) {
     factor_ = twin->factor_;
     is_shared_ = true;
   } else if (exchange != nullptr) {
     const long factorisations = exchange->num_factorisations();
-    factor_ = exchange->factor(K_hat_);
+    factor_ = exchange->factor(K_hat);
     is_shared_ = exchange->num_factorisations() == factorisations;
   } else {
-    factor_ = std::make_shared<const linalg::SparseCholesky>(K_hat_);
+    factor_ = std::make_shared<const linalg::SparseCholesky>(K_hat);
   }
 }
 
@@ -187,7 +198,7 @@ void BodyStepOperator::solve(Vector& x) {
 }
 
 void BodyStepOperator::complete(const Vector& load, const Vector& correction, Vector& x) const {
-  x.noalias() += G_ * (scheme_.force * load);
+  x.noalias() += scheme_.force * (G_ * load);
   if (!correction.isZero(0.0)) x.noalias() += D_ * correction;
 }
 

@@ -25,8 +25,8 @@ namespace buckens::stepping {
 /// divide.
 class BodyStepOperator {
  public:
-  /// @param twin operator of a body that may have the same K̂ to the last bit; then its factor
-  ///        serves both.
+  /// @param twin operator of a body that may have the same matrices to the last bit; then its
+  ///        factor serves both.
   /// @param exchange where other simulations may have the factor; null: nowhere
   BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
                    const BodyStepOperator* twin = nullptr,
@@ -67,32 +67,42 @@ class BodyStepOperator {
   const linalg::Matrix& compliance() const { return NG_; }
   /// The same between rows of the interface only: what joints see.
   const linalg::Matrix& interface_compliance() const { return interface_; }
-  /// N D: change of the total interface values per correction load.
-  const linalg::Matrix& correction_compliance() const { return ND_; }
+  /// N D − N G: what a correction load changes of the interface values besides the correction
+  /// itself. Zero where corrects_outside().
+  const linalg::Matrix& correction_answer() const { return answer_; }
+  /// Whether the equations hold where the position correction does not appear: then D = G.
+  bool corrects_outside() const { return scheme_.weight != 1.0; }
   /// N d, N ḋ, N d̈ and N times the algorithmic accelerations, in one pass over N.
   void row_values(const model::BodyState& state, linalg::Vector& y, linalg::Vector& y_dot,
                   linalg::Vector& y_ddot, linalg::Vector& y_alg) const;
   /// Rows of the interface, then the six patterns.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
-  const linalg::SparseMatrix& K_hat() const { return K_hat_; }
+  /// Formed anew: a step needs its factor and its diagonal only.
+  linalg::SparseMatrix K_hat() const;
+  const linalg::Vector& K_hat_diagonal() const { return diagonal_; }
+  const Scheme& scheme() const { return scheme_; }
+  const InertialLoad& inertial() const { return inertial_; }
   /// Whether the body deforms without rates.
   bool is_quasi_static() const { return part_->is_quasi_static; }
   bool is_diagonal() const { return diagonal_inverse_.size() > 0; }
   double factor_entries() const { return factor_ ? factor_->num_factor_entries() : 0.0; }
+  /// Bytes that each of the two passes of a solve reads; 0 where the factor is that of a twin.
+  double factor_bytes() const { return factor_ && !is_shared_ ? factor_->bytes() : 0.0; }
   /// 1, or 0 where the factor is that of a twin or of another simulation, or K̂ is diagonal.
   long factorisations() const { return is_shared_ || is_diagonal() ? 0 : 1; }
   long solves() const { return solves_; }
   long setup_solves() const { return setup_solves_; }
 
  private:
-  void find_factor(const BodyStepOperator* twin, linalg::SolveExchange* exchange);
+  void find_factor(const linalg::SparseMatrix& K_hat, const BodyStepOperator* twin,
+                   linalg::SolveExchange* exchange);
   /// X ← Y K̂⁻¹ X, as part of the set-up.
   void solve_columns(linalg::Matrix& X);
 
   const body::FlexiblePart* part_;
   Scheme scheme_;
-  linalg::SparseMatrix K_hat_;
+  linalg::Vector diagonal_;  // of K̂
   bool is_shared_ = false;
   linalg::Vector diagonal_inverse_;  // of diagonal K̂, else empty; then there is no factor
   std::shared_ptr<const linalg::SparseCholesky> factor_;
@@ -100,7 +110,7 @@ class BodyStepOperator {
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
   linalg::Matrix G_;  // Y K̂⁻¹ Nᵀ
   linalg::Matrix D_;  // effect of a correction on x⁺; none by patterns
-  linalg::Matrix NG_, ND_, interface_;
+  linalg::Matrix NG_, answer_, interface_;
   InertialLoad inertial_;
   linalg::Vector with_mass_, with_damping_;  // scratch of form_right_side()
   long solves_ = 0, setup_solves_ = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/inertial_load.h"
 
-#include <optional>
-
 #include "buckens/body/nodal_inertia.h"
 #include "buckens/linalg/inverse_iteration.h"
 
@@ -15,21 +13,6 @@ namespace {
 
 // Entries of C and of M are sums of a few numbers each.
 constexpr double kRounding = 1e-14;
-
-/// β with C = α M + β K, empty if there is none.
-std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
-  const SparseMatrix elastic = part.C - part.fe.mass_damping * part.fe.M;
-  const double size = part.fe.K.squaredNorm();
-  if (!(size > 0.0)) return std::nullopt;
-  double beta = 0;
-  SparseMatrix rest = elastic;
-  for (int pass = 0; pass < 2; ++pass) {  // the second takes the rounding of a long sum out
-    beta += rest.cwiseProduct(part.fe.K).sum() / size;
-    rest = elastic - beta * part.fe.K;
-  }
-  if (rest.norm() > kRounding * part.C.norm()) return std::nullopt;
-  return beta;
-}
 
 /// Whether M is the scalar mass matrix, node by node.
 bool acts_by_node(const body::FlexiblePart& part) {
@@ -44,6 +27,21 @@ bool acts_by_node(const body::FlexiblePart& part) {
 
 }  // namespace
 
+std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
+  if (!part.is_damped()) return std::nullopt;
+  const SparseMatrix elastic = part.C - part.fe.mass_damping * part.fe.M;
+  const double size = part.fe.K.squaredNorm();
+  if (!(size > 0.0)) return std::nullopt;
+  double beta = 0;
+  SparseMatrix rest = elastic;
+  for (int pass = 0; pass < 2; ++pass) {  // the second takes the rounding of a long sum out
+    beta += rest.cwiseProduct(part.fe.K).sum() / size;
+    rest = elastic - beta * part.fe.K;
+  }
+  if (rest.norm() > kRounding * part.C.norm()) return std::nullopt;
+  return beta;
+}
+
 InertialLoad::InertialLoad(const body::FlexiblePart& part, const Scheme& scheme)
     : part_(&part), is_by_node_(acts_by_node(part)) {
   if (!part.is_damped()) return;
@@ -57,13 +55,17 @@ InertialLoad::InertialLoad(const body::FlexiblePart& part, const Scheme& scheme)
 
 void InertialLoad::form(Vector& a, const Vector& b, Vector& right) const {
   if (is_proportional_) a += zeta_ * b;
-  right.resize(a.size());
-  if (is_by_node_) {
-    body::NodalInertia(part_->fe.shape.nodal).multiply(a, right);
-  } else {
-    right.noalias() = part_->fe.M * a;
-  }
+  multiply_mass(a, right);
   if (is_damped() && !is_proportional_) right.noalias() += part_->C * b;
+}
+
+void InertialLoad::multiply_mass(const Vector& x, Vector& y) const {
+  y.resize(x.size());
+  if (is_by_node_) {
+    body::NodalInertia(part_->fe.shape.nodal).multiply(x, y);
+  } else {
+    y.noalias() = part_->fe.M * x;
+  }
 }
 
 }  // namespace buckens::stepping

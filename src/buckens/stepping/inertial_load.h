@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "buckens/body/body.h"
 #include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
+
+/// β with C = α M + β K, α the mass damping of the body; empty if C is something else or missing.
+std::optional<double> stiffness_damping(const body::FlexiblePart& part);
 
 /// The terms M a + C b of a step's right-hand side, without a product with K where damping is
 /// proportional: C = α M + β K and K̂ = m M + c C + k K give
@@ -20,6 +25,8 @@ class InertialLoad {
   /// right = M a + C b − K̂ (share() b). Allocates nothing once `right` has its size.
   /// @param a used as scratch
   void form(linalg::Vector& a, const linalg::Vector& b, linalg::Vector& right) const;
+  /// y = M x. Allocates nothing once `y` has its size.
+  void multiply_mass(const linalg::Vector& x, linalg::Vector& y) const;
   /// What of b is to be added to the solution: β', zero if undamped or damped otherwise.
   double share() const { return share_; }
   /// Whether b matters at all.

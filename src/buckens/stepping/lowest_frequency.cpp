@@ -133,7 +133,9 @@ double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
     Vector correction = residual;
     op.solve(correction);
     // ‖r‖² in the metric of M⁻¹, nearly: slow shapes see the mass part of the step matrix only.
-    const double error = residual.dot(correction) * x.dot(op.K_hat() * x) / (mass * mass);
+    double stiffness = op.scheme().mass * mass + op.scheme().stiffness * x.dot(Kx);
+    if (part.is_damped()) stiffness += op.scheme().damping * x.dot(part.C * x);
+    const double error = residual.dot(correction) * stiffness / (mass * mass);
     if (!(error > kSettled * square * square)) break;
     if (columns > 1) {
       span.col(2) = vectors.rightCols(columns - 1) * best.tail(columns - 1);

@@ -37,21 +37,30 @@ Terms evaluate(const body::Body& body, const model::BodyState& s, const body::Co
 }  // namespace
 
 double neglected_share(const body::Body& body, const BodyStepOperator& op,
-                       const model::BodyState& state, const body::CouplingTerms& kept) {
+                       const model::BodyState& state, const body::CouplingTerms& kept,
+                       const Vector* interface_load) {
   const body::FlexiblePart& part = *body.flexible;
   const Terms all = evaluate(body, state, {});
   const Terms used = evaluate(body, state, kept);
-  const Vector inverse_diagonal = op.K_hat().diagonal().cwiseInverse();
+  const Vector inverse_diagonal = op.K_hat_diagonal().cwiseInverse();
   const auto norm = [&](Vector load) {
     part.sieve.apply_transposed(load);
     return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
   };
-  const Vector inertia = part.fe.M * state.d_ddot;
-  const Vector elastic = part.fe.K * state.d;
-  Vector applied = inertia + elastic - used.load;
-  if (part.is_damped()) applied += part.C * state.d_dot;
+  Vector inertia;
+  op.inertial().multiply_mass(state.d_ddot, inertia);
+  Vector internal, applied;
+  if (interface_load != nullptr) {
+    applied = part.rows.topRows(part.num_interface_rows).transpose() *
+              interface_load->head(part.num_interface_rows);
+    internal = applied + used.load - inertia;
+  } else {
+    internal = part.fe.K * state.d;
+    if (part.is_damped()) internal += part.C * state.d_dot;
+    applied = inertia + internal - used.load;
+  }
   const double root_J = std::sqrt(body.J0.norm());
-  const double whole = norm(inertia) + norm(elastic) + norm(applied) +
+  const double whole = norm(inertia) + norm(internal) + norm(applied) +
                        root_J * (state.w_dot.norm() + state.frame.w.squaredNorm());
   // Only turns that the frame can make count.
   const double torque = (body.rotation_basis.transpose() * (all.torque - used.torque)).norm();

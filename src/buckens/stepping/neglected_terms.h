@@ -9,14 +9,18 @@ namespace buckens::stepping {
 
 /// What a body's level of coupling leaves out at a state, relative to all that acts:
 ///
-///     (‖Yᵀf‖ + |τ|/√J) / (‖M d̈‖ + ‖K d‖ + ‖F‖ + √J (|ẇ| + |w|²))
+///     (‖Yᵀf‖ + |τ|/√J) / (‖M d̈‖ + ‖K d + C ḋ‖ + ‖F‖ + √J (|ẇ| + |w|²))
 ///
 /// with f, τ the neglected nodal loads and frame torque, ‖·‖ = √(Σ fᵢ²/K̂ᵢᵢ), J = ‖J₀‖, and F what
-/// joints and loads contribute: what M d̈, C ḋ, K d and the kept terms leave to be balanced. √J is
-/// that norm of the inertia loads of a turn, near enough while h ω is small.
-/// Cost: nine sparse products and those with M and K.
+/// joints and loads contribute. √J is that norm of the inertia loads of a turn, near enough while
+/// h ω is small. The norm of K̂⁻¹ itself would take a large solve for each of the four loads.
+/// Cost: nine sparse products and one with M.
 /// @param kept terms in use
+/// @param interface_load F along the interface rows, if it is known that the state satisfies the
+///        equations of motion with it: then K d + C ḋ follows from the balance. Without it they are
+///        multiplied out, and F follows.
 double neglected_share(const body::Body& body, const BodyStepOperator& op,
-                       const model::BodyState& state, const body::CouplingTerms& kept);
+                       const model::BodyState& state, const body::CouplingTerms& kept,
+                       const linalg::Vector* interface_load = nullptr);
 
 }  // namespace buckens::stepping

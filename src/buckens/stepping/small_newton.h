@@ -6,7 +6,7 @@
 
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/multiplier_condensation.h"
-#include "buckens/stepping/body_step.h"
+#include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/step_settings.h"
 
 namespace buckens::stepping {
@@ -19,7 +19,8 @@ namespace buckens::stepping {
 /// 2).
 ///
 /// Directions of the correction and the matrix of the iteration are those at the predicted
-/// configuration. Residuals are exact, so the result does not depend on the approximation.
+/// configuration. Residuals are exact, so the result does not depend on the approximation. After
+/// the first step nothing is allocated unless other rows are taken into use.
 class SmallNewton {
  public:
   /// @param rows_in_use independent rows of λ; the others follow from them and are left at zero
@@ -48,20 +49,31 @@ class SmallNewton {
     double motion = 0;  ///< largest motion of the step [m]
   };
   void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda);
-  void residual_step(const std::vector<BodyStep>& bodies);
   void solve_correction(const std::vector<BodyStep>& bodies);
-  void solve_multipliers(const std::vector<BodyStep>& bodies);
+  void solve_multipliers();
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
   bool settled(const Change& change, const Change& before) const;
   void record_residuals(StepReport& report) const;
-  const dynamics::Constraints& at_evaluation() const;
-  bool is_quasi_static(std::size_t body) const;
+  /// Motions at the instant at which the equations hold.
+  const std::vector<dynamics::BodyMotion>& at_evaluation() const {
+    return scheme_.weight == 1.0 ? end_ : evaluation_;
+  }
   /// Replaces ġ by that without position corrections and with shapes as at the start of the step: a
   /// quasi-static shape that changes must not throw the mechanism about, Δλ ~ m w Δy/h.
   void keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end);
   /// A joint row as it closes velocities: deformation without rates has no part in it.
   dynamics::SystemRow without_rates(dynamics::SystemRow row) const;
   bool corrects_positions() const;
+  /// Change of the scalar that a row closes, by residual_u and y_moving of its bodies.
+  double residual_change(const dynamics::SystemRow& row) const;
+  /// The same by the position correction.
+  double correction_change(const dynamics::SystemRow& row) const;
+  /// Rows along which multipliers act, as condensed: those in use, then the soft ones.
+  const std::vector<dynamics::SystemRow>& force_rows() const;
+  /// Rows that are closed, in the same order.
+  const std::vector<dynamics::SystemRow>& test_rows() const;
+  /// Copies the rows to be condensed, unless all rows of all joints serve as they are.
+  void collect_rows();
   /// Assembles and factorises S for the rows in use. @return false if it is singular
   bool condense();
   /// Asks again which rows are independent. @return true if others are used from now on
@@ -85,19 +97,21 @@ class SmallNewton {
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
 
-  std::vector<dynamics::BodyMotion> end_, evaluation_;
+  std::vector<dynamics::BodyMotion> end_, evaluation_, uncorrected_;
   dynamics::Constraints constraints_end_, constraints_evaluation_;
+  dynamics::Constraints uncorrected_residuals_;
   dynamics::Forces forces_;
   dynamics::SoftRows soft_;
   std::vector<dynamics::SystemRow> test_rows_, force_rows_;  // in use, then soft
-  std::vector<double> soft_stiffness_share_;                 // k θ / k_eff
+  bool takes_all_rows_ = false;  // test and force rows are those of constraints_end_
+  std::vector<double> soft_compliance_;
+  std::vector<double> soft_stiffness_share_;  // k θ / k_eff
   std::vector<dynamics::BodyCompliance> compliance_;
 
-  std::vector<Vector6> residual_frame_;      // −W⁻¹ c r
-  std::vector<Eigen::VectorXd> residual_y_;  // change of y_end at fixed λ
-  std::vector<dynamics::BodyResponse> correction_, response_;
-  std::vector<Vector6> correction_u_;  // W⁻¹ Gᵀ E
+  std::vector<BodyIteration> shares_;                          // per body
+  std::vector<dynamics::BodyResponse> correction_, response_;  // row forces on them
   linalg::Vector E_, X_;
+  double contraction_ = 1;         // of the last two changes in this step
   std::size_t restless_body_ = 0;  // whose frame moved most in the last iteration
 };
 

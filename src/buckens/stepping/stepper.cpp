@@ -34,6 +34,11 @@ constexpr double kSecondSolve = 1e-4;
 // Where the coupling load passes through zero, what matters is the motion that the rest would cause
 // in the step, relative to the model's length.
 constexpr double kSecondSolveMotion = 1e-9;
+// A coupling load this much smaller than the body's other inertia loads need not be known to the
+// outer tolerance of itself: what matters is its share in the motion.
+constexpr double kLeastShare = 1e-3;
+// Ends of steps are counted by others, not summed.
+constexpr double kSameInstant = 1e-6;
 // Fewer variables in all bodies together are not worth waking a thread for.
 constexpr Eigen::Index kSharedDofs = 2000;
 constexpr int kPartsPerThread = 4;
@@ -42,7 +47,7 @@ constexpr int kPartsPerThread = 4;
 /// The n-sized share of one flexible body in a step.
 struct Stepper::Large {
   explicit Large(const BodyStepOperator& op)
-      : inverse_diagonal(op.K_hat().diagonal().cwiseInverse()), has_rates(!op.is_quasi_static()) {}
+      : inverse_diagonal(op.K_hat_diagonal().cwiseInverse()), has_rates(!op.is_quasi_static()) {}
 
   History<Vector> history;
   model::Coupling used;       // what the step was computed with
@@ -83,14 +88,17 @@ struct Stepper::FactorGroup {
       factor->solve_in_place(large[active.front()]->free, pool);
       return;
     }
-    sides.resize(factor->size(), static_cast<Eigen::Index>(active.size()));
+    const auto count = static_cast<Eigen::Index>(active.size());
+    // An exchange takes all columns; alone, room for all bodies serves any number of them.
+    sides.resize(factor->size(),
+                 exchange != nullptr ? count : static_cast<Eigen::Index>(bodies.size()));
     for (std::size_t k = 0; k < active.size(); ++k) {
       sides.col(static_cast<Eigen::Index>(k)) = large[active[k]]->free;
     }
     if (exchange != nullptr) {
       exchange->solve(*factor, sides, pool);
     } else {
-      factor->solve_in_place(sides, pool);
+      factor->solve_first(sides, count, pool);
     }
     for (std::size_t k = 0; k < active.size(); ++k) {
       large[active[k]]->free = sides.col(static_cast<Eigen::Index>(k));
@@ -159,8 +167,13 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
   newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
                                           std::move(rows_in_use));
   gaps_.resize(bodies_.size());
-  if (settings_.threads > 1) pool_ = std::make_unique<TaskPool>(settings_.threads);
+  use_threads(settings_.threads);
   group_factors();
+}
+
+void Stepper::use_threads(int threads) {
+  settings_.threads = threads;
+  pool_ = threads > 1 ? std::make_unique<TaskPool>(threads) : nullptr;
 }
 
 Stepper::~Stepper() = default;
@@ -291,7 +304,9 @@ Stepper::CouplingGap Stepper::coupling_gap(const model::State& state, std::size_
     large.undeformed.noalias() += body.flexible->invariants.centrifugal_patterns() *
                                   dynamics::centrifugal_weights(step.terms, w);
     large.difference = large.evaluated.load - large.used.load;
-    const double load_size = large.norm(large.undeformed);
+    // In the norm of K̂ ≈ s M the inertia loads of a turn with the rotary inertia J are √(J/s).
+    const double turn = std::sqrt(body.J0.norm() / scheme_.mass) * (w_dot.norm() + w.squaredNorm());
+    const double load_size = std::max(large.norm(large.undeformed), kLeastShare * turn);
     if (load_size != 0.0) load_change = large.norm(large.difference) / load_size;
     gap.motion = scheme_.force * large.moved_by(large.difference) / model_.length;
   }
@@ -328,10 +343,10 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
   return settled;
 }
 
-void Stepper::form_next_state(const model::State& state, const Vector& lambda) {
+void Stepper::form_next_state(const model::State& state) {
   model::State& next = next_;
   next.t = state.t + scheme_.h;
-  next.lambda = lambda;
+  next.lambda = lambda_;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
@@ -372,15 +387,14 @@ void Stepper::take_over_coupling() {
   }
 }
 
-void Stepper::compute_round(const model::State& state, bool is_first, Vector& lambda,
-                            StepReport& report) {
+void Stepper::compute_round(const model::State& state, bool is_first, StepReport& report) {
   using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   const auto start = Clock::now();
   if (free_responses(state, is_first)) ++report.large_solve_rounds;
   const auto solved = Clock::now();
   if (is_first) newton_->prepare(bodies_, state.t);
-  newton_->iterate(bodies_, state.t, lambda, report);
+  newton_->iterate(bodies_, state.t, lambda_, report);
   const auto iterated = Clock::now();
   complete(state);
   seconds_.large_solves += seconds(solved - start);
@@ -397,11 +411,11 @@ StepReport Stepper::step(const model::State& before, model::State& after) {
 
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
-  Vector lambda = state.lambda;
+  lambda_ = state.lambda;
   start_bodies(state);
   double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {
-    compute_round(state, round == 0, lambda, report);
+    compute_round(state, round == 0, report);
     if (coupling_settled(state, report)) break;
     const double change = report.coupling_change;
     const bool is_rounding = change <= kCouplingRounding || coupling_motion_ <= kPositionRounding;
@@ -419,8 +433,10 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
     }
     take_over_coupling();
   }
-  form_next_state(state, lambda);
+  form_next_state(state);
   refuse_infinite(model_, next_);
+  stepped_to_ = next_.t;
+  has_stepped_ = true;
   std::swap(end, next_);  // what was `end` lends its memory to the next step
   return report;
 }
@@ -433,9 +449,21 @@ double Stepper::factor_entries() const {
   return sum;
 }
 
+double Stepper::factor_bytes() const {
+  double sum = 0;
+  for (const auto& op : operators_) {
+    if (op) sum += op->factor_bytes();
+  }
+  return sum;
+}
+
 double Stepper::neglected(std::size_t body, const model::State& state,
                           const body::CouplingTerms& kept) const {
-  return neglected_share(model_.bodies[body], *operators_[body], state.bodies[body], kept);
+  const bool is_balanced = has_stepped_ && scheme_.weight == 1.0 &&
+                           std::abs(state.t - stepped_to_) <= kSameInstant * scheme_.h &&
+                           kept == bodies_[body].terms && !operators_[body]->is_quasi_static();
+  return neglected_share(model_.bodies[body], *operators_[body], state.bodies[body], kept,
+                         is_balanced ? &bodies_[body].load : nullptr);
 }
 
 double Stepper::lowest_frequency(std::size_t body) {

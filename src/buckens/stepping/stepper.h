@@ -31,7 +31,8 @@ struct StepSeconds {
 ///
 /// With several threads, bodies advance at the same time, and large solves are shared between two;
 /// the result is the same to the last bit. Bodies with equal matrices share one factor and solve
-/// together. Once the first step has been taken, no memory of the size of a mesh is allocated.
+/// together. Once the first steps have been taken, a step allocates nothing at all, unless other
+/// joint rows are taken into use, its length changes, or several simulations solve together.
 ///
 /// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the
 /// small Newton in frame coordinates and λ; a thin product to complete the nodal variables;
@@ -49,8 +50,13 @@ class Stepper {
   /// The same into `after`, which may be `before`; its memory serves again.
   StepReport step(const model::State& before, model::State& after);
 
+  /// Threads for the steps to come, ≥ 1.
+  void use_threads(int threads);
+
   SolveCounts counts(std::size_t body) const;
-  /// What a flexible body would leave out at a state if it kept these terms only.
+  /// What a flexible body would leave out at a state if it kept these terms only. At the end of
+  /// the last step by a method that satisfies the equations of motion there, and with the terms of
+  /// that step, no product with K is formed.
   double neglected(std::size_t body, const model::State& state,
                    const body::CouplingTerms& kept) const;
   /// Lowest elastic frequency of a flexible body [rad/s], see lowest_frequency.h.
@@ -58,6 +64,8 @@ class Stepper {
   const StepSeconds& seconds() const { return seconds_; }
   /// Numbers in the factors of all bodies: what this stepper needs of memory.
   double factor_entries() const;
+  /// Bytes that one pass over the factors of all bodies reads.
+  double factor_bytes() const;
   const Scheme& scheme() const { return scheme_; }
   /// How often the joint equations in use were chosen anew.
   int num_row_selections() const { return newton_->num_selections(); }
@@ -72,11 +80,10 @@ class Stepper {
   bool free_responses(const model::State& state, bool first_round);
   void complete(const model::State& state);
   void take_over_coupling();
-  void compute_round(const model::State& state, bool is_first, linalg::Vector& lambda,
-                     StepReport& report);
+  void compute_round(const model::State& state, bool is_first, StepReport& report);
   bool coupling_settled(const model::State& state, StepReport& report);
   CouplingGap coupling_gap(const model::State& state, std::size_t b);
-  void form_next_state(const model::State& state, const linalg::Vector& lambda);
+  void form_next_state(const model::State& state);
   void group_factors();
   /// Calls f(b) for every body, in parallel where that pays; results must not depend on the order.
   template <class F>
@@ -93,6 +100,9 @@ class Stepper {
   std::vector<CouplingGap> gaps_;   // per body
   std::unique_ptr<TaskPool> pool_;  // empty with one thread
   model::State next_;
+  linalg::Vector lambda_;  // of the step that is being taken
+  double stepped_to_ = 0;  // end of the last step [s]
+  bool has_stepped_ = false;
   Eigen::Index num_dofs_ = 0;      // of all bodies
   std::size_t least_settled_ = 0;  // body with the largest change of coupling
   StepSeconds seconds_;

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstddef>
 
-// Counts calls of malloc, which operator new and Eigen use. Include in one source of a test program
-// only: it takes the place of the C library's malloc.
+// Counts calls of malloc, which operator new and Eigen use, and of its kin. Include in one source
+// of a test program only: it takes the place of the C library's functions.
 
 namespace buckens::test {
 
@@ -38,10 +38,20 @@ inline void note_allocation(std::size_t size) {
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 extern "C" {
 void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void* malloc(std::size_t size) {
   buckens::test::note_allocation(size);
   return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  buckens::test::note_allocation(count * size);
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  buckens::test::note_allocation(size);
+  return __libc_realloc(old, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   buckens::test::note_allocation(size);

@@ -6,6 +6,7 @@
 #include "buckens/body/free_modes.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/lowest_frequency.h"
+#include "buckens/stepping/stepper.h"
 
 namespace buckens::stepping {
 namespace {
@@ -42,6 +43,25 @@ TEST(NeglectedShare, GrowsWithTheSquareOfTheSpin) {
   };
   // Against K d, which does not change, and the load that balances it.
   EXPECT_NEAR(share(0.2) / share(0.1), 4.0, 1e-2);
+}
+
+TEST(NeglectedShare, FollowsFromTheBalanceOfAStepWithoutStiffness) {
+  test::BeamConstants beam;
+  beam.alpha = 0.5;
+  beam.beta = 1e-4;
+  const model::Model model = test::planar_beam_pendulum(beam, body::CouplingLevel::none);
+  StepSettings settings;
+  settings.step = 1e-4;
+  settings.newton_tolerance = 1e-13;
+  Stepper stepper(model, settings, {0, 1});
+  model::State state = model::placed_state(model);
+  for (int k = 0; k < 100; ++k) stepper.step(state);
+  const auto terms = CouplingTerms::none();
+  const BodyStepOperator op(*model.bodies[0].flexible, stepper.scheme());
+  const double by_products = neglected_share(model.bodies[0], op, state.bodies[0], terms);
+  EXPECT_GT(by_products, 0.0);
+  // Accelerations are positions over h²: rounding of 1e-16 m stands for 1e-8 m/s².
+  EXPECT_NEAR(stepper.neglected(0, state, terms), by_products, 1e-6 * by_products);
 }
 
 TEST(LowestFrequency, OfBeamsIsThatOfTheFreeModes) {

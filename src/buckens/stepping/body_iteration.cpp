@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/body_iteration.h"
+
+#include <cmath>
+
+#include "buckens/dynamics/frame_equation.h"
+
+namespace buckens::stepping {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Inverse of W restricted to the span of the basis, zero elsewhere.
+Matrix3d restricted_inverse(const Matrix3d& W,
+                            const Eigen::Matrix<double, 3, Eigen::Dynamic>& basis) {
+  if (basis.cols() == 3) return W.inverse();
+  if (basis.cols() == 0) return Matrix3d::Zero();
+  if (basis.cols() == 1) {
+    const Vector3d axis = basis.col(0);
+    return axis * axis.transpose() / axis.dot(W * axis);
+  }
+  const Eigen::Matrix<double, 3, 2> two = basis;
+  const Eigen::Matrix2d reduced = two.transpose() * W * two;
+  return two * reduced.inverse() * two.transpose();
+}
+
+double largest(const Vector3d& x) { return x.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(); }
+
+/// Rotations count by the length L.
+double size_of(const Vector6& u, double L) {
+  return larger(L * largest(u.head<3>()), largest(u.tail<3>()));
+}
+
+/// Largest change of interface values [m]; that of c_ab·d counts by m L.
+double interface_change(const body::Body& body, const linalg::Vector& dy) {
+  const Eigen::Index rows = body.num_interface_rows();
+  double out = 0;
+  if (rows > 0) out = dy.head(rows).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  if (dy.size() == rows) return out;
+  const double scale = body.mass * body.length_scale();
+  return larger(out, dy.tail<6>().cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
+}
+
+}  // namespace
+
+double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
+
+BodyIteration::BodyIteration(const body::Body& body, const BodyStepOperator* op,
+                             const Scheme& scheme)
+    : body_(&body), op_(op), scheme_(scheme) {
+  translation_ =
+      body.translation_basis * body.translation_basis.transpose() / (scheme.mass * body.mass);
+  const Eigen::Index rows = op != nullptr ? op->N().rows() : 0;
+  for (linalg::Vector* v : {&y_moving, &y_correcting, &change_}) v->setZero(rows);
+}
+
+Eigen::Matrix<double, 6, 6> BodyIteration::frame_compliance(
+    const BodyStep& step, const dynamics::BodyMotion& motion) const {
+  const body::DeformedMoments moments = step.moments(*body_, motion);
+  const Matrix3d W = scheme_.mass * moments.J +
+                     scheme_.damping * dynamics::gyroscopic_tangent(moments, motion.frame.w);
+  Eigen::Matrix<double, 6, 6> out = Eigen::Matrix<double, 6, 6>::Zero();
+  out.topLeftCorner<3, 3>() = restricted_inverse(W, body_->rotation_basis);
+  out.bottomRightCorner<3, 3>() = translation_;
+  return out;
+}
+
+void BodyIteration::find_residual(const BodyStep& step, const dynamics::BodyMotion& motion,
+                                  const Vector6& frame_load) {
+  const Vector6 acceleration = step.frame_acceleration(scheme_);
+  const Vector3d w_dot = acceleration.head<3>();
+  const Vector3d& w = motion.frame.w;
+  Vector6 inertia;
+  if (op_ == nullptr) {
+    inertia.head<3>() = body_->J0 * w_dot + w.cross(body_->J0 * w);
+    inertia.tail<3>() = body_->mass * acceleration.tail<3>();
+  } else {
+    inertia = dynamics::frame_inertia(*body_, step.moments(*body_, motion), w, w_dot,
+                                      acceleration.tail<3>());
+  }
+  residual_u = step.compliance * (scheme_.force * (frame_load - inertia));
+  if (op_ == nullptr) return;
+  y_moving = step.y_free - step.y_end;
+  y_moving.noalias() += scheme_.force * (op_->compliance() * step.load);
+  if (!op_->corrects_outside())
+    y_moving.noalias() += op_->correction_answer() * step.correction_load;
+}
+
+void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyResponse& correction) {
+  correction_u = step.compliance * correction.frame_load;
+  if (op_ == nullptr) return;
+  // Frames alone close what a changed deformation opens.
+  if (op_->is_quasi_static()) correction.interface_load.setZero();
+  y_correcting.noalias() = op_->compliance() * correction.interface_load;
+  if (!op_->corrects_outside()) {
+    y_moving.noalias() += op_->correction_answer() * correction.interface_load;
+  }
+}
+
+BodyIteration::Moved BodyIteration::advance(BodyStep& step,
+                                            const dynamics::BodyResponse& correction,
+                                            const dynamics::BodyResponse& response, double L) {
+  Moved out;
+  const Vector6 du = residual_u + step.compliance * response.frame_load;
+  step.u += du;
+  step.correction += correction_u;
+  out.frame = size_of(du, L) + size_of(correction_u, L);
+  out.motion = size_of(step.u, L);
+  if (op_ == nullptr || step.y_end.size() == 0) return out;
+  change_ = y_moving;
+  change_.noalias() += op_->compliance() * response.interface_load;
+  step.y_end += change_;
+  step.correction_load += correction.interface_load;
+  step.y_correction += y_correcting;
+  out.interface = interface_change(*body_, change_);
+  return out;
+}
+
+}  // namespace buckens::stepping

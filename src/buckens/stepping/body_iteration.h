@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/stepping/body_step.h"
+
+namespace buckens::stepping {
+
+/// One body's share of an iteration of the small Newton: what its equations leave open, and how it
+/// answers corrections and multipliers. Works in memory of its own; nothing is allocated after the
+/// first call.
+class BodyIteration {
+ public:
+  /// @param op of a flexible body, null for a rigid one
+  BodyIteration(const body::Body& body, const BodyStepOperator* op, const Scheme& scheme);
+
+  bool is_flexible() const { return op_ != nullptr; }
+  bool is_quasi_static() const { return op_ != nullptr && op_->is_quasi_static(); }
+
+  /// W⁻¹ of the frame at a motion of the step.
+  Eigen::Matrix<double, 6, 6> frame_compliance(const BodyStep& step,
+                                               const dynamics::BodyMotion& motion) const;
+
+  /// What the equations of motion leave open at fixed multipliers, as a change of u and of y.
+  /// @param frame_load at the evaluation instant
+  void find_residual(const BodyStep& step, const dynamics::BodyMotion& motion,
+                     const Vector6& frame_load);
+  /// How the body moves under the row forces that close positions.
+  /// @param correction what is of no use to the body is set to zero
+  void answer_correction(const BodyStep& step, dynamics::BodyResponse& correction);
+
+  /// Changes in metres; not-a-number where a motion is none.
+  struct Moved {
+    double frame = 0;      ///< change of the frame
+    double interface = 0;  ///< change of interface values
+    double motion = 0;     ///< of the frame in the whole step
+  };
+  /// Adds residual, correction and the answer to the row forces that close velocities.
+  /// @param L length that turns rotations into displacements [m]
+  Moved advance(BodyStep& step, const dynamics::BodyResponse& correction,
+                const dynamics::BodyResponse& response, double L);
+
+  Vector6 residual_u = Vector6::Zero();
+  Vector6 correction_u = Vector6::Zero();  ///< W⁻¹ Gᵀ E
+  linalg::Vector y_moving;                 ///< velocity-carrying change of y at fixed multipliers
+  linalg::Vector y_correcting;             ///< the correction's own displacement
+
+ private:
+  const body::Body* body_;
+  const BodyStepOperator* op_;
+  Scheme scheme_;
+  Eigen::Matrix3d translation_;  // W⁻¹ of the translations, always the same
+  linalg::Vector change_;
+};
+
+/// The larger number; not-a-number wins, so that it cannot hide.
+double larger(double a, double b);
+
+}  // namespace buckens::stepping
