@@ -166,7 +166,7 @@ class Simulation {
                       spec_.duration / every_, kMostRecords, every_));
     }
     recorder_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
-    work_.emplace(built_.model, prepared_->state);
+    work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
     drives_.emplace(built_.description);
     statistics_.emplace(built_);
     watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);

@@ -3,30 +3,37 @@
 
 #include <cmath>
 
-#include "buckens/dynamics/energy.h"
-#include "buckens/dynamics/forces.h"
-
 namespace buckens::analysis {
 
-WorkAccount::WorkAccount(const model::Model& model, const model::State& start)
+WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
     : model_(model),
       before_(powers(start)),
       t_(start.t),
       lambda_before_(start.lambda),
       lambda_start_(start.lambda),
-      lambda_time_(start.lambda_time) {}
+      lambda_time_(start.lambda_time) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const body::Body& body = model.bodies[b];
+    if (!body.is_flexible() || !body.flexible->is_damped()) continue;
+    meshes_.emplace_back(model, b, start, holds_at_states);
+  }
+}
 
-WorkAccount::Powers WorkAccount::powers(const model::State& state) const {
+WorkAccount::Powers WorkAccount::powers(const model::State& state) {
   Powers out;
   const auto motions = dynamics::motions_of(model_, state);
-  dynamics::Forces forces;
-  dynamics::evaluate_forces(model_, motions, state.t, forces);
-  out.active = forces.active_power + forces.dissipation;
-  out.damping = dynamics::damping_power(model_, state) + forces.dissipation;
-  dynamics::Constraints constraints;
-  dynamics::evaluate_constraints(model_, motions, state.t, constraints);
-  out.g_t = constraints.g_t;
+  dynamics::evaluate_forces(model_, motions, state.t, forces_);
+  out.active = forces_.active_power + forces_.dissipation;
+  out.damping = forces_.dissipation;
+  dynamics::evaluate_joints(model_, motions, state.t, constraints_, &state.lambda, &forces_);
+  out.g_t = constraints_.g_t;
   return out;
+}
+
+long WorkAccount::num_products() const {
+  long sum = 0;
+  for (const DampingWork& mesh : meshes_) sum += mesh.num_products();
+  return sum;
 }
 
 void WorkAccount::add(const model::State& state) {
@@ -43,11 +50,12 @@ void WorkAccount::add(const model::State& state) {
   const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now.g_t)
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
   const double active = 0.5 * (before_.active + now.active) + drive;
-  const double damping = 0.5 * (before_.damping + now.damping);
+  double dissipated = 0.5 * h * (before_.damping + now.damping);
+  for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_);
   work_before_ = work_;
   work_.external += h * active;
-  work_.dissipated += h * damping;
-  turnover_ += h * (std::abs(active) + damping);
+  work_.dissipated += dissipated;
+  turnover_ += h * std::abs(active) + dissipated;
   before_ = now;
   lambda_before_ = state.lambda;
   lambda_start_ = lambda;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
+#include "buckens/analysis/damping_work.h"
+#include "buckens/dynamics/joint_forces.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/results/observation.h"
@@ -8,10 +12,12 @@
 namespace buckens::analysis {
 
 /// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule, so
-/// its error is of the order h² like that of the steps.
+/// its error is of the order h² like that of the steps. What the damping of meshes takes comes from
+/// DampingWork.
 class WorkAccount {
  public:
-  WorkAccount(const model::Model& model, const model::State& start);
+  /// @param holds_at_states whether states satisfy the equations of motion, see DampingWork
+  WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states = false);
 
   /// Adds the work between the last state and this one.
   void add(const model::State& state);
@@ -21,16 +27,22 @@ class WorkAccount {
   const results::WorkBalance& work_before() const { return work_before_; }
   /// ∫|P| dt [J]: measures how much energy went through the mechanism.
   double turnover() const { return turnover_; }
+  /// Products with the stiffness or damping matrices of meshes so far.
+  long num_products() const;
 
  private:
   struct Powers {
     double active = 0;   ///< of loads [W]
-    double damping = 0;  ///< of meshes and dampers [W]
+    double damping = 0;  ///< of dampers [W]
     linalg::Vector g_t;  ///< ∂g/∂t of the joints
   };
-  Powers powers(const model::State& state) const;
+  /// Leaves the forces at the state in forces_.
+  Powers powers(const model::State& state);
 
   const model::Model& model_;
+  std::vector<DampingWork> meshes_;
+  dynamics::Forces forces_;
+  dynamics::Constraints constraints_;
   Powers before_;
   double t_ = 0;
   linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state

@@ -66,15 +66,4 @@ Momentum momentum(const model::Model& model, const model::State& state) {
   return out;
 }
 
-double damping_power(const model::Model& model, const model::State& state) {
-  double power = 0;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const body::Body& body = model.bodies[b];
-    if (!body.is_flexible() || !body.flexible->is_damped()) continue;
-    const linalg::Vector& rate = state.bodies[b].d_dot;
-    power += rate.dot(body.flexible->C * rate);
-  }
-  return power;
-}
-
 }  // namespace buckens::dynamics

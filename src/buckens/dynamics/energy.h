@@ -27,7 +27,4 @@ struct Momentum {
 };
 Momentum momentum(const model::Model& model, const model::State& state);
 
-/// Power taken by the structural damping of all flexible bodies, Σ ḋᵀCḋ [W].
-double damping_power(const model::Model& model, const model::State& state);
-
 }  // namespace buckens::dynamics

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/dynamics/forces.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+#include "buckens/stepping/inertial_load.h"
+
+namespace buckens::analysis {
+
+/// Energy that the structural damping of one flexible body takes, step by step.
+///
+/// Where C = α M + β K and states satisfy the equations of motion (generalised-α, HHT), no product
+/// with K is needed: what the body is loaded with says what K d is,
+///
+///     K (d + β ḋ) = F + Nᵀf − M (d̈ + α ḋ)      up to the span of P, which no d contains,
+///
+/// and with ḋ of K d by two-step backward differences this is K d itself, to the order h². The step
+/// then took h α ḋᵀM ḋ + β/h Δᵀ K Δ, Δ = d⁺ − d. Otherwise, and for reduced bodies, ḋᵀC ḋ is
+/// formed at every state. Theory: docs/theory/05-time-integration.md §6.
+class DampingWork {
+ public:
+  /// @param holds_at_states whether states satisfy the equations of motion: not those of methods
+  ///        that satisfy them within the step
+  DampingWork(const model::Model& model, std::size_t body, const model::State& start,
+              bool holds_at_states);
+
+  /// Energy taken between the last state and this one [J].
+  /// @param forces at this state, those of joints included
+  double add(const model::State& state, const dynamics::Forces& forces);
+
+  /// Products with C or K so far.
+  long num_products() const { return products_; }
+
+ private:
+  double direct_power(const model::BodyState& s);
+  double mass_power(const model::BodyState& s);
+  /// K d at the state from the balance of loads.
+  void find_elastic_load(const model::State& state, const dynamics::Forces& forces, double h);
+
+  const body::Body* body_;
+  std::size_t index_;
+  bool is_direct_ = true;
+  double beta_ = 0;
+  std::optional<stepping::InertialLoad> mass_;
+  double power_ = 0;  // of C, or of α M, at the last state [W]
+  double t_ = 0, last_step_ = 0;
+  linalg::Vector d_, elastic_, elastic_before_;  // K d at the last state and the one before
+  linalg::Vector now_, motion_, image_;          // scratch
+  long products_ = 0;
+};
+
+}  // namespace buckens::analysis
