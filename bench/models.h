@@ -21,7 +21,8 @@ struct Running {
   std::unique_ptr<stepping::Stepper> stepper;
 };
 
-inline Running start(const std::string& text, double step, int threads = 1) {
+inline Running start(const std::string& text, double step, int threads = 1,
+                     linalg::SolveExchange* exchange = nullptr) {
   Running run;
   run.built = model::build_model(io::read_model_text(text, "bench.yaml", {}));
   run.metric = std::make_unique<dynamics::MassMetric>(run.built->model);
@@ -29,6 +30,7 @@ inline Running start(const std::string& text, double step, int threads = 1) {
   stepping::StepSettings settings;
   settings.step = step;
   settings.threads = threads;
+  settings.exchange = exchange;
   run.stepper =
       std::make_unique<stepping::Stepper>(run.built->model, settings, run.prepared.rows_in_use);
   return run;
@@ -53,6 +55,39 @@ joints:
 inline std::string divided_beam(int frames) {
   std::string text = beam_pendulum(frames, "full");
   return text.replace(text.find("    coupling:"), 0, "    frames: per-element\n");
+}
+
+/// A planar beam with a frame per element that falls from the horizontal about a pin.
+inline std::string planar_beam_pendulum(int frames) {
+  return fmt::format(R"(buckens: 1
+gravity: [0, -9.81, 0]
+planar: xy
+bodies:
+  rod:
+    beam: {{to: [1, 0, 0], elements: {}, section: {{circle: {{diameter: 20 mm}}}},
+           material: {{E: 200 GPa, nu: 0.3, rho: 7850}}}}
+    frames: per-element
+joints:
+  pin: {{revolute: {{between: [ground, rod/start]}}}}
+)",
+                     frames);
+}
+
+/// A block of solid elements, reduced, that falls from the horizontal on a ball joint.
+inline std::string reduced_block(int modes, const char* coupling) {
+  return fmt::format(R"(buckens: 1
+gravity: [0, -9.81, 0]
+bodies:
+  block:
+    mesh:
+      box: {{size: [1, 0.1, 0.1], divisions: [36, 2, 2], element: hex8}}
+      material: {{E: 210 GPa, nu: 0.3, rho: 7850}}
+    reduction: {{free-free: {{modes: {}, static-correction: off}}}}
+    coupling: {}
+joints:
+  pin: {{spherical: {{between: [ground, block/corner_000]}}}}
+)",
+                     modes, coupling);
 }
 
 /// Tree of beams in space with a frame per element: every branch ends in two of 0.7 its length.

@@ -2,20 +2,60 @@
 #pragma once
 
 #include <array>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/box_mesh.h"
 
 namespace buckens::bench {
 
-/// Steel block of hex8 elements, 1 × 0.1 × 0.1 m unless said otherwise.
-inline fem::FeModel steel_block(const std::array<int, 3>& divisions,
-                                const Eigen::Vector3d& size = {1.0, 0.1, 0.1}) {
+/// Steel block of solid elements: a cube of 0.1 m, or 1 × 0.1 × 0.1 m where there are more than
+/// four times as many elements along as across.
+struct SolidBlock {
+  fem::SolidKind kind = fem::SolidKind::hex8;
+  std::array<int, 3> divisions = {1, 1, 1};
+
+  /// From "hex8:274,10,10". @throws std::invalid_argument
+  static SolidBlock parse(const std::string& text);
+
+  bool is_slender() const { return divisions[0] > 4 * divisions[1]; }
+  std::string element() const { return kind == fem::SolidKind::tet10 ? "tet10" : "hex8"; }
+  std::string shape() const {
+    return fmt::format("{} x {} x {}", divisions[0], divisions[1], divisions[2]);
+  }
+  Eigen::Vector3d size() const { return {is_slender() ? 1.0 : 0.1, 0.1, 0.1}; }
+  fem::FeModel assembled() const;
+};
+
+inline SolidBlock SolidBlock::parse(const std::string& text) {
+  SolidBlock out;
+  const std::size_t colon = text.find(':');
+  const std::string kind = text.substr(0, colon);
+  if (kind == "tet10") {
+    out.kind = fem::SolidKind::tet10;
+  } else if (kind != "hex8" || colon == std::string::npos) {
+    throw std::invalid_argument("a block is written hex8:274,10,10 or tet10:137,5,5");
+  }
+  std::size_t place = colon;
+  for (int& division : out.divisions) {
+    if (place == std::string::npos) throw std::invalid_argument("a block has three divisions");
+    division = std::stoi(text.substr(place + 1));
+    place = text.find(',', place + 1);
+  }
+  return out;
+}
+
+inline fem::FeModel SolidBlock::assembled() const {
   fem::Structure structure;
   fem::Box box;
-  box.size = size;
+  box.size = size();
   box.divisions = divisions;
-  fem::add_box(structure, box, fem::Material::isotropic(2.1e11, 0.3, 7850));
+  fem::add_box(structure, box, fem::Material::isotropic(2.1e11, 0.3, 7850),
+               fem::SolidForm::usual(kind));
   return fem::assemble(structure);
 }
 

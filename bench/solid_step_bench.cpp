@@ -1,103 +1,217 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of an unreduced solid body on a ball joint against CHOLMOD's solve with the same factor.
-// Both times are the shortest of several in one run: others may use the machine, too.
+// Steps of an unreduced solid body on a ball joint against CHOLMOD's solve with the same factor,
+// set-up with few and many interface variables, and memory.
+//
+//     solid_step_bench hex8:274,10,10 [--levels none,first-order,full] [--threads 1,2]
+//                      [--budget SECONDS] [--setup] [--no-reference]
+//
+// Prints one JSON object. Times are the shortest of several [s]; what CHOLMOD takes was measured
+// before and after the steps.
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
+#include <iostream>
 #include <string>
+#include <vector>
 
-#include <benchmark/benchmark.h>
+#include <nlohmann/json.hpp>
 
 #include "models.h"
+#include "process_memory.h"
+#include "solid_block.h"
+#include "stopwatch.h"
 
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/stepping/body_step_operator.h"
 
 namespace {
 
+using buckens::bench::process_memory;
 using buckens::bench::Running;
+using buckens::bench::shortest;
+using buckens::bench::SolidBlock;
+using buckens::bench::Stopwatch;
+using buckens::body::CouplingTerms;
 using buckens::linalg::SolveRoute;
 using buckens::linalg::SparseCholesky;
-using Clock = std::chrono::steady_clock;
+using nlohmann::json;
 
 constexpr double kStep = 1e-4;
-constexpr int kReferenceSolves = 5;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+struct Wanted {
+  SolidBlock block;
+  std::vector<std::string> levels = {"none", "first-order", "full"};
+  std::vector<std::string> threads = {"1", "2"};
+  double budget = 2.0;
+  bool setup = false;
+  bool with_reference = true;
+};
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> out(1);
+  for (const char c : text) {
+    if (c == ',') {
+      out.emplace_back();
+    } else {
+      out.back() += c;
+    }
+  }
+  return out;
 }
 
-/// Steel block of 1 × 0.1 × 0.1 m, falling from the horizontal on a ball joint at a corner.
-std::string block_pendulum(const std::string& divisions, const char* coupling) {
+/// A block that falls from the horizontal on a ball joint at a corner.
+/// @param loads forces on as many points along an edge, three interface variables each
+std::string block_pendulum(const SolidBlock& block, const std::string& level, int loads = 0) {
+  std::string markers, forces;
+  for (int k = 0; k < loads; ++k) {
+    const double x = block.size().x() * (k + 1) / loads;
+    markers += fmt::format("      m{}: {{position: [{}, 0, 0]}}\n", k, x);
+    forces += fmt::format("  f{0}: {{force: {{on: block/m{0}, value: [0, 1, 0]}}}}\n", k);
+  }
   return fmt::format(R"(buckens: 1
 gravity: [0, -9.81, 0]
 bodies:
   block:
     mesh:
-      box: {{size: [1, 0.1, 0.1], divisions: {}, element: hex8}}
+      box: {{size: [{}, 0.1, 0.1], divisions: [{}, {}, {}], element: {}}}
       material: {{E: 210 GPa, nu: 0.3, rho: 7850, damping: {{mass: 0.1, stiffness: 1e-7 s}}}}
     coupling: {}
-joints:
+{}joints:
   pin: {{spherical: {{between: [ground, block/corner_000]}}}}
-)",
-                     divisions, coupling);
+{})",
+                     block.size().x(), block.divisions[0], block.divisions[1], block.divisions[2],
+                     block.element(), level, loads > 0 ? "    markers:\n" + markers : "",
+                     loads > 0 ? "loads:\n" + forces : "");
 }
 
-/// Shortest of a few solves by CHOLMOD with the factor of a step.
-double reference_solve(const buckens::linalg::SparseMatrix& K_hat) {
-  const SparseCholesky factor(K_hat, {SolveRoute::cholmod});
+/// Shortest solve by CHOLMOD with the factor of a step.
+double reference_solve(const SparseCholesky& factor, double budget) {
   buckens::linalg::Vector x = buckens::linalg::Vector::Ones(factor.size());
-  double shortest = std::numeric_limits<double>::max();
-  for (int k = 0; k < kReferenceSolves; ++k) {
-    const auto start = Clock::now();
-    factor.solve_in_place(x);
-    shortest = std::min(shortest, seconds_since(start));
-    x.normalize();
-  }
-  return shortest;
+  factor.solve_in_place(x);
+  return shortest(
+      budget, [&] { factor.solve_in_place(x); }, [&] { x.normalize(); });
 }
 
-void solid_step(benchmark::State& state, const std::string& divisions, const char* coupling) {
-  Running run = buckens::bench::start(block_pendulum(divisions, coupling), kStep,
-                                      static_cast<int>(state.range(0)));
-  const auto& part = *run.built->model.bodies[0].flexible;
-  const double solve =
-      reference_solve(buckens::stepping::BodyStepOperator(part, run.stepper->scheme()).K_hat());
-  for (int k = 0; k < 4; ++k) run.stepper->step(run.prepared.state);
+/// What the levels of coupling keep.
+CouplingTerms terms_of(const std::string& level) {
+  if (level == "none") return CouplingTerms::none();
+  if (level == "first-order") return CouplingTerms::first_order();
+  return {};
+}
+
+buckens::linalg::SparseMatrix step_matrix(const buckens::body::FlexiblePart& part,
+                                          const buckens::stepping::Scheme& scheme) {
+  buckens::linalg::SparseMatrix out =
+      scheme.mass * part.fe.M + scheme.stiffness * part.fe.K + scheme.damping * part.C;
+  out.makeCompressed();
+  return out;
+}
+
+json measure_level(Running& run, const std::string& level, int threads, double budget) {
+  buckens::model::State& state = run.prepared.state;
+  state.bodies[0].terms = terms_of(level);
+  state.history = 0;
+  run.stepper->use_threads(threads);
+  for (int k = 0; k < 4; ++k) run.stepper->step(state);
   const long solves = run.stepper->counts(0).solves;
-  double shortest = std::numeric_limits<double>::max();
-  for (auto _ : state) {
-    const auto start = Clock::now();
-    run.stepper->step(run.prepared.state);
-    shortest = std::min(shortest, seconds_since(start));
+  const auto before = run.stepper->seconds();
+  long count = 0;
+  json out = {{"level", level}, {"threads", threads}};
+  out["step"] = shortest(budget, [&] {
+    run.stepper->step(state);
+    ++count;
+  });
+  const auto after = run.stepper->seconds();
+  const auto steps = static_cast<double>(count);
+  out["steps"] = count;
+  out["solves_per_step"] = static_cast<double>(run.stepper->counts(0).solves - solves) / steps;
+  out["mean_large_solves"] = (after.large_solves - before.large_solves) / steps;
+  out["mean_newton"] = (after.newton - before.newton) / steps;
+  out["mean_completion"] = (after.completion - before.completion) / steps;
+  return out;
+}
+
+/// One body at all levels in turn: they share its factor.
+json measure_steps(const Wanted& wanted) {
+  const Stopwatch setup;
+  Running run = buckens::bench::start(block_pendulum(wanted.block, "full"), kStep);
+  json out = {{"set_up", setup.seconds()}, {"panel_bytes", run.stepper->factor_bytes()}};
+  const auto& part = *run.built->model.bodies[0].flexible;
+  out["dof"] = part.num_dofs();
+  std::unique_ptr<SparseCholesky> reference;
+  double solve = 0;
+  if (wanted.with_reference) {
+    reference =
+        std::make_unique<SparseCholesky>(step_matrix(part, run.stepper->scheme()),
+                                         buckens::linalg::CholeskyOptions{SolveRoute::cholmod});
+    solve = reference_solve(*reference, 0.5 * wanted.budget);
   }
-  state.counters["dof"] = static_cast<double>(part.num_dofs());
-  state.counters["solves/step"] = static_cast<double>(run.stepper->counts(0).solves - solves) /
-                                  static_cast<double>(state.iterations());
-  state.counters["cholmod [ms]"] = 1e3 * solve;
-  state.counters["shortest [ms]"] = 1e3 * shortest;
-  state.counters["step/cholmod"] = shortest / solve;
+  json levels;
+  for (const std::string& level : wanted.levels) {
+    for (const std::string& threads : wanted.threads) {
+      levels.push_back(measure_level(run, level, std::stoi(threads), wanted.budget));
+    }
+  }
+  if (reference) {  // others may have come or gone meanwhile
+    out["cholmod"] = std::min(solve, reference_solve(*reference, 0.5 * wanted.budget));
+  } else {
+    out["resident_bytes"] = process_memory("VmRSS");
+  }
+  out["levels"] = levels;
+  return out;
 }
 
-void threads(benchmark::internal::Benchmark* bench) {
-  bench->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+/// Columns G and what follows, the factor taken from elsewhere.
+json measure_setup(const SolidBlock& block) {
+  constexpr int kPoints = 19;  // and the joint: 60 interface variables
+  Running run = buckens::bench::start(block_pendulum(block, "full", kPoints), kStep);
+  auto& part = *run.built->model.bodies[0].flexible;
+  const Stopwatch factorisation;
+  const buckens::stepping::BodyStepOperator with_factor(part, run.stepper->scheme());
+  json out = {{"dof", part.num_dofs()}, {"with_factor", factorisation.seconds()}};
+  for (const int variables : {12, 60}) {
+    part.num_interface_rows = variables;
+    const Stopwatch columns;
+    const buckens::stepping::BodyStepOperator op(part, run.stepper->scheme(), &with_factor);
+    out[std::to_string(variables)] = columns.seconds();
+    out["solves_" + std::to_string(variables)] = op.setup_solves();
+  }
+  return out;
 }
 
-constexpr const char* kBlock3000 = "[110, 2, 2]";
-constexpr const char* kBlock10000 = "[133, 4, 4]";
-constexpr const char* kBlock30000 = "[124, 8, 8]";
-constexpr const char* kBlock100000 = "[274, 10, 10]";
-
-BENCHMARK_CAPTURE(solid_step, 3000_none, kBlock3000, "none")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 10000_none, kBlock10000, "none")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 30000_none, kBlock30000, "none")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 30000_first_order, kBlock30000, "first-order")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 30000_full, kBlock30000, "full")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 100000_none, kBlock100000, "none")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 100000_first_order, kBlock100000, "first-order")->Apply(threads);
-BENCHMARK_CAPTURE(solid_step, 100000_full, kBlock100000, "full")->Apply(threads);
+Wanted read_arguments(int argc, char** argv) {
+  Wanted out;
+  for (int k = 1; k < argc; ++k) {
+    const std::string key = argv[k];
+    const bool has_value = k + 1 < argc;
+    if (key == "--levels" && has_value) {
+      out.levels = split(argv[++k]);
+    } else if (key == "--threads" && has_value) {
+      out.threads = split(argv[++k]);
+    } else if (key == "--budget" && has_value) {
+      out.budget = std::stod(argv[++k]);
+    } else if (key == "--setup") {
+      out.setup = true;
+    } else if (key == "--no-reference") {
+      out.with_reference = false;
+    } else {
+      out.block = SolidBlock::parse(key);
+    }
+  }
+  return out;
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  const Wanted wanted = read_arguments(argc, argv);
+  json out = {{"element", wanted.block.element()},
+              {"divisions", wanted.block.shape()},
+              {"slender", wanted.block.is_slender()}};
+  if (wanted.setup) {
+    out["setup"] = measure_setup(wanted.block);
+  } else {
+    out["steps"] = measure_steps(wanted);
+  }
+  out["peak_bytes"] = process_memory("VmHWM");
+  std::cout << out.dump(1) << '\n';
+}

@@ -71,6 +71,25 @@ void divided_tree_step(benchmark::State& state) {
   divided_step(state, buckens::bench::divided_tree(static_cast<int>(state.range(0))));
 }
 
+void planar_beam_step(benchmark::State& state) {
+  divided_step(state, buckens::bench::planar_beam_pendulum(static_cast<int>(state.range(0))));
+}
+
+/// A reduced body on a ball joint.
+void reduced_step(benchmark::State& state, const char* coupling) {
+  Running run = buckens::bench::start(
+      buckens::bench::reduced_block(static_cast<int>(state.range(0)), coupling), kStep);
+  long iterations = 0;
+  for (auto _ : state) iterations += run.stepper->step(run.prepared.state).newton_iterations;
+  const double steps = static_cast<double>(state.iterations());
+  state.counters["solves/step"] = static_cast<double>(run.stepper->counts(0).solves) / steps;
+  state.counters["newton/step"] = static_cast<double>(iterations) / steps;
+}
+
+void mode_numbers(benchmark::internal::Benchmark* bench) {
+  bench->Arg(8)->Arg(32)->Arg(128)->Unit(benchmark::kMicrosecond);
+}
+
 // 16 … 5000 elements: 102 … 30 006 DOF.
 constexpr int kElements[] = {16, 50, 166, 500, 1666, 5000};
 
@@ -82,7 +101,11 @@ void beam_sizes(benchmark::internal::Benchmark* bench) {
 BENCHMARK(beam_solve)->Apply(beam_sizes);
 BENCHMARK_CAPTURE(beam_step, none, "none")->Apply(beam_sizes);
 BENCHMARK_CAPTURE(beam_step, full, "full")->Apply(beam_sizes);
-BENCHMARK(rigid_chain_step)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(rigid_chain_step)->RangeMultiplier(10)->Range(10, 10000)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(reduced_step, none, "none")->Apply(mode_numbers);
+BENCHMARK_CAPTURE(reduced_step, first_order, "first-order")->Apply(mode_numbers);
+BENCHMARK_CAPTURE(reduced_step, full, "full")->Apply(mode_numbers);
+BENCHMARK(planar_beam_step)->RangeMultiplier(4)->Range(8, 2048)->Unit(benchmark::kMicrosecond);
 BENCHMARK(divided_beam_step)->RangeMultiplier(4)->Range(8, 2048)->Unit(benchmark::kMicrosecond);
 BENCHMARK(divided_tree_step)->DenseRange(3, 11, 2)->Unit(benchmark::kMicrosecond);
 

@@ -1,93 +1,234 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Turns files of Google Benchmark (--benchmark_out=FILE.json) into Markdown tables.
+"""Writes the figures of docs/developers/benchmarks.json as tables into docs/developers/benchmarks.md,
+between the lines <!-- bench:begin --> and <!-- bench:end -->.
 
-Names the date and the processor. `bound` is the time of reading the factor twice with the bandwidth
-that the same run measured (read_memory) on the same number of threads.
+    python3 bench/table.py [FILE.json]
 """
 
 import json
 import pathlib
-import re
 import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 
 
 def processor():
+    """Name, and the model number where the name says little."""
+    found = {}
     for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return "an unknown processor"
+        if ":" in line:
+            key, value = line.split(":", 1)
+            found.setdefault(key.strip(), value.strip())
+    name = found.get("model name", "an unknown processor")
+    return f"{name}, family {found.get('cpu family', '?')}, model {found.get('model', '?')}"
 
 
-def arguments_of(name):
-    """solve/panels/block:3/sides:6/threads:2/real_time → ("solve/panels", {"block": 3, …})"""
-    parts = [part for part in name.split("/") if part not in ("real_time", "iterations:1")]
-    named = {key: int(value) for key, value in (p.split(":") for p in parts if ":" in p)}
-    return "/".join(part for part in parts if ":" not in part), named
+def number(value, digits=3):
+    """Three significant digits without exponent."""
+    if value is None:
+        return "–"
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e" in text else text
 
 
-def bandwidths(benchmarks):
-    """GB/s by number of threads."""
-    return {int(re.search(r"read_memory/(\d+)", b["name"]).group(1)): b["GB/s"]
-            for b in benchmarks if b["name"].startswith("read_memory")}
+def ms(seconds):
+    return "–" if seconds is None else number(1e3 * seconds)
 
 
-def solve_rows(benchmarks):
-    rows = {}
-    for b in benchmarks:
-        name, args = arguments_of(b["name"])
-        if not name.startswith("solve/"):
+def dofs(count):
+    return f"{int(count):,}".replace(",", " ")
+
+
+def shape(row):
+    return f"{row['element']} {row['divisions']}"
+
+
+def lines_of(head, rows):
+    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head),
+            *("| " + " | ".join(cells) + " |" for cells in rows), ""]
+
+
+def of_section(results, name):
+    """Rows of name and name:…, each with its context."""
+    for key, section in results.items():
+        if key == name or key.startswith(name + ":"):
+            for row in section["rows"]:
+                yield row
+
+
+def failures(rows):
+    return [f"`{row.get('command', shape(row) if 'element' in row else '')}`: {row['error']}"
+            for row in rows if "error" in row] + [""]
+
+
+def solve_table(results):
+    rows = list(of_section(results, "solves"))
+    head = ["block", "DOF", "factorised [s]", "panels [MB]", "CHOLMOD", "panels", "÷ CHOLMOD",
+            "bound", "÷ bound", "2 threads", "÷ 1 thread", "bound 2", "6 rhs", "÷ 1 rhs", "32 rhs",
+            "CHOLMOD 6 rhs", "residual"]
+    cells = []
+    for row in rows:
+        if "error" in row:
             continue
-        row = rows.setdefault(args["block"], {"dof": b["dof"]})
-        if name == "solve/panels":
-            row["MB"] = b["MB"]
-        row[name, args["sides"], args["threads"]] = b["real_time"]
-    return [rows[block] for block in sorted(rows)]
+        panels, one, two = row["panels"], row["panels"]["1"], row["panels"]["2"]
+        reference = row.get("cholmod", {}).get("1", {})
+        bound = [2.0 * panels["bytes"] / row["bandwidth"][n] for n in ("1", "2")]
+        ratio = number(one["1"] / reference["1"], 2) if reference else "–"
+        cells.append([
+            shape(row), dofs(row["dof"]), number(row["factorisation"]),
+            number(1e-6 * panels["bytes"]), ms(reference.get("1")), ms(one["1"]), ratio,
+            ms(bound[0]), number(one["1"] / bound[0], 2), ms(two["1"]),
+            number(two["1"] / one["1"], 2), ms(bound[1]), ms(one["6"]),
+            number(one["6"] / one["1"], 2), ms(one["32"]), ms(reference.get("6")),
+            f"{panels['residual']:.0e}"])
+    return ["### Large solves", "",
+            "Times in ms. `bound`: twice the bytes of the panels over the bandwidth measured in the "
+            "same run; blocks whose factor stays in the cache beat it.", "",
+            *lines_of(head, cells), *failures(rows)]
 
 
-def print_solves(benchmarks):
-    speed = bandwidths(benchmarks)
-    print("| DOF | panels [MB] | CHOLMOD, 1 rhs | panels, 1 rhs | of CHOLMOD | bound | 2 threads | of 1 | 6 rhs "
-          "| 32 rhs | CHOLMOD, 6 rhs |")
-    print("|---" * 11 + "|")
-    for row in solve_rows(benchmarks):
-        def time(route, sides, threads, row=row):
-            return row.get((f"solve/{route}", sides, threads), float("nan"))
-        one = time("panels", 1, 1)
-        bound = 2.0 * row["MB"] / speed[1] if 1 in speed else float("nan")
-        print(f"| {row['dof']:.0f} | {row['MB']:.0f} | {time('cholmod', 1, 1):.2f} | {one:.2f} "
-              f"| {one / time('cholmod', 1, 1):.2f} | {bound:.2f} | {time('panels', 1, 2):.2f} "
-              f"| {time('panels', 1, 2) / one:.2f} | {time('panels', 6, 1):.2f} "
-              f"| {time('panels', 32, 1):.2f} | {time('cholmod', 6, 1):.2f} |")
-
-
-def print_others(benchmarks):
-    known = {"name", "run_name", "run_type", "family_index", "per_family_instance_index",
-             "repetitions", "repetition_index", "threads", "iterations", "cpu_time", "real_time",
-             "time_unit"}
-    for b in benchmarks:
-        name, args = arguments_of(b["name"])
-        if name.startswith("solve/"):
+def step_table(results):
+    head = ["block", "DOF", "coupling", "solves per step", "1 thread [ms]", "CHOLMOD's solve [ms]",
+            "step ÷ CHOLMOD", "2 threads [ms]", "÷ 1 thread"]
+    cells, rows = [], list(of_section(results, "steps"))
+    for row in rows:
+        if "error" in row:
             continue
-        counters = ", ".join(f"{key} {value:.4g}" for key, value in b.items()
-                             if key not in known and isinstance(value, (int, float)))
-        threads = f", {args['threads']} threads" if "threads" in args else ""
-        print(f"| `{name}`{threads} | {b['real_time']:.4g} {b['time_unit']} | {counters} |")
+        by_level = {}
+        for step in row["steps"]["levels"]:
+            by_level.setdefault(step["level"], {})[step["threads"]] = step
+        reference = row["steps"].get("cholmod")
+        for level, threads in by_level.items():
+            one, two = threads.get(1), threads.get(2)
+            cells.append([
+                shape(row), dofs(row["steps"]["dof"]), f"`{level}`", number(one["solves_per_step"]),
+                ms(one["step"]), ms(reference),
+                number(one["step"] / reference, 2) if reference else "–",
+                ms(two["step"]) if two else "–",
+                number(two["step"] / one["step"], 2) if two else "–"])
+    return ["### Steps of solids", "", *lines_of(head, cells), *failures(rows)]
 
 
-def main(paths):
-    for path in paths:
-        data = json.loads(pathlib.Path(path).read_text())
-        print(f"{data['context']['date'][:10]}, {processor()}, {data['context']['num_cpus']} cores, "
-              f"load {data['context']['load_avg'][0]:.1f} at the start. Times in ms.\n")
-        benchmarks = [b for b in data["benchmarks"] if b.get("run_type") != "aggregate"]
-        if any(b["name"].startswith("solve/") for b in benchmarks):
-            print_solves(benchmarks)
-            print()
-        print("| what | time | |\n|---|---|---|")
-        print_others(benchmarks)
-        print()
+def setup_table(results):
+    rows = list(of_section(results, "setup"))
+    cells = [[shape(row), dofs(row["setup"]["dof"]), number(row["setup"]["with_factor"]),
+              number(row["setup"]["12"]), number(row["setup"]["60"])]
+             for row in rows if "error" not in row]
+    head = ["block", "DOF", "all, 60 variables [s]", "columns, 12 variables [s]",
+            "columns, 60 variables [s]"]
+    return ["### Set-up by interface variables", "",
+            "`all` contains the factorisation; the columns are what comes after it.", "",
+            *lines_of(head, cells), *failures(rows)]
+
+
+def mode_table(results):
+    rows = list(of_section(results, "modes"))
+    pairs = {}
+    for row in rows:
+        pairs.setdefault(shape(row), {})[row["method"]] = row
+    cells = []
+    for block, methods in pairs.items():
+        ours, spectra = (methods.get(name, {}) for name in ("subspace", "spectra"))
+        if "dof" not in ours:
+            continue
+        difference = (abs(ours["highest"] / spectra["highest"] - 1.0)
+                      if "highest" in spectra else None)
+        cells.append([block, dofs(ours["dof"]), number(ours["seconds"]),
+                      number(spectra.get("seconds")), number(ours["solves"], 4),
+                      number(spectra.get("solves"), 4),
+                      "–" if difference is None else f"{difference:.0e}"])
+    head = ["block", "DOF", "`subspace` [s]", "`spectra` [s]", "solves", "solves, `spectra`",
+            "difference of the 20th"]
+    return ["### 20 lowest free vibrations, factorisation included", "", *lines_of(head, cells),
+            *failures(rows)]
+
+
+def google_table(title, results, section, pattern, extra):
+    rows = [row for row in of_section(results, section) if row["name"].startswith(pattern)]
+    head = ["what", "per step [µs]", *extra.values()]
+    cells = [[f"`{row['name']}`", number(1e6 * row["seconds"]),
+              *(number(scaled(row, key)) for key in extra)] for row in rows]
+    return [f"### {title}", "", *lines_of(head, cells)]
+
+
+def scaled(row, key):
+    if key == "per frame":
+        return 1e6 * row["seconds"] / row["frames"]
+    if key == "per link":
+        return 1e6 * row["seconds"] / int(row["name"].split("/")[1])
+    return row.get(key)
+
+
+def variant_table(results):
+    cells = []
+    for row in of_section(results, "variants"):
+        for level in ("none", "full"):
+            one, six = row[level]["one"], row[level]["six"]
+            cells.append([shape(row), f"`{level}`", ms(one), ms(six), number(six / one, 3)])
+    head = ["block", "coupling", "one [ms]", "six together [ms]", "÷ one"]
+    return ["### Six variants together", "", *lines_of(head, cells)]
+
+
+def memory_table(results):
+    panels = {shape(row): row["panels"]["bytes"] for row in of_section(results, "solves")
+              if "panels" in row}
+    rows = list(of_section(results, "memory"))
+    cells = []
+    for row in rows:
+        if "error" in row:
+            continue
+        size = panels.get(shape(row))
+        per = [number(row[key] / size, 3) if size else "–"
+               for key in ("resident_bytes", "peak_bytes")]
+        wall = row["wall_seconds"]
+        cells.append([shape(row), dofs(row["dof"]), number(row["steps"]),
+                      number(1e-6 * size, 4) if size else "–",
+                      number(1e-6 * row["resident_bytes"], 4), per[0],
+                      number(1e-6 * row["peak_bytes"], 4), per[1], number(wall["setup"]),
+                      ms(wall["stepping"] / row["steps"])])
+    head = ["block", "DOF", "steps", "panels [MB]", "resident [MB]", "÷ panels", "peak [MB]",
+            "÷ panels", "set-up [s]", "per step [ms]"]
+    return ["### Memory of `buckens run`", "",
+            "Resident: median while it steps. A step contains ten records and what the program "
+            "accounts for.", "", *lines_of(head, cells), *failures(rows)]
+
+
+def origin(results):
+    dates = sorted(section["context"]["date"] for section in results.values())
+    last = max(results.values(), key=lambda section: section["context"]["date"])["context"]
+    loads = [section["context"]["load"] for section in results.values()]
+    return (f"Measured from {dates[0]} to {dates[-1]} on {last['processor']}, {last['cores']} cores, "
+            f"Linux {last['system']}; load when a section began: {min(loads):.1f} to {max(loads):.1f}. "
+            "Times are the shortest of several.")
+
+
+def tables(results):
+    frame = {"frames": "frames", "per frame": "per frame [µs]", "newton/step": "iterations"}
+    return [
+        origin(results), "", *solve_table(results), *step_table(results), *setup_table(results),
+        *mode_table(results),
+        *google_table("Reduced body on a ball joint", results, "reduced", "reduced_step",
+                      {"solves/step": "divisions by K̂", "newton/step": "iterations"}),
+        *variant_table(results),
+        *google_table("Rigid chains on revolute joints", results, "chains", "rigid_chain_step",
+                      {"per link": "per link [µs]", "newton/step": "iterations"}),
+        *google_table("Beams with a frame per element", results, "frames", "", frame),
+        *google_table("Beams with one frame", results, "beams", "",
+                      {"dof": "DOF", "solves/step": "solves", "newton/step": "iterations"}),
+        *memory_table(results)]
+
+
+def write(path):
+    results = json.loads(pathlib.Path(path).read_text())
+    page = ROOT / "docs/developers/benchmarks.md"
+    text = page.read_text()
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    lines = "\n".join(tables(results)).replace("\n\n\n", "\n\n").rstrip()
+    page.write_text(f"{before}{BEGIN}\n{lines}\n{END}{after}")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    write(sys.argv[1] if len(sys.argv) > 1 else ROOT / "docs/developers/benchmarks.json")

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fstream>
+#include <string>
+
+namespace buckens::bench {
+
+/// An entry of /proc/self/status in bytes, 0 where there is none: "VmRSS" is resident now, "VmHWM"
+/// was at most.
+inline double process_memory(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.rfind(key + ":", 0) == 0) return 1024.0 * std::stod(line.substr(key.size() + 1));
+  }
+  return 0.0;
+}
+
+}  // namespace buckens::bench

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Large solves over panels against CHOLMOD's own with the same factor, and against the bound that
+// the bandwidth of memory sets: every solve reads the factor twice.
+//
+//     solve_bench hex8:274,10,10 [--budget SECONDS] [--no-reference]
+//
+// Prints one JSON object. Times are the shortest of several [s].
+
+#include <array>
+#include <cstring>
+#include <iostream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "process_memory.h"
+#include "solid_block.h"
+#include "stopwatch.h"
+
+#include "buckens/linalg/sparse_cholesky.h"
+#include "buckens/linalg/streaming_memory.h"
+
+namespace {
+
+using buckens::TaskPool;
+using buckens::bench::shortest;
+using buckens::bench::SolidBlock;
+using buckens::bench::Stopwatch;
+using buckens::linalg::Matrix;
+using buckens::linalg::SolveRoute;
+using buckens::linalg::SparseCholesky;
+using buckens::linalg::SparseMatrix;
+using nlohmann::json;
+
+/// Bytes per second read by `threads` threads from memory that no cache holds.
+double read_bandwidth(int threads, double budget) {
+  constexpr std::size_t kCount = std::size_t{1} << 27U;  // 1 GiB
+  static buckens::linalg::StreamingMemory memory(kCount);
+  static const bool is_filled = (std::fill(memory.data(), memory.data() + kCount, 1.0), true);
+  TaskPool pool(threads);
+  std::array<double, 16> sums{};
+  const auto read = [&](int k) {
+    const std::size_t share = kCount / static_cast<std::size_t>(threads);
+    const double* values = memory.data() + share * static_cast<std::size_t>(k);
+    std::array<double, 32> sum{};
+    for (std::size_t i = 0; i < share; i += sum.size()) {
+      for (std::size_t j = 0; j < sum.size(); j += 8) __builtin_prefetch(values + i + j + 512);
+      for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += values[i + j];
+    }
+    for (const double part : sum) sums[static_cast<std::size_t>(k)] += part;
+  };
+  const double seconds = shortest(budget, [&] { pool.run(threads, read); });
+  volatile double keep = sums[0] + static_cast<double>(is_filled);
+  static_cast<void>(keep);
+  return 8.0 * static_cast<double>(kCount) / seconds;
+}
+
+/// Times of solves with 1, 6, 32 right-hand sides on one or two threads.
+json solve_times(const SparseCholesky& solver, int threads, double budget) {
+  TaskPool pool(threads);
+  json out;
+  for (const int sides : {1, 6, 32}) {
+    Matrix X = Matrix::Ones(solver.size(), sides);
+    solver.solve_in_place(X, &pool);  // makes room
+    out[std::to_string(sides)] = shortest(
+        budget, [&] { solver.solve_in_place(X, &pool); }, [&] { X.setOnes(); });
+  }
+  return out;
+}
+
+/// ‖A x − b‖ / ‖b‖.
+double residual(const SparseMatrix& A, const SparseCholesky& solver) {
+  const Matrix b = Matrix::Random(A.rows(), 1);
+  const Matrix x = solver.solve(b);
+  return (A * x - b).norm() / b.norm();
+}
+
+json measure(const SolidBlock& block, double budget, bool with_reference) {
+  json out;
+  Stopwatch assembly;
+  SparseMatrix A;
+  {
+    const auto fe = block.assembled();
+    A = buckens::bench::step_matrix(fe);
+  }
+  out["element"] = block.element();
+  out["divisions"] = block.shape();
+  out["slender"] = block.is_slender();
+  out["dof"] = A.rows();
+  out["assembly"] = assembly.seconds();
+  const Stopwatch factorisation;
+  SparseCholesky solver(A, {with_reference ? SolveRoute::cholmod : SolveRoute::panels});
+  out["factorisation"] = factorisation.seconds();
+  if (with_reference) {
+    out["cholmod"] = {{"bytes", solver.bytes()},
+                      {"residual", residual(A, solver)},
+                      {"1", solve_times(solver, 1, budget)}};
+    const Stopwatch layout;
+    if (!solver.take_panels()) solver = SparseCholesky(A, {SolveRoute::panels});
+    out["layout"] = layout.seconds();
+  }
+  out["panels"] = {{"bytes", solver.bytes()},
+                   {"parts", solver.num_parts()},
+                   {"residual", residual(A, solver)},
+                   {"1", solve_times(solver, 1, budget)},
+                   {"2", solve_times(solver, 2, budget)}};
+  out["bandwidth"] = {{"1", read_bandwidth(1, budget)}, {"2", read_bandwidth(2, budget)}};
+  out["peak_bytes"] = buckens::bench::process_memory("VmHWM");
+  return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  double budget = 1.0;
+  bool with_reference = true;
+  std::string block;
+  for (int k = 1; k < argc; ++k) {
+    if (std::strcmp(argv[k], "--budget") == 0 && k + 1 < argc) {
+      budget = std::stod(argv[++k]);
+    } else if (std::strcmp(argv[k], "--no-reference") == 0) {
+      with_reference = false;
+    } else {
+      block = argv[k];
+    }
+  }
+  std::cout << measure(SolidBlock::parse(block), budget, with_reference).dump(1) << '\n';
+}
