@@ -2,7 +2,6 @@
 #include "buckens/io/nastran_coordinates.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -15,8 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool same(const NastranGrid& a, const NastranGrid& b) {
   return a.cp == b.cp && a.cd == b.cd && a.x == b.x;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "buckens/io/nastran_ids.h"
 
 namespace buckens::io {
+
+/// Decks give angles in degrees [rad].
+inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The coordinate systems of a deck and where its nodes are.
 ///

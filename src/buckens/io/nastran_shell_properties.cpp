@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shells of NastranProperties: PSHELL, PCOMP, PCOMPG and what elements add to them.
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -16,8 +15,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool differs(double a, double b) { return std::abs(a - b) > 1e-6 * (std::abs(a) + std::abs(b)); }
 

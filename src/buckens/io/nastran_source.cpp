@@ -50,7 +50,6 @@ NastranSource::NastranSource(const fs::path& name, std::string text, LoadNastran
     : load_(std::move(load)) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   files_.push_back({name.string(), std::move(text)});
-  keys_.push_back(key_of(name));
   open_.push_back({&files_.front(), 0, 0});
 }
 
@@ -131,6 +130,7 @@ void NastranSource::include(const NastranLine& line) {
   if (argument.size() > 4096) throw InputError(where, "INCLUDE: the name of the file is too long");
   const fs::path path = resolve(argument, *line.file);
   const std::string key = key_of(path);
+  if (keys_.empty()) keys_.push_back(key_of(files_.front().name));
   for (const Open& open : open_) {
     if (key_of(open.file->name) != key) continue;
     throw InputError(where, fmt::format("INCLUDE {}: the file is being read already; files that "

@@ -58,7 +58,7 @@ class NastranSource {
   std::filesystem::path resolve(const std::string& argument, const NastranFile& from) const;
 
   std::deque<NastranFile> files_;
-  std::vector<std::string> keys_;  // of files_: what makes them the same file
+  std::vector<std::string> keys_;  // of files_: what makes them the same; empty before INCLUDE
   std::vector<Open> open_;
   std::size_t total_size_ = 0;  // of included files
   LoadNastranFile load_;

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/fem/solid_shape.h"
 #include "buckens/io/test/nastran_sample.h"
 
@@ -24,7 +25,7 @@ using testing::ElementsAre;
 constexpr double kRounding = 1e-12;  // a few operations on numbers of size one
 
 std::filesystem::path deck(const std::string& name) {
-  return std::filesystem::path(BUCKENS_SOURCE_DIR) / "tests/decks/nastran" / name;
+  return std::filesystem::path(buckens::test::kSourceDirectory) / "tests/decks/nastran" / name;
 }
 
 const fem::ImportedMesh& every_card() {

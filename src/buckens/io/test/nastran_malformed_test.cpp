@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/test/source_directory.h"
 #include "buckens/io/test/nastran_sample.h"
 
 namespace buckens::io {
@@ -156,8 +157,8 @@ TEST(NastranInclude, only_regular_files) {
 }
 
 TEST(NastranMalformed, every_beginning_of_a_deck_is_read_or_refused) {
-  const auto path =
-      std::filesystem::path(BUCKENS_SOURCE_DIR) / "tests/decks/nastran/every_card_small.bdf";
+  const auto path = std::filesystem::path(buckens::test::kSourceDirectory) /
+                    "tests/decks/nastran/every_card_small.bdf";
   std::ifstream stream(path);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   ASSERT_GT(text.size(), 1000u);
