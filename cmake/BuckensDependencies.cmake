@@ -15,3 +15,6 @@ find_package(ZLIB REQUIRED)
 find_package(OpenBLAS REQUIRED)
 find_package(Spectra REQUIRED)
 find_package(Threads REQUIRED)
+# Optional: has libFuzzer, for the tests with label fuzz.
+find_program(BUCKENS_FUZZ_CLANG NAMES clang++-14 clang++)
+mark_as_advanced(BUCKENS_FUZZ_CLANG)

@@ -1,0 +1,57 @@
+# Fuzz programs: tests/fuzz/<target>_fuzz.cpp with seeds in tests/fuzz/corpus/<target>.
+#
+# The readers under test are compiled once more, by clang with libFuzzer and sanitizers; everything
+# else comes from the library as g++ built it. Without clang there are no fuzz tests.
+#
+# buckens_fuzz(target seconds source-pattern...): patterns below src/buckens, of the sources to
+# instrument. They are compiled in one piece, so names in their anonymous namespaces must differ.
+if(NOT BUCKENS_TESTS OR BUCKENS_SANITIZE)
+  return()
+endif()
+if(NOT BUCKENS_FUZZ_CLANG)
+  message(STATUS "No clang++: the readers are not fuzzed")
+  return()
+endif()
+
+set(BUCKENS_FUZZ_FLAGS -fsanitize=fuzzer,address)
+set(BUCKENS_WITH_CLANG "${PROJECT_SOURCE_DIR}/tests/fuzz/with_clang.sh" "${BUCKENS_FUZZ_CLANG}")
+
+function(buckens_fuzz target seconds)
+  set(main "${PROJECT_SOURCE_DIR}/tests/fuzz/${target}_fuzz.cpp")
+  set(sources "")
+  foreach(pattern IN LISTS ARGN)
+    file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${pattern}")
+    list(APPEND sources ${found})
+  endforeach()
+  if(NOT sources)
+    return()
+  endif()
+  set(name fuzz_${target})
+  add_executable(${name} "${main}" ${sources})
+  target_link_libraries(${name} PRIVATE buckens buckens_common yaml-cpp nlohmann_json::nlohmann_json)
+  # clang knows more warnings than the compiler that the sources are written for.
+  target_compile_options(${name} PRIVATE -w -O1 -g0 ${BUCKENS_FUZZ_FLAGS})
+  target_link_options(${name} PRIVATE ${BUCKENS_FUZZ_FLAGS})
+  set_target_properties(
+    ${name}
+    PROPERTIES CXX_COMPILER_LAUNCHER "${BUCKENS_WITH_CLANG};${BUCKENS_CCACHE};--"
+               UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
+               RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+  list(JOIN BUCKENS_WITH_CLANG " " launcher)
+  set_target_properties(${name} PROPERTIES RULE_LAUNCH_LINK "${launcher} --")
+  set(dictionary "${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.dict")
+  set(options --seconds ${seconds})
+  if(EXISTS "${dictionary}")
+    list(APPEND options --dictionary "${dictionary}")
+  endif()
+  add_test(NAME fuzz.${target}
+           COMMAND ${BUCKENS_PYTHON} -B "${PROJECT_SOURCE_DIR}/tests/fuzz/run_fuzzer.py" ${options}
+                   "$<TARGET_FILE:${name}>" "${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${target}")
+  set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz TIMEOUT 120)
+endfunction()
+
+buckens_fuzz(nastran 5 io/nastran_*.cpp)
+buckens_fuzz(abaqus 5 io/abaqus_*.cpp)
+buckens_fuzz(gmsh 5 io/gmsh_elements.cpp io/gmsh_mesh.cpp io/gmsh_msh?.cpp io/gmsh_reader.cpp
+             io/mesh_text.cpp io/tagged_mesh.cpp io/universal_file.cpp)
+buckens_fuzz(model_file 8 io/yaml_tree.cpp io/model_file.cpp io/model_file_values.cpp)
