@@ -21,10 +21,14 @@ class TimeLaw::Body {
   virtual double acceleration(double t) const = 0;
   virtual bool is_constant() const = 0;
   virtual std::vector<double> corners() const { return {}; }
+  virtual std::optional<TimeRange> range() const { return std::nullopt; }
   virtual std::string text() const = 0;
 };
 
 namespace {
+
+// Share of its length by which t may lie outside of a table: sums of steps round.
+constexpr double kRangeRounding = 1e-9;
 
 class Formula final : public TimeLaw::Body {
  public:
@@ -57,15 +61,19 @@ class Formula final : public TimeLaw::Body {
 /// Piecewise cubic through points, of which the piecewise linear one is a case.
 class Table final : public TimeLaw::Body {
  public:
-  Table(std::vector<double> times, std::vector<double> values, Interpolation interpolation)
+  Table(std::vector<double> times, std::vector<double> values, Interpolation interpolation,
+        Extrapolation extrapolation, SourceLocation where)
       : t_(std::move(times)),
         y_(std::move(values)),
         curvature_(t_.size(), 0.0),
-        interpolation_(interpolation) {
+        interpolation_(interpolation),
+        is_held_(extrapolation == Extrapolation::hold),
+        where_(std::move(where)) {
     if (interpolation == Interpolation::spline) solve_natural_spline();
   }
 
   double value(double t) const override {
+    require(t);
     if (t <= t_.front()) return y_.front();
     if (t >= t_.back()) return y_.back();
     const auto [i, h, a, b] = interval(t);
@@ -74,16 +82,18 @@ class Table final : public TimeLaw::Body {
   }
 
   double rate(double t) const override {
-    if (t < t_.front() || t >= t_.back()) return 0.0;
-    const auto [i, h, a, b] = interval(t);
+    require(t);
+    if (is_held_ && (t < t_.front() || t >= t_.back())) return 0.0;
+    const auto [i, h, a, b] = interval(std::clamp(t, t_.front(), t_.back()));
     return (y_[i + 1] - y_[i]) / h +
            ((1.0 - 3.0 * a * a) * curvature_[i] + (3.0 * b * b - 1.0) * curvature_[i + 1]) * h /
                6.0;
   }
 
   double acceleration(double t) const override {
-    if (t < t_.front() || t >= t_.back()) return 0.0;
-    const auto [i, h, a, b] = interval(t);
+    require(t);
+    if (is_held_ && (t < t_.front() || t >= t_.back())) return 0.0;
+    const auto [i, h, a, b] = interval(std::clamp(t, t_.front(), t_.back()));
     return a * curvature_[i] + b * curvature_[i + 1];
   }
 
@@ -95,16 +105,22 @@ class Table final : public TimeLaw::Body {
   std::vector<double> corners() const override {
     std::vector<double> out;
     if (interpolation_ != Interpolation::linear) return out;
-    double slope = 0;  // the law is held outside of its range
+    double slope = is_held_ ? 0.0 : slope_of(0);
     double largest = 0;
     for (std::size_t i = 0; i + 1 < t_.size(); ++i)
       largest = std::max(largest, std::abs(slope_of(i)));
     for (std::size_t i = 0; i < t_.size(); ++i) {
-      const double next = i + 1 < t_.size() ? slope_of(i) : 0.0;
+      const double outside = is_held_ ? 0.0 : slope;
+      const double next = i + 1 < t_.size() ? slope_of(i) : outside;
       if (std::abs(next - slope) > 1e-9 * largest) out.push_back(t_[i]);
       slope = next;
     }
     return out;
+  }
+
+  std::optional<TimeRange> range() const override {
+    if (is_held_) return std::nullopt;
+    return TimeRange{t_.front(), t_.back(), where_};
   }
 
  private:
@@ -112,6 +128,15 @@ class Table final : public TimeLaw::Body {
     std::size_t i;   // t_[i] ≤ t < t_[i+1]
     double h, a, b;  // its length, and the weights of its ends
   };
+
+  void require(double t) const {
+    const double rounding = kRangeRounding * (t_.back() - t_.front());
+    if (is_held_ || (t >= t_.front() - rounding && t <= t_.back() + rounding)) return;
+    throw NumericalError(
+        where_, fmt::format("the table goes from t = {:.9g} s to {:.9g} s and is asked for its "
+                            "value at t = {:.9g} s; add points, or write `extrapolation: hold`",
+                            t_.front(), t_.back(), t));
+  }
 
   double slope_of(std::size_t i) const { return (y_[i + 1] - y_[i]) / (t_[i + 1] - t_[i]); }
 
@@ -140,6 +165,8 @@ class Table final : public TimeLaw::Body {
 
   std::vector<double> t_, y_, curvature_;
   Interpolation interpolation_;
+  bool is_held_;
+  SourceLocation where_;
 };
 
 void check_table(const std::vector<double>& times, const std::vector<double>& values) {
@@ -176,10 +203,12 @@ TimeLaw TimeLaw::expression(Expression expression, double scale) {
 }
 
 TimeLaw TimeLaw::table(std::vector<double> times, std::vector<double> values,
-                       Interpolation interpolation) {
+                       Interpolation interpolation, Extrapolation extrapolation,
+                       SourceLocation where) {
   check_table(times, values);
   if (times.size() == 1) return constant(values.front());
-  return TimeLaw(std::make_shared<const Table>(std::move(times), std::move(values), interpolation));
+  return TimeLaw(std::make_shared<const Table>(std::move(times), std::move(values), interpolation,
+                                               extrapolation, std::move(where)));
 }
 
 double TimeLaw::value(double t) const { return body_ ? body_->value(t) : constant_; }
@@ -188,6 +217,7 @@ double TimeLaw::acceleration(double t) const { return body_ ? body_->acceleratio
 std::vector<double> TimeLaw::corners() const {
   return body_ ? body_->corners() : std::vector<double>{};
 }
+std::optional<TimeRange> TimeLaw::range() const { return body_ ? body_->range() : std::nullopt; }
 std::string TimeLaw::text() const { return body_ ? body_->text() : fmt::format("{:g}", constant_); }
 bool TimeLaw::is_constant() const { return !body_ || body_->is_constant(); }
 

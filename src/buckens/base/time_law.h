@@ -3,10 +3,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "buckens/base/expression.h"
+#include "buckens/base/source_location.h"
 
 namespace buckens::base {
 
@@ -14,6 +16,17 @@ namespace buckens::base {
 enum class Interpolation { linear, spline };
 
 constexpr std::array<const char*, 2> choice_names(Interpolation) { return {"linear", "spline"}; }
+
+/// What a table says outside of the range of its times: nothing, or its first and last value.
+enum class Extrapolation { refuse, hold };
+
+constexpr std::array<const char*, 2> choice_names(Extrapolation) { return {"refuse", "hold"}; }
+
+/// Times for which a law is known, and where the model file gives it.
+struct TimeRange {
+  double first = 0, last = 0;  ///< [s]
+  SourceLocation where;
+};
 
 /// Something that varies with time in a prescribed way: f(t) with its first two derivatives.
 ///
@@ -37,15 +50,20 @@ class TimeLaw {
   static TimeLaw expression(Expression expression, double scale = 1.0);
 
   /// Through the points (times[i], values[i]), times strictly increasing, at least one point.
-  /// Outside of the range the law is held at the first and last value with zero derivatives. A
-  /// linear table has piecewise constant rate (at a corner that of the interval to the right) and
-  /// zero acceleration; the spline is the natural cubic one.
+  /// A linear table has piecewise constant rate (at a corner that of the interval to the right) and
+  /// zero acceleration; the spline is the natural cubic one. Outside of the range evaluation throws
+  /// NumericalError, or the law is held at the first and last value with zero derivatives. A single
+  /// point is a constant.
+  /// @param where in the model file, for messages
   /// @throws InputError if times do not increase, sizes differ, or a number is not finite
   static TimeLaw table(std::vector<double> times, std::vector<double> values,
-                       Interpolation interpolation);
+                       Interpolation interpolation,
+                       Extrapolation extrapolation = Extrapolation::refuse,
+                       SourceLocation where = {});
 
   /// f(t) in SI units.
-  /// @throws NumericalError naming the expression, its place, t and the value if f(t) is no number
+  /// @throws NumericalError naming the expression, its place, t and the value if f(t) is no number;
+  ///         naming the table and its range if t lies outside
   double value(double t) const;
   /// df/dt
   double rate(double t) const;
@@ -58,6 +76,9 @@ class TimeLaw {
   /// Where the rate jumps because a table is linear: the times of its corners. Expressions are not
   /// searched.
   std::vector<double> corners() const;
+
+  /// Range of a table that refuses to go on beyond it; empty for laws known at all times.
+  std::optional<TimeRange> range() const;
 
   /// For messages: the expression, "a table", or the number.
   std::string text() const;

@@ -6,6 +6,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/io/model_file_fields.h"
 #include "buckens/io/model_overrides.h"
+#include "buckens/io/table_ranges.h"
 #include "buckens/io/text_file.h"
 #include "buckens/io/yaml_tree.h"
 
@@ -47,6 +48,7 @@ model::ModelDescription read_model_text(const std::string& text, const std::stri
   context.directory = std::filesystem::path(name).parent_path();
   context.model = &out;
   read_record({root, ""}, context, out);
+  check_table_ranges(out);
   out.where = {name, 0, 0};
   out.source = with_overrides(text, name, overrides);
   return out;

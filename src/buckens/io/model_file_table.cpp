@@ -38,6 +38,16 @@ double cell_value(const std::string& cell, const SourceLocation& where) {
                                       cell.substr(0, 40)));
 }
 
+/// The map with the name of a file under `file`, where it may stand under `table`, too.
+YamlNode with_file_key(YamlNode node) {
+  for (YamlEntry& entry : node.entries) {
+    if (entry.key == "table" && entry.value.is_scalar() && node.find("file") == nullptr) {
+      entry.key = "file";
+    }
+  }
+  return node;
+}
+
 }  // namespace
 
 CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
@@ -66,8 +76,10 @@ CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
   return out;
 }
 
-base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note,
+base::TimeLaw read_table_law(const ReadPlace& given, const base::FieldNote& note,
                              const ReadContext& context) {
+  const YamlNode node = with_file_key(given.node);
+  const ReadPlace place{node, given.path};
   TableLawSpec spec;
   ReadContext own = context;
   read_record(place, own, spec);
@@ -96,7 +108,7 @@ base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note
   }
   try {
     return base::TimeLaw::table(std::move(columns.times), std::move(columns.values),
-                                spec.interpolation);
+                                spec.interpolation, spec.extrapolation, place.node.where);
   } catch (const InputError& error) {
     fail(place, error.what());
   }

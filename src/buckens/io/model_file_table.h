@@ -13,17 +13,19 @@
 
 namespace buckens::io {
 
-/// A law of time by points, as the model file writes it. Exactly one of table and file is given.
+/// A law of time by points, as the model file writes it. Exactly one of table and file is given; a
+/// text in place of the points is the name of the file.
 struct TableLawSpec {
   std::vector<std::array<double, 2>> table;
   std::string file;
   int column = 2;
   std::string unit;
   base::Interpolation interpolation = base::Interpolation::linear;
+  base::Extrapolation extrapolation = base::Extrapolation::refuse;
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("table", table, "points [time in s, value]")
+    visit(base::field("table", table, "points [time in s, value], or the name of a CSV `file`")
               .like("[[0, 0], [0.1, 2], [0.5, 2]]")
               .otherwise("give this or `file`"));
     visit(base::field("file", file,
@@ -32,8 +34,9 @@ struct TableLawSpec {
               .otherwise("give this or `table`"));
     visit(base::field("column", column, "column of the values, counted from 1").positive());
     visit(base::field("unit", unit, "unit of the values").like("N m").otherwise("SI"));
-    visit(base::field("interpolation", interpolation,
-                      "between the points; outside of their range the first and last value hold"));
+    visit(base::field("interpolation", interpolation, "between the points"));
+    visit(base::field("extrapolation", extrapolation,
+                      "outside of their range: refuse to go on, or hold the first and last value"));
   }
 };
 

@@ -56,7 +56,8 @@ conditions `a < b ? x : y`. The unit, if any, is the ending after white space an
 )";
 
 constexpr const char* kLawRemarks = R"(
-A table is held at its first and last value outside of its range. Where a law drives a joint its first
+A table must cover the simulation, unless `extrapolation: hold` lets its first and last value hold
+outside of its range. Where a law drives a joint its first
 and second derivatives are used: formulas are differentiated numerically to about eleven digits and
 must be defined on both sides of every time that occurs (write `max(t, 0)` where they are not), tables
 should be splines. CSV columns are separated by commas, semicolons or blanks; lines that begin with `#`

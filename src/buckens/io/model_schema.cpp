@@ -105,6 +105,17 @@ Json list_schema(const Shape& shape, const base::FieldNote& note) {
   return out;
 }
 
+/// A number, an expression, or a table, whose points may stand in a file.
+Json time_law_schema(const Shape& shape) {
+  Json table = record_schema(shape.element[0]);
+  Json& points = table["properties"]["table"];
+  const Json text = points["description"];
+  points.erase("description");
+  points = any_of({Json{{"type", "string"}, {"minLength", 1}}, points});
+  points["description"] = text;
+  return any_of({Json{{"type", "number"}}, Json{{"type", "string"}, {"minLength", 1}}, table});
+}
+
 Json schema_of(const Shape& shape, const base::FieldNote& note) {
   switch (shape.kind) {
     case Shape::Kind::quantity:
@@ -124,8 +135,7 @@ Json schema_of(const Shape& shape, const base::FieldNote& note) {
     case Shape::Kind::choice:
       return {{"enum", shape.choices}};
     case Shape::Kind::time_law:
-      return any_of({Json{{"type", "number"}}, Json{{"type", "string"}, {"minLength", 1}},
-                     record_schema(shape.element[0])});
+      return time_law_schema(shape);
     case Shape::Kind::position_law:
       return {{"type", {"number", "string"}}};
     case Shape::Kind::marker:

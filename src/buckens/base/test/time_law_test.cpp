@@ -100,8 +100,10 @@ TEST(TimeLaw, PulsesAndKinksElsewhereDoNoHarm) {
   EXPECT_NEAR(ramp.acceleration(1.01), 0.0, 1e-6);
 }
 
-TEST(TimeLaw, LinearTableIsHeldOutsideOfItsRange) {
-  const TimeLaw table = TimeLaw::table({0, 1, 3}, {2, 4, 0}, Interpolation::linear);
+TEST(TimeLaw, LinearTableIsHeldOutsideOfItsRangeWhereAskedFor) {
+  const TimeLaw table =
+      TimeLaw::table({0, 1, 3}, {2, 4, 0}, Interpolation::linear, Extrapolation::hold);
+  EXPECT_FALSE(table.range().has_value());
   EXPECT_EQ(table.value(-5), 2);
   EXPECT_EQ(table.value(9), 0);
   EXPECT_DOUBLE_EQ(table.value(0.5), 3);
@@ -112,6 +114,31 @@ TEST(TimeLaw, LinearTableIsHeldOutsideOfItsRange) {
   EXPECT_EQ(table.rate(3), 0);
   EXPECT_EQ(table.acceleration(0.5), 0);
   EXPECT_TRUE(TimeLaw::table({0, 1}, {2, 2}, Interpolation::linear).is_constant());
+}
+
+TEST(TimeLaw, TablesRefuseToGoOnBeyondTheirRange) {
+  for (const Interpolation between : {Interpolation::linear, Interpolation::spline}) {
+    const TimeLaw table = TimeLaw::table({0.5, 1, 3}, {2, 4, 0}, between, Extrapolation::refuse,
+                                         {"model.yaml", 7, 3});
+    ASSERT_TRUE(table.range().has_value());
+    EXPECT_EQ(table.range()->first, 0.5);
+    EXPECT_EQ(table.range()->last, 3);
+    EXPECT_THAT(message([&] { table.value(3.1); }),
+                testing::AllOf(HasSubstr("model.yaml:7:3"), HasSubstr("from t = 0.5 s to 3 s"),
+                               HasSubstr("at t = 3.1 s"), HasSubstr("extrapolation: hold")));
+    EXPECT_THROW(table.value(0.4), NumericalError);
+    EXPECT_THROW(table.rate(-1), NumericalError);
+    EXPECT_THROW(table.acceleration(4), NumericalError);
+    // The last step of a run ends where rounding puts it.
+    EXPECT_EQ(table.value(3 + 1e-12), 0);
+    EXPECT_EQ(table.value(0.5 - 1e-12), 2);
+    EXPECT_NEAR(table.rate(3 + 1e-12), table.rate(3 - 1e-12), 1e-9);
+  }
+  const TimeLaw linear = TimeLaw::table({0, 1, 3}, {2, 4, 0}, Interpolation::linear);
+  EXPECT_DOUBLE_EQ(linear.rate(3), -2);
+  EXPECT_EQ(linear.corners(), std::vector<double>{1.0}) << "its ends are no corners";
+  EXPECT_FALSE(TimeLaw::table({1}, {5}, Interpolation::linear).range().has_value());
+  EXPECT_EQ(TimeLaw::table({1}, {5}, Interpolation::linear).value(9), 5);
 }
 
 TEST(TimeLaw, SplineIsNaturalAndSmooth) {
