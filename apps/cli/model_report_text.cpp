@@ -105,12 +105,38 @@ std::string interfaces_table(const ModelReport& report) {
   return rows.size() == 1 ? "" : text_table(rows);
 }
 
+std::string loads_table(const ModelReport& report) {
+  std::vector<std::vector<std::string>> rows = {
+      {"distributed load", "kind", "on", "extent", "force [N]", "torque [N m]"}};
+  for (const analysis::LoadReport& load : report.distributed_loads) {
+    const Eigen::Vector3d &f = load.force, &m = load.torque;
+    rows.push_back({load.name, load.kind, load.place.empty() ? "all bodies" : load.place,
+                    number(load.extent) + " " + load.unit, triple(f.x(), f.y(), f.z()),
+                    triple(m.x(), m.y(), m.z())});
+  }
+  if (rows.size() == 1) return "";
+  return text_table(rows) + "  forces and torques at t = 0, torques about the mass centre\n";
+}
+
 Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json json_of(const Eigen::Matrix3d& matrix) {
   Json rows = Json::array();
   for (int i = 0; i < 3; ++i) rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
   return rows;
+}
+
+Json json_of(const std::vector<analysis::LoadReport>& loads) {
+  Json out = Json::object();
+  for (const analysis::LoadReport& load : loads) {
+    out[load.name] = {{"kind", load.kind},
+                      {"on", load.place},
+                      {"extent", load.extent},
+                      {"unit", load.unit},
+                      {"force", json_of(load.force)},
+                      {"torque", json_of(load.torque)}};
+  }
+  return out;
 }
 
 Json json_of(const std::vector<analysis::InterfaceReport>& interfaces) {
@@ -157,7 +183,7 @@ Json json_of(const BodyReport& body) {
 std::string report_text(const std::string& title, const ModelReport& report) {
   std::string out = title.empty() ? "" : title + '\n';
   out += bodies_table(report) + frequencies_text(report) + reductions_text(report) +
-         markers_text(report) + interfaces_table(report);
+         markers_text(report) + interfaces_table(report) + loads_table(report);
   out += "mechanism\n";
   std::vector<std::pair<std::string, std::string>> entries = {
       {"joints", fmt::format("{} with {}, {} redundant", counted(report.joints, "joint"),
@@ -184,6 +210,7 @@ std::string report_json(const std::string& title, const ModelReport& report) {
                   {"bodies", std::move(bodies)},
                   {"joints", report.joints},
                   {"loads", report.loads},
+                  {"distributed_loads", json_of(report.distributed_loads)},
                   {"constraint_rows", report.constraint_rows},
                   {"redundant_rows", report.redundant_rows},
                   {"redundant", report.redundant},

@@ -69,6 +69,52 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
   return out;
 }
 
+/// Mass centre of the bodies from `first` on that a load acts on.
+Eigen::Vector3d centre_of(const model::Model& model, const model::State& state,
+                          const std::vector<int>& bodies) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0;
+  for (const int body : bodies) {
+    const auto b = static_cast<std::size_t>(body);
+    moment += model.bodies[b].mass * state.bodies[b].frame.X_WB.p;
+    mass += model.bodies[b].mass;
+  }
+  return moment / mass;
+}
+
+/// All parts of the wholes on which the loads with this name act.
+std::vector<int> bodies_of(const model::Model& model, const std::string& load) {
+  std::vector<int> out;
+  for (const model::WholeBody& whole : model.wholes) {
+    const bool is_loaded =
+        std::any_of(model.loads.begin(), model.loads.end(), [&](const model::Load& l) {
+          return l.name == load && l.first.body >= whole.first &&
+                 l.first.body < whole.first + whole.count;
+        });
+    for (int b = whole.first; is_loaded && b < whole.first + whole.count; ++b) out.push_back(b);
+  }
+  return out;
+}
+
+std::vector<LoadReport> report_loads(const model::Model& model, const model::State& state) {
+  const auto motions = dynamics::motions_of(model, state);
+  std::vector<LoadReport> out;
+  for (const model::Load& load : model.loads) {
+    if (!load.region) continue;
+    const bool is_new = out.empty() || out.back().name != load.name;
+    if (is_new) out.push_back({load.name, load.kind, load.region->place, 0, load.region->unit});
+    LoadReport& report = out.back();
+    if (report.place != load.region->place) report.place.clear();
+    report.extent += load.region->extent;
+    const auto first = dynamics::evaluate_marker(model, load.first, motions).motion;
+    const spatial::Wrench wrench = load.element->evaluate(state.t, first, {}).on_first;
+    const Eigen::Vector3d centre = centre_of(model, state, bodies_of(model, load.name));
+    report.force += wrench.force;
+    report.torque += wrench.torque + (first.p - centre).cross(wrench.force);
+  }
+  return out;
+}
+
 }  // namespace
 
 ModelReport report_model(const model::BuiltModel& built) {
@@ -89,7 +135,8 @@ ModelReport report_model(const model::BuiltModel& built) {
   const Prepared prepared = prepare(built, metric);
   out.joints = static_cast<int>(std::count_if(model.joints.begin(), model.joints.end(),
                                               [](const auto& joint) { return !joint.is_tie; }));
-  out.loads = static_cast<int>(model.loads.size());
+  out.loads = static_cast<int>(built.description.loads.size());
+  out.distributed_loads = report_loads(model, prepared.state);
   out.constraint_rows = model.num_constraint_rows();
   out.redundant_rows = static_cast<int>(prepared.redundant_rows.size());
   out.redundant = prepared.redundant_text;

@@ -37,9 +37,20 @@ struct BodyReport {
   std::vector<InterfaceReport> interfaces;
 };
 
+/// What can be said of a distributed load without running.
+struct LoadReport {
+  std::string name, kind;
+  std::string place;  ///< as the model file names it; empty: all bodies
+  double extent = 0;
+  std::string unit;                                  ///< of the extent: "m^2", "m", "kg", "m^3"
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< resultant at t = 0, world axes [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< at t = 0, about the mass centre [N m]
+};
+
 /// What can be said of a model without running: the content of `buckens check`.
 struct ModelReport {
   std::vector<BodyReport> bodies;
+  std::vector<LoadReport> distributed_loads;
   int joints = 0, loads = 0;
   int constraint_rows = 0, redundant_rows = 0;
   int degrees_of_freedom = 0;                ///< of the mechanism with rigid bodies

@@ -74,6 +74,7 @@ double strongest_load(const model::Model& model, const StaticPoint& point, doubl
     const auto second = dynamics::evaluate_marker(model, load.second, motions);
     const loads::Action action = load.element->evaluate(t, first.motion, second.motion);
     const double factor = load.element->is_applied() ? std::abs(point.load_factor) : 1.0;
+    largest = std::max(largest, factor * std::abs(action.along_pattern));
     count(action.on_first, factor);
     count(action.on_second, factor);
   }

@@ -45,8 +45,16 @@ ExcitedBand band_of_body(const body::Body& body, const body::FreeModes& modes) {
   if (body.flexible->is_quasi_static) return {modes.omega[0], 0.0, 0.0};  // nothing vibrates
   linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
   for (const body::Marker& marker : body.markers) {
-    if (!marker.follows_mesh() || marker.translation_row >= body.num_interface_rows()) continue;
+    if (!marker.follows_mesh() || marker.translation_row >= body.flexible->num_held_rows()) {
+      continue;
+    }
     add_share(modes, body.flexible->rows.middleRows(marker.translation_row, 3) * modes.shapes,
+              share);
+  }
+  const body::FlexiblePart& part = *body.flexible;
+  if (part.num_pattern_rows > 0) {
+    add_share(modes,
+              part.rows.middleRows(part.num_held_rows(), part.num_pattern_rows) * modes.shapes,
               share);
   }
   return band_of(modes, share);

@@ -53,6 +53,8 @@ struct FlexiblePart {
   /// loads use.
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows;
   int num_interface_rows = 0;
+  /// The last of the interface rows: patterns of distributed loads, which no joint holds.
+  int num_pattern_rows = 0;
 
   /// @throws ModelError if rigid motion strains the mesh or the mesh is a mechanism
   FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice);
@@ -63,6 +65,8 @@ struct FlexiblePart {
   void stiffen();
 
   Eigen::Index num_dofs() const { return fe.M.rows(); }
+  /// Interface rows without those of patterns: what a Craig–Bampton basis holds.
+  int num_held_rows() const { return num_interface_rows - num_pattern_rows; }
   bool is_damped() const { return C.nonZeros() > 0; }
   /// Whether the body is limited to a basis of vibrations and static shapes.
   bool is_reduced() const { return recovery.is_dense(); }

@@ -29,7 +29,7 @@ constexpr double kDependent = 1e-10;
 constexpr double kTolerance = 1e-9;
 
 Matrix interface_columns(const FlexiblePart& part) {
-  const SparseMatrix N = part.rows.topRows(part.num_interface_rows);
+  const SparseMatrix N = part.rows.topRows(part.num_held_rows());
   return Matrix(SparseMatrix(N.transpose()));
 }
 

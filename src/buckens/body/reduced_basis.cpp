@@ -47,7 +47,7 @@ Matrix orthonormalised(const SparseMatrix& M, const Matrix& columns) {
   return out;
 }
 
-/// Unit loads on the interface rows, Nᵀ.
+/// Unit loads on the interface rows, Nᵀ, those along patterns included.
 Matrix interface_loads(const FlexiblePart& part) {
   const SparseMatrix N = part.rows.topRows(part.num_interface_rows);
   return Matrix(SparseMatrix(N.transpose()));
@@ -142,7 +142,7 @@ struct HeldModes {
 };
 
 HeldModes held_modes(const FlexiblePart& part, const CraigBamptonChoice& choice) {
-  const Matrix N = part.rows.topRows(part.num_interface_rows);
+  const Matrix N = part.rows.topRows(part.num_held_rows());
   Eigen::ColPivHouseholderQR<Matrix> held(N * part.sieve.Phi());
   held.setThreshold(kStraining);
   const auto loose = static_cast<int>(part.sieve.rank() - held.rank());
@@ -187,7 +187,8 @@ ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& pa
                                  const CraigBamptonChoice& choice, double length) {
   const SparseMatrix& M = part.fe.M;
   const ElasticInverse inverse(body, part.fe, part.sieve, length);
-  const Matrix loads = interface_loads(part);
+  const Matrix all_loads = interface_loads(part);
+  const Matrix loads = all_loads.leftCols(part.num_held_rows());
   const Matrix displaced = inverse.solve_checked(self_equilibrated(part, loads));
   const HeldModes held = held_modes(part, choice);
   ReducedBasis out;
@@ -197,7 +198,8 @@ ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& pa
   diagonalise(part, columns, out);
   out.static_share = lacking_share(static_shapes(part, inverse, loads), out.Z, out.omega);
   if (choice.static_correction) {
-    const Matrix& patterns = part.invariants.centrifugal_patterns();
+    const Matrix patterns =
+        beside(all_loads.rightCols(part.num_pattern_rows), part.invariants.centrifugal_patterns());
     const Matrix spun = static_shapes(part, inverse, patterns).shapes;
     columns = beside(columns, residuals(M, columns, spun));
     diagonalise(part, columns, out);

@@ -39,8 +39,8 @@ struct CraigBamptonChoice {
 
 /// Vibrations with held interface and the deformations by displaced interfaces [Craig and Bampton,
 /// 1968]. Rigid motion is sieved out and the rest brought to ZᵀMZ = 1: with interface rows that fix
-/// the body, rows + modes − 6 coordinates remain. The static correction adds the answers to the six
-/// centrifugal load patterns.
+/// the body, rows + modes − 6 coordinates remain. The static correction adds the answers to the
+/// patterns of distributed loads and to the six centrifugal ones.
 ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& part,
                                  const CraigBamptonChoice& choice, double length);
 

@@ -92,6 +92,7 @@ std::unique_ptr<FlexiblePart> reduce(const std::string& body, const FlexiblePart
   out->recovery = part.recovery.of(Z);
   out->rows = Matrix(part.rows * Z).sparseView();
   out->num_interface_rows = part.num_interface_rows;
+  out->num_pattern_rows = part.num_pattern_rows;
   out->reduction.modes = basis.num_modes;
   out->reduction.static_shapes = basis.num_residuals;
   out->reduction.full_dofs = static_cast<int>(Z.rows());

@@ -36,6 +36,14 @@ void add_row(const BodyRow& row, double multiplier, Forces& out) {
   }
 }
 
+/// The share of a load along one row, with its power.
+void add_pattern(const model::Load& load, const std::vector<BodyMotion>& motions,
+                 const loads::Action& action, Forces& out) {
+  const auto b = static_cast<std::size_t>(load.first.body);
+  out.interface[b][load.pattern_row] += action.along_pattern;
+  out.active_power += action.along_pattern * motions[b].y_dot[load.pattern_row];
+}
+
 }  // namespace
 
 void Forces::reset(const model::Model& model) {
@@ -69,9 +77,11 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
         wrench->force *= load_factor;
       }
       action.active_power *= load_factor;
+      action.along_pattern *= load_factor;
     }
     add_wrench(model, load.first, first, action.on_first, out);
     add_wrench(model, load.second, second, action.on_second, out);
+    if (load.pattern_row >= 0) add_pattern(load, motions, action, out);
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
     out.dissipation += action.dissipation;

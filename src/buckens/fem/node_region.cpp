@@ -60,7 +60,8 @@ Eigen::VectorXd areas_of(const Structure& structure, const std::vector<ElementFa
   return areas;
 }
 
-/// Faces that one solid element only has and that lie on the given nodes altogether.
+}  // namespace
+
 std::vector<ElementFace> faces_within(const Structure& structure, const std::vector<int>& nodes) {
   std::vector<bool> is_within(structure.nodes.size(), false);
   for (const int node : nodes) is_within[static_cast<std::size_t>(node)] = true;
@@ -84,8 +85,6 @@ std::vector<ElementFace> faces_within(const Structure& structure, const std::vec
   }
   return out;
 }
-
-}  // namespace
 
 bool NodeRegion::turns() const {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);

@@ -31,6 +31,10 @@ NodeRegion face_region(const Structure& structure, const FaceSet& faces);
 /// are among them; where there is no such face all nodes count alike.
 NodeRegion node_region(const Structure& structure, std::vector<int> nodes);
 
+/// Faces that one solid element only has, the surface of the mesh, and whose nodes are all among
+/// the given ones.
+std::vector<ElementFace> faces_within(const Structure& structure, const std::vector<int>& nodes);
+
 /// The same region with other node numbers, for instance in a part of the mesh.
 NodeRegion renumbered(const NodeRegion& region, const std::vector<int>& nodes);
 

@@ -20,12 +20,14 @@ using results::BodyKind;
 using results::Geometry;
 using results::GeometryBody;
 using results::GeometryJoint;
+using results::GeometryLoad;
 using results::GeometryMarker;
 using results::GeometrySide;
 
 constexpr char kRoot[] = "/geometry";
 constexpr char kBodies[] = "/geometry/bodies";
 constexpr char kJoints[] = "/geometry/joints";
+constexpr char kLoads[] = "/geometry/loads";
 constexpr char kGround[] = "ground";
 
 std::span<const double> numbers(const Eigen::Vector3d& v) { return {v.data(), 3}; }
@@ -140,6 +142,31 @@ void write_joint(const Hdf5File& file, int index, const Geometry& geometry,
   write_attribute(file, path + "/positions", "unit", std::string("m"));
 }
 
+std::vector<double> flat(const std::vector<Eigen::Vector3d>& vectors) {
+  std::vector<double> out;
+  for (const Eigen::Vector3d& v : vectors) out.insert(out.end(), {v.x(), v.y(), v.z()});
+  return out;
+}
+
+void write_load(const Hdf5File& file, int index, const Geometry& geometry,
+                const GeometryLoad& load) {
+  const std::string path = fmt::format("{}/{}", kLoads, load.name);
+  create_group(file, path);
+  write_attribute(file, path, "index", index);
+  write_attribute(file, path, "kind", load.kind);
+  write_attribute(
+      file, path, "body",
+      load.body < 0 ? kGround : geometry.bodies.at(static_cast<std::size_t>(load.body)).name);
+  write_attribute(file, path, "follows", load.follows ? 1 : 0);
+  write_attribute(file, path, "unit", load.unit);
+  const hsize_t count = load.positions.size();
+  write_dataset(file, path + "/positions", {count, 3}, flat(load.positions));
+  write_attribute(file, path + "/positions", "unit", std::string("m"));
+  write_dataset(file, path + "/nodes", {count}, load.nodes);
+  if (load.directions.empty()) return;
+  write_dataset(file, path + "/directions", {count, 3}, flat(load.directions));
+}
+
 /// Names of the groups in the order in which they were written.
 std::vector<std::string> in_order(const Hdf5File& file, const std::string& path) {
   std::vector<std::pair<int, std::string>> found;
@@ -225,6 +252,36 @@ GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, const s
   return joint;
 }
 
+std::vector<Eigen::Vector3d> vectors_at(const Hdf5File& file, const std::string& path) {
+  const std::vector<double> values = read_double_dataset(file, path);
+  expect(file, path, values.size() % 3 == 0);
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t k = 0; k < values.size() / 3; ++k) out.push_back(vector_at(values, k));
+  return out;
+}
+
+GeometryLoad read_load(const Hdf5File& file, const Geometry& geometry, const std::string& name) {
+  const std::string path = fmt::format("{}/{}", kLoads, name);
+  GeometryLoad load;
+  load.name = name;
+  load.kind = read_string(file, path, "kind");
+  const std::string body = read_string(file, path, "body");
+  load.body = body == kGround ? results::kGroundBody : index_of(geometry.bodies, body);
+  const std::vector<int> follows = read_ints(file, path, "follows");
+  expect(file, path, follows.size() == 1);
+  load.follows = follows[0] != 0;
+  load.unit = read_string(file, path, "unit");
+  load.positions = vectors_at(file, path + "/positions");
+  load.nodes = read_int_dataset(file, path + "/nodes");
+  if (has_object(file, path + "/directions")) {
+    load.directions = vectors_at(file, path + "/directions");
+  }
+  expect(file, path,
+         load.nodes.size() == load.positions.size() &&
+             (load.directions.empty() || load.directions.size() == load.positions.size()));
+  return load;
+}
+
 }  // namespace
 
 void write_geometry(const Hdf5File& file, const Geometry& geometry) {
@@ -234,10 +291,13 @@ void write_geometry(const Hdf5File& file, const Geometry& geometry) {
   write_attribute(file, kRoot, "planar", geometry.planar);
   create_group(file, kBodies);
   create_group(file, kJoints);
+  create_group(file, kLoads);
   int index = 0;
   for (const GeometryBody& body : geometry.bodies) write_body(file, index++, body);
   index = 0;
   for (const GeometryJoint& joint : geometry.joints) write_joint(file, index++, geometry, joint);
+  index = 0;
+  for (const GeometryLoad& load : geometry.loads) write_load(file, index++, geometry, load);
 }
 
 Geometry read_geometry(const Hdf5File& file) {
@@ -252,6 +312,9 @@ Geometry read_geometry(const Hdf5File& file) {
   }
   for (const std::string& name : in_order(file, kJoints)) {
     geometry.joints.push_back(read_joint(file, geometry, name));
+  }
+  for (const std::string& name : in_order(file, kLoads)) {
+    geometry.loads.push_back(read_load(file, geometry, name));
   }
   return geometry;
 }

@@ -79,7 +79,10 @@ struct AlternativeRules {
     } else if constexpr (requires { spec.along; }) {
       if (!spec.along || spec.along->norm() > 0.0) return std::nullopt;
       return Problem{"along", "[0, 0, 0] is no direction; give for example [0, -1, 0]"};
-    } else if constexpr (requires { spec.on; }) {
+    } else if constexpr (std::is_same_v<T, loads::BodyForceSpec>) {
+      if (spec.per_mass.has_value() != spec.per_volume.has_value()) return std::nullopt;
+      return Problem{"", "exactly one of the keys per-mass and per-volume is needed"};
+    } else if constexpr (requires { spec.on.is_ground(); }) {
       if (!spec.on.is_ground()) return std::nullopt;
       return Problem{"on", "a load on the ground has no effect; name a body"};
     } else if constexpr (requires { spec.joint; }) {
@@ -87,6 +90,11 @@ struct AlternativeRules {
       const auto known = names_of(context.model->joints);
       return Problem{"joint", fmt::format("unknown joint \"{}\".{}", spec.joint,
                                           base::suggestion(spec.joint, known))};
+    } else if constexpr (requires { spec.load; }) {
+      if (base::find_named(context.model->loads, spec.load) != nullptr) return std::nullopt;
+      const auto known = names_of(context.model->loads);
+      return Problem{"load", fmt::format("unknown load \"{}\".{}", spec.load,
+                                         base::suggestion(spec.load, known))};
     } else if constexpr (std::is_same_v<T, model::DeflectionSensor>) {
       return deflection_problem(spec, context);
     } else if constexpr (requires { spec.element; }) {

@@ -11,7 +11,7 @@ AppliedLoad::AppliedLoad(Kind kind, Axes axes, std::array<base::TimeLaw, 3> valu
 
 Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
                              const spatial::MarkerMotion& /*second*/) const {
-  Eigen::Vector3d load(value_[0].value(t), value_[1].value(t), value_[2].value(t));
+  Eigen::Vector3d load = values(t);
   if (axes_ == Axes::following) load = first.R * load;
   Action action;
   if (kind_ == Kind::force) {

@@ -22,6 +22,11 @@ class AppliedLoad final : public ForceElement {
                   const spatial::MarkerMotion& second) const override;
   bool is_applied() const override { return true; }
   bool is_constant() const override;
+  int num_values() const override { return 3; }
+  Eigen::Vector3d values(double t) const override {
+    return {value_[0].value(t), value_[1].value(t), value_[2].value(t)};
+  }
+  bool follows() const override { return axes_ == Axes::following; }
 
  private:
   Kind kind_;

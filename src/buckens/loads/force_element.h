@@ -11,9 +11,12 @@ namespace buckens::loads {
 struct Action {
   spatial::Wrench on_first;   ///< on the first marker, world components
   spatial::Wrench on_second;  ///< on the second marker, world components
-  double stored_energy = 0;   ///< of its springs [J]
-  double active_power = 0;    ///< power given to the system beyond −d(stored_energy)/dt [W]
-  double dissipation = 0;     ///< power taken by dampers, contained in active_power with minus [W]
+  /// Load along Load::pattern_row of the first body [N]; evaluate() leaves its power out, which
+  /// takes the rate of that row.
+  double along_pattern = 0;
+  double stored_energy = 0;  ///< of its springs [J]
+  double active_power = 0;   ///< power given to the system beyond −d(stored_energy)/dt [W]
+  double dissipation = 0;    ///< power taken by dampers, contained in active_power with minus [W]
 };
 
 /// A direction in which a force element resists: the generalised displacement x with ẋ = J V meets
@@ -42,6 +45,13 @@ class ForceElement {
 
   /// True for loads that come from outside: a static path multiplies them by its load factor.
   virtual bool is_applied() const { return false; }
+
+  /// Number of laws of time whose values are recorded: three components, one pressure, none.
+  virtual int num_values() const { return 0; }
+  /// Their values, the first num_values() of three: components in world axes, or in those of the
+  /// first marker where follows() says so.
+  virtual Eigen::Vector3d values(double /*t*/) const { return Eigen::Vector3d::Zero(); }
+  virtual bool follows() const { return false; }
 
   /// False if the load changes with time by a law; a static start takes its value at t = 0.
   virtual bool is_constant() const { return true; }

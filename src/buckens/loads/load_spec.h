@@ -11,13 +11,10 @@
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
+#include "buckens/loads/distributed_load_spec.h"
+#include "buckens/loads/load_axes.h"
 
 namespace buckens::loads {
-
-/// Axes in which a load is given: those of the world, or those of its marker, which it follows.
-enum class LoadAxes { fixed, following };
-
-constexpr std::array<const char*, 2> choice_names(LoadAxes) { return {"fixed", "following"}; }
 
 struct ForceSpec {
   static constexpr const char* kKey = "force";
@@ -125,7 +122,14 @@ struct TorsionalSpringSpec {
 struct LoadSpec {
   std::string name;
   SourceLocation where;
-  std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec> kind;
+  std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec, PressureSpec,
+               TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec>
+      kind;
+
+  /// Key of the kind in the model file.
+  const char* kind_name() const {
+    return std::visit([]<class T>(const T&) { return T::kKey; }, kind);
+  }
 
   template <class Visitor>
   void fields(Visitor& visit) {

@@ -84,6 +84,7 @@ class JointBuilder {
         loads::Bushing::Coefficients{kind.stiffness, kind.rotational_stiffness, kind.damping,
                                      kind.rotational_damping},
         p.R_WF.transpose() * p.R_WM, p.r_F);
+    load.kind = "bushing";
     find_.model().loads.push_back(std::move(load));
   }
 

@@ -22,14 +22,15 @@ class LoadBuilder {
   void add(const loads::LoadSpec& spec) {
     Load load;
     load.name = spec.name;
+    load.kind = spec.kind_name();
     if (const auto* force = std::get_if<loads::ForceSpec>(&spec.kind)) {
       add_applied(*force, loads::AppliedLoad::Kind::force, load, spec.where);
     } else if (const auto* torque = std::get_if<loads::TorqueSpec>(&spec.kind)) {
       add_applied(*torque, loads::AppliedLoad::Kind::torque, load, spec.where);
     } else if (const auto* spring = std::get_if<loads::SpringDamperSpec>(&spec.kind)) {
       add_spring(*spring, load, spec.where);
-    } else {
-      add_torsional(std::get<loads::TorsionalSpringSpec>(spec.kind), load, spec.where);
+    } else if (const auto* torsional = std::get_if<loads::TorsionalSpringSpec>(&spec.kind)) {
+      add_torsional(*torsional, load, spec.where);
     }
     find_.model().loads.push_back(std::move(load));
   }
@@ -57,6 +58,7 @@ class LoadBuilder {
   template <class Spec>
   void add_applied(const Spec& kind, loads::AppliedLoad::Kind what, Load& load,
                    const SourceLocation& where) {
+    load.unit = what == loads::AppliedLoad::Kind::torque ? "N m" : "N";
     load.first = find_.marker(kind.on, true);
     if (load.first.body == kGround) {
       throw ModelError(where, fmt::format("load \"{}\" acts on the ground, which does not move; "

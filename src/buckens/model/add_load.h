@@ -6,7 +6,7 @@
 
 namespace buckens::model {
 
-/// Adds a load of the model file to the model under construction.
+/// Adds a load on markers of the model file to the model under construction.
 /// @throws InputError, ModelError naming the load and its place in the file
 void add_load(const loads::LoadSpec& spec, MarkerFinder& find);
 

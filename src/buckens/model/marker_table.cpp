@@ -155,6 +155,26 @@ int MarkerTable::cut_marker(int node) {
   return add(name, {position, Eigen::Quaterniond::Identity(), MeshPlace{node, -1, 0}, nullptr});
 }
 
+int MarkerTable::add_region(const std::string& name, const std::optional<Vector3d>& position,
+                            const std::vector<linalg::Triplet>& rows) {
+  body::Marker marker;
+  marker.name = name;
+  if (position) {
+    marker.X_BF.p = *position - body_.com;
+    marker.translation_row = num_rows_;
+    marker.node = nearest_node(body_.flexible->mesh().nodes, *position).node;
+    add_entries(rows, num_rows_);
+    num_rows_ += 3;
+  }
+  body_.markers.push_back(marker);
+  return static_cast<int>(body_.markers.size()) - 1;
+}
+
+int MarkerTable::add_pattern(const std::vector<linalg::Triplet>& entries) {
+  add_entries(entries, num_rows_);
+  return num_rows_++;
+}
+
 std::optional<MeshPlace> MarkerTable::place(const base::MarkerRef& ref) const {
   return target(ref).place;
 }

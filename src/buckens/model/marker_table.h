@@ -42,6 +42,16 @@ class MarkerTable {
   /// Marker on a node where this part is cut from others.
   int cut_marker(int node);
 
+  /// Marker that follows the mean displacement of a part of the mesh; with the axes of the body.
+  /// @param position mean place, model axes [m]; empty: a marker at the body frame
+  /// @param rows of the mean displacement over the nodal variables (0…2, DOF, value)
+  int add_region(const std::string& name, const std::optional<Eigen::Vector3d>& position,
+                 const std::vector<linalg::Triplet>& rows);
+  /// One more row over the nodal variables.
+  /// @param entries (0, DOF, value)
+  /// @return its number
+  int add_pattern(const std::vector<linalg::Triplet>& entries);
+
   /// All names a user can write, for messages and listings.
   std::vector<std::string> names() const;
 

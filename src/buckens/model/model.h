@@ -38,11 +38,33 @@ struct Joint {
   bool is_tie = false;
 };
 
-/// Load or force law between two markers.
+/// Where a distributed load can be drawn as an arrow.
+struct LoadFoot {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< model axes [m]
+  int node = -1;                                     ///< near it, in the undivided mesh
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of a face, inwards; zero: none
+};
+
+/// The part of a body over which a load is distributed.
+struct LoadRegion {
+  std::string place;                             ///< as the model file names it: "piston/crown"
+  double extent = 0;                             ///< area, length, mass or volume
+  std::string unit;                              ///< of the extent: "m^2", "m", "kg" or "m^3"
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< mean place, body frame [m]
+  std::vector<LoadFoot> feet;                    ///< one per face or line element; may be empty
+};
+
+/// Load or force law between two markers. A load of the model file on a body with several frames,
+/// or on all bodies, stands here once for each body that takes a share.
 struct Load {
   std::string name;
+  std::string kind;  ///< key in the model file
+  std::string unit;  ///< of the values by laws of time, if there are any
   std::unique_ptr<loads::ForceElement> element;
   MarkerId first, second;
+  /// Interface row of the first body along which Action::along_pattern acts, −1: none.
+  int pattern_row = -1;
+  std::optional<LoadRegion> region;  ///< of distributed loads
 };
 
 /// A checked mechanism: bodies, joints and loads. Never changes after build().

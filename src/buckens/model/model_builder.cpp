@@ -10,6 +10,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_regions.h"
 #include "buckens/fem/assemble.h"
+#include "buckens/model/add_distributed_load.h"
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
 #include "buckens/model/add_ties.h"
@@ -48,8 +49,10 @@ class Builder {
       if (divisions_[w]) add_ties(model_.wholes[w], *divisions_[w], find);
     }
     for (const joints::JointSpec& joint : d.joints) add_joint(joint, find);
-    for (const loads::LoadSpec& load : d.loads) add_load(load, find);
-    close_interfaces();
+    for (const loads::LoadSpec& load : d.loads) {
+      if (!DistributedLoads::takes(load)) add_load(load, find);
+    }
+    add_distributed_loads();
     for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor, find);
     add_remaining_markers(find);
     for (std::size_t b = 0; b < tables_.size(); ++b) {
@@ -239,11 +242,18 @@ class Builder {
     body.flexible = body::with_rigid_regions(body.name, *body.flexible, regions);
   }
 
-  void close_interfaces() {
+  /// Adds their rows behind those of joints and markers, and ends the interface.
+  void add_distributed_loads() {
+    std::vector<int> held;
+    for (const auto& table : tables_) held.push_back(table->num_rows());
+    const ModelDescription& d = out_->description;
+    DistributedLoads loads(model_, d, meshes_, divisions_, tables_);
+    for (const loads::LoadSpec& load : d.loads) loads.add(load);
     for (std::size_t b = 0; b < tables_.size(); ++b) {
-      if (model_.bodies[b].is_flexible()) {
-        model_.bodies[b].flexible->num_interface_rows = tables_[b]->num_rows();
-      }
+      if (!model_.bodies[b].is_flexible()) continue;
+      body::FlexiblePart& part = *model_.bodies[b].flexible;
+      part.num_interface_rows = tables_[b]->num_rows();
+      part.num_pattern_rows = part.num_interface_rows - held[b];
     }
   }
 
@@ -265,6 +275,9 @@ class Builder {
             look(kind.between[1]);
           }
           if constexpr (requires { kind.of; }) look(kind.of);
+          if constexpr (requires { kind.about; }) {
+            found.markers.push_back(kind.about ? find.marker(*kind.about, false) : MarkerId{});
+          }
           if constexpr (requires { kind.in; }) {
             if (kind.in) look(*kind.in);
           }

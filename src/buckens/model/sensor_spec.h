@@ -124,6 +124,41 @@ struct JointTorqueSensor : JointForceSensor {
   static constexpr const char* kDoc = "torque of a joint on its second marker";
 };
 
+/// Resultant of a load on all bodies that it acts on.
+struct LoadForceSensor {
+  static constexpr const char* kKey = "load-force";
+  static constexpr const char* kDoc = "resultant force of a load on the bodies that it acts on";
+  std::string load;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("load", load, "name of the load").required().shorthand().like("gas"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+struct LoadTorqueSensor {
+  static constexpr const char* kKey = "load-torque";
+  static constexpr const char* kDoc =
+      "resultant torque of a load about a marker, or about the origin of the world";
+  std::string load;
+  std::optional<base::MarkerRef> about;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("load", load, "name of the load").required().shorthand().like("gas"));
+    visit(base::field("about", about, "marker about whose place the torque is taken")
+              .like("crank")
+              .otherwise("the origin of the world"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+
 /// Section of a beam: at a marker on the mesh, or at an end of a numbered element. Solid elements
 /// around a node, or a numbered one.
 struct SectionPlace {
@@ -190,7 +225,8 @@ struct SensorSpec {
   SourceLocation where;
   std::variant<PositionSensor, DisplacementSensor, VelocitySensor, AccelerationSensor,
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
-               JointForceSensor, JointTorqueSensor, SectionForceSensor, StressSensor, EnergySensor>
+               JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
+               SectionForceSensor, StressSensor, EnergySensor>
       kind;
 
   template <class Visitor>

@@ -18,6 +18,7 @@ namespace buckens::results {
 ///     bodies/<body>/displacement   {N, 6}  nodal translations [m] and rotations [rad], body axes
 ///     bodies/<body>/stress         {E, …}  stresses per element [Pa]; the page shows the largest
 ///     sensors/<sensor>             {} or {k}
+///     loads/<load>/value           {} or {3}  pressure, or components of the load
 ///     energies/<name>              {}
 struct Channel {
   std::string path;         ///< "bodies/rod/pose": names joined by '/', no leading '/'

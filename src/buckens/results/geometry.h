@@ -52,10 +52,25 @@ struct GeometryJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector, axes of the first body
 };
 
+/// A load that can be drawn as arrows. Its values over time are the channel `loads/<name>/value`.
+struct GeometryLoad {
+  std::string name;
+  std::string kind;        ///< as in the model file: "force", "pressure", "traction" …
+  int body = kGroundBody;  ///< the ground where a load acts on all bodies
+  bool follows = false;    ///< directions and values turn with the body
+  std::string unit;        ///< of the values
+  std::vector<Eigen::Vector3d> positions;  ///< feet of the arrows in the undeformed body frame [m]
+  std::vector<int> nodes;                  ///< that carry them, −1 if none does
+  /// Of a value of one where there is one value: unit vectors in body axes. Empty where three
+  /// values are the direction.
+  std::vector<Eigen::Vector3d> directions;
+};
+
 /// What never changes during a run and a viewer needs besides the records.
 struct Geometry {
   std::vector<GeometryBody> bodies;
   std::vector<GeometryJoint> joints;
+  std::vector<GeometryLoad> loads;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²] world
   std::string planar;                                 ///< "xy", "yz", "zx"; empty in 3-D
 };

@@ -94,6 +94,55 @@ void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape
   }
 }
 
+// Arrows that are drawn of one load on one body.
+constexpr std::size_t kMostFeet = 40;
+
+/// Feet of a distributed load, thinned out evenly.
+void add_feet(const model::WholeBody& whole, const model::Load& load, GeometryLoad& to) {
+  const auto& feet = load.region->feet;
+  const std::size_t stride = feet.size() / kMostFeet + 1;
+  for (std::size_t k = stride / 2; k < feet.size(); k += stride) {
+    to.positions.push_back(feet[k].place - whole.com);
+    to.nodes.push_back(feet[k].node);
+    if (load.element->num_values() == 1) to.directions.push_back(feet[k].normal);
+  }
+}
+
+void add_foot(const model::Model& model, const model::WholeBody& whole, const model::Load& load,
+              GeometryLoad& to) {
+  const auto b = static_cast<std::size_t>(load.first.body);
+  const body::Marker& marker = model.bodies[b].markers[static_cast<std::size_t>(load.first.marker)];
+  to.positions.push_back(DividedBody(model, whole).place(load.first));
+  to.nodes.push_back(whole.is_divided()
+                         ? whole_node(whole, load.first.body, marker, to.positions.back())
+                         : marker.node);
+}
+
+void add_loads(const model::Model& model, Geometry& out) {
+  for (const model::Load& load : model.loads) {
+    if (load.element->num_values() == 0 || load.first.body == model::kGround) continue;
+    auto known = std::find_if(out.loads.begin(), out.loads.end(),
+                              [&](const GeometryLoad& l) { return l.name == load.name; });
+    const int body = model.whole_of(load.first.body);
+    if (known == out.loads.end()) {
+      known = out.loads.insert(
+          known, {load.name, load.kind, body, load.element->follows(), load.unit, {}, {}, {}});
+    }
+    if (known->body != body) {
+      known->body = kGroundBody;  // on all bodies: gravity-like, without a foot
+      known->positions.clear();
+      known->nodes.clear();
+      continue;
+    }
+    const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(body)];
+    if (load.region && !load.region->feet.empty()) {
+      add_feet(whole, load, *known);
+    } else {
+      add_foot(model, whole, load, *known);
+    }
+  }
+}
+
 }  // namespace
 
 const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& whole) {
@@ -128,6 +177,7 @@ Geometry model_geometry(const model::Model& model) {
                           {side_of(model, load.first), side_of(model, load.second)},
                           Vector3d::UnitZ()});
   }
+  add_loads(model, out);
   return out;
 }
 

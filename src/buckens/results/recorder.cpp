@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "buckens/dynamics/constraints.h"
 #include "buckens/results/divided_body.h"
 #include "buckens/results/model_geometry.h"
@@ -98,6 +100,19 @@ void Recorder::add_channels() {
                  "on the second marker about its origin, world axes",
                  kXyz});
   }
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    const int count = load.element->num_values();
+    const std::string path = "loads/" + load.name + "/value";
+    if (count == 0 || layout_.find(path) >= 0) continue;  // one load may act on several bodies
+    recorded_loads_.push_back(k);
+    layout_.add({path, load.unit, count == 1 ? std::vector<int>{} : std::vector<int>{count},
+                 fmt::format("of the {}{}", load.kind,
+                             count == 1                ? ""
+                             : load.element->follows() ? ", axes that turn with the body"
+                                                       : ", world axes"),
+                 count == 1 ? std::vector<std::string>{} : kXyz});
+  }
   for (const char* name :
        {"kinetic", "strain", "gravity", "springs", "total", "work", "dissipated", "balance"}) {
     layout_.add({std::string("energies/") + name, "J", {}, "energy of the whole model", {}});
@@ -181,6 +196,11 @@ Record Recorder::record(const model::State& state, WorkBalance work,
     for (const Vector3d& v : {wrench.force, wrench.torque}) {
       record.values.insert(record.values.end(), {v.x(), v.y(), v.z()});
     }
+  }
+  for (const std::size_t k : recorded_loads_) {
+    const loads::ForceElement& load = *model.loads[k].element;
+    const Vector3d given = load.values(state.t);
+    record.values.insert(record.values.end(), given.data(), given.data() + load.num_values());
   }
   const dynamics::Energy& e = now.energy;
   record.values.insert(record.values.end(),

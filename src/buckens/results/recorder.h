@@ -49,6 +49,7 @@ class Recorder {
   RecordLayout layout_;
   std::vector<std::unique_ptr<fem::Recovery>> recoveries_;
   std::vector<std::unique_ptr<fem::SolidRecovery>> solids_;  // null where there are none
+  std::vector<std::size_t> recorded_loads_;  // first of each name, indices into Model::loads
   std::vector<std::unique_ptr<Sensor>> sensors_;
   bool started_ = false;
   double first_energy_ = 0;

@@ -15,6 +15,7 @@
 #include "buckens/fem/recovery.h"
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/results/divided_body.h"
+#include "buckens/results/load_sensor.h"
 #include "buckens/results/model_geometry.h"
 #include "buckens/spatial/rotation.h"
 
@@ -405,6 +406,12 @@ class Maker {
     const fem::FeModel* mesh = mesh_of(built_.model, built_.model.wholes[w]);
     const bool has_lines = place_.solids.empty() && !fem::line_elements(*mesh).empty();
     return std::make_unique<StressSensor>(spec_.name, place_, has_lines);
+  }
+  std::unique_ptr<Sensor> operator()(const model::LoadForceSensor& s) const {
+    return make_load_sensor(built_, spec_, s.load, false, place_.markers);
+  }
+  std::unique_ptr<Sensor> operator()(const model::LoadTorqueSensor& s) const {
+    return make_load_sensor(built_, spec_, s.load, true, place_.markers);
   }
   std::unique_ptr<Sensor> operator()(const model::EnergySensor& s) const {
     return std::make_unique<EnergySensor>(spec_.name, s.kind);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "buckens/base/time_law.h"
+#include "buckens/loads/force_element.h"
+#include "buckens/loads/load_axes.h"
+
+namespace buckens::loads {
+
+/// Uniform force per area, length, mass or volume over a part of a body.
+///
+/// Its work is that of the resultant on the mean displacement of that part, so it acts as a force
+/// on a marker at the mean place that follows the mean displacement; such a marker has no rotation
+/// of its own, and its axes are those of the body.
+class DistributedLoad final : public ForceElement {
+ public:
+  /// @param value three laws of time [N per unit of extent]
+  /// @param extent area [m²], length [m], mass [kg] or volume [m³]; negative reverses the load
+  DistributedLoad(LoadAxes axes, std::array<base::TimeLaw, 3> value, double extent);
+
+  Action evaluate(double t, const spatial::MarkerMotion& first,
+                  const spatial::MarkerMotion& second) const override;
+  bool is_applied() const override { return true; }
+  bool is_constant() const override;
+  int num_values() const override { return 3; }
+  Eigen::Vector3d values(double t) const override {
+    return {value_[0].value(t), value_[1].value(t), value_[2].value(t)};
+  }
+  bool follows() const override { return axes_ == LoadAxes::following; }
+
+ private:
+  LoadAxes axes_;
+  std::array<base::TimeLaw, 3> value_;
+  double extent_;
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "buckens/base/field.h"
+#include "buckens/base/source_location.h"
+#include "buckens/base/time_law.h"
+#include "buckens/loads/load_axes.h"
+
+namespace buckens::loads {
+
+inline constexpr base::Dimension kForcePerLength = base::kForce / base::kLength;
+inline constexpr base::Dimension kForcePerVolume = base::kForce / base::kVolume;
+
+/// Part of a body that takes a load: "piston/crown", or a whole body: "rotor".
+struct BodyPart {
+  SourceLocation where;
+  std::string text;  ///< as written
+
+  std::string body() const { return text.substr(0, text.find('/')); }
+  /// What follows the slash; empty: the whole body.
+  std::string part() const {
+    const std::size_t slash = text.find('/');
+    return slash == std::string::npos ? "" : text.substr(slash + 1);
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("name", text, "body, or body and its part with a slash between")
+              .required()
+              .shorthand()
+              .like("piston/crown"));
+  }
+};
+
+/// Pressure on faces along the normals of the undeformed mesh, in the axes of the body.
+struct PressureSpec {
+  static constexpr const char* kKey = "pressure";
+  static constexpr const char* kDoc = "pressure on faces of a mesh; positive pushes onto them";
+  BodyPart on;
+  base::TimeLaw value;  ///< [Pa]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on, "body and one of its named faces, face sets or interfaces")
+              .required()
+              .like("piston/crown"));
+    visit(base::field("value", value, "pressure, a number or a law of time")
+              .in(base::kStress)
+              .required()
+              .like("{table: gas.csv, unit: bar}"));
+  }
+};
+
+/// Force per area on faces.
+struct TractionSpec {
+  static constexpr const char* kKey = "traction";
+  static constexpr const char* kDoc = "force per area on faces of a mesh";
+  BodyPart on;
+  std::array<base::TimeLaw, 3> value;  ///< [Pa]
+  LoadAxes axes = LoadAxes::fixed;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on, "body and one of its named faces, face sets or interfaces")
+              .required()
+              .like("plate/z1"));
+    visit(base::field("value", value, "three components, each a number or a law of time")
+              .in(base::kStress)
+              .required()
+              .like("[2 kPa, 0, 0]"));
+    visit(base::field("axes", axes, "world axes (`fixed`) or those of the body (`following`)"));
+  }
+};
+
+/// Force per length on beams and bars.
+struct LineLoadSpec {
+  static constexpr const char* kKey = "line-load";
+  static constexpr const char* kDoc = "force per length on beams and bars";
+  BodyPart on;
+  std::array<base::TimeLaw, 3> value;  ///< [N/m]
+  LoadAxes axes = LoadAxes::fixed;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on,
+                      "body of beams; after a slash an element set or the number of a beam in "
+                      "`beams`, counted from 1")
+              .required()
+              .like("girder"));
+    visit(base::field("value", value, "three components, each a number or a law of time")
+              .in(kForcePerLength)
+              .required()
+              .like("[0, 0, -500 N/m]"));
+    visit(base::field("axes", axes, "world axes (`fixed`) or those of the body (`following`)"));
+  }
+};
+
+/// Force per mass or per volume. Exactly one of both is given.
+struct BodyForceSpec {
+  static constexpr const char* kKey = "body-force";
+  static constexpr const char* kDoc = "force per mass or per volume on a body or a set of elements";
+  BodyPart on;
+  std::optional<std::array<base::TimeLaw, 3>> per_mass;    ///< [m/s²]
+  std::optional<std::array<base::TimeLaw, 3>> per_volume;  ///< [N/m³]
+  LoadAxes axes = LoadAxes::fixed;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on, "body; after a slash an element set or the number of a beam")
+              .required()
+              .like("rotor"));
+    visit(base::field("per-mass", per_mass, "three components, each a number or a law of time")
+              .in(base::kAcceleration)
+              .like("[0, 2 m/s^2, 0]")
+              .otherwise("give this or `per-volume`"));
+    visit(base::field("per-volume", per_volume, "three components, each a number or a law of time")
+              .in(kForcePerVolume)
+              .like("[0, 5 kN/m^3, 0]")
+              .otherwise("give this or `per-mass`"));
+    visit(base::field("axes", axes, "world axes (`fixed`) or those of the body (`following`)"));
+  }
+};
+
+/// The world is carried by a base that accelerates: all bodies feel −a per mass.
+struct BaseAccelerationSpec {
+  static constexpr const char* kKey = "base-acceleration";
+  static constexpr const char* kDoc =
+      "translational acceleration of the ground in an inertial frame; everything is reported "
+      "relative to the ground, and every body feels the opposite force per mass";
+  std::array<base::TimeLaw, 3> value;  ///< [m/s²]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("value", value, "three components, each a number or a law of time")
+              .in(base::kAcceleration)
+              .required()
+              .like("[\"5*sin(30*t) m/s^2\", 0, 0]"));
+  }
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace buckens::loads {
+
+/// Axes in which a load is given: those of the world, or those of its marker or body, which it
+/// follows.
+enum class LoadAxes { fixed, following };
+
+constexpr std::array<const char*, 2> choice_names(LoadAxes) { return {"fixed", "following"}; }
+
+}  // namespace buckens::loads

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/results/load_sensor.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::results {
+
+using Eigen::Vector3d;
+using model::MarkerId;
+
+namespace {
+
+class LoadSensor final : public Sensor {
+ public:
+  LoadSensor(Channel channel, std::vector<std::size_t> loads, std::optional<MarkerId> about,
+             std::optional<MarkerId> in)
+      : channel_(std::move(channel)),
+        loads_(std::move(loads)),
+        about_(std::move(about)),
+        in_(std::move(in)) {}
+
+  std::vector<Channel> channels() const override { return {channel_}; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const auto motion = [&](const MarkerId& id) {
+      return dynamics::evaluate_marker(now.model, id, now.motions).motion;
+    };
+    Vector3d sum = Vector3d::Zero();
+    const Vector3d point = about_ ? motion(*about_).p : Vector3d::Zero();
+    for (const std::size_t k : loads_) {
+      const model::Load& load = now.model.loads[k];
+      const spatial::MarkerMotion first = motion(load.first);
+      const spatial::Wrench wrench =
+          load.element->evaluate(now.state.t, first, motion(load.second)).on_first;
+      sum +=
+          about_ ? Vector3d(wrench.torque + (first.p - point).cross(wrench.force)) : wrench.force;
+    }
+    if (in_) sum = motion(*in_).R.transpose() * sum;
+    values.insert(values.end(), {sum.x(), sum.y(), sum.z()});
+  }
+
+ private:
+  Channel channel_;
+  std::vector<std::size_t> loads_;
+  std::optional<MarkerId> about_;  // of torques
+  std::optional<MarkerId> in_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_load_sensor(const model::BuiltModel& built,
+                                         const model::SensorSpec& spec, const std::string& load,
+                                         bool torque, const std::vector<MarkerId>& about_and_in) {
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < built.model.loads.size(); ++k) {
+    if (built.model.loads[k].name != load) continue;
+    if (!built.model.loads[k].element->is_applied()) {
+      throw InputError(spec.where, fmt::format("sensor \"{}\": \"{}\" acts between two markers "
+                                               "with opposite forces; observe its `joint-force`",
+                                               spec.name, load));
+    }
+    found.push_back(k);
+  }
+  const std::size_t after = torque ? 1 : 0;
+  std::optional<MarkerId> about, in;
+  if (torque) about = about_and_in.at(0);
+  if (about_and_in.size() > after) in = about_and_in[after];
+  Channel channel{"sensors/" + spec.name,
+                  torque ? "N m" : "N",
+                  {3},
+                  fmt::format("resultant {} of load {}", torque ? "torque" : "force", load),
+                  {"x", "y", "z"}};
+  return std::make_unique<LoadSensor>(std::move(channel), std::move(found), std::move(about),
+                                      std::move(in));
+}
+
+}  // namespace buckens::results

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distributed loads: the condensed step against the monolithic one, and momentum against impulse.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "buckens/dynamics/energy.h"
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/model/test/described.h"
+#include "buckens/stepping/monolithic_stepper.h"
+#include "buckens/stepping/test/simulate.h"
+
+namespace buckens::verification {
+namespace {
+
+using Eigen::Vector3d;
+using model::test::constant_law;
+using stepping::Method;
+using stepping::MonolithicStepper;
+using stepping::Stepper;
+
+loads::BodyPart part(const std::string& text) { return {model::test::at_line(61), text}; }
+
+/// A soft block in free flight under pressure and traction of both kinds, a beam under a line load.
+std::unique_ptr<model::BuiltModel> loaded_bodies() {
+  model::test::Described m;
+  auto& block = m.block("block", {0.4, 0.2, 0.1}, {3, 2, 1});
+  std::get<fem::MeshSpec>(block.kind).material.value.E = 1e7;
+  auto& rod = m.beam("rod", {0, 1, 0}, {1, 1, 0}, 4);
+  std::get<fem::BeamSpec>(rod.kind).material.value.E = 1e9;
+  auto& gas = m.load<loads::PressureSpec>("gas");
+  gas.on = part("block/x1");
+  gas.value = base::TimeLaw::expression(base::Expression("2e4*(1+sin(200*t))", {"t"}, {}, {}));
+  auto& wind = m.load<loads::TractionSpec>("wind");
+  wind.on = part("block/z1");
+  wind.value = constant_law({2000, 1000, -500});
+  auto& drag = m.load<loads::TractionSpec>("drag");
+  drag.on = part("block/y0");
+  drag.value = constant_law({-3000, 4000, 1000});
+  drag.axes = loads::LoadAxes::following;
+  auto& snow = m.load<loads::LineLoadSpec>("snow");
+  snow.on = part("rod");
+  snow.value = constant_law({0, 20, -300});
+  snow.axes = loads::LoadAxes::following;
+  auto& ball = m.joint<joints::SphericalSpec>("ball", "ground", "rod/start");
+  ball.between[0].point = Vector3d(0, 1, 0);
+  return m.build();
+}
+
+test::Start at_rest(const model::Model& model) {
+  return test::consistent_start(model,
+                                [](model::State& state) { state.bodies[0].frame.w << 1, -2, 1.5; });
+}
+
+TEST(LoadsOnBodies, StepAsTheMonolithicRoute) {
+  const auto built = loaded_bodies();
+  const test::Start start = at_rest(built->model);
+  for (const Method method :
+       {Method::generalized_alpha, Method::newmark, Method::hht, Method::wilson}) {
+    SCOPED_TRACE(to_string(method));
+    stepping::StepSettings settings = test::settings(method, 2e-4);
+    settings.newton_tolerance = 1e-15;
+    settings.outer_tolerance = 1e-13;
+    settings.max_newton = settings.max_outer = 60;
+    Stepper fast(built->model, settings, start.rows_in_use);
+    MonolithicStepper slow(built->model, settings, start.rows_in_use);
+    model::State a = start.state, b = start.state;
+    for (std::size_t body = 0; body < 2; ++body) {
+      SCOPED_TRACE(body);
+      double difference = 0, size = 0;
+      for (int k = 0; k < 100; ++k) {
+        fast.step(a);
+        slow.step(b);
+        difference =
+            std::max(difference, (a.bodies[body].d - b.bodies[body].d).cwiseAbs().maxCoeff());
+        size = std::max(size, b.bodies[body].d.cwiseAbs().maxCoeff());
+      }
+      EXPECT_GT(size, 1e-5) << "the load does something";
+      // Rounding of 100 steps, far below 1e5 ε; see fast_equals_monolithic.
+      EXPECT_LE(difference, 1e-10 * size);
+      EXPECT_LE((a.bodies[body].frame.X_WB.p - b.bodies[body].frame.X_WB.p).norm(), 1e-11);
+    }
+  }
+}
+
+TEST(LoadsOnBodies, ConstantLoadsGiveTheirImpulse) {
+  model::test::Described m;
+  m.block("block", {0.4, 0.2, 0.1}, {2, 1, 1});
+  auto& wind = m.load<loads::TractionSpec>("wind");
+  wind.on = part("block/x1");
+  wind.value = constant_law({2e5, 1e5, -5e4});
+  const auto built = m.build();
+  const test::Start start = test::consistent_start(built->model, [](model::State&) {});
+  Stepper stepper(built->model, test::settings(Method::generalized_alpha, 1e-5), start.rows_in_use);
+  model::State state = start.state;
+  for (int k = 0; k < 200; ++k) stepper.step(state);
+  const Vector3d impulse = 0.02 * Vector3d(2e5, 1e5, -5e4) * state.t;
+  EXPECT_NEAR((dynamics::momentum(built->model, state).linear - impulse).norm(), 0,
+              1e-11 * impulse.norm());
+}
+
+}  // namespace
+}  // namespace buckens::verification
