@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`buckens view`: where it finds its page and what it writes; viewer/ tests the page itself."""
 
+import json
 import os
 import pathlib
 import shutil
@@ -49,10 +50,41 @@ def test_view_writes_a_page(buckens, models, installed, tmp_path):
     assert "Test beam" in page and "BUCKENS_DATA" not in page
     report = view(installed, "out", "-o", "other.html", "--frames", "10", "--json",
                   cwd=tmp_path).must(0).json
-    assert report == {"page": "other.html", "records": 51, "frames": 10}
+    assert report == {"page": "other.html", "records": 51, "frames": 10, "rounded": False}
     assert (tmp_path / "other.html").stat().st_size > 0
     # The page is no obstacle for the next run into the same directory.
     buckens("run", models / "beam.yaml", "-o", "out").must(0)
+
+
+def test_view_of_two_runs(buckens, models, installed, tmp_path):
+    buckens("run", models / "beam.yaml", "-o", "out").must(0)
+    buckens("run", models / "pendulum.yaml", "-o", "other").must(0)
+    add_viewer(installed)
+    report = view(installed, "out", "other", "-o", "both.html", "--frames", "10", "--json",
+                  cwd=tmp_path).must(0).json
+    assert report["frames"] == 10 and report["second"]["frames"] == 10
+    text = (tmp_path / "both.html").read_text()
+    data = json.loads(text.split("const run = ")[1].split(";</script>")[0])
+    assert data["format"] == 2 and len(data["runs"]) == 2
+    view(installed, "out", "other", "third", cwd=tmp_path).must(2)
+
+
+def test_runs_and_vibrations_are_not_shown_side_by_side(buckens, models, installed, tmp_path):
+    buckens("run", models / "beam.yaml", "-o", "out").must(0)
+    buckens("modes", models / "beam.yaml", "-o", "modes").must(0)
+    add_viewer(installed)
+    view(installed, "out", "modes", cwd=tmp_path).must(5, "out", "modes", "side by side")
+
+
+def test_fields_of_a_page_are_chosen(buckens, models, installed, tmp_path):
+    buckens("run", models / "beam.yaml", "-o", "out").must(0)
+    add_viewer(installed)
+    for wanted, names in (("von_mises", ["von_mises"]), ("nothing", []), ("", ["axial_stress",
+                                                                              "von_mises"])):
+        view(installed, "out", "--fields", wanted, cwd=tmp_path).must(0)
+        text = (tmp_path / "out" / "view.html").read_text()
+        data = json.loads(text.split("const run = ")[1].split(";</script>")[0])
+        assert sorted(f["name"] for f in data["runs"][0]["bodies"][0]["fields"]) == names
 
 
 @pytest.mark.parametrize("name", ["empty", "missing"])

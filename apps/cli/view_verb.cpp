@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/output.h"
 #include "cli/verbs.h"
@@ -19,8 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewArguments {
-  std::string run, page;
+  std::vector<std::string> runs;
+  std::string page, fields;
   std::size_t frames = io::ViewPageOptions{}.max_frames;
+  std::size_t megabytes = io::ViewPageOptions{}.max_bytes >> 20U;
 };
 
 /// The viewer's page lies at the same place relative to the program in the build and after
@@ -38,19 +43,45 @@ fs::path find_template() {
   return page;
 }
 
+/// The names between commas.
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream stream(list);
+  for (std::string name; std::getline(stream, name, ',');) {
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
 ExitCode view(const ViewArguments& arguments, bool json) {
-  const fs::path run = arguments.run;
-  const fs::path page = arguments.page.empty() ? run / "view.html" : fs::path(arguments.page);
+  const std::vector<fs::path> runs(arguments.runs.begin(), arguments.runs.end());
+  const fs::path page =
+      arguments.page.empty() ? runs.front() / "view.html" : fs::path(arguments.page);
   io::ViewPageOptions options;
   options.max_frames = arguments.frames;
-  const io::ViewPageReport report = io::write_view_page(run, find_template(), page, options);
+  options.max_bytes = arguments.megabytes << 20U;
+  options.fields = split(arguments.fields);
+  const std::vector<io::ViewPageReport> reports =
+      io::write_view_page(runs, find_template(), page, options);
   if (json) {
-    print(
-        to_text({{"page", page.string()}, {"records", report.records}, {"frames", report.frames}}));
-  } else {
-    print(fmt::format("{} ({} of {} records); open it in a browser.\n", page.string(),
-                      report.frames, report.records));
+    nlohmann::ordered_json out = {{"page", page.string()},
+                                  {"records", reports.front().records},
+                                  {"frames", reports.front().frames},
+                                  {"rounded", reports.front().rounded}};
+    if (reports.size() > 1) {
+      out["second"] = {{"records", reports.back().records},
+                       {"frames", reports.back().frames},
+                       {"rounded", reports.back().rounded}};
+    }
+    print(to_text(out));
+    return ExitCode::ok;
   }
+  std::string counts;
+  for (const io::ViewPageReport& report : reports) {
+    counts += fmt::format("{}{} of {} records{}", counts.empty() ? "" : ", ", report.frames,
+                          report.records, report.rounded ? ", fields rounded to 16 bits" : "");
+  }
+  print(fmt::format("{} ({}); open it in a browser.\n", page.string(), counts));
   return ExitCode::ok;
 }
 
@@ -58,9 +89,10 @@ constexpr char kFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out
   buckens view out
+  buckens view out other -o both.html      two runs side by side
 
 Writes out/view.html, one file that needs nothing else: the machine in motion with its deformation,
-stresses and the curves of the sensors. Works while the run goes on and after it was interrupted.
+stresses and other fields, and the curves of the sensors. Works while the run goes on and after it was interrupted.
 
 Exit codes: 0 done, 2 bad command line, 5 the run or the page cannot be read or written.
 The page is explained in docs/tutorials/viewer.md)";
@@ -70,12 +102,21 @@ The page is explained in docs/tutorials/viewer.md)";
 void add_view_verb(CLI::App& program, Invocation& invocation) {
   CLI::App& verb = *program.add_subcommand("view", "Make a web page that shows a run");
   const auto arguments = std::make_shared<ViewArguments>();
-  verb.add_option("OUT", arguments->run, "Run directory, as written by `buckens run`")->required();
+  verb.add_option("OUT", arguments->runs,
+                  "Run directory, as written by `buckens run`; two are shown side by side")
+      ->required()
+      ->expected(1, 2);
   verb.add_option("-o,--out", arguments->page, "The page; without it OUT/view.html")
       ->type_name("PAGE");
   verb.add_option("--frames", arguments->frames, "Most frames in the page")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000));
+  verb.add_option("--fields", arguments->fields, "Fields to show, without it all: von_mises,stress")
+      ->type_name("NAMES");
+  verb.add_option("--max-size", arguments->megabytes,
+                  "Most numbers in the page [MiB]; fewer frames are taken to keep it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 300));
   add_json_option(verb, invocation);
   verb.footer(kFooter);
   verb.callback([arguments, &invocation] {

@@ -1,5 +1,6 @@
 // Picture of a page:  node scripts/screenshot.mjs PAGE.html OUT.png [--time FRACTION] [--width W]
-//   [--height H] [--dark] [--click SELECTOR]... [--scale X]
+//   [--height H] [--dark] [--click SELECTOR]... [--select "LABEL=TEXT"]... [--press KEY]...
+//   [--follow NUMBER]... [--scale X]
 import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 import { launch } from './chromium.mjs';
@@ -12,6 +13,9 @@ const { values, positionals } = parseArgs({
     height: { type: 'string', default: '800' },
     dark: { type: 'boolean', default: false },
     click: { type: 'string', multiple: true, default: [] },
+    select: { type: 'string', multiple: true, default: [] },
+    press: { type: 'string', multiple: true, default: [] },
+    follow: { type: 'string', multiple: true, default: [] },
     scale: { type: 'string' },
   },
 });
@@ -19,7 +23,8 @@ const [page, out] = positionals;
 if (!page || !out) {
   console.error(
     'usage: screenshot.mjs PAGE.html OUT.png [--time FRACTION] [--width W] [--height H]' +
-      ' [--dark] [--click SELECTOR] [--scale X]',
+      ' [--dark] [--click SELECTOR] [--select "LABEL=TEXT"] [--press KEY] [--follow NUMBER]' +
+      ' [--scale X]',
   );
   process.exit(2);
 }
@@ -31,7 +36,7 @@ try {
     colorScheme: values.dark ? 'dark' : 'light',
     reducedMotion: 'reduce',
   });
-  await tab.goto(pathToFileURL(page).href);
+  await tab.goto(`${pathToFileURL(page).href}#fine`);
   if (await tab.evaluate(() => Boolean(window.__buckens))) {
     await tab.locator('.scrub').evaluate((slider, fraction) => {
       slider.value = fraction;
@@ -43,6 +48,16 @@ try {
     await tab.keyboard.press('Enter');
   }
   for (const selector of values.click) await tab.locator(selector).first().click();
+  for (const pair of values.select) {
+    const [name, text] = pair.split('=');
+    await tab.getByLabel(name, { exact: true }).selectOption({ label: text });
+  }
+  for (const number of values.follow) {
+    await tab.getByLabel('Number of the node').fill(number);
+    await tab.keyboard.press('Enter');
+  }
+  if (values.press.length > 0) await tab.locator('.view canvas').first().focus();
+  for (const key of values.press) await tab.keyboard.press(key);
   // Two pictures: the first lays out, the second has everything in place.
   await tab.evaluate(
     () =>

@@ -1,9 +1,13 @@
 import * as THREE from 'three';
 import { ball, massCentre, rod, solid, span, triad } from './glyphs';
-import { colorAt } from './color_map';
+import { BodyField } from './body_field';
+import { FieldMaterial, type FieldShading } from './field_material';
 import { SurfaceMesh } from './surface_mesh';
-import { Tube } from './tube';
+import { TubeMesh } from './tube_mesh';
+import { nodeAt, numNodes } from './run';
+import type { FramePlace } from './interpolation';
 import type { BodyMotion } from './motion';
+import type { Skin, SkinLook } from './skin';
 import type { Theme } from './theme';
 import type { ViewOptions } from './view_options';
 
@@ -15,68 +19,61 @@ export interface GlyphSize {
   leastRadius: number;
 }
 
-type SkinMaterial = THREE.MeshStandardMaterial | THREE.MeshBasicMaterial;
-
-/** What a body consists of when it is drawn: tubes, or the surface of a solid. */
-interface Skin {
-  readonly root: THREE.Group;
-  deform(displacement: Float32Array, scale: number): void;
-  paint(stress: Float32Array | null, range: number): void;
-}
-
 /** One body in the scene: bars and mass centre when rigid, else tubes and the surface of solids. */
 export class BodyView {
   readonly root = new THREE.Group();
+  readonly skins: Skin[] = [];
+  readonly field: BodyField;
   private readonly frame = triad();
-  private readonly tubes: Skin | null = null;
-  private readonly surface: Skin | null = null;
-  private readonly ghost = new THREE.Group();
+  private ghost: THREE.Group | null = null;
 
   constructor(
     private readonly motion: BodyMotion,
     color: string,
-    theme: Theme,
+    private readonly theme: Theme,
     size: GlyphSize,
+    shading: FieldShading,
   ) {
     const { body } = motion;
-    const material = solid(color);
-    const tubesOf = (paint: SkinMaterial) => new TubeMesh(motion, size.leastRadius, paint);
-    const surfaceOf = (paint: SkinMaterial) => new SurfaceMesh(motion, paint, theme.text);
-    if (body.elements.length > 0) this.tubes = this.addSkin(tubesOf, material, theme);
-    if (body.faces.length > 0) this.surface = this.addSkin(surfaceOf, solid(color), theme);
-    if (!this.tubes && !this.surface) this.addBars(material, color, size);
-    this.root.add(this.ghost);
+    this.field = new BodyField(body);
+    const material = () => new FieldMaterial(color, shading);
+    if (body.elements.length > 0) this.add(new TubeMesh(motion, material(), size.leastRadius));
+    if (body.faces) {
+      const edges = { onFaces: theme.edge, alone: theme.text };
+      this.add(new SurfaceMesh(motion, material(), edges));
+    }
+    if (this.skins.length === 0) this.addBars(solid(color), color, size);
     this.frame.scale.setScalar(6 * size.joint);
     this.root.add(this.frame);
   }
 
-  /** Adds a skin, and its undeformed shape as a ghost. */
-  private addSkin(
-    make: (material: SkinMaterial) => Skin,
-    material: THREE.MeshStandardMaterial,
-    theme: Theme,
-  ): Skin {
-    const { body } = this.motion;
-    const skin = make(material);
+  private add(skin: Skin): void {
+    this.skins.push(skin);
     this.root.add(skin.root);
-    if (body.displacement) {
-      const pale = new THREE.MeshBasicMaterial({
-        color: theme.ghost,
-        transparent: true,
-        opacity: 0.35,
-        depthWrite: false,
-      });
-      const ghost = make(pale);
-      ghost.deform(new Float32Array(6 * body.nodes.length), 0);
-      this.ghost.add(ghost.root);
+  }
+
+  private makeGhost(): THREE.Group {
+    const pale = new THREE.MeshBasicMaterial({
+      color: this.theme.ghost,
+      transparent: true,
+      opacity: 0.35,
+      depthWrite: false,
+    });
+    const ghost = new THREE.Group();
+    if (!this.motion.body.displacement) return ghost;
+    for (const skin of this.skins) {
+      const mesh = skin.ghost(pale);
+      mesh.frustumCulled = false;
+      ghost.add(mesh);
     }
-    return skin;
+    return ghost;
   }
 
   private addBars(material: THREE.Material, color: string, size: GlyphSize): void {
     const { body } = this.motion;
     const origin = new THREE.Vector3();
-    const ends = [...body.markers.map((marker) => marker.position), ...body.nodes]
+    const nodes = [...Array(numNodes(body)).keys()].map((node) => nodeAt(body, node));
+    const ends = [...body.markers.map((marker) => marker.position), ...nodes]
       .map((p) => new THREE.Vector3(...p))
       .filter((p) => p.length() > 0.5 * size.joint);
     for (const end of ends) {
@@ -99,96 +96,40 @@ export class BodyView {
     this.root.add(box);
   }
 
-  update(options: ViewOptions, stressRange: number): void {
+  /** Moves to the present pose and shape. */
+  update(options: ViewOptions, look: SkinLook): void {
     const { pose } = this.motion;
     this.root.position.set(pose[0]!, pose[1]!, pose[2]!);
     this.root.quaternion.set(pose[4]!, pose[5]!, pose[6]!, pose[3]!);
     this.frame.visible = options.frames;
-    this.ghost.visible = options.undeformed;
-    const { body, displacement, stress, solidStress } = this.motion;
-    const painted = (values: Float32Array, recorded: unknown) =>
-      options.stress && recorded !== null ? values : null;
-    this.tubes?.deform(displacement, options.scale);
-    this.tubes?.paint(painted(stress, body.stress), stressRange);
-    this.surface?.deform(displacement, options.scale);
-    this.surface?.paint(painted(solidStress, body.solidStress), stressRange);
-  }
-}
-
-/** The triangles of a Tube and the balls at its kinks. */
-class TubeMesh {
-  readonly root = new THREE.Group();
-  private readonly tube: Tube;
-  private readonly geometry = new THREE.BufferGeometry();
-  private readonly colors: THREE.BufferAttribute;
-  private readonly balls: THREE.Mesh[];
-  private readonly plain: THREE.Color;
-  private deformed = false;
-
-  constructor(
-    private readonly motion: BodyMotion,
-    leastRadius: number,
-    private readonly material: SkinMaterial,
-  ) {
-    this.tube = new Tube(motion.body, leastRadius);
-    const { positions, normals, indices } = this.tube;
-    this.geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
-    this.geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
-    this.colors = new THREE.BufferAttribute(new Float32Array(positions.length).fill(1), 3);
-    this.geometry.setAttribute('color', this.colors);
-    for (const name of ['position', 'normal', 'color']) {
-      const attribute = this.geometry.getAttribute(name) as THREE.BufferAttribute;
-      attribute.setUsage(THREE.DynamicDrawUsage);
+    if (options.undeformed && !this.ghost) this.root.add((this.ghost = this.makeGhost()));
+    if (this.ghost) this.ghost.visible = options.undeformed;
+    for (const skin of this.skins) {
+      skin.deform(this.motion.displacement, options.scale);
+      skin.look(look);
     }
-    this.geometry.setIndex(indices);
-    this.plain = material.color.clone();
-    const mesh = new THREE.Mesh(this.geometry, material);
-    mesh.frustumCulled = false;
-    this.root.add(mesh);
-    const radii = motion.body.nodes.map(() => 0);
-    motion.body.elements.forEach(([a, b], e) => {
-      for (const n of [a, b]) radii[n] = Math.max(radii[n]!, this.tube.radius[e]!);
-    });
-    this.balls = this.tube.kinks.map((node) => {
-      const joint = ball(solid(this.plain));
-      joint.scale.setScalar(radii[node]!);
-      this.root.add(joint);
-      return joint;
-    });
   }
 
-  deform(displacement: Float32Array, scale: number): void {
-    const { body } = this.motion;
-    if (!body.displacement && this.deformed) return;
-    this.deformed = true;
-    this.tube.deform(displacement, scale);
-    this.geometry.getAttribute('position').needsUpdate = true;
-    this.geometry.getAttribute('normal').needsUpdate = true;
-    this.tube.kinks.forEach((node, i) => {
-      const p = body.nodes[node]!;
-      const d = [0, 1, 2].map((k) => p[k]! + scale * displacement[6 * node + k]!);
-      this.balls[i]!.position.set(d[0]!, d[1]!, d[2]!);
-    });
+  /** Works the field out and paints it; the range of its values, [NaN, NaN] if there is none. */
+  paint(place: FramePlace, options: ViewOptions): [number, number] {
+    const { perElement, item } = options.field;
+    let [low, high] = [Infinity, -Infinity];
+    for (const skin of this.skins) {
+      const lines = skin instanceof TubeMesh;
+      const painted = options.colors ? this.field.at(item, lines, perElement, place) : null;
+      skin.paint(painted, perElement);
+      if (!painted) continue;
+      const { values } = painted;
+      for (let i = 0; i < values.length; i++) {
+        const value = values[i]!;
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+    }
+    return low <= high ? [low, high] : [NaN, NaN];
   }
 
-  /** Colours every element by its stress, or all of it plainly for null. */
-  paint(stress: Float32Array | null, range: number): void {
-    const colored = stress !== null && range > 0;
-    if (this.material.vertexColors !== colored) {
-      this.material.vertexColors = colored;
-      this.material.color.copy(colored ? new THREE.Color(0xffffff) : this.plain);
-      this.material.needsUpdate = true;
-    }
-    if (!colored) return;
-    const color = new THREE.Color();
-    const { elementOf } = this.tube;
-    let last = -1;
-    for (let v = 0; v < elementOf.length; v++) {
-      const e = elementOf[v]!;
-      if (e !== last) color.setRGB(...colorAt(stress[e]! / range), THREE.SRGBColorSpace);
-      last = e;
-      color.toArray(this.colors.array, 3 * v);
-    }
-    this.colors.needsUpdate = true;
+  dispose(): void {
+    for (const skin of this.skins) skin.dispose();
   }
 }

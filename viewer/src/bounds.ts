@@ -1,5 +1,5 @@
 import { Motion } from './motion';
-import type { Run } from './run';
+import { numNodes, type Run } from './run';
 import type { Triple } from './page_data';
 
 export interface Bounds {
@@ -42,7 +42,7 @@ export function runBounds(run: Run): Bounds {
     const add = (p: Triple) => (now.add(p), whole.add(p));
     for (const body of motion.bodies) {
       add(body.toWorld([0, 0, 0]));
-      const nodes = body.body.nodes.length;
+      const nodes = numNodes(body.body);
       const stride = Math.max(1, Math.floor(nodes / 50));
       for (let i = 0; i < nodes; i += stride) add(body.toWorld(body.node(i, 1)));
       if (nodes > 0) add(body.toWorld(body.node(nodes - 1, 1)));
@@ -51,6 +51,20 @@ export function runBounds(run: Run): Bounds {
     for (const joint of run.joints) for (const side of joint.between) add(motion.side(side, 1));
     machine = Math.max(machine, now.diagonal);
   }
+  return boundsOf(whole, machine);
+}
+
+/** The box around both. */
+export function joined(a: Bounds, b: Bounds): Bounds {
+  const box = new Box();
+  for (const { center, half } of [a, b]) {
+    box.add(center.map((c, i) => c - half[i]!));
+    box.add(center.map((c, i) => c + half[i]!));
+  }
+  return boundsOf(box, Math.max(a.machine, b.machine));
+}
+
+function boundsOf(whole: Box, machine: number): Bounds {
   const finite = whole.low.every(Number.isFinite) && whole.high.every(Number.isFinite);
   const center = finite ? whole.low.map((l, i) => (l + whole.high[i]!) / 2) : [0, 0, 0];
   const half = finite ? whole.low.map((l, i) => (whole.high[i]! - l) / 2) : [0, 0, 0];

@@ -10,6 +10,8 @@ export class CameraRig {
   private readonly parallel = new THREE.OrthographicCamera(-1, 1, 1, -1, -30, 60);
   private controls!: OrbitControls;
   private aspect = 1;
+  /** While it follows another, its moves are no news. */
+  private quiet = false;
   /** Visible height at the target in the orthographic view before zoom. */
   private height = 1;
 
@@ -36,7 +38,7 @@ export class CameraRig {
     this.controls.maxZoom = 400;
     this.controls.minDistance = 0.01;
     this.controls.maxDistance = 30;
-    this.controls.addEventListener('change', this.changed);
+    this.controls.addEventListener('change', () => this.quiet || this.changed());
     this.controls.update();
   }
 
@@ -90,6 +92,52 @@ export class CameraRig {
     this.changed();
   }
 
+  /** From the target to the camera, of length one. */
+  get direction(): Triple {
+    return this.camera.position.clone().sub(this.controls.target).normalize().toArray();
+  }
+
+  /** Brings what is at the target nearer (`factor` above 1) or moves it away. */
+  zoom(factor: number): void {
+    if (this.orthographic) {
+      this.parallel.zoom = Math.min(400, Math.max(0.05, this.parallel.zoom * factor));
+      this.parallel.updateProjectionMatrix();
+    } else {
+      const { target } = this.controls;
+      const away = this.perspective.position.clone().sub(target).divideScalar(factor);
+      this.perspective.position.copy(target).add(away.clampLength(0.01, 30));
+    }
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Turns about the vertical and towards the zenith [rad]. */
+  turn(aside: number, up: number): void {
+    const { target } = this.controls;
+    const axis = new THREE.Vector3(...this.up);
+    const away = this.camera.position.clone().sub(target);
+    const polar = away.angleTo(axis);
+    const right = new THREE.Vector3().crossVectors(axis, away).normalize();
+    const allowed = Math.min(polar - 0.01, Math.max(polar - Math.PI + 0.01, up));
+    away.applyAxisAngle(right, -allowed).applyAxisAngle(axis, aside);
+    this.camera.position.copy(target).add(away);
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Looks from where another camera of the same kind of view looks. */
+  follow(other: CameraRig): void {
+    this.quiet = true;
+    if (other.orthographic !== this.orthographic) this.setOrthographic(other.orthographic);
+    this.height = other.height;
+    this.parallel.zoom = other.parallel.zoom;
+    this.camera.position.copy(other.camera.position);
+    this.controls.target.copy(other.controls.target);
+    this.setFrustum();
+    this.controls.update();
+    this.quiet = false;
+  }
+
   /** Changes the projection; what is at the target keeps its size. */
   setOrthographic(on: boolean): void {
     if (on === this.orthographic) return;
@@ -107,6 +155,6 @@ export class CameraRig {
     }
     this.orthographic = on;
     this.bind(target);
-    this.changed();
+    if (!this.quiet) this.changed();
   }
 }

@@ -1,4 +1,5 @@
 declare module '*/tests/fixture.mjs' {
+  import type { PageRows, PageRun } from './page_data';
   export const kVariants: Record<
     | 'slider-crank'
     | 'slider-crank-3d'
@@ -12,8 +13,12 @@ declare module '*/tests/fixture.mjs' {
     | 'empty'
     | 'broken'
     | 'spatial'
-    | 'modes',
-    () => unknown
+    | 'modes'
+    | 'solid',
+    () => PageRun
   >;
-  export function base64(numbers: number[]): string;
+  export function base64(numbers: ArrayLike<number>): string;
+  export function ints(numbers: ArrayLike<number>): string;
+  export function rows(numbers: ArrayLike<number>): PageRows;
+  export function coded(numbers: ArrayLike<number>, width: number): PageRows;
 }

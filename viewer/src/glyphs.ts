@@ -47,6 +47,19 @@ export function arrow(color: THREE.ColorRepresentation, thickness = 0.03): THREE
   return new THREE.Group().add(shaft, head);
 }
 
+/** Arrow of unit length along z with a ring that turns about it. */
+export function turnArrow(color: THREE.ColorRepresentation): THREE.Group {
+  const material = solid(color);
+  const ring = new THREE.Mesh(new THREE.TorusGeometry(0.3, 0.035, 8, 36, 1.6 * Math.PI), material);
+  ring.position.z = 0.4;
+  const head = new THREE.Mesh(kCone, material);
+  head.scale.set(0.1, 0.1, 0.2);
+  const end = 1.6 * Math.PI;
+  head.position.set(0.3 * Math.cos(end), 0.3 * Math.sin(end), 0.4);
+  head.quaternion.setFromUnitVectors(kZ, new THREE.Vector3(-Math.sin(end), Math.cos(end), 0));
+  return arrow(color, 0.035).add(ring, head);
+}
+
 /** Three arrows x red, y green, z blue. */
 export function triad(thickness = 0.035): THREE.Group {
   const group = new THREE.Group();

@@ -1,3 +1,4 @@
+import { kRunNames } from './charts';
 import { modal, nameTable } from './dialog';
 import { el } from './dom';
 import { flatten, notices, summaryChips, trustReasons } from './run_summary';
@@ -11,38 +12,58 @@ function list(title: string, lines: string[]): HTMLElement[] {
   ];
 }
 
-/** The dialog with warnings in full and every figure of the summary. */
-function details(run: Run): HTMLDialogElement {
+function storageText({ times, storage }: Run): string {
+  const shown = `${times.length} of ${storage.records} records are in this page`;
+  const rounded = storage.rounded ? ', deformations and fields rounded to 16 bits' : '';
+  return `${[`${shown}${rounded}`, ...storage.notes].join('. ')}.`;
+}
+
+/** Warnings in full and every figure of the summary. */
+function details(run: Run): HTMLElement[] {
   const rows = flatten(run.summary);
   const made = [run.version && `Buckens ${run.version}`, run.generated].filter(Boolean).join(' · ');
-  return modal(
-    run.title,
+  return [
     el('p', { class: 'made' }, made),
+    el('p', { class: 'made' }, storageText(run)),
     ...list('Why the result needs a second look', trustReasons(run.summary)),
     ...list('Warnings', notices(run.summary)),
     el('h3', {}, 'Summary of the run'),
     rows.length ? nameTable(rows) : el('p', {}, 'The run left no summary.'),
+  ];
+}
+
+/** With little room only what tells whether the run is to be trusted. */
+function chips(run: Run, brief: boolean): HTMLElement[] {
+  const shown = summaryChips(run).filter(({ tone }) => !brief || tone !== 'plain');
+  return shown.map(({ label, value, tone, title }) =>
+    el('span', { class: `chip ${tone}`, title }, label ? `${label} ` : '', el('b', {}, value)),
   );
 }
 
 /** Title and the few figures that say how the run went; a click on them shows all. */
-export function header(run: Run): HTMLElement {
-  const dialog = details(run);
+export function header(runs: Run[]): HTMLElement {
+  const title = runs.map((run) => run.title).join(' | ');
+  const content = runs.length === 1 ? details(runs[0]!) : runs.flatMap((run, i) => [
+    el('h3', { class: 'run-name' }, `${kRunNames[i]!}: ${run.title}`),
+    ...details(run),
+  ]);
+  const dialog = modal(title, ...content);
   const open = () => dialog.showModal();
-  const chips = summaryChips(run).map(({ label, value, tone, title }) =>
-    el('span', { class: `chip ${tone}`, title }, label ? `${label} ` : '', el('b', {}, value)),
+  const buttons = runs.map((run, i) =>
+    el(
+      'button',
+      { class: 'chips', type: 'button', title: storageText(run), click: open },
+      ...(runs.length === 1 ? [] : [el('b', {}, kRunNames[i]!)]),
+      ...chips(run, runs.length > 1),
+      ...(i === runs.length - 1 ? ['Details'] : []),
+    ),
   );
   return el(
     'header',
     { class: 'top' },
     el('span', { class: 'brand' }, 'Buckens'),
-    el('h1', { title: run.title }, run.title),
-    el(
-      'button',
-      { class: 'chips', title: 'All figures of the run', click: open },
-      ...chips,
-      'Details',
-    ),
+    el('h1', { title }, title),
+    ...buttons,
     dialog,
   );
 }

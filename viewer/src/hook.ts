@@ -18,6 +18,14 @@ export interface ViewerState extends ViewOptions {
   mode: number | null;
   /** Its largest displacement over the model's size, null in runs. */
   amplitude: number | null;
+  /** Range of the field shown at the present time; null without one. */
+  present: [number, number] | null;
+  /** Time of the processor for the last picture: shapes and colours; handing it over [ms]. */
+  cost: { update: number; render: number };
+  /** Followed nodes: run, body, node, and place in the view [CSS px]. */
+  picks: { pane: number; body: string; node: number; screen: { x: number; y: number } }[];
+  /** Direction from the target to the camera, of every view. */
+  cameras: [number, number, number][];
   /** Time cursor of each panel shown [CSS px from the left end of its axis]. */
   cursors: { name: string; x: number }[];
   /** Pose (position, quaternion w x y z) and place of the mass centre in the view [CSS px]. */

@@ -1,14 +1,24 @@
 import { modal, nameTable } from './dialog';
 
+/** One press of a key turns the camera by this [rad]. */
+const kTurn = Math.PI / 18;
+
 /** What the keys do, told to the user. */
 const kKeys: [string, string][] = [
   ['space', 'play, pause'],
   ['← →', 'one stored frame (with shift ten)'],
-  ['↑ ↓', 'another mode, in pages with modes'],
   ['home, end', 'begin, end'],
-  ['f', 'fit: the whole run in view'],
-  ['o', 'parallel or perspective projection'],
-  ['j b l u s', 'joints, frames, names, undeformed shape, stress'],
+  ['↑ ↓', 'another mode, in pages with modes'],
+  ['+ −', 'nearer, further'],
+  ['1 2 3 · 0', 'seen along x, y, z · from the corner'],
+  ['q w · page up, page down', 'turn · tilt'],
+  ['f · o', 'fit: the whole run in view · parallel or perspective'],
+  ['[ ]', 'less, more deformation'],
+  ['v, shift v', 'next, previous field'],
+  ['j a b l u s', 'joints, loads, frames, names, undeformed shape, colours'],
+  ['e · x', 'edges of elements · section'],
+  ['t', 'light, dark, as the system has it'],
+  ['click on a body', 'follow the nearest node, or no longer'],
   ['drag', 'turn; right button or ctrl: move; wheel: zoom'],
   ['click or drag in a curve', 'go to that time'],
   ['?', 'this list'],
@@ -20,6 +30,12 @@ export interface KeyActions {
   toStart(): void;
   toEnd(): void;
   fit(): void;
+  zoom(factor: number): void;
+  turn(aside: number, up: number): void;
+  /** Along axis 0, 1, 2, or from the corner for −1. */
+  lookAlong(axis: number): void;
+  deform(factor: number): void;
+  nextField(steps: number): void;
   project(): void;
   /** Any other key; false if it means nothing. */
   other(key: string): boolean;
@@ -53,6 +69,21 @@ export class Keyboard {
       Home: () => actions.toStart(),
       End: () => actions.toEnd(),
       f: () => actions.fit(),
+      '+': () => actions.zoom(1.25),
+      '=': () => actions.zoom(1.25),
+      '-': () => actions.zoom(0.8),
+      q: () => actions.turn(-kTurn, 0),
+      w: () => actions.turn(kTurn, 0),
+      PageUp: () => actions.turn(0, kTurn),
+      PageDown: () => actions.turn(0, -kTurn),
+      '1': () => actions.lookAlong(0),
+      '2': () => actions.lookAlong(1),
+      '3': () => actions.lookAlong(2),
+      '0': () => actions.lookAlong(-1),
+      '[': () => actions.deform(1 / 1.5),
+      ']': () => actions.deform(1.5),
+      v: () => actions.nextField(1),
+      V: () => actions.nextField(-1),
       o: () => actions.project(),
       '?': () => this.help.showModal(),
     };

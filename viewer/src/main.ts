@@ -4,11 +4,13 @@ import './style/transport.css';
 import './style/curves.css';
 import './style/dialog.css';
 import './style/modes.css';
+import './style/panels.css';
 import './style/narrow.css';
 import { el } from './dom';
 import { checkModes, ModeShapes } from './modes';
-import { decodeRun, PageDataError } from './run';
+import { checkPage, decodeRun, PageDataError } from './run';
 import { Page } from './page';
+import { startTheme } from './theme';
 import type { PageData } from './page_data';
 
 declare global {
@@ -34,14 +36,23 @@ function start(app: HTMLElement): void {
     return;
   }
   try {
-    const run = decodeRun(data);
-    document.title = `${run.title} – Buckens`;
-    if (run.times.length === 0) {
+    const pages = checkPage(data);
+    const runs = pages.map(decodeRun);
+    document.title = `${runs.map((run) => run.title).join(' | ')} – Buckens`;
+    const empty = runs.find((run) => run.times.length === 0);
+    if (empty) {
       const text = 'The run stored no frame yet. Write the page again once the run is on its way.';
-      app.append(refuse(run.title, text));
-    } else {
-      new Page(app, run, data.modes ? new ModeShapes(run, checkModes(data.modes, run)) : null);
+      app.append(refuse(empty.title, text));
+      return;
     }
+    const vibrating = pages.filter((page) => page.modes);
+    if (vibrating.length > 0 && vibrating.length < pages.length) {
+      throw new PageDataError('a run and vibrations cannot be shown side by side');
+    }
+    const shapes = vibrating.map((page, i) => {
+      return new ModeShapes(runs[i]!, checkModes(page.modes!, runs[i]!));
+    });
+    new Page(app, runs, shapes);
   } catch (error) {
     if (!(error instanceof PageDataError)) throw error;
     app.append(
@@ -53,4 +64,5 @@ function start(app: HTMLElement): void {
   }
 }
 
+startTheme();
 start(document.getElementById('app')!);

@@ -4,18 +4,26 @@ import type { ModeShapes } from './modes';
 
 const kMostAmplitude = 0.3;
 
+function hertz(frequency = NaN): string {
+  if (Number.isNaN(frequency)) return '–';
+  return frequency > 0 ? `${Number(frequency.toPrecision(6))} Hz` : 'unstable';
+}
+
 /** The column beside the view of a page with vibrations: which mode, and how far it swings. */
 export class ModeList {
   readonly root: HTMLElement;
+  private readonly shapes: ModeShapes;
   private readonly entries: HTMLButtonElement[];
   private readonly amplitude: HTMLInputElement;
 
-  /** `changed` is called after another mode or amplitude was chosen. */
+  /** Modes of one model, or of two side by side; `changed` is called after another mode or amplitude was chosen. */
   constructor(
-    private readonly shapes: ModeShapes,
+    private readonly all: ModeShapes[],
     private readonly changed: () => void,
   ) {
-    this.entries = shapes.modes.map(({ label, frequency, mass }, i) =>
+    const shapes = all[0]!;
+    this.shapes = shapes;
+    this.entries = shapes.modes.map(({ label, mass }, i) =>
       el(
         'button',
         {
@@ -25,7 +33,7 @@ export class ModeList {
           click: () => this.choose(i),
         },
         el('span', {}, label),
-        el('b', {}, frequency > 0 ? `${Number(frequency.toPrecision(6))} Hz` : 'unstable'),
+        el('b', {}, all.map((each) => hertz(each.modes[i]?.frequency)).join(' | ')),
       ),
     );
     this.amplitude = el('input', {
@@ -38,8 +46,8 @@ export class ModeList {
     });
     this.amplitude.addEventListener('input', () => this.choose(this.shapes.index));
     this.root = el(
-      'aside',
-      { class: 'side modes', 'aria-label': 'Modes' },
+      'div',
+      { class: 'mode-choice' },
       el('div', { class: 'side-head' }, el('h2', {}, 'Modes')),
       el(
         'label',
@@ -53,7 +61,7 @@ export class ModeList {
   }
 
   choose(index: number): void {
-    this.shapes.show(index, Number(this.amplitude.value));
+    for (const shapes of this.all) shapes.show(index, Number(this.amplitude.value));
     this.mark();
     this.changed();
   }

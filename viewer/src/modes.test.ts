@@ -3,10 +3,9 @@ import { kVariants } from '../tests/fixture.mjs';
 import { checkModes, ModeShapes } from './modes';
 import { Motion } from './motion';
 import { decodeRun, PageDataError } from './run';
-import type { PageData } from './page_data';
 
 function shapesOf(): ModeShapes {
-  const data = kVariants['modes']() as unknown as PageData;
+  const data = kVariants['modes']();
   const run = decodeRun(data);
   return new ModeShapes(run, checkModes(data.modes!, run));
 }
@@ -48,7 +47,7 @@ describe('ModeShapes', () => {
   });
 
   it('refuses a list that does not fit the frames', () => {
-    const data = kVariants['modes']() as unknown as PageData;
+    const data = kVariants['modes']();
     const run = decodeRun(data);
     expect(() => checkModes(data.modes!.slice(1), run)).toThrow(PageDataError);
   });

@@ -1,5 +1,6 @@
 import { runBounds } from './bounds';
 import { rotate } from './motion';
+import { SwingingRows } from './rows';
 import { PageDataError, type Run } from './run';
 import type { PageMode } from './page_data';
 
@@ -28,6 +29,10 @@ export function checkModes(modes: PageMode[], run: Run): Mode[] {
 /** Pictures of one period. */
 const kFrames = 65;
 
+function phase(frame: number): number {
+  return (2 * Math.PI * frame) / (kFrames - 1);
+}
+
 /** q · exp(w): a rotation vector in body axes after the quaternion w, x, y, z at `at` of q. */
 function turned(q: ArrayLike<number>, at: number, w: number[]): number[] {
   const angle = Math.hypot(...w);
@@ -53,6 +58,8 @@ export class ModeShapes {
   amplitude = 0.08;
   /** Length to which the amplitude refers [m]. */
   readonly size: number;
+  /** Displacement over the shape's, per picture. */
+  private readonly factors = new Float64Array(kFrames);
 
   /** `shapes` holds one mode per frame. */
   constructor(
@@ -67,7 +74,8 @@ export class ModeShapes {
       bodies: shapes.bodies.map((body) => ({
         ...body,
         pose: new Float32Array(7 * kFrames),
-        displacement: body.displacement && new Float32Array(6 * body.nodes.length * kFrames),
+        displacement: body.displacement && new SwingingRows(body.displacement, this.factors),
+        fields: [],
       })),
     };
     this.show(0, this.amplitude);
@@ -85,25 +93,24 @@ export class ModeShapes {
   show(index: number, amplitude: number): void {
     this.index = Math.min(this.modes.length - 1, Math.max(0, index));
     this.amplitude = amplitude;
+    for (const body of this.run.bodies) {
+      if (body.displacement instanceof SwingingRows) body.displacement.choose(this.index);
+    }
     for (let k = 0; k < kFrames; k++) {
       this.run.times[k] = (this.period * k) / (kFrames - 1);
-      this.fill(k, amplitude * this.size * Math.sin((2 * Math.PI * k) / (kFrames - 1)));
+      this.factors[k] = amplitude * this.size * Math.sin(phase(k));
+      this.turn(k, this.factors[k]!);
     }
   }
 
-  /** Writes frame k with the shape times `factor`. */
-  private fill(k: number, factor: number): void {
+  /** Writes the poses of frame k with the shape times `factor`. */
+  private turn(k: number, factor: number): void {
     const m = this.index;
     this.shapes.bodies.forEach((shape, b) => {
       const body = this.run.bodies[b]!;
       const move = (i: number) => factor * (shape.motion?.[6 * m + i] ?? 0);
       for (let i = 0; i < 3; i++) body.pose[7 * k + i] = shape.pose[7 * m + i]! + move(3 + i);
       body.pose.set(turned(shape.pose, 7 * m + 3, [move(0), move(1), move(2)]), 7 * k + 3);
-      if (!shape.displacement || !body.displacement) return;
-      const row = 6 * body.nodes.length;
-      for (let i = 0; i < row; i++) {
-        body.displacement[row * k + i] = factor * shape.displacement[row * m + i]!;
-      }
     });
   }
 }

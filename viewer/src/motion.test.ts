@@ -5,9 +5,8 @@ import { Motion } from './motion';
 import { orientationOf } from './orientation';
 import { Playback } from './playback';
 import { decodeRun } from './run';
-import type { PageData } from './page_data';
 
-const run = (name: keyof typeof kVariants) => decodeRun(kVariants[name]() as unknown as PageData);
+const run = (name: keyof typeof kVariants) => decodeRun(kVariants[name]());
 
 describe('Motion', () => {
   it('closes the joints of the slider-crank at every time between frames', () => {

@@ -1,5 +1,5 @@
-import { interpolatePose, interpolateRow, locate, type FramePlace } from './interpolation';
-import type { Body, Run } from './run';
+import { interpolatePose, locate, type FramePlace } from './interpolation';
+import { nodeAt, numNodes, type Body, type Run } from './run';
 import type { PageJointSide, PageMarker, Triple } from './page_data';
 
 /** v turned by the unit quaternion w, x, y, z at offset `at` of q. */
@@ -19,44 +19,54 @@ export function rotate(q: ArrayLike<number>, at: number, v: ArrayLike<number>): 
 export class BodyMotion {
   /** px, py, pz, qw, qx, qy, qz. */
   readonly pose: number[] = [0, 0, 0, 1, 0, 0, 0];
-  /** nodes × 6, not magnified. */
-  readonly displacement: Float32Array;
-  readonly stress: Float32Array;
-  /** Von Mises stress of the solid elements below the surface [Pa]. */
-  readonly solidStress: Float32Array;
+  private place: FramePlace = { index: 0, fraction: 0 };
+  private readonly row: Float32Array;
+  private stale: boolean;
 
   constructor(readonly body: Body) {
-    this.displacement = new Float32Array(6 * body.nodes.length);
-    this.stress = new Float32Array(body.stress ? body.elements.length : 0);
-    const solids = body.faceElements.reduce((most, e) => Math.max(most, e + 1), 0);
-    this.solidStress = new Float32Array(body.solidStress ? solids : 0);
+    this.row = new Float32Array(body.perNode * numNodes(body));
+    this.stale = body.displacement !== null;
   }
 
   set(place: FramePlace): void {
-    const { pose, displacement, stress, solidStress } = this.body;
-    interpolatePose(pose, place, this.pose);
-    if (displacement) {
-      interpolateRow(displacement, this.displacement.length, place, this.displacement);
-    }
-    if (stress) interpolateRow(stress, this.stress.length, place, this.stress);
-    if (solidStress) interpolateRow(solidStress, this.solidStress.length, place, this.solidStress);
+    this.place = place;
+    this.stale = this.body.displacement !== null;
+    interpolatePose(this.body.pose, place, this.pose);
+  }
+
+  /** Nodes × `perNode`, not magnified; worked out when it is asked for. */
+  get displacement(): Float32Array {
+    if (this.stale) this.body.displacement!.interpolate(this.place, this.row);
+    this.stale = false;
+    return this.row;
+  }
+
+  /** One number of `displacement`, without working out the others. */
+  private moved(index: number): number {
+    const rows = this.body.displacement;
+    if (!rows || !this.stale) return this.row[index]!;
+    const { index: frame, fraction } = this.place;
+    const now = rows.value(frame, index);
+    return fraction === 0 ? now : now * (1 - fraction) + rows.value(frame + 1, index) * fraction;
   }
 
   /** A node in the body frame, displacement magnified by `scale`. */
   node(index: number, scale: number): Triple {
-    const p = this.body.nodes[index]!;
-    const d = 6 * index;
-    return [0, 1, 2].map((i) => p[i]! + scale * this.displacement[d + i]!) as Triple;
+    const { nodes, perNode } = this.body;
+    const at = (k: number) => nodes[3 * index + k]! + scale * this.moved(perNode * index + k);
+    return [at(0), at(1), at(2)];
   }
 
   /** A marker in the body frame: rigidly attached to its node. */
   marker(marker: PageMarker, scale: number): Triple {
-    const origin = this.body.nodes[marker.node];
-    if (!origin) return marker.position;
+    const { body } = this;
+    if (marker.node < 0 || marker.node >= numNodes(body)) return marker.position;
+    const origin = nodeAt(body, marker.node);
     const [x, y, z] = [0, 1, 2].map((i) => marker.position[i]! - origin[i]!) as Triple;
-    const at = 6 * marker.node + 3;
-    const [a, b, c] = [0, 1, 2].map((i) => scale * this.displacement[at + i]!) as Triple;
     const n = this.node(marker.node, scale);
+    if (body.perNode === 3) return [n[0] + x, n[1] + y, n[2] + z];
+    const at = 6 * marker.node + 3;
+    const [a, b, c] = [0, 1, 2].map((i) => scale * this.moved(at + i)) as Triple;
     return [n[0] + x + b * z - c * y, n[1] + y + c * x - a * z, n[2] + z + a * y - b * x];
   }
 
@@ -82,16 +92,6 @@ export class Motion {
   setPlace(place: FramePlace): void {
     this.place = place;
     for (const body of this.bodies) body.set(place);
-  }
-
-  /** Over all elements at the present time [Pa]. */
-  get largestStress(): number {
-    let most = 0;
-    for (const body of this.bodies) {
-      for (const s of body.stress) most = s > most ? s : most;
-      for (const s of body.solidStress) most = s > most ? s : most;
-    }
-    return most;
   }
 
   /** World position of one side of a joint. */

@@ -1,184 +1,181 @@
-import { Charts } from './charts';
+import { CameraBar } from './camera_bar';
+import { allTimes, valueAt } from './chart';
+import { Charts, kRunNames } from './charts';
 import { curveChoice } from './curve_choice';
+import { DisplayPanel } from './display_panel';
 import { el } from './dom';
+import { FieldPanel } from './field_panel';
+import { FieldShading } from './field_material';
+import { fieldItems, rangeOfRun } from './fields';
 import { header } from './header';
 import { Keyboard } from './keyboard';
+import { joined, runBounds } from './bounds';
 import { ModeList } from './mode_list';
+import { Pane } from './pane';
+import { PickPanel } from './pick_panel';
+import { historyAt } from './picks';
 import { Playback } from './playback';
-import { figure, prefixFor } from './quantity';
-import { Stage } from './stage';
-import { StressLegend } from './stress_legend';
-import { currentTheme, onThemeChange } from './theme';
+import { figure, niceBelow, prefixFor } from './quantity';
+import { Section } from './section';
+import { startOptions } from './start_options';
+import { chooseTheme, currentTheme, onThemeChange, themeChoice, type Theme } from './theme';
 import { Toolbar } from './toolbar';
 import { Transport } from './transport';
 import type { ModeShapes } from './modes';
-import { largestStress, type Run } from './run';
+import type { Run } from './run';
 import type { ViewerState } from './hook';
 import type { Triple } from './page_data';
 import type { ViewOptions } from './view_options';
 
 /** Seconds a person watches one period of a mode. */
 const kPeriodWatch = 2;
+const kAxes: Triple[] = [
+  [1, 0, 0],
+  [0, 1, 0],
+  [0, 0, 1],
+];
+/** Towards the camera, for planar models seen from the corner. */
+const kCorner: Triple = [0.55, 0.45, 0.7];
 
 /** The page: puts the parts together and keeps them at the same time. */
 export class Page {
+  private readonly runs: Run[];
   private readonly options: ViewOptions;
   private readonly playback: Playback;
+  private readonly shading = new FieldShading();
   private readonly charts: Charts;
   private readonly transport: Transport;
   private readonly toolbar: Toolbar;
-  private readonly view = el('div', { class: 'view' });
-  private readonly side: HTMLElement;
-  private readonly projection = el('button', { type: 'button', click: () => this.project() });
-  private readonly gridText = el('div', { class: 'grid-text' });
+  private readonly display: DisplayPanel;
+  private readonly field: FieldPanel;
+  private readonly picks: PickPanel;
+  private readonly camera: CameraBar;
   private readonly keyboard: Keyboard;
-  private stage: Stage | null = null;
-  private legend: StressLegend | null = null;
+  private readonly panes: Pane[];
+  private readonly view = el('div', { class: 'view' });
+  private readonly gridText = el('div', { class: 'grid-text' });
+  private readonly status = el('div', { class: 'unseen', role: 'status' });
   private readonly modeList: ModeList | null = null;
-  private readonly run: Run;
+  private theme: Theme = currentTheme();
   private dirty = true;
   private last = 0;
   private drawn = 0;
+  private itemShown = '';
 
+  /** @param shapes one per run on pages with vibrations */
   constructor(
     app: HTMLElement,
-    stored: Run,
-    private readonly shapes: ModeShapes | null = null,
+    stored: Run[],
+    private readonly shapes: ModeShapes[] = [],
   ) {
-    const run = shapes?.run ?? stored;
-    this.run = run;
-    const stressed = largestStress(run) > 0;
-    this.options = {
-      frames: false,
-      joints: true,
-      labels: false,
-      undeformed: false,
-      stress: stressed,
-      scale: 1,
-      trace: null,
-    };
+    const runs = shapes.length ? shapes.map((shape) => shape.run) : stored;
+    this.runs = runs;
+    const items = fieldItems(runs);
+    this.options = startOptions(items);
     const changed = () => this.changed();
-    this.playback = new Playback(run.times);
-    const theme = currentTheme();
-    this.charts = new Charts(run, theme, (t) => this.seek(t));
+    const times = allTimes(runs);
+    this.playback = new Playback(times);
+    this.charts = new Charts(shapes.length ? [] : runs, times, this.theme, (t) => this.seek(t));
     this.keyboard = this.keys();
-    this.toolbar = new Toolbar(run, this.options, changed);
-    // The amplitude of a mode takes the place of the deformation scale.
-    const deformable = !shapes && run.bodies.some((body) => body.displacement);
-    this.transport = new Transport(this.playback, this.options, deformable, changed);
-    if (shapes) this.modeList = new ModeList(shapes, () => this.restart());
-    this.side =
-      this.modeList?.root ??
-      el(
-        'aside',
-        { class: 'side', 'aria-label': 'Curves' },
-        curveChoice(this.charts),
-        this.charts.root,
-      );
-    const middle = el('section', { class: 'middle' }, this.view, this.transport.root);
-    app.append(
-      header(run),
-      el('main', { class: 'workspace' }, middle, this.side),
-      this.keyboard.help,
+    this.camera = new CameraBar({
+      lookAlong: (axis) => this.lookAlong(axis),
+      fit: () => this.leader?.fit(),
+      project: () => this.project(),
+      theme: () => this.nextTheme(),
+      help: () => this.keyboard.help.showModal(),
+    });
+    const bounds = runs.map(runBounds).reduce(joined);
+    this.panes = runs.map((run, i) => {
+      const title = runs.length > 1 ? `${kRunNames[i]!}: ${run.title}` : '';
+      const moved = () => this.moved(i);
+      return new Pane(run, title, bounds, this.theme, this.shading, moved, (pick) => {
+        if (pick) this.picks.flip({ ...pick, pane: i });
+      });
+    });
+    const section = this.leader?.section ?? new Section(bounds, []);
+    this.display = new DisplayPanel(runs[0]!, this.options, section, changed);
+    this.toolbar = new Toolbar(runs, this.options, this.display.root, changed);
+    const range = (id: string) => rangeOfRun(runs, id);
+    this.field = new FieldPanel(items, this.options, this.shading, range, changed);
+    this.picks = new PickPanel(
+      runs,
+      {
+        position: (pick) => this.panes[pick.pane]!.stage!.placeOf(pick, 1),
+        history: (pick) =>
+          historyAt(runs[pick.pane]!, pick, this.options.field.item, this.options.field.perElement),
+        item: () => this.field.itemShown,
+      },
+      (content) => {
+        this.charts.setExtra(content);
+        this.changed();
+      },
     );
-    this.addStage();
-    this.notice();
-    this.charts.layOut();
+    // The amplitude of a mode takes the place of the deformation scale.
+    const bodies = runs.flatMap((run) => run.bodies);
+    const deformable = !shapes.length && bodies.some((body) => body.displacement);
+    this.transport = new Transport(this.playback, this.options, deformable, changed, () => {
+      const most = rangeOfRun(runs, 'displacement/magnitude')[1];
+      return most > 0 ? Math.max(1, niceBelow((0.05 * bounds.machine) / most)) : 1;
+    });
+    if (shapes.length) this.modeList = new ModeList(shapes, () => this.restart());
+    this.assemble(app);
     this.watch();
-    if (shapes) this.restart();
+    if (shapes.length) this.restart();
     this.playback.playing =
       this.playback.canPlay && !matchMedia('(prefers-reduced-motion: reduce)').matches;
     requestAnimationFrame((now) => this.tick(now));
   }
 
-  private addStage(): void {
-    const changed = () => this.changed();
-    try {
-      this.stage = new Stage(this.run, currentTheme(), changed);
-    } catch (error) {
-      const text = `The 3-D view needs WebGL, which this browser does not offer (${String(error)}).`;
-      this.view.append(el('p', { class: 'notice' }, text));
-      return;
+  /** The view whose camera the others follow. */
+  private get leader() {
+    return this.panes[0]!.stage;
+  }
+
+  private assemble(app: HTMLElement): void {
+    const curves = this.modeList ? [this.modeList.root] : [curveChoice(this.charts)];
+    const label = this.modeList ? 'Modes' : 'Curves';
+    const side = el('aside', { class: 'side', 'aria-label': label }, ...curves);
+    if (this.modeList) side.classList.add('modes');
+    side.append(this.charts.root, this.picks.root);
+    const panes = el('div', { class: 'panes' }, ...this.panes.map((pane) => pane.root));
+    const bars = el('div', { class: 'bars' }, this.toolbar.root, this.camera.root);
+    const overlay = el('div', { class: 'overlay' }, bars, this.field.root);
+    this.view.append(panes, overlay, this.gridText, this.status);
+    const middle = el('section', { class: 'middle' }, this.view, this.transport.root);
+    const workspace = el('main', { class: 'workspace' }, middle, side);
+    app.append(header(this.runs), workspace, this.keyboard.help);
+    this.notice();
+    for (const pane of this.panes) {
+      pane.resize();
+      pane.stage?.fitHome();
     }
-    const axes: [string, Triple][] = [
-      ['X', [1, 0, 0]],
-      ['Y', [0, 1, 0]],
-      ['Z', [0, 0, 1]],
-    ];
-    const views = axes.map(([name, back]) =>
-      el(
-        'button',
-        { type: 'button', title: `Seen from +${name}`, click: () => this.stage!.fit(back) },
-        name,
-      ),
-    );
-    const spatial: Triple = [0.55, 0.45, 0.7];
-    const corner = this.run.planar ? spatial : undefined;
-    views.push(
-      el(
-        'button',
-        {
-          type: 'button',
-          title: 'Seen from the corner',
-          click: () => (corner ? this.stage!.fit(corner) : this.stage!.fitHome()),
-        },
-        '3D',
-      ),
-      el(
-        'button',
-        {
-          type: 'button',
-          'data-fit': '',
-          title: 'The whole run in view (f)',
-          click: () => this.stage!.fit(),
-        },
-        'Fit',
-      ),
-      this.projection,
-      el(
-        'button',
-        {
-          type: 'button',
-          title: 'Keys and mouse (?)',
-          click: () => this.keyboard.help.showModal(),
-        },
-        '?',
-      ),
-    );
-    this.legend = new StressLegend(
-      this.stage.stressRange,
-      this.run.bodies.every((body) => body.stress === null),
-    );
-    this.view.append(
-      this.stage.canvas,
-      this.stage.labels.root,
-      this.toolbar.root,
-      el('div', { class: 'toolbar right', role: 'toolbar', 'aria-label': 'Camera' }, ...views),
-      this.legend.root,
-      this.gridText,
-    );
-    const box = this.view.getBoundingClientRect();
-    this.stage.resize(box.width, box.height);
-    this.stage.fitHome();
+    this.charts.layOut();
   }
 
   private notice(): void {
-    const frames = this.run.times.length;
+    const [run] = this.runs;
+    const fault = this.panes.find((pane) => pane.fault)?.fault;
     let text = '';
-    if (this.run.bodies.length === 0) text = 'This run has no bodies to draw.';
-    else if (frames === 1) text = 'One stored frame only: there is nothing to play.';
+    if (fault) text = `The 3-D view needs WebGL, which this browser does not offer (${fault}).`;
+    else if (run!.bodies.length === 0) text = 'This run has no bodies to draw.';
+    else if (run!.times.length === 1) text = 'One stored frame only: there is nothing to play.';
     else if (!this.playback.canPlay) text = 'All frames are at one time: there is nothing to play.';
     if (text) this.view.append(el('p', { class: 'notice' }, text));
   }
 
   private keys(): Keyboard {
-    const { playback } = this;
+    const step = (frames: number) => this.step(() => this.playback.stepFrames(frames));
     return new Keyboard({
       toggle: () => this.transport.toggle(),
-      stepFrames: (frames) => this.step(() => playback.stepFrames(frames)),
-      toStart: () => this.seek(playback.start),
-      toEnd: () => this.seek(playback.end),
-      fit: () => this.stage?.fit(),
+      stepFrames: step,
+      toStart: () => this.seek(this.playback.start),
+      toEnd: () => this.seek(this.playback.end),
+      fit: () => this.leader?.fit(),
+      zoom: (factor) => this.leader?.rig.zoom(factor),
+      turn: (aside, up) => this.leader?.rig.turn(aside, up),
+      lookAlong: (axis) => this.lookAlong(axis),
+      deform: (factor) => this.transport.setScale(this.options.scale * factor),
+      nextField: (steps) => this.field.step(steps),
       project: () => this.project(),
       other: (key) => this.otherKey(key),
     });
@@ -189,22 +186,47 @@ export class Page {
       this.modeList.step(key === 'ArrowUp' ? -1 : 1);
       return true;
     }
-    return this.toolbar.key(key);
+    if (key === 'e') this.display.nextEdges();
+    else if (key === 'x') this.display.nextAxis();
+    else if (key === 't') this.nextTheme();
+    else return this.toolbar.key(key);
+    return true;
+  }
+
+  private lookAlong(axis: number): void {
+    if (axis >= 0) this.leader?.fit(kAxes[axis]);
+    else if (this.runs[0]!.planar) this.leader?.fit(kCorner);
+    else this.leader?.fitHome();
   }
 
   private project(): void {
-    this.stage?.rig.setOrthographic(!this.stage.rig.orthographic);
+    this.leader?.rig.setOrthographic(!this.leader.rig.orthographic);
+    this.changed();
+  }
+
+  private nextTheme(): void {
+    const next = { auto: 'light', light: 'dark', dark: 'auto' } as const;
+    chooseTheme(next[themeChoice()]);
+  }
+
+  /** The camera of one view has moved: the others look from there too. */
+  private moved(index: number): void {
+    const from = this.panes?.[index]?.stage;
+    if (from) {
+      for (const { stage } of this.panes) if (stage && stage !== from) stage.rig.follow(from.rig);
+    }
     this.changed();
   }
 
   private watch(): void {
     new ResizeObserver(() => {
-      this.stage?.resize(this.view.clientWidth, this.view.clientHeight);
+      for (const pane of this.panes) pane.resize();
       this.changed();
     }).observe(this.view);
     new ResizeObserver(() => this.charts.resize()).observe(this.charts.root);
     onThemeChange((theme) => {
-      this.stage?.setTheme(theme);
+      this.theme = theme;
+      for (const pane of this.panes) pane.stage?.setTheme(theme);
       this.charts.setTheme(theme);
       this.changed();
     });
@@ -231,6 +253,8 @@ export class Page {
   /** Another mode or amplitude: its period takes the place of the run. */
   private restart(): void {
     this.transport.restart(kPeriodWatch);
+    this.field.forget();
+    this.picks.refresh();
     this.changed();
   }
 
@@ -245,42 +269,93 @@ export class Page {
   private draw(): void {
     this.dirty = false;
     this.drawn++;
-    const { stage, options, playback } = this;
+    const { options, playback, leader } = this;
+    this.followField();
     this.transport.update();
     this.toolbar.update();
+    this.display.update();
     this.charts.setTime(playback.time);
-    if (!stage) return;
-    this.projection.textContent = stage.rig.orthographic ? 'Parallel' : 'Perspective';
-    this.projection.title = 'Change the projection (o)';
-    stage.render(playback.time, options);
-    const { factor, unit } = prefixFor(stage.gridSpacing, 'm');
-    const grid = `grid ${figure(stage.gridSpacing / factor, 1)} ${unit}`;
-    const enlarged =
-      options.scale > 1 ? `deformation × ${Number(options.scale.toPrecision(3))} · ` : '';
-    this.gridText.textContent = enlarged + grid;
-    this.legend!.update(options.stress && stage.stressRange > 0, stage.motion.largestStress);
+    if (!leader) return;
+    this.camera.update(leader.rig.orthographic, themeChoice());
+    for (const { stage } of this.panes) stage!.update(playback.time, options);
+    this.field.update(this.present());
+    this.panes.forEach(({ stage }, pane) => {
+      const colors = this.theme.curves;
+      const own = this.picks.picks
+        .map((pick, i) => ({ pick, color: colors[i % colors.length]! }))
+        .filter(({ pick }) => pick.pane === pane);
+      stage!.render(options, own);
+    });
+    const { size } = leader.bounds;
+    this.picks.update((curve) => valueAt(curve, playback.time), this.theme.curves, size);
+    this.describe();
+  }
+
+  /** Another field is shown: the curves at nodes are those of another quantity. */
+  private followField(): void {
+    const { item, perElement } = this.options.field;
+    const shown = `${item} ${perElement}`;
+    if (shown === this.itemShown) return;
+    if (this.itemShown && this.picks.picks.length > 0) this.picks.refresh();
+    this.itemShown = shown;
+    this.dirty = false;
+  }
+
+  /** Range of the field in all views. */
+  private present(): [number, number] {
+    const all = this.panes.flatMap(({ stage }) => stage!.present).filter(Number.isFinite);
+    return all.length ? [Math.min(...all), Math.max(...all)] : [NaN, NaN];
+  }
+
+  /** Texts in the corner, and what a screen reader says about the picture. */
+  private describe(): void {
+    const { options, leader, playback } = this;
+    const { factor, unit } = prefixFor(leader!.gridSpacing, 'm');
+    const grid = `grid ${figure(leader!.gridSpacing / factor, 1)} ${unit}`;
+    const scale = options.scale === 1 ? '' : `deformation × ${figure(options.scale, 3)} · `;
+    this.gridText.textContent = scale + grid;
+    if (playback.playing) return;
+    const field = options.colors ? this.field.itemShown?.label : '';
+    const shown = field ? `, ${field} in colour` : '';
+    this.panes.forEach(({ run, stage }) => {
+      const text = `${run.title} at ${figure(playback.time, 4)} s${shown}. Drag to turn, wheel to zoom, click to follow a node.`;
+      if (stage!.canvas.ariaLabel !== text) stage!.canvas.ariaLabel = text;
+    });
+    const said = field ?? '';
+    if (this.status.textContent !== said) this.status.textContent = said;
   }
 
   private state(): ViewerState {
     // Draws first, so that a test never reads the picture before last.
     if (this.dirty) this.draw();
     const { time, playing, speed } = this.playback;
+    const { leader } = this;
+    const present = leader ? this.present() : [NaN, NaN];
     return {
       time,
       playing,
       speed,
       ...this.options,
-      frame: this.stage?.motion.place.index ?? 0,
-      orthographic: this.stage?.rig.orthographic ?? false,
+      frame: leader?.motion.place.index ?? 0,
+      orthographic: leader?.rig.orthographic ?? false,
       drawn: this.drawn,
-      size: this.stage?.bounds.size ?? 0,
+      size: leader?.bounds.size ?? 0,
       cursors: this.charts.cursors(),
-      mode: this.shapes?.index ?? null,
-      amplitude: this.shapes?.amplitude ?? null,
-      bodies: (this.stage?.motion.bodies ?? []).map((motion) => ({
+      mode: this.shapes[0]?.index ?? null,
+      amplitude: this.shapes[0]?.amplitude ?? null,
+      present: Number.isFinite(present[0]) ? (present as [number, number]) : null,
+      cost: leader?.cost ?? { update: 0, render: 0 },
+      picks: this.picks.picks.map((pick) => {
+        const stage = this.panes[pick.pane]!.stage!;
+        const body = this.runs[pick.pane]!.bodies[pick.body]!.name;
+        const screen = stage.project(stage.placeOf(pick, this.options.scale));
+        return { pane: pick.pane, body, node: pick.node, screen };
+      }),
+      cameras: this.panes.map(({ stage }) => stage!.rig.direction),
+      bodies: (leader?.motion.bodies ?? []).map((motion) => ({
         name: motion.body.name,
         pose: [...motion.pose],
-        screen: this.stage!.project(motion.toWorld([0, 0, 0])),
+        screen: leader!.project(motion.toWorld([0, 0, 0])),
       })),
     };
   }

@@ -1,4 +1,4 @@
-/** The JSON that `buckens view` puts into the page, format 1. SI units throughout. */
+/** The JSON that `buckens view` puts into the page, format 2. SI units throughout. */
 
 export type Triple = [number, number, number];
 
@@ -15,32 +15,65 @@ export interface PageMarker {
   node: number;
 }
 
+/**
+ * One row of numbers per frame. `f32`: as they are. `u16`: codes 0 … 65534 over the range (least,
+ * largest) of their row, 65535 for a missing number.
+ */
+export interface PageRows {
+  type: 'f32' | 'u16';
+  values: Base64;
+  /** frames × 2 float32, of codes only. */
+  ranges?: Base64;
+}
+
+/** A recorded quantity of a body. */
+export interface PageField {
+  /** As in results.h5: "von_mises", "stress" … */
+  name: string;
+  unit: string;
+  /** Names of the numbers at one place; one empty name for a scalar. */
+  components: string[];
+  /**
+   * What has a value: `places` of the surface (`facePlaces`), `elements` with a face, `lines`
+   * (`elements` of the body).
+   */
+  on: 'places' | 'elements' | 'lines';
+  /** True for one row that holds for the whole run. */
+  constant?: boolean;
+  /** frames × places × components. */
+  values: PageRows;
+}
+
 export interface PageBody {
   name: string;
   kind: 'rigid' | 'beam' | 'solid';
-  /** Body frame, undeformed [m]. The origin is the mass centre. */
-  nodes: Triple[];
+  /** Nodes × 3, body frame, undeformed [m]. The origin is the mass centre. */
+  nodes: Base64;
+  /** Number in the run of each node as int32; missing if they are 0, 1, 2 … */
+  nodeNumbers?: Base64 | null;
   elements: [number, number][];
   /** Radius of the drawn tube per element [m]. */
   radius: number[];
   markers: PageMarker[];
   /** frames × 7: position, then unit quaternion w, x, y, z. */
   pose: Base64;
-  /** Surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
-  faces?: [number, number, number, number][];
-  /** Per face the element below it, counted among those that have a face. */
-  faceElements?: number[];
-  /** frames × elements with a face: von Mises stress at the centre [Pa]. */
-  solidStress?: Base64 | null;
+  /**
+   * Surface of solids, faces × 4 as int32: nodes counter-clockwise seen from outside, the fourth −1
+   * for triangles.
+   */
+  faces?: Base64;
+  /** Per face the element below it as int32, counted among those that have a face. */
+  faceElements?: Base64;
+  /** Faces × 4 as int32: the place of fields on `places` at each corner, −1 if it has none. */
+  facePlaces?: Base64 | null;
   /**
    * frames × nodes × 6: translations [m] and rotations [rad] in the body frame; × 3 without the
    * rotations for solids without beams or bars.
    */
-  displacement: Base64 | null;
+  displacement: PageRows | null;
   /** Pages with modes: frames × 6, rotation of the body frame in its axes [rad], translation [m]. */
   motion?: Base64 | null;
-  /** frames × elements: largest |stress| in the element [Pa]. */
-  stress: Base64 | null;
+  fields?: PageField[];
 }
 
 export interface PageJointSide {
@@ -58,6 +91,28 @@ export interface PageJoint {
   between: PageJointSide[];
   /** Unit vector along the axes of the first side's body, of the world for the ground. */
   axis: Triple;
+}
+
+/** A load to be drawn as arrows. */
+export interface PageLoad {
+  name: string;
+  /** "force", "torque", "pressure" … */
+  kind: string;
+  /** Index into bodies, −1 for the ground. */
+  body: number;
+  /** Directions turn with the body. */
+  follows: boolean;
+  unit: string;
+  /** Feet of the arrows in the body frame, undeformed [m]. */
+  positions: Triple[];
+  /** Node that carries each foot, −1 if none. */
+  nodes: number[];
+  /** Unit vectors, for a value of one. */
+  directions: Triple[];
+  /** frames × 1: factor of the directions; frames × 3: vector in their place; null if not recorded. */
+  values: Base64 | null;
+  /** Numbers per frame: 1, 3, or 0 without values. */
+  width: number;
 }
 
 export interface PageSensor {
@@ -82,14 +137,24 @@ export interface PageMode {
   mass: number;
 }
 
-export interface PageData {
-  format: number;
+/** What the page holds of the run. */
+export interface PageStorage {
+  /** Records in the run; the page has `time.n` of them. */
+  records: number;
+  /** Fields and displacements are rounded to 16 bits. */
+  rounded: boolean;
+  /** Why frames were left out, and other things to know; sentences. */
+  notes: string[];
+}
+
+export interface PageRun {
   title: string;
   version: string;
   generated: string;
   time: { n: number; f32: Base64 };
   bodies: PageBody[];
   joints: PageJoint[];
+  loads?: PageLoad[];
   gravity: Triple;
   planar: string | null;
   sensors: PageSensor[];
@@ -97,4 +162,11 @@ export interface PageData {
   summary: Record<string, unknown>;
   /** Missing in pages of runs. */
   modes?: PageMode[] | null;
+  storage?: PageStorage;
+}
+
+/** One run, or two side by side. */
+export interface PageData {
+  format: number;
+  runs: PageRun[];
 }

@@ -14,7 +14,7 @@ const kPrefixes: [number, string][] = [
   [1e6, 'M'],
   [1e9, 'G'],
 ];
-const kUpAndDown = /^(N|N m|Pa|J|W)$/;
+const kUpAndDown = /^(N|N m|Pa|J|W|J\/m\^3)$/;
 const kDownOnly = /^(m|m\/s|s|rad)$/;
 
 /** The prefix under which `largest` has one to three digits before the point. */

@@ -1,9 +1,8 @@
 import { describe, expect, it } from 'vitest';
-import { kVariants, base64 } from '../tests/fixture.mjs';
-import { decodeFloats, decodeRun, PageDataError } from './run';
-import type { PageData } from './page_data';
+import { kVariants, base64, rows } from '../tests/fixture.mjs';
+import { checkPage, decodeFloats, decodeRun, PageDataError } from './run';
 
-const fresh = () => kVariants['slider-crank']() as unknown as PageData;
+const fresh = () => kVariants['slider-crank']();
 
 describe('decodeFloats', () => {
   it('reads little-endian float32', () => {
@@ -32,7 +31,9 @@ describe('decodeRun', () => {
     expect(run.times).toHaveLength(400);
     expect(run.times[399]).toBeCloseTo(0.1, 7);
     expect(run.bodies.map((body) => body.name)).toEqual(['crank', 'rod', 'slider']);
-    expect(run.bodies[1]!.displacement).toHaveLength(400 * 13 * 6);
+    expect(run.bodies[1]!.displacement).toMatchObject({ frames: 400, width: 13 * 6 });
+    expect(run.bodies[1]!.fields.map((field) => field.name)).toEqual(['von_mises']);
+    expect(run.loads[0]).toMatchObject({ name: 'push', width: 3 });
     expect(run.bodies[1]!.hasRotations).toBe(true);
     expect(run.bodies[0]!.hasRotations).toBe(false);
     expect(run.joints).toHaveLength(5);
@@ -41,14 +42,16 @@ describe('decodeRun', () => {
   });
 
   it('takes runs without frames, bodies or curves', () => {
-    expect(decodeRun(kVariants['no-frames']() as unknown as PageData).times).toHaveLength(0);
-    expect(decodeRun(kVariants['no-bodies']() as unknown as PageData).bodies).toHaveLength(0);
-    expect(decodeRun(kVariants['no-curves']() as unknown as PageData).sensors).toHaveLength(0);
+    expect(decodeRun(kVariants['no-frames']()).times).toHaveLength(0);
+    expect(decodeRun(kVariants['no-bodies']()).bodies).toHaveLength(0);
+    expect(decodeRun(kVariants['no-curves']()).sensors).toHaveLength(0);
   });
 
-  it('refuses an unfilled page, another format, time that runs backwards, missing nodes', () => {
-    expect(() => decodeRun(null)).toThrow('holds no run');
-    expect(() => decodeRun({ ...fresh(), format: 2 })).toThrow('format 2');
+  it('refuses an unfilled page, another format, no run, time that runs backwards, missing nodes', () => {
+    expect(() => checkPage(null)).toThrow('holds no run');
+    expect(() => checkPage({ format: 1, runs: [] })).toThrow('format 1');
+    expect(() => checkPage({ format: 2, runs: [] })).toThrow('0 found');
+    expect(checkPage({ format: 2, runs: [fresh(), fresh()] })).toHaveLength(2);
     const backwards = { ...fresh(), time: { n: 2, f32: base64([1, 0]) }, bodies: [], joints: [] };
     expect(() => decodeRun(backwards)).toThrow('time: decreases at frame 1');
     const wrong = fresh();
@@ -57,5 +60,11 @@ describe('decodeRun', () => {
     const loose = fresh();
     loose.joints[0]!.between[1]!.body = 7;
     expect(() => decodeRun(loose)).toThrow('joints[0]: no body 7');
+    const astray = fresh();
+    astray.loads![0]!.body = 3;
+    expect(() => decodeRun(astray)).toThrow('loads[0]: no body 3');
+    const short = fresh();
+    short.bodies[1]!.fields![0]!.values = rows([1, 2]);
+    expect(() => decodeRun(short)).toThrow('bodies[1].von_mises: 2 numbers found, 4800 expected');
   });
 });

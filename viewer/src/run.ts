@@ -1,26 +1,69 @@
-import type { PageBody, PageData, PageJoint, PageMarker, Triple } from './page_data';
+import { decodeFloats, decodeInts, PageDataError } from './base64';
+import { PackedRows, type Rows } from './rows';
+import type {
+  PageBody,
+  PageData,
+  PageField,
+  PageJoint,
+  PageLoad,
+  PageMarker,
+  PageRun,
+  PageStorage,
+  Triple,
+} from './page_data';
+
+export { decodeFloats, PageDataError };
+
+/** A recorded quantity of a body. */
+export interface Field {
+  name: string;
+  unit: string;
+  components: string[];
+  on: 'places' | 'elements' | 'lines';
+  constant: boolean;
+  /** Row: places × components. */
+  rows: Rows;
+}
+
+/** The surface of a solid body. */
+export interface Faces {
+  /** Four per face: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
+  nodes: Int32Array;
+  /** Per face the element below it, counted among those that have a face. */
+  elements: Int32Array;
+  /** Four per face: where fields on `places` have the corner's value, −1 for nowhere; or null. */
+  places: Int32Array | null;
+  numElements: number;
+  numPlaces: number;
+}
 
 /** A body with its recorded motion. */
 export interface Body {
   name: string;
   kind: 'rigid' | 'beam' | 'solid';
-  nodes: Triple[];
+  /** Nodes × 3. */
+  nodes: Float32Array;
+  /** Number in the run of each node; null if it is the same. */
+  nodeNumbers: Int32Array | null;
   elements: [number, number][];
   radius: number[];
-  /** Surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
-  faces: [number, number, number, number][];
-  /** Per face the element of `solidStress` below it. */
-  faceElements: number[];
-  /** frames × elements with a face [Pa]. */
-  solidStress: Float32Array | null;
+  /** Null for bodies without a surface. */
+  faces: Faces | null;
   markers: PageMarker[];
   pose: Float32Array;
-  displacement: Float32Array | null;
-  stress: Float32Array | null;
+  displacement: Rows | null;
+  /** Numbers of `displacement` per node: 3, or 6 with rotations. */
+  perNode: 3 | 6;
   /** Pages with modes: frames × 6, motion of the frame; null in runs. */
-  motion?: Float32Array | null;
+  motion: Float32Array | null;
+  fields: Field[];
   /** False for bars: no rotation was ever recorded, elements stay straight between their nodes. */
   hasRotations: boolean;
+}
+
+/** A load with its recorded values, `width` per frame. */
+export interface Load extends Omit<PageLoad, 'values'> {
+  values: Float32Array | null;
 }
 
 /** One recorded quantity; `values` is frames × components. */
@@ -31,7 +74,7 @@ export interface Series {
   values: Float32Array;
 }
 
-/** Everything the page shows, decoded and checked. */
+/** Everything the page shows of a run, decoded and checked. */
 export interface Run {
   title: string;
   version: string;
@@ -39,50 +82,36 @@ export interface Run {
   times: Float64Array;
   bodies: Body[];
   joints: PageJoint[];
+  loads: Load[];
   gravity: Triple;
   planar: 'xy' | 'yz' | 'zx' | null;
   sensors: Series[];
   energies: Series[];
   summary: Record<string, unknown>;
+  storage: PageStorage;
 }
 
-/** Largest stress of all bodies over the whole run [Pa]; 0 without stresses. */
-export function largestStress(run: Run): number {
-  let most = 0;
-  for (const { stress, solidStress } of run.bodies) {
-    for (const list of [stress, solidStress]) {
-      list?.forEach((value) => {
-        if (value > most) most = value;
-      });
-    }
-  }
-  return most;
+export function numNodes(body: Body): number {
+  return body.nodes.length / 3;
 }
 
-/** The page holds something that cannot be shown; the message says what and where. */
-export class PageDataError extends Error {}
-
-/** Numbers of one base64 field. Throws PageDataError if the text or the count is wrong. */
-export function decodeFloats(text: unknown, count: number, where: string): Float32Array {
-  if (typeof text !== 'string') throw new PageDataError(`${where}: base64 text expected`);
-  let raw: string;
-  try {
-    raw = atob(text);
-  } catch {
-    throw new PageDataError(`${where}: not valid base64`);
-  }
-  if (raw.length !== 4 * count) {
-    throw new PageDataError(`${where}: ${raw.length / 4} numbers found, ${count} expected`);
-  }
-  const bytes = new Uint8Array(raw.length);
-  for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
-  const view = new DataView(bytes.buffer);
-  const floats = new Float32Array(count);
-  for (let i = 0; i < count; i++) floats[i] = view.getFloat32(4 * i, true);
-  return floats;
+/** Undeformed position of a node in the body frame [m]. */
+export function nodeAt(body: Body, node: number): Triple {
+  return [body.nodes[3 * node]!, body.nodes[3 * node + 1]!, body.nodes[3 * node + 2]!];
 }
 
-function decodeTimes(data: PageData): Float64Array {
+/** What the run calls the node. */
+export function nodeNumber(body: Body, node: number): number {
+  return body.nodeNumbers?.[node] ?? node;
+}
+
+/** The node that the run calls `number`, −1 if the page has not got it. */
+export function nodeNumbered(body: Body, number: number): number {
+  if (body.nodeNumbers) return body.nodeNumbers.indexOf(number);
+  return Number.isInteger(number) && number >= 0 && number < numNodes(body) ? number : -1;
+}
+
+function decodeTimes(data: PageRun): Float64Array {
   const n = data.time?.n;
   if (!Number.isInteger(n) || n < 0) throw new PageDataError('time.n: a count is expected');
   const times = Float64Array.from(decodeFloats(data.time.f32, n, 'time.f32'));
@@ -94,68 +123,84 @@ function decodeTimes(data: PageData): Float64Array {
 
 const kKinds = ['rigid', 'beam', 'solid'] as const;
 
-/** Rows of three translations as rows of six with rotations, all zero. */
-function withRotations(translations: Float32Array): Float32Array {
-  const out = new Float32Array(2 * translations.length);
-  for (let i = 0; i < translations.length; i++) out[2 * i - (i % 3)] = translations[i]!;
-  return out;
+function most(numbers: Int32Array): number {
+  return numbers.reduce((a, b) => Math.max(a, b), -1);
 }
 
-function decodeDisplacement(body: PageBody, frames: number, where: string): Float32Array | null {
-  if (!body.displacement) return null;
-  const count = frames * body.nodes.length;
-  const translationsOnly = (body.faces ?? []).length > 0 && (body.elements ?? []).length === 0;
-  if (translationsOnly) return withRotations(decodeFloats(body.displacement, 3 * count, where));
-  return decodeFloats(body.displacement, 6 * count, where);
-}
-
-/** The surface of a solid body; empty for others. */
-function decodeSurface(body: PageBody, frames: number, where: string) {
-  const faces = body.faces ?? [];
-  const faceElements = faces.map((_, f) => body.faceElements?.[f] ?? 0);
-  for (const face of faces) {
-    if (face.some((node, k) => !body.nodes[node] && !(k === 3 && node === -1))) {
-      throw new PageDataError(`${where}.faces: no such node in [${face.join(', ')}]`);
+/** The surface of a solid body; null for others. */
+function decodeFaces(body: PageBody, count: number, where: string): Faces | null {
+  if (!body.faces) return null;
+  const nodes = decodeInts(body.faces, 4, `${where}.faces`);
+  nodes.forEach((node, i) => {
+    if (node >= count || node < (i % 4 === 3 ? -1 : 0)) {
+      throw new PageDataError(`${where}.faces: no node ${node}`);
     }
+  });
+  const elements = decodeInts(body.faceElements ?? '', 1, `${where}.faceElements`);
+  const places = body.facePlaces ? decodeInts(body.facePlaces, 4, `${where}.facePlaces`) : null;
+  if (4 * elements.length !== nodes.length || (places && places.length !== nodes.length)) {
+    throw new PageDataError(`${where}.faces: ${nodes.length / 4} faces, but not as many elements`);
   }
-  const count = faceElements.reduce((most, e) => Math.max(most, e + 1), 0);
-  const solidStress = body.solidStress
-    ? decodeFloats(body.solidStress, frames * count, `${where}.solidStress`)
-    : null;
-  return { faces, faceElements, solidStress };
+  const numElements = most(elements) + 1;
+  return { nodes, elements, places, numElements, numPlaces: places ? most(places) + 1 : 0 };
 }
 
-function anyRotation(displacement: Float32Array): boolean {
-  for (let i = 0; i < displacement.length; i += 6) {
-    if (displacement[i + 3] !== 0 || displacement[i + 4] !== 0 || displacement[i + 5] !== 0) {
-      return true;
+function decodeField(field: PageField, frames: number, count: number, where: string): Field {
+  const components = field.components?.length ? field.components : [''];
+  const rows = new PackedRows(
+    field.values,
+    count * components.length,
+    field.constant ? 1 : frames,
+    where,
+  );
+  const { name, unit, on } = field;
+  return { name, unit: unit ?? '', on, components, constant: field.constant ?? false, rows };
+}
+
+/** Whether any node ever turns; asked only of bodies with beams, which are small. */
+function anyRotation(rows: Rows): boolean {
+  for (let frame = 0; frame < rows.frames; frame++) {
+    for (let i = 0; i < rows.width; i += 6) {
+      for (let k = 3; k < 6; k++) if (rows.value(frame, i + k) !== 0) return true;
     }
   }
   return false;
 }
 
 function decodeBody(body: PageBody, frames: number, where: string): Body {
-  const nodes = body.nodes ?? [];
+  const bits = decodeInts(body.nodes ?? '', 3, `${where}.nodes`);
+  const nodes = new Float32Array(bits.buffer, 0, bits.length);
+  const count = nodes.length / 3;
   const elements = body.elements ?? [];
   for (const [a, b] of elements) {
-    if (!nodes[a] || !nodes[b]) throw new PageDataError(`${where}.elements: no node ${a} or ${b}`);
+    const known = [a, b].every((node) => node >= 0 && node < count);
+    if (!known) throw new PageDataError(`${where}.elements: no node ${a} or ${b}`);
   }
-  const displacement = decodeDisplacement(body, frames, `${where}.displacement`);
+  const faces = decodeFaces(body, count, where);
+  const perNode = faces && elements.length === 0 ? 3 : 6;
+  const displacement = body.displacement
+    ? new PackedRows(body.displacement, perNode * count, frames, `${where}.displacement`)
+    : null;
+  const numbers = body.nodeNumbers ? decodeInts(body.nodeNumbers, 1, `${where}.nodeNumbers`) : null;
+  if (numbers && numbers.length !== count) throw new PageDataError(`${where}.nodeNumbers: wrong count`);
+  const size = { places: faces?.numPlaces, elements: faces?.numElements, lines: elements.length };
   return {
     name: body.name,
     kind: kKinds.find((kind) => kind === body.kind) ?? 'rigid',
     nodes,
+    nodeNumbers: numbers,
     elements,
     radius: elements.map((_, e) => body.radius?.[e] ?? 0),
-    ...decodeSurface(body, frames, where),
+    faces,
     markers: body.markers ?? [],
     pose: decodeFloats(body.pose, frames * 7, `${where}.pose`),
     displacement,
-    stress: body.stress
-      ? decodeFloats(body.stress, frames * elements.length, `${where}.stress`)
-      : null,
+    perNode,
     motion: body.motion ? decodeFloats(body.motion, frames * 6, `${where}.motion`) : null,
-    hasRotations: displacement !== null && anyRotation(displacement),
+    fields: (body.fields ?? []).map((field) =>
+      decodeField(field, frames, size[field.on] ?? 0, `${where}.${field.name}`),
+    ),
+    hasRotations: displacement !== null && perNode === 6 && anyRotation(displacement),
   };
 }
 
@@ -167,12 +212,15 @@ function checkJoint(joint: PageJoint, bodies: Body[], where: string): PageJoint 
   return joint;
 }
 
-/** Decodes and checks the page's data; `null` (an unfilled page) is refused like any fault. */
-export function decodeRun(data: PageData | null | undefined): Run {
-  if (!data) throw new PageDataError('This page holds no run.');
-  if (data.format !== 1) {
-    throw new PageDataError(`format ${String(data.format)}: this page understands format 1`);
-  }
+function decodeLoad(load: PageLoad, bodies: Body[], frames: number, where: string): Load {
+  if (load.body >= bodies.length) throw new PageDataError(`${where}: no body ${load.body}`);
+  const width = load.values ? load.width : 0;
+  const values = load.values ? decodeFloats(load.values, frames * width, `${where}.values`) : null;
+  return { ...load, nodes: load.positions.map((_, i) => load.nodes?.[i] ?? -1), width, values };
+}
+
+/** Decodes and checks one run of the page. */
+export function decodeRun(data: PageRun): Run {
   const times = decodeTimes(data);
   const n = times.length;
   const bodies = (data.bodies ?? []).map((body, i) => decodeBody(body, n, `bodies[${i}]`));
@@ -190,6 +238,7 @@ export function decodeRun(data: PageData | null | undefined): Run {
     times,
     bodies,
     joints: (data.joints ?? []).map((joint, i) => checkJoint(joint, bodies, `joints[${i}]`)),
+    loads: (data.loads ?? []).map((load, i) => decodeLoad(load, bodies, n, `loads[${i}]`)),
     gravity: data.gravity ?? [0, 0, 0],
     planar: planar === 'xy' || planar === 'yz' || planar === 'zx' ? planar : null,
     sensors: (data.sensors ?? []).map((s, i) => {
@@ -200,5 +249,17 @@ export function decodeRun(data: PageData | null | undefined): Run {
       series(e.name, e.unit, [''], e.values, `energies[${i}]`),
     ),
     summary: data.summary ?? {},
+    storage: data.storage ?? { records: n, rounded: false, notes: [] },
   };
+}
+
+/** The runs of the page; `null` (an unfilled page) is refused like any fault. */
+export function checkPage(data: PageData | null | undefined): PageRun[] {
+  if (!data) throw new PageDataError('This page holds no run.');
+  if (data.format !== 2) {
+    throw new PageDataError(`format ${String(data.format)}: this page understands format 2`);
+  }
+  const runs = data.runs ?? [];
+  if (runs.length < 1 || runs.length > 2) throw new PageDataError(`runs: ${runs.length} found, 1 or 2 expected`);
+  return runs;
 }

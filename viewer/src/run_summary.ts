@@ -98,6 +98,10 @@ export function summaryChips(run: Run): Chip[] {
       reasons.length ? 'warn' : 'good',
     );
   }
+  if (run.times.length < run.storage.records) {
+    const value = `${run.times.length} of ${run.storage.records}`;
+    add('frames', value, 'Records of the run that are in this page');
+  }
   const said = notices(summary);
   if (said.length) {
     const count = said.length === 1 ? '1 warning' : `${said.length} warnings`;

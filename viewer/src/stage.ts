@@ -1,15 +1,22 @@
 import * as THREE from 'three';
 import { BodyView, type GlyphSize } from './body_view';
-import { runBounds, type Bounds } from './bounds';
 import { CameraRig } from './camera_rig';
 import { CornerTriad } from './corner_triad';
 import { Grid } from './grid';
+import { ball } from './glyphs';
 import { JointView } from './joint_view';
 import { Labels, type Label } from './labels';
+import { LoadView } from './load_view';
 import { Motion } from './motion';
+import { namesOf } from './names';
 import { orientationOf, type Orientation } from './orientation';
+import { pickAlong, pickName, type Pick } from './picks';
+import { paintsSlowly } from './graphics';
+import { Section } from './section';
 import { Trace } from './trace';
-import { largestStress, type Run } from './run';
+import type { Bounds } from './bounds';
+import type { FieldShading } from './field_material';
+import type { Run } from './run';
 import type { Theme } from './theme';
 import type { Triple } from './page_data';
 import type { ViewOptions } from './view_options';
@@ -21,12 +28,14 @@ const kCorner = 92;
 export class Stage {
   readonly canvas = document.createElement('canvas');
   readonly labels = new Labels();
-  readonly bounds: Bounds;
   readonly rig: CameraRig;
   readonly motion: Motion;
-  /** Largest stress of the run, the top of the colour scale [Pa]; 0 without stresses. */
-  readonly stressRange: number;
+  readonly section: Section;
   gridSpacing = 0;
+  /** Range of the field shown at the present time; NaN without one. */
+  present: [number, number] = [NaN, NaN];
+  /** What the last picture took: shapes and colours, and handing it to the graphics card [ms]. */
+  cost = { update: 0, render: 0 };
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
   private readonly model = new THREE.Group();
@@ -37,33 +46,37 @@ export class Stage {
   private theme!: Theme;
   private bodies: BodyView[] = [];
   private joints: JointView[] = [];
+  private loads: LoadView[] = [];
+  private dots: THREE.Mesh[] = [];
   private width = 1;
   private height = 1;
 
-  /** Throws if the browser has no WebGL. `changed` is called whenever the camera moves. */
+  /** Throws if the browser has no WebGL. `moved` is called whenever the camera moves. */
   constructor(
     private readonly run: Run,
+    readonly bounds: Bounds,
     theme: Theme,
-    changed: () => void,
+    private readonly shading: FieldShading,
+    moved: () => void,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: !paintsSlowly() });
+    this.renderer.localClippingEnabled = true;
     this.motion = new Motion(run);
-    this.bounds = runBounds(run);
+    this.section = new Section(bounds, this.motion.bodies);
     this.orientation = orientationOf(run);
     this.glyphs = {
-      joint: 0.016 * Math.min(this.bounds.size, this.bounds.machine),
-      leastRadius: 0.0022 * this.bounds.size,
+      joint: 0.016 * Math.min(bounds.size, bounds.machine),
+      leastRadius: 0.0022 * bounds.size,
     };
-    this.stressRange = largestStress(run);
     this.corner = new CornerTriad(run.gravity);
-    this.trace = new Trace(run, this.bounds.center);
-    const scale = 1 / this.bounds.size;
+    this.trace = new Trace(run, bounds.center);
+    const scale = 1 / bounds.size;
     this.model.scale.setScalar(scale);
-    this.model.position.set(...this.bounds.center).multiplyScalar(-scale);
+    this.model.position.set(...bounds.center).multiplyScalar(-scale);
     this.scene.add(this.model, new THREE.HemisphereLight(0xffffff, 0xb4bcc6, 2.1));
-    this.rig = new CameraRig(this.canvas, this.orientation.up, run.planar !== null, changed);
+    this.rig = new CameraRig(this.canvas, this.orientation.up, run.planar !== null, moved);
     this.canvas.tabIndex = 0;
-    this.canvas.setAttribute('aria-label', '3-D view of the model. Drag to turn, wheel to zoom.');
+    this.canvas.setAttribute('role', 'img');
     const headlight = new THREE.DirectionalLight(0xffffff, 1.7);
     headlight.name = 'headlight';
     this.scene.add(headlight, headlight.target);
@@ -74,28 +87,27 @@ export class Stage {
   setTheme(theme: Theme): void {
     this.theme = theme;
     this.scene.background = new THREE.Color(theme.background);
-    this.model.traverse((part) => {
-      if (part instanceof THREE.Mesh || part instanceof THREE.Line) part.geometry.dispose();
-    });
+    for (const body of this.bodies) body.dispose();
     this.model.clear();
-    const { run, glyphs, orientation } = this;
+    const { run, glyphs, orientation, motion } = this;
     const grid = new Grid(this.bounds, orientation, run.planar !== null, theme);
     this.gridSpacing = grid.spacing;
-    this.bodies = this.motion.bodies.map((motion, i) => {
+    this.bodies = motion.bodies.map((body, i) => {
       const color = theme.bodies[i % theme.bodies.length]!;
-      return new BodyView(motion, color, theme, glyphs);
+      return new BodyView(body, color, theme, glyphs, this.shading);
     });
     this.joints = run.joints.map(
-      (joint) => new JointView(joint, this.motion, theme, glyphs, orientation.up),
+      (joint) => new JointView(joint, motion, theme, glyphs, orientation.up),
     );
+    this.loads = run.loads.map((load) => new LoadView(load, motion, glyphs));
     this.model.add(grid.root, this.trace.root);
-    for (const view of [...this.bodies, ...this.joints]) this.model.add(view.root);
+    for (const view of [...this.bodies, ...this.joints, ...this.loads]) this.model.add(view.root);
   }
 
   resize(width: number, height: number): void {
     this.width = Math.max(1, width);
     this.height = Math.max(1, height);
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setPixelRatio(paintsSlowly() ? 1 : Math.min(2, window.devicePixelRatio));
     this.renderer.setSize(this.width, this.height, false);
     this.rig.resize(this.width, this.height);
   }
@@ -112,28 +124,98 @@ export class Stage {
     this.fit(this.orientation.back);
   }
 
-  render(t: number, options: ViewOptions): void {
+  /** Takes shapes and colours to time t; `present` is known then. */
+  update(t: number, options: ViewOptions): void {
+    const began = performance.now();
     this.motion.setTime(t);
-    this.bodies.forEach((body) => body.update(options, this.stressRange));
-    for (const joint of this.joints) {
-      joint.root.visible = options.joints;
-      if (options.joints) joint.update(options.scale);
+    let [low, high] = [Infinity, -Infinity];
+    this.bodies.forEach((body, i) => {
+      const planes = this.section.planes(options.section, i);
+      const seeThrough = options.colors && options.field.cut === 'hide';
+      body.update(options, { edges: options.edges, planes, seeThrough });
+      const [a, b] = body.paint(this.motion.place, options);
+      if (a < low) low = a;
+      if (b > high) high = b;
+    });
+    this.present = low <= high ? [low, high] : [NaN, NaN];
+    for (const [views, shown] of [
+      [this.joints, options.joints],
+      [this.loads, options.loads],
+    ] as const) {
+      for (const view of views) {
+        view.root.visible = shown;
+        if (shown) view.update(options.scale);
+      }
     }
+    this.cost.update = performance.now() - began;
+  }
+
+  /** Draws what `update` prepared. */
+  render(options: ViewOptions, picks: { pick: Pick; color: string }[]): void {
+    const began = performance.now();
     const { index, fraction } = this.motion.place;
     const color = options.trace
       ? this.theme.bodies[options.trace.body % this.theme.bodies.length]!
       : '';
     this.trace.update(options.trace, options.scale, index + (fraction > 0.5 ? 1 : 0), color);
     this.trace.resize(this.width, this.height);
+    this.showDots(picks, options.scale);
     this.aimHeadlight();
     this.renderer.render(this.scene, this.rig.camera);
     this.corner.render(this.renderer, this.rig.camera, kCorner);
-    this.showLabels(options);
+    this.showLabels(options, picks);
+    this.cost.render = performance.now() - began;
   }
 
   private aimHeadlight(): void {
     const light = this.scene.getObjectByName('headlight')!;
     light.position.set(-0.5, 0.8, 1).applyQuaternion(this.rig.camera.quaternion);
+  }
+
+  /** World position of a picked node [m]. */
+  placeOf(pick: Pick, scale: number): Triple {
+    const body = this.motion.bodies[pick.body]!;
+    return body.toWorld(body.node(pick.node, scale));
+  }
+
+  private showDots(picks: { pick: Pick; color: string }[], scale: number): void {
+    while (this.dots.length < picks.length) {
+      const dot = ball(new THREE.MeshBasicMaterial({ depthTest: false, transparent: true }));
+      dot.renderOrder = 5;
+      this.dots.push(dot);
+    }
+    this.dots.forEach((dot, i) => {
+      const shown = picks[i];
+      dot.visible = shown !== undefined;
+      if (!shown) return;
+      if (dot.parent !== this.model) this.model.add(dot);
+      (dot.material as THREE.MeshBasicMaterial).color.set(shown.color);
+      const at = this.placeOf(shown.pick, scale);
+      dot.position.set(...at);
+      dot.scale.setScalar(5 * this.pixelSize(at));
+    });
+  }
+
+  /** Length of a CSS pixel at a world point [m]. */
+  private pixelSize(at: Triple): number {
+    const { camera } = this.rig;
+    if (camera instanceof THREE.OrthographicCamera) {
+      return ((camera.top - camera.bottom) / camera.zoom / this.height) * this.bounds.size;
+    }
+    this.model.updateMatrixWorld();
+    const p = new THREE.Vector3(...at).applyMatrix4(this.model.matrixWorld);
+    const tangent = Math.tan(THREE.MathUtils.degToRad(camera.fov / 2));
+    const distance = camera.position.distanceTo(p);
+    return ((2 * tangent * distance) / this.height) * this.bounds.size;
+  }
+
+  /** The node under a place of the canvas [CSS px]; null for none. */
+  pick(x: number, y: number): Omit<Pick, 'pane'> | null {
+    const place = new THREE.Vector2((2 * x) / this.width - 1, 1 - (2 * y) / this.height);
+    const ray = new THREE.Raycaster();
+    this.scene.updateMatrixWorld();
+    ray.setFromCamera(place, this.rig.camera);
+    return pickAlong(ray, this.bodies);
   }
 
   /** Canvas place of a world point [CSS px]. */
@@ -143,39 +225,22 @@ export class Stage {
     return { x: ((q.x + 1) / 2) * this.width, y: ((1 - q.y) / 2) * this.height };
   }
 
-  private showLabels(options: ViewOptions): void {
+  private showLabels(options: ViewOptions, picks: { pick: Pick; color: string }[]): void {
     const labels: Label[] = this.corner.tips.map(({ text, at, color }) => {
       const [x, y] = this.corner.project(at);
       return { text, kind: 'axis', color, x: x * kCorner, y: this.height - kCorner + y * kCorner };
     });
-    if (options.labels) labels.push(...this.names(options));
-    this.labels.show(labels, this.width, this.height);
-  }
-
-  private names(options: ViewOptions): Label[] {
-    const names: Label[] = [];
-    this.motion.bodies.forEach((motion, i) => {
-      const { body } = motion;
-      const middle = body.elements.length > 0 && body.kind === 'beam';
-      const at = middle ? motion.node(Math.floor(body.nodes.length / 2), options.scale) : [0, 0, 0];
-      const color = this.theme.bodies[i % this.theme.bodies.length]!;
-      names.push({ text: body.name, kind: 'body', color, ...this.project(motion.toWorld(at)) });
-    });
-    if (options.joints) {
-      this.run.joints.forEach((joint, i) => {
-        const at = this.joints[i]!.position(options.scale);
-        names.push({ text: joint.name, kind: 'joint', ...this.project(at) });
-      });
+    for (const { pick } of picks) {
+      const text = pickName(this.run.bodies[pick.body]!, pick);
+      const at = this.project(this.placeOf(pick, options.scale));
+      labels.push({ text, kind: 'marker', ...at });
     }
-    if (options.frames) {
-      for (const motion of this.motion.bodies) {
-        for (const marker of motion.body.markers) {
-          const at = motion.toWorld(motion.marker(marker, options.scale));
-          const text = `${motion.body.name}/${marker.name}`;
-          names.push({ text, kind: 'marker', ...this.project(at) });
-        }
+    if (options.labels) {
+      const { joints, loads } = this;
+      for (const name of namesOf(this.run, this.motion, { joints, loads }, this.theme, options)) {
+        labels.push({ ...name, ...this.project(name.at) });
       }
     }
-    return names;
+    this.labels.show(labels, this.width, this.height);
   }
 }

@@ -1,8 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { Surface } from './surface';
-import { decodeRun, largestStress, PageDataError, type Body } from './run';
-import { base64 } from '../tests/fixture.mjs';
-import type { PageData, Triple } from './page_data';
+import { ElementFaces } from './element_faces';
+import { faceValue, VertexValues } from './surface_values';
+import { decodeRun, PageDataError, type Body } from './run';
+import { base64, ints, rows } from '../tests/fixture.mjs';
+import type { PageBody, PageRun, Triple } from './page_data';
 
 /** Unit cube of one element about the origin. */
 const kNodes = [0, 1, 2, 3, 4, 5, 6, 7].map(
@@ -17,24 +19,21 @@ const kFaces: [number, number, number, number][] = [
   [1, 3, 7, 5],
 ];
 
-function page(change: Partial<PageData['bodies'][0]> = {}): PageData {
-  const body = {
+function page(change: Partial<PageBody> = {}): PageRun {
+  const body: PageBody = {
     name: 'cube',
-    kind: 'solid' as const,
-    nodes: kNodes,
+    kind: 'solid',
+    nodes: base64(kNodes.flat()),
     elements: [],
     radius: [],
     markers: [],
-    faces: kFaces,
-    faceElements: kFaces.map(() => 0),
+    faces: ints(kFaces.flat()),
+    faceElements: ints(kFaces.map(() => 0)),
     pose: base64([0, 0, 0, 1, 0, 0, 0]),
-    displacement: base64(kNodes.flatMap(([x, y, z]) => [0.1 * x, 0.2 * y, 0.3 * z])),
-    stress: null,
-    solidStress: base64([5e6]),
+    displacement: rows(kNodes.flatMap(([x, y, z]) => [0.1 * x, 0.2 * y, 0.3 * z])),
     ...change,
   };
   return {
-    format: 1,
     title: 't',
     version: '',
     generated: '',
@@ -49,9 +48,10 @@ function page(change: Partial<PageData['bodies'][0]> = {}): PageData {
   };
 }
 
-const cube = (): Body => decodeRun(page()).bodies[0]!;
+const bodyOf = (change: Partial<PageBody> = {}): Body => decodeRun(page(change)).bodies[0]!;
+const kStart = { index: 0, fraction: 0 };
 
-function volume({ positions, indices }: Surface): number {
+function volume({ positions, indices }: Pick<Surface, 'positions' | 'indices'>): number {
   let sum = 0;
   for (let i = 0; i < indices.length; i += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => positions.subarray(3 * indices[i + k]!));
@@ -63,31 +63,36 @@ function volume({ positions, indices }: Surface): number {
 }
 
 describe('solid bodies of a page', () => {
-  it('get zero rotations and keep their stresses', () => {
-    const run = decodeRun(page());
-    const body = run.bodies[0]!;
+  it('have translations only', () => {
+    const body = bodyOf();
     expect(body.kind).toBe('solid');
-    expect(body.displacement).toHaveLength(48);
-    expect(body.displacement![6 * 7 + 2]).toBeCloseTo(0.15, 6);
-    expect(body.displacement![6 * 7 + 3]).toBe(0);
+    expect(body.perNode).toBe(3);
+    expect(body.displacement!.value(0, 3 * 7 + 2)).toBeCloseTo(0.15, 6);
     expect(body.hasRotations).toBe(false);
-    expect(largestStress(run)).toBe(5e6);
   });
 
-  it('are refused with faces on missing nodes', () => {
-    expect(() => decodeRun(page({ faces: [[0, 1, 9, 3]] }))).toThrow(PageDataError);
-    expect(() => decodeRun(page({ faces: [[0, 1, 3, -1]] }))).not.toThrow();
+  it('are refused with faces on missing nodes, or with too few elements', () => {
+    expect(() => page({ faces: ints([0, 1, 9, 3]), faceElements: ints([0]) })).not.toThrow();
+    expect(() => bodyOf({ faces: ints([0, 1, 9, 3]), faceElements: ints([0]) })).toThrow(PageDataError);
+    expect(() => bodyOf({ faces: ints([0, 1, -1, 3]), faceElements: ints([0]) })).toThrow('no node -1');
+    expect(() => bodyOf({ faces: ints([0, 1, 3, -1]), faceElements: ints([0]) })).not.toThrow();
+    expect(() => bodyOf({ faceElements: ints([0]) })).toThrow('not as many elements');
   });
 });
 
 describe('Surface', () => {
   it('encloses the deformed volume and has edges where the body has', () => {
-    const surface = new Surface(cube());
+    const body = bodyOf();
+    const surface = new Surface(body);
     expect(surface.nodeOf).toHaveLength(24);
     expect(surface.edges).toHaveLength(2 * 12);
-    surface.deform(new Float32Array(48), 1);
+    expect(surface.outline).toHaveLength(2 * 12);
+    expect(surface.isOpen).toBe(false);
+    surface.deform(new Float32Array(24), 1);
     expect(volume(surface)).toBeCloseTo(1, 6);
-    surface.deform(cube().displacement!, 1);
+    const moved = new Float32Array(24);
+    body.displacement!.interpolate(kStart, moved);
+    surface.deform(moved, 1);
     expect(volume(surface)).toBeCloseTo(1.1 * 1.2 * 1.3, 5);
     // Normals stand on the faces.
     for (let v = 0; v < surface.normals.length; v += 3) {
@@ -96,7 +101,14 @@ describe('Surface', () => {
     }
   });
 
-  it('is smooth where faces meet at small angles', () => {
+  it('parts vertices where a node has two places', () => {
+    const places = kFaces.map((face, f) => face.map((node) => (f === 0 ? node : 8 + node)));
+    const surface = new Surface(bodyOf({ facePlaces: ints(places.flat()) }));
+    const ofFirst = [...surface.placeOf].filter((place) => place < 8);
+    expect(ofFirst.sort()).toEqual([0, 1, 2, 3]);
+  });
+
+  describe('of two faces that meet at a small angle', () => {
     const bent: Triple[] = [
       [0, 0, 0],
       [1, 0, 0],
@@ -105,21 +117,67 @@ describe('Surface', () => {
       [2, 0, -0.2],
       [2, 1, -0.2],
     ];
-    const faces: Body['faces'] = [
-      [0, 1, 3, 2],
-      [1, 4, 5, 3],
-    ];
-    const surface = new Surface({ ...cube(), nodes: bent, faces, faceElements: [0, 1] });
-    expect(surface.nodeOf).toHaveLength(6);
-    const values = new Float32Array(6);
-    surface.vertexValues(new Float32Array([1, 3]), values);
-    expect(surface.nodeOf.map((node, v) => [node, values[v]]).sort()).toEqual([
-      [0, 1],
-      [1, 2],
-      [2, 1],
-      [3, 2],
-      [4, 3],
-      [5, 3],
-    ]);
+    const body = bodyOf({
+      nodes: base64(bent.flat()),
+      displacement: null,
+      faces: ints([0, 1, 3, 2, 1, 4, 5, 3]),
+      faceElements: ints([0, 1]),
+    });
+
+    it('is smooth, with the mean of the elements at their common nodes', () => {
+      const surface = new Surface(body);
+      expect(surface.nodeOf).toHaveLength(6);
+      const values = new Float32Array(6);
+      const painted = { on: 'elements' as const, values: new Float32Array([1, 3]) };
+      new VertexValues(surface, body.faces!).fill(painted, values);
+      expect([...surface.nodeOf].map((node, v) => [node, values[v]]).sort()).toEqual([
+        [0, 1],
+        [1, 2],
+        [2, 1],
+        [3, 2],
+        [4, 3],
+        [5, 3],
+      ]);
+    });
+
+    it('has a rim, which is its outline', () => {
+      const surface = new Surface(body);
+      expect(surface.isOpen).toBe(true);
+      expect(surface.edges).toHaveLength(2 * 7);
+      expect(surface.outline).toHaveLength(2 * 6);
+    });
+  });
+});
+
+describe('ElementFaces', () => {
+  it('ends every triangle of a face at a vertex that no other face ends at', () => {
+    const surface = new Surface(bodyOf());
+    const faces = new ElementFaces(surface);
+    expect(new Set(faces.carrier).size).toBe(6);
+    expect(faces.indices).toHaveLength(3 * 12);
+    for (let t = 0; t < 12; t++) {
+      expect(faces.indices[3 * t + 2]).toBe(faces.carrier[t >> 1]);
+    }
+    faces.update();
+    expect(volume({ positions: faces.positions, indices: faces.indices })).toBeCloseTo(1, 6);
+  });
+
+  it('doubles vertices where faces outnumber them', () => {
+    // A fan of seven triangles without a vertex for each.
+    const rim = [...Array(6)].map((_, i) => [Math.cos(i), Math.sin(i), 0]);
+    const fan = [...Array(5)].flatMap((_, i) => [0, i + 1, i + 2, -1]);
+    const twice = [...fan, ...fan];
+    const body = bodyOf({
+      nodes: base64([0, 0, 0, ...rim.flat()]),
+      displacement: null,
+      faces: ints(twice),
+      faceElements: ints([...Array(10).keys()]),
+    });
+    const surface = new Surface(body);
+    const faces = new ElementFaces(surface);
+    expect(new Set(faces.carrier).size).toBe(10);
+    expect(faces.vertexOf.length).toBe(10);
+    const painted = { on: 'nodes' as const, values: Float32Array.from([0, 3, 6, 9, 12, 15, 18]) };
+    expect(faceValue(surface, body.faces!, painted, 0)).toBeCloseTo(3, 6);
   });
 });

@@ -1,72 +1,153 @@
 import * as THREE from 'three';
-import { colorAt } from './color_map';
-import { Surface } from './surface';
+import { ElementFaces } from './element_faces';
+import { surfaceOf, type Surface } from './surface';
+import { faceValue, kNoValue, VertexValues, type Painted } from './surface_values';
+import type { FieldMaterial } from './field_material';
+import type { PickedVertex, Skin, SkinLook } from './skin';
 import type { BodyMotion } from './motion';
 
-/** The surface of a solid body in the scene, with the edges of its elements. */
-export class SurfaceMesh {
+/** Meshes with more faces start without the edges of all of them: they would be a grey haze. */
+export const kManyFaces = 15000;
+
+function attribute(values: Float32Array, size: number): THREE.BufferAttribute {
+  return new THREE.BufferAttribute(values, size).setUsage(THREE.DynamicDrawUsage);
+}
+
+/** What the graphics card gets of a surface. */
+interface Picture {
+  geometry: THREE.BufferGeometry;
+  values: Float32Array;
+}
+
+function picture(positions: Float32Array, normals: Float32Array, indices: Uint32Array): Picture {
+  const geometry = new THREE.BufferGeometry();
+  const values = new Float32Array(positions.length / 3);
+  geometry.setAttribute('position', attribute(positions, 3));
+  geometry.setAttribute('normal', attribute(normals, 3));
+  geometry.setAttribute('fieldValue', attribute(values, 1));
+  geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+  // The vertices move: never worked out, never out of view.
+  geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
+  return { geometry, values };
+}
+
+/** The surface of a body of solids or shells in the scene, with the edges of its elements. */
+export class SurfaceMesh implements Skin {
   readonly root = new THREE.Group();
+  readonly mesh: THREE.Mesh;
   private readonly surface: Surface;
-  private readonly geometry = new THREE.BufferGeometry();
-  private readonly colors: THREE.BufferAttribute;
-  private readonly values: Float32Array;
-  private readonly plain: THREE.Color;
+  private readonly smooth: Picture;
+  private readonly vertexValues: VertexValues;
+  private readonly lines: THREE.LineSegments;
+  private readonly thin: THREE.LineBasicMaterial;
+  /** One colour per face; made when it is first wanted. */
+  private split: { faces: ElementFaces; picture: Picture } | null = null;
+  private byFace = false;
   private deformed = false;
 
   constructor(
     private readonly motion: BodyMotion,
-    private readonly material: THREE.MeshStandardMaterial | THREE.MeshBasicMaterial,
-    edgeColor: THREE.ColorRepresentation,
+    private readonly material: FieldMaterial,
+    private readonly edgeColors: { onFaces: string; alone: string },
   ) {
-    this.surface = new Surface(motion.body);
-    const { positions, normals, indices, edges, nodeOf } = this.surface;
-    const position = new THREE.BufferAttribute(positions, 3);
-    this.geometry.setAttribute('position', position);
-    this.geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
-    this.values = new Float32Array(nodeOf.length);
-    this.colors = new THREE.BufferAttribute(new Float32Array(positions.length).fill(1), 3);
-    this.geometry.setAttribute('color', this.colors);
-    this.geometry.setIndex(indices);
-    this.plain = material.color.clone();
+    this.surface = surfaceOf(motion.body);
+    const { positions, normals, indices } = this.surface;
+    this.smooth = picture(positions, normals, indices);
+    this.vertexValues = new VertexValues(this.surface, motion.body.faces!);
     // Edges stand in front of the faces they bound.
     material.polygonOffset = true;
     material.polygonOffsetFactor = 1;
     material.polygonOffsetUnits = 1;
-    const mesh = new THREE.Mesh(this.geometry, material);
-    mesh.frustumCulled = false;
-    this.root.add(mesh);
-    const lines = new THREE.BufferGeometry();
-    lines.setAttribute('position', position);
-    lines.setIndex(edges);
-    const thin = new THREE.LineBasicMaterial({ color: edgeColor, transparent: true, opacity: 0.3 });
-    const net = new THREE.LineSegments(lines, thin);
-    net.frustumCulled = false;
-    this.root.add(net);
+    this.mesh = new THREE.Mesh(this.smooth.geometry, material);
+    this.thin = new THREE.LineBasicMaterial({ transparent: true });
+    const net = new THREE.BufferGeometry();
+    net.setAttribute('position', this.smooth.geometry.getAttribute('position'));
+    this.lines = new THREE.LineSegments(net, this.thin);
+    for (const part of [this.mesh, this.lines]) {
+      part.frustumCulled = false;
+      this.root.add(part);
+    }
   }
 
   deform(displacement: Float32Array, scale: number): void {
     if (!this.motion.body.displacement && this.deformed) return;
     this.deformed = true;
     this.surface.deform(displacement, scale);
-    this.geometry.getAttribute('position').needsUpdate = true;
-    this.geometry.getAttribute('normal').needsUpdate = true;
+    this.changed(this.smooth, 'position', 'normal');
+    if (!this.byFace || !this.split) return;
+    this.split.faces.update();
+    this.changed(this.split.picture, 'position', 'normal');
   }
 
-  /** Colours the surface by the stresses of its elements, or all of it plainly for null. */
-  paint(stress: Float32Array | null, range: number): void {
-    const colored = stress !== null && range > 0;
-    if (this.material.vertexColors !== colored) {
-      this.material.vertexColors = colored;
-      this.material.color.copy(colored ? new THREE.Color(0xffffff) : this.plain);
-      this.material.needsUpdate = true;
+  private changed({ geometry }: Picture, ...names: string[]): void {
+    for (const name of names) geometry.getAttribute(name).needsUpdate = true;
+  }
+
+  paint(painted: Painted | null, byFace: boolean): void {
+    this.material.setField(painted !== null, byFace);
+    this.use(painted !== null && byFace);
+    if (!painted) return;
+    if (!this.byFace) {
+      this.vertexValues.fill(painted, this.smooth.values);
+      this.changed(this.smooth, 'fieldValue');
+      return;
     }
-    if (!colored) return;
-    this.surface.vertexValues(stress, this.values);
-    const color = new THREE.Color();
-    this.values.forEach((value, v) => {
-      color.setRGB(...colorAt(value / range), THREE.SRGBColorSpace);
-      color.toArray(this.colors.array, 3 * v);
+    const { faces, picture: own } = this.split!;
+    faces.carrier.forEach((vertex, face) => {
+      const value = faceValue(this.surface, this.motion.body.faces!, painted, face);
+      own.values[vertex] = Number.isNaN(value) ? kNoValue : value;
     });
-    this.colors.needsUpdate = true;
+    this.changed(own, 'fieldValue');
+  }
+
+  /** Changes between one value per vertex and one per face. */
+  private use(byFace: boolean): void {
+    if (byFace === this.byFace) return;
+    this.byFace = byFace;
+    if (byFace && !this.split) {
+      const faces = new ElementFaces(this.surface);
+      this.split = { faces, picture: picture(faces.positions, faces.normals, faces.indices) };
+    }
+    if (byFace) {
+      this.split!.faces.update();
+      this.changed(this.split!.picture, 'position', 'normal');
+    }
+    this.mesh.geometry = byFace ? this.split!.picture.geometry : this.smooth.geometry;
+  }
+
+  look({ edges, planes, seeThrough }: SkinLook): void {
+    const { surface } = this;
+    const many = surface.corners.length / 4 > kManyFaces;
+    const wanted = edges === 'auto' ? (many ? 'outline' : 'mesh') : edges;
+    this.mesh.visible = wanted !== 'wireframe';
+    this.lines.visible = wanted !== 'none';
+    const list = wanted === 'outline' ? surface.outline : surface.edges;
+    if (this.lines.geometry.getIndex()?.array !== list) {
+      this.lines.geometry.setIndex(new THREE.BufferAttribute(list, 1));
+    }
+    this.thin.opacity = { none: 0, outline: 0.6, mesh: 0.32, wireframe: 0.5 }[wanted];
+    this.thin.color.set(this.edgeColors[wanted === 'wireframe' ? 'alone' : 'onFaces']);
+    for (const material of [this.material, this.thin]) material.clippingPlanes = planes;
+    const back = surface.isOpen || planes !== null || seeThrough;
+    this.material.setBack(back, !surface.isOpen);
+  }
+
+  vertex(index: number): PickedVertex {
+    const vertex = this.split && this.byFace ? this.split.faces.vertexOf[index]! : index;
+    return { node: this.surface.nodeOf[vertex]!, place: this.surface.placeOf[vertex]!, line: -1 };
+  }
+
+  ghost(material: THREE.Material): THREE.Mesh {
+    const geometry = new THREE.BufferGeometry();
+    const rest = new THREE.BufferAttribute(this.surface.restPositions(), 3);
+    geometry.setAttribute('position', rest);
+    geometry.setIndex(this.smooth.geometry.getIndex());
+    return new THREE.Mesh(geometry, material);
+  }
+
+  dispose(): void {
+    this.smooth.geometry.dispose();
+    this.split?.picture.geometry.dispose();
+    this.lines.geometry.dispose();
   }
 }

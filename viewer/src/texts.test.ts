@@ -4,7 +4,6 @@ import { colorAt } from './color_map';
 import { figure, niceBelow, prefixFor, TimeFormat } from './quantity';
 import { decodeRun } from './run';
 import { flatten, notices, summaryChips, trustReasons } from './run_summary';
-import type { PageData } from './page_data';
 
 describe('quantities', () => {
   it('choose the prefix an engineer would', () => {
@@ -38,14 +37,14 @@ describe('quantities', () => {
 
 describe('run summary', () => {
   it('shows what a good run did', () => {
-    const run = decodeRun(kVariants['slider-crank']() as unknown as PageData);
+    const run = decodeRun(kVariants['slider-crank']());
     const chips = summaryChips(run).map(({ label, value, tone }) => [label, value, tone]);
     expect(chips).toContainEqual(['factorisations', '1', 'plain']);
     expect(chips).toContainEqual(['trust', 'ok', 'good']);
   });
 
   it('warns about a run that is not to be trusted', () => {
-    const run = decodeRun(kVariants.spatial() as unknown as PageData);
+    const run = decodeRun(kVariants.spatial());
     expect(trustReasons(run.summary)).toEqual(['step too large for the highest mode']);
     expect(notices(run.summary)).toHaveLength(2);
     expect(summaryChips(run).filter((chip) => chip.tone === 'warn')).toHaveLength(2);
@@ -62,7 +61,7 @@ describe('run summary', () => {
   });
 
   it('bears a summary of nothing', () => {
-    const run = decodeRun(kVariants['no-curves']() as unknown as PageData);
+    const run = decodeRun(kVariants['no-curves']());
     expect(summaryChips(run)).toEqual([]);
     expect(flatten({ a: { b: [1, 2] }, c: 0.5 })).toEqual([
       ['a.b', '1, 2'],

@@ -8,6 +8,8 @@ export interface Theme {
   muted: string;
   joint: string;
   ghost: string;
+  /** Of elements, on coloured faces. */
+  edge: string;
   bodies: string[];
   curves: string[];
 }
@@ -20,6 +22,7 @@ const kLight: Theme = {
   muted: '#5b6776',
   joint: '#4a5563',
   ghost: '#6b7787',
+  edge: '#1b2430',
   bodies: ['#2f6fb3', '#d5822b', '#4c9a5a', '#8a63b5', '#c2504a', '#2f9aa0', '#b59a2c', '#7c6a5d'],
   curves: ['#1f6fc0', '#d2691e', '#2c8a49', '#8452b8', '#c23b48', '#17889a', '#8a7413', '#5b6776'],
 };
@@ -32,16 +35,57 @@ const kDark: Theme = {
   muted: '#97a3b3',
   joint: '#b4bfcc',
   ghost: '#9aa7b8',
+  edge: '#05080c',
   bodies: ['#5b9be0', '#eea04c', '#6dbb7a', '#ab88d8', '#e0746c', '#4fbcc2', '#d3ba4e', '#a8968a'],
   curves: ['#62a8f0', '#f0a050', '#67c07c', '#b596e8', '#f0808a', '#4cc3d4', '#d8c050', '#a8b4c4'],
 };
 
+export type ThemeChoice = 'auto' | 'light' | 'dark';
+
 const kQuery = '(prefers-color-scheme: dark)';
+const kStored = 'buckens-theme';
+
+let chosen: ThemeChoice = 'auto';
+const listeners: ((theme: Theme) => void)[] = [];
+
+export function themeChoice(): ThemeChoice {
+  return chosen;
+}
 
 export function currentTheme(): Theme {
-  return matchMedia(kQuery).matches ? kDark : kLight;
+  const dark = chosen === 'auto' ? matchMedia(kQuery).matches : chosen === 'dark';
+  return dark ? kDark : kLight;
+}
+
+/** The page's own colours hang on an attribute of the root; see style/base.css. */
+function apply(): void {
+  const theme = currentTheme();
+  document.documentElement.dataset.theme = theme.dark ? 'dark' : 'light';
+  for (const react of listeners) react(theme);
+}
+
+/** Follows the system, or not; remembered where the browser lets pages from files remember. */
+export function chooseTheme(choice: ThemeChoice): void {
+  chosen = choice;
+  try {
+    localStorage.setItem(kStored, choice);
+  } catch {
+    // Not remembered then.
+  }
+  apply();
+}
+
+export function startTheme(): void {
+  try {
+    const stored = localStorage.getItem(kStored);
+    if (stored === 'light' || stored === 'dark') chosen = stored;
+  } catch {
+    // As the system has it.
+  }
+  apply();
+  matchMedia(kQuery).addEventListener('change', apply);
 }
 
 export function onThemeChange(react: (theme: Theme) => void): void {
-  matchMedia(kQuery).addEventListener('change', () => react(currentTheme()));
+  listeners.push(react);
 }

@@ -2,7 +2,7 @@ import { el } from './dom';
 import type { Run } from './run';
 import type { ViewOptions } from './view_options';
 
-export type Toggle = 'joints' | 'frames' | 'labels' | 'undeformed' | 'stress';
+export type Toggle = 'joints' | 'loads' | 'frames' | 'labels' | 'undeformed' | 'colors';
 
 interface ToggleEntry {
   name: Toggle;
@@ -13,10 +13,11 @@ interface ToggleEntry {
 
 const kToggles: ToggleEntry[] = [
   { name: 'joints', text: 'Joints', key: 'j', title: 'Joints, supports and springs' },
+  { name: 'loads', text: 'Loads', key: 'a', title: 'Loads as arrows' },
   { name: 'frames', text: 'Frames', key: 'b', title: 'Buckens frames of the bodies' },
   { name: 'labels', text: 'Names', key: 'l', title: 'Names; with frames shown also of markers' },
   { name: 'undeformed', text: 'Undeformed', key: 'u', title: 'Undeformed shape as a ghost' },
-  { name: 'stress', text: 'Stress', key: 's', title: 'Stress of each element in colour' },
+  { name: 'colors', text: 'Colours', key: 's', title: 'Stress or another field in colour' },
 ];
 
 /** Buttons over the view that say what is drawn. */
@@ -25,15 +26,18 @@ export class Toolbar {
   private readonly buttons = new Map<Toggle, HTMLButtonElement>();
 
   constructor(
-    run: Run,
+    runs: Run[],
     private readonly options: ViewOptions,
+    more: HTMLElement,
     private readonly changed: () => void,
   ) {
-    const deformable = run.bodies.some((body) => body.displacement);
-    const stressed = run.bodies.some((body) => body.stress || body.solidStress);
-    const offered = kToggles.filter(
-      ({ name }) => (name !== 'undeformed' || deformable) && (name !== 'stress' || stressed),
-    );
+    const bodies = runs.flatMap((run) => run.bodies);
+    const useful: Partial<Record<Toggle, boolean>> = {
+      undeformed: bodies.some((body) => body.displacement),
+      colors: bodies.some((body) => body.displacement || body.fields.length > 0),
+      loads: runs.some((run) => run.loads.length > 0),
+    };
+    const offered = kToggles.filter(({ name }) => useful[name] ?? true);
     for (const { name, text, key, title } of offered) {
       const button = el(
         'button',
@@ -51,30 +55,9 @@ export class Toolbar {
       'div',
       { class: 'toolbar', role: 'toolbar', 'aria-label': 'What is shown' },
       ...this.buttons.values(),
-      this.traceChoice(run),
+      more,
     );
     this.update();
-  }
-
-  private traceChoice(run: Run): HTMLElement {
-    const select = el('select', {
-      class: 'trace',
-      'aria-label': 'Trace of a point',
-      title: 'Path of a point',
-    });
-    select.append(el('option', { value: '' }, 'No trace'));
-    run.bodies.forEach((body, b) => {
-      const points = body.markers.map((marker, m) => ({ m, text: `${body.name}/${marker.name}` }));
-      for (const { m, text } of [...points, { m: -1, text: `${body.name} (mass centre)` }]) {
-        select.append(el('option', { value: `${b}/${m}` }, text));
-      }
-    });
-    select.addEventListener('change', () => {
-      const [body, marker] = select.value.split('/').map(Number);
-      this.options.trace = select.value === '' ? null : { body: body!, marker: marker! };
-      this.changed();
-    });
-    return select;
   }
 
   flip(name: Toggle): void {

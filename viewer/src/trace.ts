@@ -42,7 +42,8 @@ export class Trace {
     this.passed = null;
     const frames = this.motion.run.times.length;
     if (!point || frames < 2) return;
-    const body = this.motion.bodies[point.body]!;
+    const body = this.motion.bodies[point.body];
+    if (!body) return;
     const marker = body.body.markers[point.marker];
     const path: number[] = [];
     for (let index = 0; index < frames; index++) {

@@ -5,7 +5,7 @@ import type { ViewOptions } from './view_options';
 
 /** Ratio between the default speed and the ends of the speed slider. */
 const kSpeedSpan = 32;
-const kMostScale = 100;
+const kMostScale = 1e5;
 
 const kPlay = '<svg viewBox="0 0 16 16"><path d="M4 2.5v11l9-5.5z"/></svg>';
 const kPause = '<svg viewBox="0 0 16 16"><path d="M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z"/></svg>';
@@ -54,6 +54,7 @@ export class Transport {
     private readonly options: ViewOptions,
     deformable: boolean,
     private readonly changed: () => void,
+    private readonly visibleScale: () => number,
   ) {
     this.format = new TimeFormat(playback.duration);
     this.usualSpeed = playback.speed;
@@ -97,6 +98,17 @@ export class Transport {
       this.scale,
       this.scaleNumber,
       '×',
+      el(
+        'button',
+        {
+          type: 'button',
+          class: 'small',
+          'data-auto-scale': '',
+          title: 'Magnify the largest displacement to a twentieth of the size, or show it as it is',
+          click: () => this.setScale(options.scale === 1 ? this.visibleScale() : 1),
+        },
+        'auto',
+      ),
     );
     this.root = el(
       'footer',

@@ -1,5 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Tube } from './tube';
+import { PackedRows } from './rows';
+import { rows } from '../tests/fixture.mjs';
 import type { Body } from './run';
 import type { Triple } from './page_data';
 
@@ -11,16 +13,17 @@ function beam(
   return {
     name: 'b',
     kind: 'beam',
-    nodes,
+    nodes: Float32Array.from(nodes.flat()),
+    nodeNumbers: null,
     elements,
     radius: elements.map(() => 0.1),
-    faces: [],
-    faceElements: [],
-    solidStress: null,
+    faces: null,
     markers: [],
     pose: new Float32Array(7),
-    displacement,
-    stress: null,
+    displacement: displacement && new PackedRows(rows(displacement), displacement.length, 1, 'd'),
+    perNode: 6,
+    motion: null,
+    fields: [],
     hasRotations: displacement !== null,
   };
 }

@@ -1,5 +1,5 @@
 import { BeamCurve, cross, dot, perpendicular, unit } from './beam_curve';
-import type { Body } from './run';
+import { nodeAt, type Body } from './run';
 import type { Triple } from './page_data';
 
 /** Vertices that one body may spend; long models get coarser tubes instead of a slow page. */
@@ -38,6 +38,8 @@ export class Tube {
   readonly indices: number[] = [];
   /** Element of each vertex, for colours. */
   readonly elementOf: Int32Array;
+  /** Where each vertex is along its element, 0 … 1. */
+  readonly alongOf: Float32Array;
   /** Nodes with a bend or a branch, where a ball closes the gap between tubes. */
   readonly kinks: number[];
   readonly radius: number[];
@@ -56,7 +58,7 @@ export class Tube {
   ) {
     const count = body.elements.length;
     this.curves = body.elements.map(
-      ([a, b]) => new BeamCurve(body.nodes[a]!, body.nodes[b]!, body.hasRotations),
+      ([a, b]) => new BeamCurve(nodeAt(body, a), nodeAt(body, b), body.hasRotations),
     );
     this.reference = this.curves.map((curve) => perpendicular(curve.axis));
     this.radius = body.radius.map((r) => Math.max(r, leastRadius));
@@ -83,6 +85,7 @@ export class Tube {
     this.positions = new Float32Array(3 * vertices);
     this.normals = new Float32Array(3 * vertices);
     this.elementOf = new Int32Array(vertices);
+    this.alongOf = new Float32Array(vertices);
     this.connect();
   }
 
@@ -93,6 +96,7 @@ export class Tube {
       this.elementOf.fill(e, e * rings * n, (e + 1) * rings * n);
       for (let s = 0; s < this.segments; s++) {
         const a = (e * rings + s) * n;
+        this.alongOf.fill((s + 1) / this.segments, a + n, a + 2 * n);
         for (let i = 0; i < n; i++) {
           const j = (i + 1) % n;
           this.indices.push(a + i, a + j, a + n + i, a + j, a + n + j, a + n + i);
@@ -101,6 +105,7 @@ export class Tube {
     }
     for (const { element, atEnd, firstVertex } of this.caps) {
       this.elementOf.fill(element, firstVertex, firstVertex + n + 1);
+      this.alongOf.fill(atEnd ? 1 : 0, firstVertex, firstVertex + n + 1);
       for (let i = 0; i < n; i++) {
         const j = (i + 1) % n;
         this.indices.push(firstVertex + n, firstVertex + (atEnd ? i : j));

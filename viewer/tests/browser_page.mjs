@@ -4,7 +4,7 @@ import { pathToFileURL } from 'node:url';
 /** Opens a page and records whatever goes wrong in it or is fetched by it. */
 export async function open(browser, path, options = {}) {
   const tab = await browser.newPage({
-    viewport: { width: 1280, height: 800 },
+    viewport: { width: 1000, height: 640 },
     reducedMotion: 'reduce',
     ...options,
   });
@@ -78,6 +78,7 @@ export function colors({ data, width, height }) {
   return seen;
 }
 
+/** What sticks out, is cut off, or covers something else that one has to read or press. */
 export async function overflows(tab) {
   return tab.evaluate(() => {
     const { scrollWidth, scrollHeight } = document.documentElement;
@@ -87,6 +88,32 @@ export async function overflows(tab) {
       if (part.scrollWidth > part.clientWidth + 1) found.push(`${part.className} is clipped`);
       if (box.right > innerWidth + 1) found.push(`${part.className} sticks out`);
     }
+    const over = [...document.querySelectorAll('.overlay button, .overlay summary, .field-panel')];
+    const boxes = over.map((part) => part.getBoundingClientRect()).filter((box) => box.width > 0);
+    boxes.forEach((a, i) => {
+      for (const b of boxes.slice(i + 1)) {
+        const wide = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+        const high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        const inside = b.left >= a.left && b.right <= a.right && b.top >= a.top && b.bottom <= a.bottom;
+        if (wide > 1 && high > 1 && !inside) found.push('buttons over the view overlap');
+      }
+    });
     return found;
   });
 }
+
+/** Mean colour of a small square of the view about a place of it [CSS px]. */
+export function colorAt({ data, width }, x, y, half = 2) {
+  const sum = [0, 0, 0];
+  let count = 0;
+  for (let v = Math.round(y) - half; v <= Math.round(y) + half; v++) {
+    for (let u = Math.round(x) - half; u <= Math.round(x) + half; u++) {
+      for (let k = 0; k < 3; k++) sum[k] += data[4 * (v * width + u) + k];
+      count++;
+    }
+  }
+  return sum.map((x) => Math.round(x / count));
+}
+
+/** Opens the choices of the colour scale. */
+export const openRange = (tab) => tab.locator('.field-panel summary').click();

@@ -3,28 +3,26 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { base64, coded, ints, rows } from './encoding.mjs';
+import { largeTorus } from './large_fixture.mjs';
 import { vibrations } from './modes_fixture.mjs';
 import { solidCube } from './solid_fixture.mjs';
 
+export { base64, coded, ints, rows };
+
 const kHere = dirname(fileURLToPath(import.meta.url));
 const kMarker = '/*BUCKENS_DATA*/null';
-
-export const base64 = (numbers) => {
-  const bytes = Buffer.alloc(4 * numbers.length);
-  numbers.forEach((number, i) => bytes.writeFloatLE(number, 4 * i));
-  return bytes.toString('base64');
-};
 
 const aboutZ = (angle) => [Math.cos(angle / 2), 0, 0, Math.sin(angle / 2)];
 const kUpright = [1, 0, 0, 0];
 
 /** Slider-crank of crank r and rod l with a rod that swings in its first bending shape. */
-function crankState(t, { r, l, speed }) {
+function crankState(t, { r, l, speed, bending }) {
   const phi = speed * t;
   const pin = [r * Math.cos(phi), r * Math.sin(phi), 0];
   const psi = -Math.asin((r * Math.sin(phi)) / l);
   const slider = pin[0] + l * Math.cos(psi);
-  const mid = 0.02 * l * Math.sin(phi) * (1 + 0.25 * Math.sin(6.3 * phi));
+  const mid = bending * 0.02 * l * Math.sin(phi) * (1 + 0.25 * Math.sin(6.3 * phi));
   return { phi, pin, psi, slider, mid };
 }
 
@@ -35,11 +33,11 @@ function rodShape(nodes, l, mid) {
   });
 }
 
-export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], planar = 'xy' } = {}) {
+export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], planar = 'xy', bending = 1 } = {}) {
   const [r, l, speed, duration, elements] = [0.15 * scale, 0.3 * scale, 150, 0.1, 12];
   const nodes = [...Array(elements + 1)].map((_, i) => [l * (i / elements - 0.5), 0, 0]);
   const times = [...Array(frames)].map((_, i) => (frames > 1 ? (duration * i) / (frames - 1) : 0));
-  const states = times.map((t) => crankState(t, { r, l, speed }));
+  const states = times.map((t) => crankState(t, { r, l, speed, bending }));
   const place = (p) => p.map((x, i) => x + offset[i]);
   const marker = (name, x, node = -1) => ({
     name,
@@ -52,18 +50,17 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
     {
       name: 'crank',
       kind: 'rigid',
-      nodes: [],
+      nodes: '',
       elements: [],
       radius: [],
       markers: [marker('base', -r / 2), marker('pin', r / 2)],
       pose: base64(states.flatMap((s) => [...place(s.pin.map((x) => x / 2)), ...aboutZ(s.phi)])),
       displacement: null,
-      stress: null,
     },
     {
       name: 'rod',
       kind: 'beam',
-      nodes,
+      nodes: base64(nodes.flat()),
       elements: [...Array(elements)].map((_, i) => [i, i + 1]),
       radius: Array(elements).fill(0.003 * scale),
       markers: [
@@ -77,8 +74,14 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
           ...aboutZ(s.psi),
         ]),
       ),
-      displacement: base64(states.flatMap((s) => rodShape(nodes, l, s.mid))),
-      stress: base64(
+      displacement: rows(states.flatMap((s) => rodShape(nodes, l, s.mid))),
+      fields: [
+        {
+          name: 'von_mises',
+          unit: 'Pa',
+          components: [''],
+          on: 'lines',
+          values: rows(
         states.flatMap((s) =>
           nodes.slice(1).map(([x], i) => {
             const middle = (x + nodes[i][0]) / 2;
@@ -86,18 +89,19 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
             return Math.abs(2e11 * 0.003 * scale * curvature);
           }),
         ),
-      ),
+          ),
+        },
+      ],
     },
     {
       name: 'slider',
       kind: 'rigid',
-      nodes: [],
+      nodes: '',
       elements: [],
       radius: [],
       markers: [marker('origin', 0)],
       pose: base64(states.flatMap((s) => [...place([s.slider, 0, 0]), ...kUpright])),
       displacement: null,
-      stress: null,
     },
   ];
   const joint = (name, type, a, b, axis = [0, 0, 1]) => ({ name, type, between: [a, b], axis });
@@ -117,13 +121,26 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
   });
   const kinetic = (s) => 20 + 8 * Math.cos(2 * s.phi);
   return {
-    format: 1,
     title: 'Flexible slider-crank',
     version: '0.1.0',
     generated: '2026-01-01T00:00:00Z',
     time: { n: frames, f32: base64(times) },
     bodies,
     joints,
+    loads: [
+      {
+        name: 'push',
+        kind: 'force',
+        body: 2,
+        follows: false,
+        unit: 'N',
+        positions: [[0, 0, 0]],
+        nodes: [-1],
+        directions: [[1, 0, 0]],
+        values: base64(states.flatMap((s) => [-200 * Math.cos(s.phi), 0, 0])),
+        width: 3,
+      },
+    ],
     gravity: [0, 0, 0],
     planar,
     sensors: [
@@ -171,7 +188,6 @@ export function spatial() {
   const swing = (t) => 1.2 * Math.cos(3.1 * t);
   const aboutX = (angle) => [Math.cos(angle / 2), Math.sin(angle / 2), 0, 0];
   return {
-    format: 1,
     title: 'Pendulum and spinning body </script> "&',
     version: '0.1.0',
     generated: '2026-01-01T00:00:00Z',
@@ -180,7 +196,7 @@ export function spatial() {
       {
         name: 'pendulum',
         kind: 'rigid',
-        nodes: [],
+        nodes: '',
         elements: [],
         radius: [],
         markers: [
@@ -196,18 +212,16 @@ export function spatial() {
           ]),
         ),
         displacement: null,
-        stress: null,
       },
       {
         name: 'spinner',
         kind: 'rigid',
-        nodes: [],
+        nodes: '',
         elements: [],
         radius: [],
         markers: [],
         pose: base64(times.flatMap((t) => [0.6, 0.6, -0.3, ...aboutX(3 * t)])),
         displacement: null,
-        stress: null,
       },
     ],
     joints: [
@@ -258,13 +272,15 @@ export const kVariants = {
   'one-frame': () => sliderCrank({ frames: 1 }),
   'two-frames': () => sliderCrank({ frames: 2 }),
   'no-frames': () => sliderCrank({ frames: 0 }),
-  'no-bodies': () => ({ ...sliderCrank(), bodies: [], joints: [] }),
+  'no-bodies': () => ({ ...sliderCrank(), bodies: [], joints: [], loads: [] }),
   'no-curves': () => ({ ...sliderCrank(), sensors: [], energies: [], summary: {} }),
   empty: () => null,
   broken: () => ({ ...sliderCrank(), time: { n: 7, f32: base64([1, 2]) } }),
   spatial,
   modes: () => vibrations(),
   solid: () => solidCube(),
+  'side-by-side': () => [sliderCrank(), sliderCrank({ frames: 250, bending: 2 })],
+  large: () => largeTorus({ around: 200, across: 50, frames: 6 }),
 };
 
 /** The built page (BUCKENS_VIEWER_PAGE, else viewer/dist) with `data` in it, as the program writes it. */
@@ -275,7 +291,8 @@ export function pageWith(data, template = kTemplate) {
   if (parts.length !== 2)
     throw new Error(`${template}: ${parts.length - 1} data markers, 1 expected`);
   // No "<" reaches the page, so no text in a model can end the script element.
-  return parts.join(JSON.stringify(data).replaceAll('<', '\\u003c'));
+  const page = data && { format: 2, runs: Array.isArray(data) ? data : [data] };
+  return parts.join(JSON.stringify(page).replaceAll('<', '\\u003c'));
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1] ?? '').href) {

@@ -1,5 +1,5 @@
 // A page with vibrations: three modes of a beam, one of them with a moving frame, one unstable.
-import { base64 } from './fixture.mjs';
+import { base64, rows } from './encoding.mjs';
 
 const kElements = 12;
 const kLength = 0.8;
@@ -13,7 +13,6 @@ export function vibrations() {
   const stretched = nodes.flatMap(([x]) => [(2 * x) / kLength, 0, 0, 0, 0, 0]);
   const pose = [0.1, 0.2, 0, 1, 0, 0, 0];
   return {
-    format: 1,
     title: 'Vibrations of a beam',
     version: '0.1.0',
     generated: '2026-01-01T00:00:00Z',
@@ -22,14 +21,13 @@ export function vibrations() {
       {
         name: 'beam',
         kind: 'beam',
-        nodes,
+        nodes: base64(nodes.flat()),
         elements: [...Array(kElements)].map((_, i) => [i, i + 1]),
         radius: Array(kElements).fill(0.01),
         markers: [],
         pose: base64([...pose, ...pose, ...pose]),
-        displacement: base64([...bent, ...rigid, ...stretched]),
+        displacement: rows([...bent, ...rigid, ...stretched]),
         motion: base64([0, 0, 0, 0, 0, 0, 0, 0, 0.4, 0, 1, 0, 0, 0, 0, 0, 0, 0]),
-        stress: null,
       },
     ],
     joints: [],

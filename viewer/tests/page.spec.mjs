@@ -15,7 +15,10 @@ import {
   settle,
   state,
 } from './browser_page.mjs';
+import { fieldSpecs } from './field_specs.mjs';
 import { kVariants, pageWith } from './fixture.mjs';
+import { pickSpecs } from './pick_specs.mjs';
+import { sideBySideSpecs } from './side_by_side_specs.mjs';
 
 const kGiven = process.argv[2] ?? process.env.BUCKENS_PAGE;
 const browser = await launch();
@@ -23,9 +26,10 @@ const folder = mkdtempSync(join(tmpdir(), 'buckens-page-'));
 let failed = 0;
 
 async function test(name, body) {
+  const began = Date.now();
   try {
     await body();
-    console.log(`ok    ${name}`);
+    console.log(`ok    ${name} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
   } catch (error) {
     failed++;
     console.error(
@@ -114,7 +118,7 @@ await test('every toggle changes the picture and comes back', async () => {
     await button.click();
     assert.equal((await state(tab))[name], !before, name);
     assert.equal(await button.getAttribute('aria-pressed'), String(!before));
-    await tab.mouse.move(640, 790);
+    await tab.mouse.move(500, 632);
     const b = await pixels(tab);
     // The button itself changes about 1500 pixels: count below the toolbar.
     const below = (p) => ({ ...p, data: p.data.subarray(4 * p.width * 45) });
@@ -153,7 +157,7 @@ await test('the camera turns, zooms, fits and changes projection', async () => {
   await tab.mouse.wheel(0, -300);
   assert.ok(difference(home, await pixels(tab)) > 200, 'dragging turned nothing');
   await tab.locator('[data-fit]').click();
-  await tab.mouse.move(640, 790);
+  await tab.mouse.move(500, 632);
   await tab.locator('.view canvas').focus();
   const flat = (await state(tab)).orthographic;
   await tab.keyboard.press('o');
@@ -161,12 +165,18 @@ await test('the camera turns, zooms, fits and changes projection', async () => {
   await tab.keyboard.press('o');
 });
 
-await test('nothing overflows at 1280 × 800 and smaller', async () => {
-  assert.deepEqual(await overflows(tab), []);
-  await tab.setViewportSize({ width: 1024, height: 640 });
-  await settle(tab);
-  assert.deepEqual(await overflows(tab), []);
-  await tab.setViewportSize({ width: 1280, height: 800 });
+await test('nothing overflows or overlaps, from wide to narrow', async () => {
+  for (const [width, height] of [
+    [1280, 800],
+    [1100, 700],
+    [800, 900],
+    [420, 800],
+  ]) {
+    await tab.setViewportSize({ width, height });
+    await settle(tab);
+    assert.deepEqual(await overflows(tab), [], `${width} × ${height}`);
+  }
+  await tab.setViewportSize({ width: 1000, height: 640 });
 });
 
 await test('no errors, no warnings, no requests', async () => {
@@ -193,13 +203,17 @@ async function syntheticOnly() {
     assert.ok(difference(a, await pixels(tab)) > 400);
     await tab.locator('.field input[type=number]').fill('1000');
     await tab.keyboard.press('Enter');
-    assert.equal((await state(tab)).scale, 100);
+    assert.equal((await state(tab)).scale, 1000);
+    await tab.locator('[data-auto-scale]').click();
+    assert.equal((await state(tab)).scale, 1);
   });
 
   await test('a trace is drawn and curves can be chosen', async () => {
     await setTime(tab, 0.05);
     const a = await pixels(tab);
+    await tab.locator('.display summary').click();
     await tab.locator('.trace').selectOption({ label: 'crank/pin' });
+    await tab.locator('.display summary').click();
     assert.ok(difference(a, await pixels(tab)) > 200);
     const before = (await state(tab)).cursors.length;
     await tab.locator('.choice summary').click();
@@ -248,22 +262,6 @@ async function syntheticOnly() {
     await opened.tab.close();
   });
 
-  await test('solids: the surface deforms and shows its stresses', async () => {
-    const opened = await open(browser, variant('solid'));
-    assert.match(await opened.tab.locator('.stress-legend').innerText(), /von Mises in MPa/);
-    await setTime(opened.tab, 1);
-    assert.match(await opened.tab.locator('.stress-legend').innerText(), /now 8/);
-    const coloured = await pixels(opened.tab);
-    await opened.tab.locator('button[data-toggle=stress]').click();
-    const plain = await pixels(opened.tab);
-    assert.ok(difference(coloured, plain) > 500, 'stresses give no colour');
-    await opened.tab.keyboard.press('s');
-    await setTime(opened.tab, 0);
-    assert.ok(difference(coloured, await pixels(opened.tab)) > 500, 'nothing moves');
-    assert.deepEqual(opened.complaints, []);
-    await opened.tab.close();
-  });
-
   await test('vibrations: a mode and its amplitude are chosen, its shape swings', async () => {
     const opened = await open(browser, variant('modes'));
     const modes = opened.tab.locator('[data-mode]');
@@ -294,6 +292,11 @@ async function syntheticOnly() {
     assert.deepEqual(opened.complaints, []);
     await opened.tab.close();
   });
+
+  const tools = { test, browser, variant };
+  await fieldSpecs(tools);
+  await pickSpecs(tools);
+  await sideBySideSpecs(tools);
 
   const messages = {
     'one-frame': /One stored frame only/,

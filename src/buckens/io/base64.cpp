@@ -27,16 +27,34 @@ std::string encode(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
+/// Appends the lowest `size` bytes, the least first.
+void append(std::vector<std::uint8_t>& bytes, std::uint32_t bits, unsigned size) {
+  for (unsigned k = 0; k < size; ++k) {
+    bytes.push_back(static_cast<std::uint8_t>(bits >> 8 * k & 0xFFU));
+  }
+}
+
 }  // namespace
+
+std::string base64_int32(std::span<const int> values) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(4 * values.size());
+  for (const int value : values) append(bytes, static_cast<std::uint32_t>(value), 4);
+  return encode(bytes);
+}
+
+std::string base64_uint16(std::span<const std::uint16_t> values) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(2 * values.size());
+  for (const std::uint16_t value : values) append(bytes, value, 2);
+  return encode(bytes);
+}
 
 std::string base64_float32(std::span<const double> values) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(4 * values.size());
   for (const double value : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-      bytes.push_back(static_cast<std::uint8_t>(bits >> shift & 0xFFU));
-    }
+    append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
   }
   return encode(bytes);
 }

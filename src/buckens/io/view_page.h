@@ -3,32 +3,40 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace buckens::io {
 
 struct ViewPageOptions {
   std::size_t max_frames = 2000;
-  /// Upper bound for the numbers of all frames together; fewer frames are taken to keep it.
-  std::size_t max_bytes = 96U << 20U;
+  /// Upper bound for the numbers of all frames together; where float32 would need more than a
+  /// quarter of it deformations and fields are rounded to 16 bits, and fewer frames are taken.
+  std::size_t max_bytes = 64U << 20U;
+  /// Names of the fields to show ("von_mises"); all that were recorded if it is empty.
+  std::vector<std::string> fields = {};
 };
 
-/// What went into a page.
+/// What went into a page of one run.
 struct ViewPageReport {
   std::size_t records = 0;  ///< in the run
   std::size_t frames = 0;   ///< of them in the page
+  bool rounded = false;     ///< deformations and fields to 16 bits
 };
 
-/// Writes one self-contained HTML page that shows a run.
+/// Writes one self-contained HTML page that shows a run, or two runs side by side.
 ///
 /// `template_html` is the viewer's page, which holds the text `/*BUCKENS_DATA*/null` exactly once;
-/// the run takes the place of that text as JSON (format 1, viewer/src/page_data.ts). Frames are
+/// the runs take the place of that text as JSON (format 2, viewer/src/page_data.ts). Frames are
 /// taken evenly from the records, the first and the last among them. Runs that go on or were killed
 /// show what they have.
-/// @throws IoError if the run cannot be read, the template does not fit, the run has no records, or
-///   the page cannot be written
-ViewPageReport write_view_page(const std::filesystem::path& run_directory,
-                               const std::filesystem::path& template_html,
-                               const std::filesystem::path& output_html,
-                               const ViewPageOptions& options = {});
+/// @param run_directories one or two
+/// @return one report for each
+/// @throws IoError if a run cannot be read, the template does not fit, a run has no records, one
+///   directory holds a run and the other vibrations, or the page cannot be written
+std::vector<ViewPageReport> write_view_page(
+    const std::vector<std::filesystem::path>& run_directories,
+    const std::filesystem::path& template_html, const std::filesystem::path& output_html,
+    const ViewPageOptions& options = {});
 
 }  // namespace buckens::io

@@ -2,8 +2,8 @@
 #include "buckens/io/view_page_body.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,63 +23,80 @@ Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
-PageBody::PageBody(const results::GeometryBody& body) : body_(body) {
-  choose_nodes();
-  for (const int e : body.face_elements) solids_.push_back(static_cast<std::size_t>(e));
-  std::sort(solids_.begin(), solids_.end());
-  solids_.erase(std::unique(solids_.begin(), solids_.end()), solids_.end());
-}
-
-void PageBody::choose_nodes() {
-  const auto count = static_cast<std::size_t>(body_.nodes.rows());
-  std::vector<bool> seen(count, !is_solid());
+VisibleParts::VisibleParts(const results::GeometryBody& body) {
+  const auto count = static_cast<std::size_t>(body.nodes.rows());
+  std::vector<bool> seen(count, body.faces.empty());
   const auto see = [&seen](int node) {
     if (node >= 0) seen.at(static_cast<std::size_t>(node)) = true;
   };
-  for (const auto& face : body_.faces) std::for_each(face.begin(), face.end(), see);
-  for (const auto& element : body_.elements) std::for_each(element.begin(), element.end(), see);
-  for (const auto& marker : body_.markers) {
-    if (marker.node < body_.nodes.rows()) see(marker.node);
+  for (const auto& face : body.faces) std::for_each(face.begin(), face.end(), see);
+  for (const auto& element : body.elements) std::for_each(element.begin(), element.end(), see);
+  for (const auto& marker : body.markers) {
+    if (marker.node < body.nodes.rows()) see(marker.node);
   }
-  number_.assign(count, -1);
+  number.assign(count, -1);
   for (std::size_t n = 0; n < count; ++n) {
     if (!seen[n]) continue;
-    number_[n] = static_cast<int>(nodes_.size());
-    nodes_.push_back(n);
+    number[n] = static_cast<int>(nodes.size());
+    nodes.push_back(n);
   }
+  for (const int e : body.face_elements) solids.push_back(static_cast<std::size_t>(e));
+  std::sort(solids.begin(), solids.end());
+  solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
 }
 
-std::size_t PageBody::values_per_frame() const {
-  return kPoseSize + values_per_node() * nodes_.size() + body_.elements.size() + solids_.size();
+PageBody::PageBody(const results::GeometryBody& body) : body_(body), visible_(body) {}
+
+/// Rotations of the nodes of solids mean nothing.
+std::size_t PageBody::values_per_node() const {
+  return !body_.faces.empty() && body_.elements.empty() ? 3 : kNodeSize;
+}
+
+std::size_t PageBody::displacements_per_frame(const RunReader& run) const {
+  const int index = run.layout().find(fmt::format("bodies/{}/displacement", body_.name));
+  return index < 0 ? 0 : values_per_node() * visible_.nodes.size();
 }
 
 Json PageBody::json(const FrameReader& reader) const {
   const auto number = [this](int node) {
-    return node < 0 ? node : number_.at(static_cast<std::size_t>(node));
+    return visible_.number.at(static_cast<std::size_t>(node));
   };
-  Json nodes = Json::array();
-  for (const std::size_t n : nodes_) {
-    nodes.push_back(json_of(body_.nodes.row(static_cast<Eigen::Index>(n)).transpose()));
+  std::vector<double> nodes;
+  std::vector<int> numbers;
+  for (const std::size_t n : visible_.nodes) {
+    const auto row = body_.nodes.row(static_cast<Eigen::Index>(n));
+    nodes.insert(nodes.end(), row.begin(), row.end());
+    numbers.push_back(static_cast<int>(n));
   }
   Json elements = Json::array();
   for (const auto& [a, b] : body_.elements) elements.push_back({number(a), number(b)});
-  Json out = {{"name", body_.name},        {"kind", kKinds[static_cast<std::size_t>(body_.kind)]},
-              {"nodes", std::move(nodes)}, {"elements", std::move(elements)},
-              {"radius", body_.radius},    {"markers", markers()},
-              {"pose", pose(reader)},      {"displacement", displacement(reader)},
-              {"motion", motion(reader)},  {"stress", stress(reader)}};
-  if (!is_solid()) return out;
-  Json faces = Json::array();
-  Json of_face = Json::array();
+  const bool all = numbers.size() == visible_.number.size();
+  Json out = {{"name", body_.name},
+              {"kind", kKinds[static_cast<std::size_t>(body_.kind)]},
+              {"nodes", base64_float32(nodes)},
+              {"nodeNumbers", all ? Json(nullptr) : Json(base64_int32(numbers))},
+              {"elements", std::move(elements)},
+              {"radius", body_.radius},
+              {"markers", markers()},
+              {"pose", pose(reader)},
+              {"displacement", displacement(reader)},
+              {"motion", motion(reader)}};
+  return body_.faces.empty() ? out : faces_into(std::move(out));
+}
+
+Json PageBody::faces_into(Json out) const {
+  std::vector<int> faces, of_face;
   for (std::size_t f = 0; f < body_.faces.size(); ++f) {
-    const auto& face = body_.faces[f];
-    faces.push_back({number(face[0]), number(face[1]), number(face[2]), number(face[3])});
+    for (const int node : body_.faces[f]) {
+      faces.push_back(node < 0 ? node : visible_.number.at(static_cast<std::size_t>(node)));
+    }
+    const auto& solids = visible_.solids;
     const auto element = static_cast<std::size_t>(body_.face_elements[f]);
-    of_face.push_back(std::lower_bound(solids_.begin(), solids_.end(), element) - solids_.begin());
+    const auto at = std::lower_bound(solids.begin(), solids.end(), element);
+    of_face.push_back(static_cast<int>(at - solids.begin()));
   }
-  out["faces"] = std::move(faces);
-  out["faceElements"] = std::move(of_face);
-  out["solidStress"] = solid_stress(reader);
+  out["faces"] = base64_int32(faces);
+  out["faceElements"] = base64_int32(of_face);
   return out;
 }
 
@@ -88,11 +105,11 @@ Json PageBody::markers() const {
   for (const results::GeometryMarker& marker : body_.markers) {
     const Eigen::Quaterniond& q = marker.X_BF.q;
     const bool on_node = marker.node >= 0 && marker.node < body_.nodes.rows();
-    all.push_back(
-        {{"name", marker.name},
-         {"position", json_of(marker.X_BF.p)},
-         {"orientation", {q.w(), q.x(), q.y(), q.z()}},
-         {"node", on_node ? number_[static_cast<std::size_t>(marker.node)] : marker.node}});
+    const int node = on_node ? visible_.number[static_cast<std::size_t>(marker.node)] : marker.node;
+    all.push_back({{"name", marker.name},
+                   {"position", json_of(marker.X_BF.p)},
+                   {"orientation", {q.w(), q.x(), q.y(), q.z()}},
+                   {"node", node}});
   }
   return all;
 }
@@ -111,12 +128,11 @@ Json PageBody::displacement(const FrameReader& reader) const {
   const std::string path = fmt::format("bodies/{}/displacement", body_.name);
   const auto size = static_cast<std::size_t>(body_.nodes.rows()) * kNodeSize;
   if (size == 0 || reader.size_of(path) != size) return nullptr;
-  if (!is_solid()) return reader.values(path);
   std::vector<std::size_t> places;
-  for (const std::size_t n : nodes_) {
+  for (const std::size_t n : visible_.nodes) {
     for (std::size_t k = 0; k < values_per_node(); ++k) places.push_back(kNodeSize * n + k);
   }
-  return reader.values_at(path, places);
+  return reader.rows(path, [&](const auto& all) { return values_at(all, places); });
 }
 
 /// Motion of the body's frame in a vibration, null in runs.
@@ -124,29 +140,6 @@ Json PageBody::motion(const FrameReader& reader) const {
   const std::string path = fmt::format("bodies/{}/motion", body_.name);
   if (reader.size_of(path) != kNodeSize) return nullptr;
   return reader.values(path);
-}
-
-/// Largest magnitude of the stresses of each line element, null if not recorded.
-Json PageBody::stress(const FrameReader& reader) const {
-  const std::string path = fmt::format("bodies/{}/stress", body_.name);
-  const std::size_t elements = body_.elements.size();
-  const std::size_t size = reader.size_of(path);
-  if (size == 0 || elements == 0 || size % elements != 0) return nullptr;
-  const std::size_t per_element = size / elements;
-  const std::vector<double> all = reader.numbers(path);
-  std::vector<double> largest(reader.num_frames() * elements, 0.0);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    double& value = largest[i / per_element];
-    value = std::max(value, std::abs(all[i]));
-  }
-  return base64_float32(largest);
-}
-
-/// Von Mises stresses of the solid elements below the surface, null if not recorded.
-Json PageBody::solid_stress(const FrameReader& reader) const {
-  const std::string path = fmt::format("bodies/{}/solid_stress", body_.name);
-  if (solids_.empty() || reader.size_of(path) <= solids_.back()) return nullptr;
-  return reader.values_at(path, solids_);
 }
 
 }  // namespace buckens::io

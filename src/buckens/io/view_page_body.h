@@ -11,35 +11,40 @@
 
 namespace buckens::io {
 
-/// A body as the page holds it (PageBody in viewer/src/page_data.ts). Of solids only what can be
-/// seen goes there: the nodes of the surface and the stresses of the elements below it.
+/// What can be seen of a body: the nodes of its lines and of its surface, and the solid elements
+/// below the surface. Nothing else of a body with solids goes into the page.
+struct VisibleParts {
+  explicit VisibleParts(const results::GeometryBody& body);
+
+  std::vector<std::size_t> nodes;   ///< of the body that the page has, increasing
+  std::vector<int> number;          ///< in the page of each node of the body, −1 if it has not
+  std::vector<std::size_t> solids;  ///< solid elements below the surface, increasing
+};
+
+/// A body as the page holds it (PageBody in viewer/src/page_data.ts).
 class PageBody {
  public:
   /// @param body outlives the object
   explicit PageBody(const results::GeometryBody& body);
 
-  bool is_solid() const { return !body_.faces.empty(); }
   const std::string& name() const { return body_.name; }
-  /// How many numbers a solid takes in every frame.
-  std::size_t values_per_frame() const;
+  const VisibleParts& visible() const { return visible_; }
+  /// How many numbers of rows (PageRows) the displacements take in every frame.
+  std::size_t displacements_per_frame(const RunReader& run) const;
   nlohmann::ordered_json json(const FrameReader& reader) const;
 
  private:
   using Json = nlohmann::ordered_json;
 
-  void choose_nodes();
-  std::size_t values_per_node() const { return body_.elements.empty() ? 3 : 6; }
+  std::size_t values_per_node() const;
+  Json faces_into(Json out) const;
   Json markers() const;
   Json pose(const FrameReader& reader) const;
   Json displacement(const FrameReader& reader) const;
   Json motion(const FrameReader& reader) const;
-  Json stress(const FrameReader& reader) const;
-  Json solid_stress(const FrameReader& reader) const;
 
   const results::GeometryBody& body_;
-  std::vector<std::size_t> nodes_;   // of the body that the page has
-  std::vector<int> number_;          // in the page of each node of the body, −1 if it has not
-  std::vector<std::size_t> solids_;  // solid elements below the surface, increasing
+  VisibleParts visible_;
 };
 
 }  // namespace buckens::io

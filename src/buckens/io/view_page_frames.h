@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,19 @@ namespace buckens::io {
 class FrameReader {
  public:
   /// @param frames indices of the records, increasing
-  FrameReader(const RunReader& run, std::vector<std::size_t> frames);
+  /// @param coded  whether rows are rounded to 16 bits
+  FrameReader(const RunReader& run, std::vector<std::size_t> frames, bool coded);
 
   std::size_t num_frames() const { return frames_.size(); }
+  bool coded() const { return coded_; }
+  const RunReader& run() const { return run_; }
   /// Base64 of the times.
   std::string times() const;
-  /// Base64 of a whole channel.
+  /// Base64 of a whole channel as float32.
   std::string values(const std::string& path) const;
-  /// Base64 of a channel's values per frame at the given places only.
-  std::string values_at(const std::string& path, const std::vector<std::size_t>& places) const;
-  /// Numbers of a whole channel.
-  std::vector<double> numbers(const std::string& path) const;
+  /// A channel's rows, one per frame: `choose` makes the page's row of the channel's.
+  using Choose = std::function<std::vector<double>(const std::vector<double>&)>;
+  nlohmann::ordered_json rows(const std::string& path, const Choose& choose) const;
   /// Values of a scalar channel, empty where it is missing.
   std::vector<double> scalars(const std::string& path) const;
   /// Number of values of a channel, 0 where it is missing.
@@ -33,6 +36,10 @@ class FrameReader {
  private:
   const RunReader& run_;
   std::vector<std::size_t> frames_;
+  bool coded_;
 };
+
+/// The values at some places.
+std::vector<double> values_at(const std::vector<double>& all, const std::vector<std::size_t>& at);
 
 }  // namespace buckens::io

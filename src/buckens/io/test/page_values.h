@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace buckens::io::test {
 
-/// The float32 numbers of a base64 text.
-inline std::vector<float> decode(const std::string& text) {
+/// The bytes of a base64 text.
+inline std::vector<std::uint8_t> decode_bytes(const std::string& text) {
   std::map<char, std::uint32_t> value;
   std::uint32_t next = 0;
   for (const char c :
@@ -29,13 +29,22 @@ inline std::vector<float> decode(const std::string& text) {
       bytes.push_back(static_cast<std::uint8_t>(bits >> have & 0xFFU));
     }
   }
-  std::vector<float> numbers;
-  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4) {
-    std::uint32_t word = 0;
-    for (std::size_t b = 0; b < 4; ++b) word |= static_cast<std::uint32_t>(bytes[i + b]) << 8 * b;
-    numbers.push_back(std::bit_cast<float>(word));
-  }
+  return bytes;
+}
+
+/// Its little-endian numbers.
+template <class Number>
+std::vector<Number> decode_as(const std::string& text) {
+  const std::vector<std::uint8_t> bytes = decode_bytes(text);
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   return numbers;
+}
+
+inline std::vector<float> decode(const std::string& text) { return decode_as<float>(text); }
+inline std::vector<int> decode_ints(const std::string& text) { return decode_as<int>(text); }
+inline std::vector<std::uint16_t> decode_codes(const std::string& text) {
+  return decode_as<std::uint16_t>(text);
 }
 
 }  // namespace buckens::io::test

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Solids in results.h5 and in the page.
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,11 +12,14 @@
 #include "buckens/io/test/page_values.h"
 #include "buckens/io/test/sample_run.h"
 #include "buckens/io/view_page.h"
+#include "buckens/io/view_page_rows.h"
 
 namespace buckens::io {
 namespace {
 
 using test::decode;
+using test::decode_codes;
+using test::decode_ints;
 using test::sample_record;
 using test::sample_value;
 
@@ -58,9 +63,11 @@ class SolidPage : public testing::Test {
 
   nlohmann::json body(const ViewPageOptions& options = {}) {
     replace_text_file(directory_ / "template.html", "/*BUCKENS_DATA*/null");
-    report_ = write_view_page(directory_ / "out", directory_ / "template.html",
-                              directory_ / "page.html", options);
-    return nlohmann::json::parse(read_text_file(directory_ / "page.html"))["bodies"][0];
+    report_ = write_view_page({directory_ / "out"}, directory_ / "template.html",
+                              directory_ / "page.html", options)
+                  .at(0);
+    const nlohmann::json page = nlohmann::json::parse(read_text_file(directory_ / "page.html"));
+    return page["runs"][0]["bodies"][0];
   }
 
   test::TemporaryDirectory directory_;
@@ -79,25 +86,51 @@ TEST_F(SolidPage, HoldsWhatCanBeSeenOnly) {
   const nlohmann::json page = body();
   EXPECT_EQ(page["kind"], "solid");
   // Nodes 0, 1, 3, 4 of the first face, 19, 20, 23 of the second, 13 for the marker.
-  ASSERT_EQ(page["nodes"].size(), 8U);
-  EXPECT_EQ(page["nodes"][4], nlohmann::json({0.0, 0.0, 0.0}));
-  EXPECT_EQ(page["faces"], nlohmann::json({{0, 2, 3, 1}, {5, 6, 7, -1}}));
-  EXPECT_EQ(page["faceElements"], nlohmann::json({0, 1}));
+  EXPECT_EQ(decode_ints(page["nodeNumbers"]), (std::vector<int>{0, 1, 3, 4, 13, 19, 20, 23}));
+  ASSERT_EQ(decode(page["nodes"]).size(), 24U);
+  EXPECT_EQ(decode(page["nodes"])[12], 0.0F);
+  EXPECT_EQ(decode_ints(page["faces"]), (std::vector<int>{0, 2, 3, 1, 5, 6, 7, -1}));
+  EXPECT_EQ(decode_ints(page["faceElements"]), (std::vector<int>{0, 1}));
   EXPECT_EQ(page["markers"][0]["node"], 4);
-  const std::vector<float> moved = decode(page["displacement"]);
+  const std::vector<float> moved = decode(page["displacement"]["values"]);
   ASSERT_EQ(moved.size(), kRecords * 8U * 3U);
   // Second record, node 13, y.
   EXPECT_EQ(moved[24 + 3 * 4 + 1], static_cast<float>(sample_value(1, 6 * 13 + 1)));
-  const std::vector<float> stress = decode(page["solidStress"]);
+  ASSERT_EQ(page["fields"].size(), 1U);
+  EXPECT_EQ(page["fields"][0]["name"], "von_mises");
+  EXPECT_EQ(page["fields"][0]["on"], "elements");
+  const std::vector<float> stress = decode(page["fields"][0]["values"]["values"]);
   ASSERT_EQ(stress.size(), kRecords * 2U);
   EXPECT_EQ(stress[3], static_cast<float>(sample_value(1, 6 * kNodes + 7 + 5)));
-  EXPECT_EQ(page["stress"], nullptr);
 }
 
-TEST_F(SolidPage, CountsWhatItTakes) {
-  // Pose 7, eight nodes with 3 values, two stresses, the time: 34 numbers of four bytes per frame.
-  body({.max_frames = 2000, .max_bytes = 3 * 34 * 4});
+TEST_F(SolidPage, RoundsToSixteenBitsWhereItMust) {
+  // Pose 7 and the time stay float32; 24 displacements and two stresses take two bytes each.
+  const nlohmann::json page = body({.max_frames = 2000, .max_bytes = 3 * (8 * 4 + 26 * 2)});
   EXPECT_EQ(report_.frames, 3U);
+  EXPECT_TRUE(report_.rounded);
+  const nlohmann::json& rows = page["displacement"];
+  EXPECT_EQ(rows["type"], "u16");
+  const std::vector<float> ranges = decode(rows["ranges"]);
+  ASSERT_EQ(ranges.size(), 6U);
+  const std::vector<std::uint16_t> codes = decode_codes(rows["values"]);
+  ASSERT_EQ(codes.size(), 3U * 24U);
+  // The last record, node 13, y: half a step of the range, and float32 of its ends.
+  const double exact = sample_value(kRecords - 1, 6 * 13 + 1);
+  const double range = static_cast<double>(ranges[5]) - static_cast<double>(ranges[4]);
+  const double found = static_cast<double>(ranges[4]) + codes[2 * 24 + 3 * 4 + 1] * range / 65534;
+  EXPECT_NEAR(found, exact, 0.5 * range / 65534 + 1e-6);
+}
+
+TEST(PageRows, MarkWhatIsMissing) {
+  PageRowsWriter writer(true);
+  writer.add(std::vector<double>{1.0, std::nan(""), 3.0});
+  writer.add(std::vector<double>{std::nan(""), HUGE_VAL, std::nan("")});
+  writer.add(std::vector<double>{7.0, 7.0, 7.0});
+  const nlohmann::json rows = writer.json();
+  EXPECT_EQ(decode_codes(rows["values"]),
+            (std::vector<std::uint16_t>{0, 65535, 65534, 65535, 65535, 65535, 0, 0, 0}));
+  EXPECT_EQ(decode(rows["ranges"]), (std::vector<float>{1, 3, 0, 0, 7, 7}));
 }
 
 }  // namespace

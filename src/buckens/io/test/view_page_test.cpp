@@ -41,17 +41,19 @@ class ViewPage : public testing::Test {
   ViewPageReport write_page(const ViewPageOptions& options = {}) {
     replace_text_file(directory_ / "template.html",
                       std::string(kHead) + "/*BUCKENS_DATA*/null" + kTail);
-    const ViewPageReport report = write_view_page(directory_ / "out", directory_ / "template.html",
-                                                  directory_ / "page.html", options);
+    const std::vector<ViewPageReport> reports = write_view_page(
+        {directory_ / "out"}, directory_ / "template.html", directory_ / "page.html", options);
     page_ = read_text_file(directory_ / "page.html");
-    return report;
+    return reports.at(0);
   }
 
-  nlohmann::json data() const {
+  nlohmann::json page() const {
     const std::size_t head = std::string(kHead).size();
     return nlohmann::json::parse(
         page_.substr(head, page_.size() - head - std::string(kTail).size()));
   }
+
+  nlohmann::json data() const { return page()["runs"][0]; }
 
   TemporaryDirectory directory_;
   std::string page_;
@@ -62,8 +64,8 @@ TEST_F(ViewPage, HoldsTheRun) {
   const ViewPageReport report = write_page();
   EXPECT_EQ(report.records, 3U);
   EXPECT_EQ(report.frames, 3U);
+  EXPECT_EQ(page()["format"], 2);
   const nlohmann::json page = data();
-  EXPECT_EQ(page["format"], 1);
   EXPECT_EQ(page["title"], "sample");
   EXPECT_EQ(page["time"]["n"], 3);
   EXPECT_EQ(decode(page["time"]["f32"]), (std::vector<float>{0.0F, 0.001F, 0.002F}));
@@ -74,17 +76,19 @@ TEST_F(ViewPage, HoldsTheRun) {
   const nlohmann::json& rod = page["bodies"][1];
   EXPECT_EQ(rod["name"], "rod");
   EXPECT_EQ(rod["kind"], "beam");
-  EXPECT_EQ(rod["nodes"].size(), 3U);
+  EXPECT_EQ(decode(rod["nodes"]), (std::vector<float>{-0.5F, 0, 0, 0, 0, 0, 0.5F, 0, 0}));
+  EXPECT_EQ(rod["nodeNumbers"], nullptr);
   EXPECT_EQ(rod["elements"], nlohmann::json({{0, 1}, {1, 2}}));
   EXPECT_EQ(rod["markers"][1]["node"], 2);
   const std::vector<float> pose = decode(rod["pose"]);
   ASSERT_EQ(pose.size(), 21U);
   EXPECT_EQ(pose[7 + 2], static_cast<float>(sample_value(1, 2)));
-  EXPECT_EQ(decode(rod["displacement"]).size(), 3U * 3U * 6U);
+  EXPECT_EQ(rod["displacement"]["type"], "f32");
+  EXPECT_EQ(decode(rod["displacement"]["values"]).size(), 3U * 3U * 6U);
   const nlohmann::json& slider = page["bodies"][0];
   EXPECT_EQ(slider["kind"], "rigid");
   EXPECT_EQ(slider["displacement"], nullptr);
-  EXPECT_EQ(slider["stress"], nullptr);
+  EXPECT_EQ(slider["fields"], nlohmann::json::array());
   EXPECT_EQ(slider["markers"][0]["orientation"], nlohmann::json({0.6, 0.0, 0.0, 0.8}));
 
   EXPECT_EQ(page["joints"][0]["between"][1]["body"], 1);
@@ -96,12 +100,18 @@ TEST_F(ViewPage, HoldsTheRun) {
   EXPECT_EQ(decode(page["sensors"][1]["values"]).size(), 9U);
   EXPECT_EQ(page["energies"][0]["name"], "kinetic");
   EXPECT_EQ(page["energies"][0]["unit"], "J");
+  EXPECT_EQ(page["storage"]["records"], 3);
+  EXPECT_EQ(page["storage"]["rounded"], false);
 }
 
 TEST_F(ViewPage, StressIsTheLargestMagnitudeOfAnElement) {
   write_run(2);
   write_page();
-  const std::vector<float> stress = decode(data()["bodies"][1]["stress"]);
+  const nlohmann::json field = data()["bodies"][1]["fields"].at(0);
+  EXPECT_EQ(field["name"], "stress");
+  EXPECT_EQ(field["on"], "lines");
+  EXPECT_EQ(field["unit"], "Pa");
+  const std::vector<float> stress = decode(field["values"]["values"]);
   ASSERT_EQ(stress.size(), 4U);
   const results::RecordLayout layout = sample_layout();
   const std::size_t offset = layout.offset(2);
@@ -124,8 +134,33 @@ TEST_F(ViewPage, ThinsLongRunsEvenly) {
   }
   const ViewPageReport small = write_page({.max_bytes = 20000});
   EXPECT_GT(small.frames, 10U);
-  EXPECT_LT(small.frames, 200U);
-  EXPECT_LT(page_.size(), 20000 * 4 / 3 + 4000) << "base64 takes 4/3, the rest is geometry";
+  EXPECT_LT(small.frames, 400U);
+  EXPECT_TRUE(small.rounded);
+  EXPECT_EQ(data()["storage"]["rounded"], true);
+  EXPECT_THAT(data()["storage"]["notes"].dump(), HasSubstr("Frames were left out"));
+  EXPECT_LT(page_.size(), 20000 * 4 / 3 + 5000) << "base64 takes 4/3, the rest is geometry";
+}
+
+TEST_F(ViewPage, ShowsTheFieldsThatAreWanted) {
+  write_run(2);
+  write_page({.fields = {"von_mises"}});
+  EXPECT_EQ(data()["bodies"][1]["fields"].size(), 0U);
+  write_page({.fields = {"von_mises", "stress"}});
+  EXPECT_EQ(data()["bodies"][1]["fields"].size(), 1U);
+}
+
+TEST_F(ViewPage, ShowsTwoRunsSideBySide) {
+  write_run(3);
+  replace_text_file(directory_ / "template.html",
+                    std::string(kHead) + "/*BUCKENS_DATA*/null" + kTail);
+  const std::vector<ViewPageReport> reports =
+      write_view_page({directory_ / "out", directory_ / "out"}, directory_ / "template.html",
+                      directory_ / "page.html", {.max_frames = 2});
+  page_ = read_text_file(directory_ / "page.html");
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[1].frames, 2U);
+  EXPECT_EQ(page()["runs"].size(), 2U);
+  EXPECT_EQ(page()["runs"][0]["bodies"], page()["runs"][1]["bodies"]);
 }
 
 TEST_F(ViewPage, TextOfTheModelCannotBreakThePage) {
@@ -149,7 +184,7 @@ TEST_F(ViewPage, RefusesWhatItCannotShow) {
   replace_text_file(directory_ / "bad.html", "<html></html>");
   EXPECT_THAT(
       [&] {
-        write_view_page(directory_ / "out", directory_ / "bad.html", directory_ / "page.html");
+        write_view_page({directory_ / "out"}, directory_ / "bad.html", directory_ / "page.html");
       },
       ThrowsMessage<IoError>(HasSubstr("exactly once")));
 }

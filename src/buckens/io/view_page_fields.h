@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "buckens/io/view_page_body.h"
+
+namespace buckens::io {
+
+/// One quantity of a body that the page can show in colour (PageField in viewer/src/page_data.ts).
+struct PageField {
+  std::string name;  ///< "von_mises" …; the page knows the usual ones
+  std::string on;    ///< "elements" with a face, or "lines"
+  std::string path;  ///< channel
+  std::string unit;
+  std::vector<std::string> components;  ///< one empty name for a scalar
+  std::size_t count = 0;                ///< of places
+  FrameReader::Choose choose;           ///< the row of the page from that of the channel
+
+  std::size_t values_per_frame() const { return count * components.size(); }
+  nlohmann::ordered_json json(const FrameReader& reader) const;
+};
+
+/// What the run recorded over the body. Names in `wanted`, or all of them if it is empty.
+std::vector<PageField> page_fields(const results::GeometryBody& body, const VisibleParts& visible,
+                                   const RunReader& run, const std::vector<std::string>& wanted);
+
+}  // namespace buckens::io

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/io/view_page_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/output_file.h"
+#include "buckens/io/run_directory.h"
+#include "buckens/io/run_reader.h"
+#include "buckens/io/view_page_body.h"
+#include "buckens/io/view_page_fields.h"
+#include "buckens/io/view_page_frames.h"
+
+namespace buckens::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using results::Channel;
+
+/// A body and what it shows in colour.
+struct Shown {
+  PageBody body;
+  std::vector<PageField> fields;
+};
+
+/// The summary of a run, null where a crash has damaged it.
+nlohmann::json parse_summary(const std::string& text) {
+  nlohmann::json summary = nlohmann::json::parse(text, nullptr, false);
+  return summary.is_discarded() ? nlohmann::json() : summary;
+}
+
+Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Which records become frames: evenly spread, the first and the last among them.
+std::vector<std::size_t> choose_frames(std::size_t records, std::size_t limit) {
+  const std::size_t count = std::min(records, std::max<std::size_t>(limit, 2));
+  std::vector<std::size_t> frames(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    frames[i] = count == 1 ? 0 : i * (records - 1) / (count - 1);
+  }
+  return frames;
+}
+
+Json joint_json(const results::GeometryJoint& joint) {
+  Json between = Json::array();
+  for (const results::GeometrySide& side : joint.between) {
+    between.push_back(
+        {{"body", side.body}, {"marker", side.marker}, {"position", json_of(side.position)}});
+  }
+  return {{"name", joint.name},
+          {"type", joint.type},
+          {"between", std::move(between)},
+          {"axis", json_of(joint.axis)}};
+}
+
+/// Names of a channel's values, one each.
+std::vector<std::string> component_names(const Channel& channel) {
+  if (channel.shape.empty()) return {""};
+  if (channel.components.size() == channel.size()) return channel.components;
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i <= channel.size(); ++i) names.push_back(fmt::format("{}", i));
+  return names;
+}
+
+/// The channels right below `group`, as curves.
+Json curves_json(const RunReader& run, const FrameReader& reader, std::string_view group,
+                 bool with_components) {
+  Json all = Json::array();
+  for (const Channel& channel : run.layout().channels()) {
+    if (!channel.path.starts_with(group)) continue;
+    if (!with_components && channel.size() != 1) continue;
+    Json curve = {{"name", channel.path.substr(group.size())}, {"unit", channel.unit}};
+    if (with_components) curve["components"] = component_names(channel);
+    curve["values"] = reader.values(channel.path);
+    all.push_back(std::move(curve));
+  }
+  return all;
+}
+
+/// Vibrations: every frame is one of them. Null for runs.
+Json modes_json(const RunReader& run, const FrameReader& reader) {
+  const std::vector<double> bodies = reader.scalars("modes/body");
+  const std::vector<double> numbers = reader.scalars("modes/number");
+  const std::vector<double> frequencies = reader.scalars("modes/frequency");
+  const std::vector<double> masses = reader.scalars("modes/generalised_mass");
+  const std::size_t count = bodies.size();
+  if (count == 0 || numbers.size() != count || frequencies.size() != count ||
+      masses.size() != count) {
+    return nullptr;
+  }
+  Json all = Json::array();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& known = run.geometry().bodies;
+    const bool is_body = bodies[k] >= 0 && bodies[k] < static_cast<double>(known.size());
+    const std::string name =
+        is_body ? known[static_cast<std::size_t>(bodies[k])].name : std::string("system");
+    all.push_back({{"label", fmt::format("{} {:.0f}", name, numbers[k])},
+                   {"frequency", frequencies[k]},
+                   {"mass", masses[k]}});
+  }
+  return all;
+}
+
+/// How many frames keep the page below the size that browsers take well, and whether rounded.
+void choose_size(const RunReader& run, const std::vector<Shown>& shown,
+                 const ViewPageOptions& options, ViewPageReport& report) {
+  std::size_t plain = 1;  // numbers of a frame that stay float32
+  std::size_t rows = 0;   // numbers that may be rounded
+  for (const Channel& channel : run.layout().channels()) {
+    const bool is_field = channel.path.starts_with("bodies/") && !channel.path.ends_with("/pose");
+    if (!is_field) plain += channel.size();
+    if (channel.path.ends_with("/pose")) plain += channel.size();
+  }
+  for (const Shown& one : shown) {
+    rows += one.body.displacements_per_frame(run);
+    for (const PageField& field : one.fields) rows += field.values_per_frame();
+  }
+  const std::size_t wanted = std::min(run.num_records(), options.max_frames);
+  constexpr std::size_t kFloat = sizeof(float);
+  constexpr std::size_t kCode = sizeof(std::uint16_t);
+  report.rounded = wanted * kFloat * (plain + rows) > options.max_bytes / 4;
+  const std::size_t bytes = kFloat * plain + (report.rounded ? kCode : kFloat) * rows;
+  report.frames = std::min(wanted, options.max_bytes / bytes);
+}
+
+Json storage_json(const ViewPageReport& report, const ViewPageOptions& options) {
+  Json notes = Json::array();
+  if (report.frames < std::min(report.records, options.max_frames)) {
+    notes.push_back(fmt::format("Frames were left out to keep the page below {} MiB of numbers",
+                                options.max_bytes >> 20U));
+  }
+  return {{"records", report.records}, {"rounded", report.rounded}, {"notes", std::move(notes)}};
+}
+
+Json bodies_json(const std::vector<Shown>& shown, const FrameReader& reader) {
+  Json bodies = Json::array();
+  for (const Shown& one : shown) {
+    Json body = one.body.json(reader);
+    body["fields"] = Json::array();
+    for (const PageField& field : one.fields) body["fields"].push_back(field.json(reader));
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+}  // namespace
+
+nlohmann::ordered_json page_run(const std::filesystem::path& directory,
+                                const ViewPageOptions& options, ViewPageReport& report) {
+  const RunReader run(directory);
+  if (run.num_records() == 0) {
+    throw IoError(fmt::format("{}: the run has no records yet, there is nothing to show.",
+                              directory.string()));
+  }
+  const results::Geometry& geometry = run.geometry();
+  std::vector<Shown> shown;
+  for (const results::GeometryBody& body : geometry.bodies) {
+    PageBody page(body);
+    std::vector<PageField> fields = page_fields(body, page.visible(), run, options.fields);
+    shown.push_back({std::move(page), std::move(fields)});
+  }
+  report.records = run.num_records();
+  choose_size(run, shown, options, report);
+  const FrameReader reader(run, choose_frames(run.num_records(), report.frames), report.rounded);
+  report.frames = reader.num_frames();
+  Json joints = Json::array();
+  for (const results::GeometryJoint& joint : geometry.joints) joints.push_back(joint_json(joint));
+  Json modes = modes_json(run, reader);
+  Json summary = parse_summary(run.summary_text());
+  const std::filesystem::path shapes = directory / kModesName;
+  std::error_code ignored;
+  if (!modes.is_null() && std::filesystem::exists(shapes, ignored)) {
+    summary = parse_summary(read_text_file(shapes));
+  }
+  return {{"title", run.title()},
+          {"version", run.version()},
+          {"generated", utc_now()},
+          {"time", {{"n", reader.num_frames()}, {"f32", reader.times()}}},
+          {"bodies", bodies_json(shown, reader)},
+          {"joints", std::move(joints)},
+          {"gravity", json_of(geometry.gravity)},
+          {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
+          {"sensors", curves_json(run, reader, "sensors/", true)},
+          {"energies", curves_json(run, reader, "energies/", false)},
+          {"modes", std::move(modes)},
+          {"summary", std::move(summary)},
+          {"storage", storage_json(report, options)}};
+}
+
+}  // namespace buckens::io

@@ -1,0 +1,44 @@
+import { el } from './dom';
+
+export interface CameraActions {
+  /** Along axis 0, 1, 2, or from the corner for −1. */
+  lookAlong(axis: number): void;
+  fit(): void;
+  project(): void;
+  theme(): void;
+  help(): void;
+}
+
+/** Buttons for the camera, the colours of the page and the list of keys. */
+export class CameraBar {
+  readonly root: HTMLElement;
+  private readonly projection: HTMLButtonElement;
+  private readonly theme: HTMLButtonElement;
+
+  constructor(actions: CameraActions) {
+    const button = (text: string, title: string, click: () => void, extra = {}) =>
+      el('button', { type: 'button', title, click, ...extra }, text);
+    this.projection = button('', 'Change the projection (o)', () => actions.project());
+    this.theme = button('', '', () => actions.theme(), { 'data-theme-choice': '' });
+    this.root = el(
+      'div',
+      { class: 'toolbar right', role: 'toolbar', 'aria-label': 'Camera' },
+      button('X', 'Seen from +X (1)', () => actions.lookAlong(0)),
+      button('Y', 'Seen from +Y (2)', () => actions.lookAlong(1)),
+      button('Z', 'Seen from +Z (3)', () => actions.lookAlong(2)),
+      button('3D', 'Seen from the corner (0)', () => actions.lookAlong(-1)),
+      button('Fit', 'The whole run in view (f)', () => actions.fit(), { 'data-fit': '' }),
+      this.projection,
+      this.theme,
+      button('?', 'Keys and mouse (?)', () => actions.help(), { 'aria-label': 'Keys and mouse' }),
+    );
+  }
+
+  update(orthographic: boolean, theme: string): void {
+    this.projection.textContent = orthographic ? 'Parallel' : 'Perspective';
+    this.theme.textContent = { auto: '◐', light: '☀', dark: '☾' }[theme] ?? '';
+    const text = { auto: 'as the system', light: 'light', dark: 'dark' }[theme] ?? '';
+    this.theme.title = `Colours of the page: ${text} (t)`;
+    this.theme.setAttribute('aria-label', this.theme.title);
+  }
+}

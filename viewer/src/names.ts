@@ -1,0 +1,48 @@
+import { numNodes, type Run } from './run';
+import type { Label } from './labels';
+import type { Motion } from './motion';
+import type { Theme } from './theme';
+import type { ViewOptions } from './view_options';
+import type { Triple } from './page_data';
+
+/** A point of the scene with a text. */
+export interface Name extends Omit<Label, 'x' | 'y'> {
+  /** World [m]. */
+  at: Triple;
+}
+
+/** Something drawn that has a name of its own. */
+export interface NamedGlyph {
+  position(scale: number): Triple;
+}
+
+/** Texts of bodies, joints, loads and markers, as far as the things themselves are shown. */
+export function namesOf(
+  run: Run,
+  motion: Motion,
+  glyphs: { joints: NamedGlyph[]; loads: NamedGlyph[] },
+  theme: Theme,
+  options: ViewOptions,
+): Name[] {
+  const names: Name[] = [];
+  motion.bodies.forEach((body, i) => {
+    const middle = body.body.elements.length > 0 && body.body.kind === 'beam';
+    const at = middle ? body.node(Math.floor(numNodes(body.body) / 2), options.scale) : [0, 0, 0];
+    const color = theme.bodies[i % theme.bodies.length]!;
+    names.push({ text: body.body.name, kind: 'body', color, at: body.toWorld(at) });
+  });
+  for (const kind of ['joints', 'loads'] as const) {
+    if (!options[kind]) continue;
+    glyphs[kind].forEach((glyph, i) => {
+      names.push({ text: run[kind][i]!.name, kind: 'joint', at: glyph.position(options.scale) });
+    });
+  }
+  if (!options.frames) return names;
+  for (const body of motion.bodies) {
+    for (const marker of body.body.markers) {
+      const at = body.toWorld(body.marker(marker, options.scale));
+      names.push({ text: `${body.body.name}/${marker.name}`, kind: 'marker', at });
+    }
+  }
+  return names;
+}

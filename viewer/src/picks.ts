@@ -1,0 +1,78 @@
+import * as THREE from 'three';
+import { BodyField } from './body_field';
+import { history, indexAt, pointOf, type FieldPoint, type FieldSource } from './fields';
+import { nodeNumber, numNodes, type Body, type Run } from './run';
+import type { BodyView } from './body_view';
+
+/** A node that the user follows. */
+export interface Pick extends FieldPoint {
+  /** Which of the runs side by side. */
+  pane: number;
+  body: number;
+}
+
+/** Closest vertex of what is under the ray (scene units) and not cut away; null for nothing. */
+export function pickAlong(ray: THREE.Raycaster, views: BodyView[]): Omit<Pick, 'pane'> | null {
+  let best: { distance: number; pick: Omit<Pick, 'pane'> } | null = null;
+  views.forEach((view, body) => {
+    for (const skin of view.skins) {
+      const material = skin.mesh.material as THREE.Material;
+      for (const hit of ray.intersectObject(skin.mesh, false)) {
+        if (best && hit.distance >= best.distance) break;
+        const planes = material.clippingPlanes ?? [];
+        if (planes.some((plane: THREE.Plane) => plane.distanceToPoint(hit.point) < 0)) continue;
+        const vertex = nearestCorner(hit, skin.mesh);
+        const { node, place, line } = skin.vertex(vertex);
+        const known = pointOf(view.field.body, node);
+        const pick = { ...known, body, place: place >= 0 ? place : known.place };
+        best = { distance: hit.distance, pick: { ...pick, line: line >= 0 ? line : known.line } };
+        break;
+      }
+    }
+  });
+  return best === null ? null : (best as { pick: Omit<Pick, 'pane'> }).pick;
+}
+
+function nearestCorner(hit: THREE.Intersection, mesh: THREE.Mesh): number {
+  const position = mesh.geometry.getAttribute('position');
+  const local = mesh.worldToLocal(hit.point.clone());
+  const corner = new THREE.Vector3();
+  let [nearest, least] = [hit.face!.a, Infinity];
+  for (const vertex of [hit.face!.a, hit.face!.b, hit.face!.c]) {
+    const distance = corner.fromBufferAttribute(position, vertex).distanceToSquared(local);
+    if (distance < least) [nearest, least] = [vertex, distance];
+  }
+  return nearest;
+}
+
+/** Where the values of an item at a picked point come from, and at which index; null for nowhere. */
+export function sourceAt(
+  field: BodyField,
+  item: string,
+  perElement: boolean,
+  pick: FieldPoint,
+): { source: FieldSource; index: number } | null {
+  for (const lines of [pick.element < 0, pick.element >= 0]) {
+    const source = field.source(item, lines, perElement);
+    const index = source ? indexAt(source, pick) : -1;
+    if (source && index >= 0) return { source, index };
+  }
+  return null;
+}
+
+/** The item's value at a picked point in every frame; NaN where there is none. */
+export function historyAt(run: Run, pick: Pick, item: string, perElement: boolean): Float32Array {
+  const field = new BodyField(run.bodies[pick.body]!);
+  const found = sourceAt(field, item, perElement, pick);
+  if (!found) return new Float32Array(run.times.length).fill(NaN);
+  return history(found.source, found.index, run.times.length);
+}
+
+export function pickName(body: Body, pick: Pick): string {
+  return `${body.name} ${nodeNumber(body, pick.node)}`;
+}
+
+/** Whether a body has nodes to pick. */
+export function isPickable(body: Body): boolean {
+  return numNodes(body) > 0 && (body.faces !== null || body.elements.length > 0);
+}

@@ -1,0 +1,32 @@
+import type { FieldItem } from './fields';
+import type { ViewOptions } from './view_options';
+
+/** What is shown when the page opens: stresses in colour if there are any. */
+export function startOptions(items: FieldItem[]): ViewOptions {
+  const stress =
+    items.find(({ id }) => id === 'von_mises') ?? items.find(({ unit }) => unit === 'Pa');
+  return {
+    frames: false,
+    joints: true,
+    loads: true,
+    labels: false,
+    undeformed: false,
+    colors: stress !== undefined,
+    field: {
+      item: (stress ?? items[0])?.id ?? '',
+      range: 'run',
+      low: 0,
+      high: 0,
+      perElement: false,
+      map: 'spectrum',
+      bands: 0,
+      cut: 'none',
+      cutLow: null,
+      cutHigh: null,
+    },
+    edges: 'auto',
+    section: { axis: 'off', body: -1, fraction: 0.5, flip: false },
+    scale: 1,
+    trace: null,
+  };
+}
