@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/io/gmsh_mesh.h"
+
+namespace buckens::io {
+namespace {
+
+using fem::ImportedMesh;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A parabolic tetrahedron, a triangle on it, and groups of both and of a node.
+constexpr char kPart[] = R"(    -1
+   164
+         2mm (milli-newton)           2
+    1.0000000000000000D+03    1.0000000000000000D+03    1.0000000000000000D+00
+    2.7314999999999998D+02
+    -1
+    -1
+  2411
+         1         1         1        11
+   0.0000000000000000D+00   0.0000000000000000D+00   0.0000000000000000D+00
+         2         1         1        11
+   2.0000000000000000D+00   0.0000000000000000D+00   0.0000000000000000D+00
+         3         1         1        11
+   0.0000000000000000D+00   2.0000000000000000D+00   0.0000000000000000D+00
+         4         1         1        11
+   0.0000000000000000D+00   0.0000000000000000D+00   2.0000000000000000D+00
+        12         1         1        11
+   1.0000000000000000D+00   0.0000000000000000D+00   0.0000000000000000D+00
+        23         1         1        11
+   1.0000000000000000D+00   1.0000000000000000D+00   0.0000000000000000D+00
+        13         1         1        11
+   0.0000000000000000D+00   1.0000000000000000D+00   0.0000000000000000D+00
+        14         1         1        11
+   0.0000000000000000D+00   0.0000000000000000D+00   1.0000000000000000D+00
+        24         1         1        11
+   1.0000000000000000D+00   0.0000000000000000D+00   1.0000000000000000D+00
+        34         1         1        11
+   0.0000000000000000D+00   1.0000000000000000D+00   1.0000000000000000D+00
+    -1
+    -1
+  2412
+         7       118         1         1         7        10
+         1        12         2        23         3        13        14        24
+        34         4
+         8        92         1         1         7         6
+         1        13         3        23         2        12
+    -1
+    -1
+  2467
+         1         0         0         0         0         0         0         1
+body
+         8         7         0         0
+         2         0         0         0         0         0         0         2
+ground
+         8         8         0         0         7         4         0         0
+    -1
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    read_gmsh_bytes(text, "part.unv");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(UniversalFile, ReadsNodesElementsAndGroups) {
+  const ImportedMesh mesh = read_gmsh_bytes(kPart, "part.unv");
+  ASSERT_EQ(mesh.num_elements(), 1);
+  EXPECT_EQ(mesh.blocks[0].kind, fem::CellKind::tet10);
+  // Corners first, then the edges 01, 12, 20, 03, 13, 23.
+  std::vector<std::int64_t> ids;
+  for (const int node : mesh.blocks[0].nodes) {
+    ids.push_back(mesh.node_ids[static_cast<std::size_t>(node)]);
+  }
+  EXPECT_THAT(ids, ElementsAre(1, 2, 3, 4, 12, 23, 13, 14, 24, 34));
+  EXPECT_EQ(mesh.properties[0].name, "body");
+  EXPECT_EQ(mesh.face_sets[0].name, "ground");
+  EXPECT_EQ(mesh.face_sets[0].faces.size(), 1u);
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  EXPECT_THAT(mesh.notes[0].text, HasSubstr("1 m is 1000 of its units"));
+}
+
+TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
+  EXPECT_THAT(message_of("hello\n"), HasSubstr("part.unv:1:1: -1, with which"));
+  EXPECT_THAT(message_of("    -1\n  2412\n    -1\n"), HasSubstr("no nodes"));
+  EXPECT_THAT(message_of(replaced(kPart, "        34         4\n", "        35         4\n")),
+              HasSubstr("element 7 refers to node 35"));
+  EXPECT_THAT(message_of(replaced(kPart, "       118 ", "       999 ")),
+              HasSubstr("the descriptor 999"));
+  EXPECT_THAT(message_of(replaced(kPart, "         7        10\n", "         7         4\n")),
+              HasSubstr("has 4 nodes in place of 10"));
+  EXPECT_THAT(message_of(replaced(kPart, "2.0000000000000000D+00", "                   inf")),
+              HasSubstr("part.unv:12:"));
+  EXPECT_THAT(message_of(replaced(kPart, "         8         7         0",
+                                  "         8        70  "
+                                  "       0")),
+              HasSubstr("group \"body\" has element 70"));
+}
+
+TEST(UniversalFile, SurvivesEveryTruncation) {
+  const std::string text = kPart;
+  const std::size_t groups = text.find("  2467");
+  for (std::size_t size = 0; size + 1 < groups; ++size) {
+    try {
+      read_gmsh_bytes(text.substr(0, size), "part.unv");
+      // What is left may be complete by itself, without the groups.
+      EXPECT_GT(size, groups - 20) << size;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("part.unv"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace buckens::io
