@@ -7,6 +7,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/fem/node_number.h"
 #include "buckens/io/mesh_file.h"
+#include "buckens/io/step_mesh.h"
 
 namespace buckens::io {
 
@@ -23,9 +24,22 @@ const fem::ImportedMesh* imported_mesh(const body::BodySpec& body) {
   return nullptr;
 }
 
+void load_geometry(fem::GeometrySpec& part, const ReadContext& context) {
+  try {
+    part.imported = std::make_shared<const fem::ImportedMesh>(
+        mesh_step(full_path(part.step, context), part));
+  } catch (const IoError& error) {
+    throw InputError(part.where, error.what());
+  }
+}
+
 }  // namespace
 
 void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
+  if (auto* part = std::get_if<fem::GeometrySpec>(&body.kind)) {
+    if (!part->imported) load_geometry(*part, context);
+    return;
+  }
   auto* mesh = std::get_if<fem::MeshSpec>(&body.kind);
   if (mesh == nullptr || !mesh->is_file() || mesh->imported) return;
   const auto& source = std::get<fem::MeshFileSpec>(mesh->shape);

@@ -194,6 +194,15 @@ Finding problem(const fem::GeometrySpec& spec, const ReadContext&) {
   return Problem{"order", "elements are linear (1) or quadratic (2)"};
 }
 
+Finding problem(const fem::FaceColorSpec& spec, const ReadContext&) {
+  for (const int part : spec.rgb) {
+    if (part > 255) {
+      return Problem{"", "red, green and blue go from 0 to 255, for example [255, 0, 0]"};
+    }
+  }
+  return std::nullopt;
+}
+
 Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
   if (spec.beams.empty() && spec.bars.empty() && spec.solids.empty()) {
     return Problem{"", "a structure needs beams, bars or solids"};

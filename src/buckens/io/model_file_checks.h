@@ -41,6 +41,7 @@ Finding problem(const fem::SolidMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::StructureSpec& spec, const ReadContext& context);
 Finding problem(const fem::MeshSpec& spec, const ReadContext& context);
 Finding problem(const fem::GeometrySpec& spec, const ReadContext& context);
+Finding problem(const fem::FaceColorSpec& spec, const ReadContext& context);
 Finding problem(const fem::BoxMeshSpec& spec, const ReadContext& context);
 Finding problem(const fem::CylinderMeshSpec& spec, const ReadContext& context);
 Finding problem(const fem::TubeMeshSpec& spec, const ReadContext& context);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh_file_spec.h"
+
+namespace buckens::io {
+
+/// Meshes all solids of a STEP file with tetrahedra by the library of Gmsh, in a process of its
+/// own.
+///
+/// Lengths are in metres. Solids that touch share faces and nodes. Every solid is a property and an
+/// element set by its label in the file, every face a face set and node set `face_1`, `face_2` …;
+/// colours and labels of faces are further face sets, `color_255_0_0` and the label itself.
+/// Elements of second order have their mid-side nodes on the true surface, except where an element
+/// would be turned inside out; `notes` then say so. Small radii get smaller elements, eight to a
+/// full turn but none below a quarter of `size`.
+///
+/// @param size upper bound for the edges of the elements [m]
+/// @param order 1 or 2
+/// @throws InputError if the file is no STEP file, has no solid, or cannot be meshed; IoError if it
+/// cannot be read or the library is missing
+fem::ImportedMesh mesh_step(const std::filesystem::path& path, double size, int order);
+
+/// The same with the names that the specification gives to faces.
+/// @throws InputError where a name has no face
+fem::ImportedMesh mesh_step(const std::filesystem::path& path, const fem::GeometrySpec& spec);
+
+}  // namespace buckens::io
