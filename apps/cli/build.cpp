@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "cli/mesh_report_text.h"
+
 #include "buckens/analysis/choose_modes.h"
 #include "buckens/base/log.h"
 #include "buckens/io/basis_files.h"
@@ -15,6 +17,11 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
   std::vector<std::string> notes;
   analysis::choose_modes(description, notes,
                          [](const std::string& text) { base::log(base::LogLevel::info, text); });
+  std::vector<std::string> of_meshes;
+  for (const body::BodySpec& body : description.bodies) {
+    for (std::string& note : mesh_notes(body)) of_meshes.push_back(std::move(note));
+  }
+  notes.insert(notes.begin(), of_meshes.begin(), of_meshes.end());
   io::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
   auto built = model::build_model(std::move(description), &bases);
   built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());

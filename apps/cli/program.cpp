@@ -93,6 +93,8 @@ int run_program(int argc, const char* const* argv) {
     add_check_verb(app, invocation);
     add_modes_verb(app, invocation);
     add_compare_verb(app, invocation);
+    add_mesh_info_verb(app, invocation);
+    add_convert_verb(app, invocation);
     add_view_verb(app, invocation);
     add_schema_verb(app, invocation);
     add_reference_verb(app, invocation);

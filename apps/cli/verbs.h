@@ -24,6 +24,8 @@ void add_static_verb(CLI::App& program, Invocation& invocation);
 void add_check_verb(CLI::App& program, Invocation& invocation);
 void add_modes_verb(CLI::App& program, Invocation& invocation);
 void add_compare_verb(CLI::App& program, Invocation& invocation);
+void add_mesh_info_verb(CLI::App& program, Invocation& invocation);
+void add_convert_verb(CLI::App& program, Invocation& invocation);
 void add_view_verb(CLI::App& program, Invocation& invocation);
 void add_schema_verb(CLI::App& program, Invocation& invocation);
 void add_reference_verb(CLI::App& program, Invocation& invocation);

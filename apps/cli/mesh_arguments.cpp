@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/mesh_arguments.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+#include "buckens/base/units.h"
+#include "buckens/io/mesh_file.h"
+#include "buckens/io/step_mesh.h"
+
+namespace buckens::cli {
+
+namespace {
+
+template <class Enum>
+Enum choice(const char* option, const std::string& word) {
+  const auto names = choice_names(Enum{});
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    throw InputError({}, fmt::format("{} cannot be \"{}\".{}", option, word,
+                                     base::suggestion(word, {names.begin(), names.end()})));
+  }
+  return static_cast<Enum>(found - names.begin());
+}
+
+double length(const char* option, const std::string& text) {
+  const base::QuantityText parts = base::split_quantity(text);
+  const auto number = base::parse_number(parts.formula);
+  const auto unit = base::parse_unit(parts.unit.empty() ? "m" : parts.unit);
+  if (!number || !unit || !(unit->dimension == base::kLength) || !(*number > 0)) {
+    throw InputError(
+        {}, fmt::format("{} cannot be \"{}\"; write a length such as \"5 mm\"", option, text));
+  }
+  return *number * unit->factor;
+}
+
+}  // namespace
+
+bool MeshArguments::is_step() const {
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".step" || ending == ".stp";
+}
+
+fem::LengthUnit MeshArguments::unit_of_length() const {
+  return length_unit.empty() ? fem::LengthUnit::m
+                             : choice<fem::LengthUnit>("--length-unit", length_unit);
+}
+
+fem::MassUnit MeshArguments::unit_of_mass() const {
+  if (!mass_unit.empty()) return choice<fem::MassUnit>("--mass-unit", mass_unit);
+  return unit_of_length() == fem::LengthUnit::mm ? fem::MassUnit::t : fem::MassUnit::kg;
+}
+
+fem::ImportedMesh MeshArguments::read() const {
+  if (!is_step()) return io::read_mesh_file(file);
+  if (size.empty()) {
+    throw InputError({file, 0, 0},
+                     "a STEP file has no elements; give their size, for example "
+                     "--size \"5 mm\"");
+  }
+  if (!length_unit.empty()) {
+    throw InputError({file, 0, 0}, "a STEP file says its units itself; leave --length-unit out");
+  }
+  return io::mesh_step(file, length("--size", size), order);
+}
+
+void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {
+  verb.add_option("--length-unit", arguments.length_unit,
+                  "Unit of the lengths in the file: m, dm, cm, mm, um, in or ft; without it m");
+  verb.add_option(
+      "--mass-unit", arguments.mass_unit,
+      "Unit of mass of the constants in the file: kg, t, g, lb or slinch; without it t\n"
+      "with millimetres, else kg");
+  verb.add_option("--size", arguments.size, "Of a STEP file: length of the edges of the elements")
+      ->type_name("LENGTH");
+  verb.add_option("--order", arguments.order, "Of a STEP file: order of the elements, 1 or 2");
+}
+
+}  // namespace buckens::cli

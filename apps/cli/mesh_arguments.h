@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "buckens/fem/mesh_file_spec.h"
+
+namespace buckens::cli {
+
+/// A mesh file, or a STEP file to be meshed, and its units as the command line says.
+struct MeshArguments {
+  std::string file;
+  std::string length_unit, mass_unit;  ///< empty: not given
+  std::string size;                    ///< of elements, for STEP files
+  int order = 2;
+
+  fem::LengthUnit unit_of_length() const;
+  fem::MassUnit unit_of_mass() const;
+  /// In units of the file.
+  /// @throws InputError
+  fem::ImportedMesh read() const;
+  bool is_step() const;
+};
+
+void add_mesh_options(CLI::App& verb, MeshArguments& arguments);
+
+}  // namespace buckens::cli

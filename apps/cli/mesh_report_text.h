@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "buckens/body/body_spec.h"
+#include "buckens/fem/mesh_report.h"
+
+namespace buckens::cli {
+
+/// A mesh and what was found in it, for `buckens mesh-info`.
+std::string mesh_report_text(const fem::ImportedMesh& mesh, const fem::MeshReport& report);
+nlohmann::ordered_json mesh_report_json(const fem::ImportedMesh& mesh,
+                                        const fem::MeshReport& report);
+
+/// The same in a few lines, for the notes of a model; empty for bodies whose mesh is no file.
+std::vector<std::string> mesh_notes(const body::BodySpec& body);
+
+}  // namespace buckens::cli
