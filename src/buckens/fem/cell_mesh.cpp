@@ -26,14 +26,60 @@ struct Part {
   std::vector<std::array<int, 2>> faces;  // face of the element, face of the cell
 };
 
-std::vector<Part> hexahedron(const Cell& cell, SolidKind kind) {
+/// The element with its corners at the given places of a cell; mid-side nodes lie halfway.
+Part make_part(const Cell& cell, SolidKind kind, const std::vector<Place>& corners) {
   const SolidTopology& topology = solid_topology(kind);
   Part out;
-  for (int node = 0; node < topology.num_nodes; ++node) {
-    out.points.push_back(at(cell, hexahedron_place(topology, node)));
+  for (const Place& corner : corners) out.points.push_back(at(cell, corner));
+  for (int node = topology.num_corners; node < topology.num_nodes; ++node) {
+    const auto& [a, b] = topology.edges[static_cast<std::size_t>(node - topology.num_corners)];
+    const Place& first = corners[static_cast<std::size_t>(a)];
+    out.points.push_back(at(cell, (first + corners[static_cast<std::size_t>(b)]) / 2));
   }
-  for (int face = 0; face < 6; ++face) out.faces.push_back({face, face});
-  return {out};
+  for (std::size_t face = 0; face < topology.faces.size(); ++face) {
+    for (int side = 0; side < 6; ++side) {  // x0, x1, y0, y1, z0, z1
+      const auto& own = topology.faces[face].corners;
+      const bool inside = std::all_of(own.begin(), own.end(), [&](int k) {
+        return corners[static_cast<std::size_t>(k)][side / 2] == 2 * (side % 2);
+      });
+      if (inside) out.faces.push_back({static_cast<int>(face), side});
+    }
+  }
+  return out;
+}
+
+std::vector<Part> hexahedron(const Cell& cell, SolidKind kind) {
+  const SolidTopology& hex = solid_topology(SolidKind::hex8);
+  std::vector<Place> corners;
+  for (int corner = 0; corner < 8; ++corner) corners.push_back(hexahedron_place(hex, corner));
+  return {make_part(cell, kind, corners)};
+}
+
+/// Two wedges: all cells are cut along the same diagonal of their third axis.
+std::vector<Part> wedges(const Cell& cell, SolidKind kind) {
+  const SolidTopology& hex = solid_topology(SolidKind::hex8);
+  std::vector<Part> out;
+  for (const auto& corners : {std::array{0, 1, 2, 4, 5, 6}, std::array{0, 2, 3, 4, 6, 7}}) {
+    std::vector<Place> places;
+    for (const int corner : corners) places.push_back(hexahedron_place(hex, corner));
+    out.push_back(make_part(cell, kind, places));
+  }
+  return out;
+}
+
+/// Six pyramids with their apex in the middle of the cell.
+std::vector<Part> pyramids(const Cell& cell, SolidKind kind) {
+  const SolidTopology& hex = solid_topology(SolidKind::hex8);
+  std::vector<Part> out;
+  for (const SolidFace& face : hex.faces) {
+    std::vector<Place> places;  // counter-clockwise seen from inside
+    for (const std::size_t k : {0, 3, 2, 1}) {
+      places.push_back(hexahedron_place(hex, face.corners[k]));
+    }
+    places.emplace_back(1, 1, 1);
+    out.push_back(make_part(cell, kind, places));
+  }
+  return out;
 }
 
 /// Corners of the six tetrahedra as corners of the hexahedron.
@@ -58,32 +104,26 @@ std::vector<std::array<int, 4>> split(const Cell& cell, const SolidTopology& hex
 
 std::vector<Part> tetrahedra(const Cell& cell, SolidKind kind) {
   const SolidTopology& hex = solid_topology(SolidKind::hex8);
-  const SolidTopology& tet = solid_topology(kind);
   std::vector<Part> out;
   for (const auto& corners : split(cell, hex)) {
-    Part part;
-    const auto place = [&](int k) {
-      return hexahedron_place(hex, corners[static_cast<std::size_t>(k)]);
-    };
-    for (int k = 0; k < 4; ++k) part.points.push_back(at(cell, place(k)));
-    for (int node = 4; node < tet.num_nodes; ++node) {
-      const auto& [a, b] = tet.edges[static_cast<std::size_t>(node - 4)];
-      part.points.push_back(at(cell, (place(a) + place(b)) / 2));
-    }
-    for (int face = 0; face < 4; ++face) {
-      for (int side = 0; side < 6; ++side) {
-        const auto& of_side = hex.faces[static_cast<std::size_t>(side)].corners;
-        const auto& of_face = tet.faces[static_cast<std::size_t>(face)].corners;
-        const bool inside = std::all_of(of_face.begin(), of_face.end(), [&](int k) {
-          const int corner = corners[static_cast<std::size_t>(k)];
-          return std::find(of_side.begin(), of_side.end(), corner) != of_side.end();
-        });
-        if (inside) part.faces.push_back({face, side});
-      }
-    }
-    out.push_back(std::move(part));
+    std::vector<Place> places;
+    for (const int corner : corners) places.push_back(hexahedron_place(hex, corner));
+    out.push_back(make_part(cell, kind, places));
   }
   return out;
+}
+
+std::vector<Part> parts_of(const Cell& cell, SolidKind kind) {
+  switch (solid_topology(kind).num_corners) {
+    case 8:
+      return hexahedron(cell, kind);
+    case 6:
+      return wedges(cell, kind);
+    case 5:
+      return pyramids(cell, kind);
+    default:
+      return tetrahedra(cell, kind);
+  }
 }
 
 /// Faces of the elements on each face of each cell.
@@ -102,16 +142,32 @@ class FaceTable {
 
 bool is_node(SolidKind kind, const std::array<int, 3>& place) {
   const int odd = place[0] % 2 + place[1] % 2 + place[2] % 2;
-  return kind == SolidKind::tet10 || odd <= (kind == SolidKind::hex20 ? 1 : 0);
+  switch (kind) {
+    case SolidKind::tet10:
+      return true;
+    case SolidKind::hex20:
+      return odd <= 1;
+    case SolidKind::wedge15:
+      return odd <= 1 || (odd == 2 && place[2] % 2 == 0);
+    case SolidKind::pyramid5:
+      return odd == 0 || odd == 3;
+    default:
+      return odd == 0;
+  }
+}
+
+int elements_per_cell(SolidKind kind) {
+  const SolidTopology& topology = solid_topology(kind);
+  if (topology.is_hexahedron()) return 1;
+  return topology.is_wedge() ? 2 : 6;
 }
 
 GeneratedMesh add_cells(Structure& structure, const CellMesh& mesh, const SolidForm& form,
                         const Material& material) {
-  const bool hexahedra = solid_topology(form.kind).is_hexahedron();
   std::vector<std::vector<Part>> parts;
   std::vector<bool> used(mesh.points.size(), false);
   for (const Cell& cell : mesh.cells) {
-    parts.push_back(hexahedra ? hexahedron(cell, form.kind) : tetrahedra(cell, form.kind));
+    parts.push_back(parts_of(cell, form.kind));
     for (const Part& part : parts.back()) {
       for (const int point : part.points) used[static_cast<std::size_t>(point)] = true;
     }

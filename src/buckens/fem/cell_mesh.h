@@ -24,9 +24,13 @@ struct CellMesh {
 };
 
 /// Whether a point becomes a node: corners lie at even places, mid-side nodes of hex20 have one odd
-/// number, and the diagonals of tet10 reach every place.
+/// number, the diagonals of tet10 reach every place, those of wedge15 lie across the third axis,
+/// and pyramids meet in the middle.
 /// @param place numbers of half steps along the three axes of the cells
 bool is_node(SolidKind kind, const std::array<int, 3>& place);
+
+/// Hexahedra 1, wedges 2, tetrahedra and pyramids 6.
+int elements_per_cell(SolidKind kind);
 
 /// What a generator added to a structure.
 struct GeneratedMesh {
@@ -34,7 +38,8 @@ struct GeneratedMesh {
   NamedPoints names;  ///< those named points of the cells that became nodes
 };
 
-/// Adds elements in place of cells: one hexahedron or six tetrahedra each. Points without an
+/// Adds elements in place of cells: one hexahedron, two wedges, six tetrahedra or six
+/// pyramids each. Points without an
 /// element are left out, the others keep their order; face sets go to the structure.
 ///
 /// The tetrahedra meet in the corner of a cell with the lowest number, and so does the diagonal of

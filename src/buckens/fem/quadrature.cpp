@@ -59,6 +59,57 @@ QuadratureRule conical_rule(int n) {
   return out;
 }
 
+QuadratureRule wedge_rule(int n) {
+  const LineRule u = gauss_jacobi(n, 1), v = gauss_jacobi(n, 0);
+  QuadratureRule out;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      for (int k = 0; k < n; ++k) {
+        const double x = 0.5 * (1.0 + u.place[i]);
+        const double y = 0.5 * (1.0 + v.place[j]) * (1.0 - x);
+        out.push_back({{x, y, v.place[k]}, u.weight[i] * v.weight[j] * v.weight[k] / (4.0 * 2.0)});
+      }
+    }
+  }
+  return out;
+}
+
+QuadratureRule symmetric_wedge_rule(int triangle_points, int n) {
+  const LineRule line = gauss_jacobi(n, 0);
+  QuadratureRule out;
+  const auto add = [&](double b, double weight) {  // area coordinates 1 − 2b, b, b
+    for (int k = 0; k < n; ++k) {
+      const double z = line.place[k], w = 0.5 * weight * line.weight[k];
+      out.push_back({{b, b, z}, w});
+      out.push_back({{1.0 - 2.0 * b, b, z}, w});
+      out.push_back({{b, 1.0 - 2.0 * b, z}, w});
+    }
+  };
+  if (triangle_points == 3) {
+    add(1.0 / 6.0, 1.0 / 3.0);
+  } else {
+    add(0.44594849091596488632, 0.22338158967801146570);
+    add(0.09157621350977074346, 0.10995174365532186764);
+  }
+  return out;
+}
+
+QuadratureRule pyramid_rule(int n) {
+  const LineRule u = gauss_jacobi(n, 2), v = gauss_jacobi(n, 0);
+  QuadratureRule out;
+  for (int i = 0; i < n; ++i) {
+    const double z = 0.5 * (1.0 + u.place[i]);
+    for (int j = 0; j < n; ++j) {
+      for (int k = 0; k < n; ++k) {
+        // The weight of (1 − t)² on [−1, 1] shrinks by 8 on [0, 1].
+        out.push_back({{(1.0 - z) * v.place[j], (1.0 - z) * v.place[k], z},
+                       u.weight[i] * v.weight[j] * v.weight[k] / 8.0});
+      }
+    }
+  }
+  return out;
+}
+
 QuadratureRule symmetric_tetrahedron_rule() {
   QuadratureRule out;
   const auto add = [&out](double b, double weight) {  // volume coordinates 1 − 3b, b, b, b

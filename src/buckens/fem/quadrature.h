@@ -33,6 +33,18 @@ QuadratureRule cube_rule(int n);
 /// n×n×n points of the tetrahedron by collapsing a cube (Stroud's conical product): degree 2n − 1.
 QuadratureRule conical_rule(int n);
 
+/// n×n×n points of the wedge over the triangle ξ, η ≥ 0, ξ + η ≤ 1 with ζ in [−1, 1]: degree 2n − 1
+/// in the triangle and in ζ.
+QuadratureRule wedge_rule(int n);
+
+/// Symmetric points of the triangle (3: degree 2, Hammer; 6: degree 4, Strang and Fix) times n
+/// Gauss points along ζ.
+QuadratureRule symmetric_wedge_rule(int triangle_points, int n);
+
+/// n×n×n points of the pyramid with base [−1, 1]² at ζ = 0 and apex (0, 0, 1), by collapsing a
+/// cube: degree 2n − 1 in ξ/(1 − ζ), η/(1 − ζ) and ζ.
+QuadratureRule pyramid_rule(int n);
+
 /// Fourteen symmetric points of the tetrahedron with positive weights, degree 5 (Walkington).
 QuadratureRule symmetric_tetrahedron_rule();
 

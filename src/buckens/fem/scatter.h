@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "buckens/fem/element_block.h"
@@ -19,6 +20,19 @@ void scatter(const Eigen::Matrix<double, N, N>& element, const std::array<int, N
     if (column < 0) continue;
     for (int i = 0; i < N; ++i) {
       const int row = dofs[static_cast<std::size_t>(i)];
+      if (row >= 0 && element(i, j) != 0.0) sum.emplace_back(row, column, scale * element(i, j));
+    }
+  }
+}
+
+/// Adds `scale` times an element matrix; numbers −1 and exact zeros are left out.
+inline void scatter_square(const Eigen::Ref<const linalg::Matrix>& element,
+                           std::span<const int> numbers, double scale,
+                           std::vector<linalg::Triplet>& sum) {
+  for (Eigen::Index j = 0; j < element.cols(); ++j) {
+    const int column = numbers[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = 0; column >= 0 && i < element.rows(); ++i) {
+      const int row = numbers[static_cast<std::size_t>(i)];
       if (row >= 0 && element(i, j) != 0.0) sum.emplace_back(row, column, scale * element(i, j));
     }
   }

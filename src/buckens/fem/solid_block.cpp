@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/solid_block.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/elasticity.h"
 #include "buckens/fem/node_label.h"
+#include "buckens/fem/scatter.h"
 #include "buckens/fem/solid_element.h"
 
 namespace buckens::fem {
@@ -23,23 +26,30 @@ std::vector<int> element_dofs(const DofMap& map, std::span<const int> nodes) {
   return out;
 }
 
-/// Adds `scale` times an element matrix; numbers −1 and exact zeros are left out.
-void scatter_square(const Eigen::Ref<const linalg::Matrix>& element, std::span<const int> numbers,
-                    double scale, std::vector<linalg::Triplet>& sum) {
-  for (Eigen::Index j = 0; j < element.cols(); ++j) {
-    const int column = numbers[static_cast<std::size_t>(j)];
-    for (Eigen::Index i = 0; column >= 0 && i < element.rows(); ++i) {
-      const int row = numbers[static_cast<std::size_t>(i)];
-      if (row >= 0 && element(i, j) != 0.0) sum.emplace_back(row, column, scale * element(i, j));
-    }
+const char* order_of_nodes(const SolidTopology& topology) {
+  if (topology.is_tetrahedron()) {
+    return "list three corners counter-clockwise seen from the fourth, then the fourth";
   }
+  if (topology.is_hexahedron() || topology.is_wedge()) {
+    return "list the nodes of the lower face counter-clockwise seen from above, then those of the "
+           "upper face in the same order";
+  }
+  return "list the nodes of the base counter-clockwise seen from the apex, then the apex";
 }
 
-const char* order_of_nodes(const SolidTopology& topology) {
-  return topology.is_hexahedron()
-             ? "list the nodes of the lower face counter-clockwise seen from above, then those of "
-               "the upper face in the same order"
-             : "list three corners counter-clockwise seen from the fourth, then the fourth";
+/// Elements of other programs use a node twice to make a wedge of a hexahedron.
+template <class Where>
+void refuse_collapsed(Where&& where, std::span<const int> nodes, const std::vector<Node>& all) {
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(k), nodes[k]) ==
+        nodes.begin() + static_cast<std::ptrdiff_t>(k)) {
+      continue;
+    }
+    throw ModelError(fmt::format(
+        "{}: {} stands in it twice; write it as an element with fewer corners (wedge6, pyramid5, "
+        "tet4)",
+        where(), node_label(all, nodes[k])));
+  }
 }
 
 }  // namespace
@@ -106,14 +116,16 @@ void SolidBlock::check(const MeshView& mesh) const {
     const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
     const double least = solid_least_volume(kind, x);
     const auto where = [&] {
-      const std::size_t opposite = topology.is_hexahedron() ? 6 : 3;
+      const auto opposite =
+          static_cast<std::size_t>(topology.is_hexahedron() ? 6 : topology.num_corners - 1);
       return fmt::format("solid element {} ({}) between {} and {}", e + 1,
                          choice_names(kind)[static_cast<std::size_t>(kind)],
                          node_label(mesh.nodes, nodes(e)[0]),
                          node_label(mesh.nodes, nodes(e)[opposite]));
     };
-    // Jacobians are eighths of volumes (hexahedra) or six volumes; one part in 1e12 of the bounding
-    // cube is flat.
+    refuse_collapsed(where, nodes(e), mesh.nodes);
+    // Jacobians are eighths of volumes (hexahedra) up to six volumes; one part in 1e12 of the
+    // bounding cube is flat.
     if (!(8.0 * least > 1e-12 * size * size * size)) {
       throw ModelError(fmt::format(
           "{}: its Jacobian falls to {:.3g} m³, so it is turned inside out or squashed flat; {}, "

@@ -31,22 +31,28 @@ struct ShapeRule {
   }
 };
 
-using RuleTable = std::array<ShapeRule, 4>;  // in the order of SolidKind
+using RuleTable = std::array<ShapeRule, 7>;  // in the order of SolidKind
 
 const ShapeRule& stiffness_rule(SolidKind kind) {
   static const RuleTable all = {ShapeRule(SolidKind::hex8, cube_rule(2)),
                                 ShapeRule(SolidKind::hex20, cube_rule(3)),
                                 ShapeRule(SolidKind::tet4, conical_rule(1)),
-                                ShapeRule(SolidKind::tet10, symmetric_tetrahedron_rule())};
+                                ShapeRule(SolidKind::tet10, symmetric_tetrahedron_rule()),
+                                ShapeRule(SolidKind::wedge6, symmetric_wedge_rule(3, 2)),
+                                ShapeRule(SolidKind::wedge15, symmetric_wedge_rule(6, 3)),
+                                ShapeRule(SolidKind::pyramid5, pyramid_rule(2))};
   return all[static_cast<std::size_t>(kind)];
 }
 
 /// N Nᵀ det ∂x/∂ξ has in each coordinate degree 2 + 2 (hex8), 4 + 5 (hex20); in total 2 + 0 (tet4),
-/// 4 + 3 (tet10).
+/// 4 + 3 (tet10); in the triangle and in ζ 2 + 1, 2 + 2 (wedge6), 4 + 4, 4 + 5 (wedge15); in the
+/// collapsed coordinates 2 + 2 (pyramid5).
 const ShapeRule& mass_rule(SolidKind kind) {
   static const RuleTable all = {
-      ShapeRule(SolidKind::hex8, cube_rule(3)), ShapeRule(SolidKind::hex20, cube_rule(5)),
-      ShapeRule(SolidKind::tet4, conical_rule(2)), ShapeRule(SolidKind::tet10, conical_rule(4))};
+      ShapeRule(SolidKind::hex8, cube_rule(3)),       ShapeRule(SolidKind::hex20, cube_rule(5)),
+      ShapeRule(SolidKind::tet4, conical_rule(2)),    ShapeRule(SolidKind::tet10, conical_rule(4)),
+      ShapeRule(SolidKind::wedge6, wedge_rule(3)),    ShapeRule(SolidKind::wedge15, wedge_rule(5)),
+      ShapeRule(SolidKind::pyramid5, pyramid_rule(3))};
   return all[static_cast<std::size_t>(kind)];
 }
 
@@ -56,8 +62,10 @@ const ShapeRule& node_rule(SolidKind kind) {
     for (const auto& place : solid_topology(own).natural.colwise()) rule.push_back({place, 1.0});
     return ShapeRule(own, rule);
   };
-  static const RuleTable all = {at_nodes(SolidKind::hex8), at_nodes(SolidKind::hex20),
-                                at_nodes(SolidKind::tet4), at_nodes(SolidKind::tet10)};
+  static const RuleTable all = {at_nodes(SolidKind::hex8),    at_nodes(SolidKind::hex20),
+                                at_nodes(SolidKind::tet4),    at_nodes(SolidKind::tet10),
+                                at_nodes(SolidKind::wedge6),  at_nodes(SolidKind::wedge15),
+                                at_nodes(SolidKind::pyramid5)};
   return all[static_cast<std::size_t>(kind)];
 }
 
@@ -169,9 +177,15 @@ SolidStiffness solid_stiffness(const SolidForm& form, const NodeVectors& x, cons
     case SolidKind::tet4:
       return full_stiffness<4>(form.kind, x, D);
     case SolidKind::tet10:
+      return full_stiffness<10>(form.kind, x, D);
+    case SolidKind::wedge6:
+      return full_stiffness<6>(form.kind, x, D);
+    case SolidKind::wedge15:
+      return full_stiffness<15>(form.kind, x, D);
+    case SolidKind::pyramid5:
       break;
   }
-  return full_stiffness<10>(form.kind, x, D);
+  return full_stiffness<5>(form.kind, x, D);
 }
 
 NodeProducts solid_volume_products(SolidKind kind, const NodeVectors& x) {

@@ -35,9 +35,10 @@ double solid_least_volume(SolidKind kind, const NodeVectors& x);
 /// Strain ε = B q at a point, from the gradients of the shape functions.
 StrainRows solid_strain(const NodeVectors& gradient);
 
-/// ∫ Bᵀ D B dV [N/m] by 2×2×2 (hex8), 3×3×3 (hex20), one (tet4) or fourteen points (tet10): exact
-/// for parallelepipeds and tetrahedra with straight edges; no zero-energy modes beyond rigid
-/// motion.
+/// ∫ Bᵀ D B dV [N/m] by 2×2×2 (hex8), 3×3×3 (hex20), one (tet4), fourteen (tet10), 3×2
+/// (wedge6), 6×3 (wedge15) or 2×2×2 points (pyramid5): exact for parallelepipeds, tetrahedra with
+/// straight edges, straight prisms and pyramids over a parallelogram; no zero-energy modes beyond
+/// rigid motion.
 ///
 /// Incompatible modes (hex8): inner displacements 1 − ξ_a² times three components, condensed out.
 /// Their gradients are taken with the Jacobian of the centre and scaled by its determinant, so that

@@ -22,9 +22,10 @@ struct SolidElementSpec {
 
   template <class Visitor>
   void element_fields(Visitor& visit) {
-    visit(base::field("element", element,
-                      "solid element: linear (`hex8`, `tet4`) or quadratic with mid-side nodes "
-                      "(`hex20`, `tet10`)"));
+    visit(base::field(
+        "element", element,
+        "solid element: linear (`hex8`, `tet4`, `wedge6`, `pyramid5`) or quadratic with "
+        "mid-side nodes (`hex20`, `tet10`, `wedge15`)"));
     visit(base::field("integration", integration,
                       "`incompatible-modes` (hex8 only) bends without locking; `full` takes the "
                       "shape functions alone, at 2 × 2 × 2 points of hex8: bending then needs "
@@ -42,13 +43,14 @@ struct SolidMemberSpec : SolidElementSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("nodes", nodes,
-                      "hexahedra: the four corners of one face counter-clockwise seen from the "
-                      "opposite face, then those of that face in the same order; tetrahedra: three "
-                      "corners counter-clockwise seen from the fourth, then the fourth; mid-side "
-                      "nodes follow as Abaqus and VTK count")
-              .required()
-              .like("[a, b, c, d, e, f, g, h]"));
+    visit(
+        base::field("nodes", nodes,
+                    "hexahedra and wedges: the corners of one face counter-clockwise seen from the "
+                    "opposite face, then those of that face in the same order; tetrahedra and "
+                    "pyramids: the corners of a face (the base) counter-clockwise seen from the "
+                    "last corner, then that; mid-side nodes follow as Abaqus counts")
+            .required()
+            .like("[a, b, c, d, e, f, g, h]"));
     element_fields(visit);
     visit(base::field("material", material, "material: a name from `materials` or written in place")
               .required()

@@ -6,16 +6,19 @@
 namespace buckens::fem {
 
 /// Shapes of solid elements, named by their nodes. Corners are counted first, then the mid-side
-/// nodes, as Abaqus (C3D8, C3D20, C3D4, C3D10) and VTK count.
+/// nodes, as Abaqus counts (C3D8, C3D20, C3D4, C3D10, C3D6, C3D15, C3D5).
 enum class SolidKind {
-  hex8,   ///< trilinear hexahedron
-  hex20,  ///< quadratic serendipity hexahedron
-  tet4,   ///< linear tetrahedron
-  tet10,  ///< quadratic tetrahedron
+  hex8,      ///< trilinear hexahedron
+  hex20,     ///< quadratic serendipity hexahedron
+  tet4,      ///< linear tetrahedron
+  tet10,     ///< quadratic tetrahedron
+  wedge6,    ///< linear wedge (prism over a triangle)
+  wedge15,   ///< quadratic serendipity wedge
+  pyramid5,  ///< linear pyramid over a quadrilateral
 };
 
-constexpr std::array<const char*, 4> choice_names(SolidKind) {
-  return {"hex8", "hex20", "tet4", "tet10"};
+constexpr std::array<const char*, 7> choice_names(SolidKind) {
+  return {"hex8", "hex20", "tet4", "tet10", "wedge6", "wedge15", "pyramid5"};
 }
 
 /// How the stiffness of a solid element is integrated.

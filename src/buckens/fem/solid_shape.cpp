@@ -2,6 +2,8 @@
 #include "buckens/fem/solid_shape.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 namespace buckens::fem {
 
@@ -11,18 +13,36 @@ namespace {
 
 using Corners = std::vector<std::vector<int>>;  // of each face
 
-NodeVectors corner_places(bool hexahedron) {
-  NodeVectors out(3, hexahedron ? 8 : 4);
-  if (hexahedron) {
-    out << -1, 1, 1, -1, -1, 1, 1, -1,  //
-        -1, -1, 1, 1, -1, -1, 1, 1,     //
-        -1, -1, -1, -1, 1, 1, 1, 1;
-  } else {
-    out << 0, 1, 0, 0,  //
-        0, 0, 1, 0,     //
-        0, 0, 0, 1;
+NodeVectors corner_places(int corners) {
+  NodeVectors out(3, corners);
+  switch (corners) {
+    case 8:
+      out << -1, 1, 1, -1, -1, 1, 1, -1,  //
+          -1, -1, 1, 1, -1, -1, 1, 1,     //
+          -1, -1, -1, -1, 1, 1, 1, 1;
+      break;
+    case 6:
+      out << 0, 1, 0, 0, 1, 0,  //
+          0, 0, 1, 0, 0, 1,     //
+          -1, -1, -1, 1, 1, 1;
+      break;
+    case 5:
+      out << -1, 1, 1, -1, 0,  //
+          -1, -1, 1, 1, 0,     //
+          0, 0, 0, 0, 1;
+      break;
+    default:
+      out << 0, 1, 0, 0,  //
+          0, 0, 1, 0,     //
+          0, 0, 0, 1;
   }
   return out;
+}
+
+Eigen::Vector3d centre_of(int corners, const NodeVectors& places) {
+  // Of a pyramid: the centre of its volume, a quarter up.
+  if (corners == 5) return {0, 0, 0.25};
+  return places.rowwise().mean();
 }
 
 SolidFace make_face(const std::vector<int>& corners, const SolidTopology& element) {
@@ -57,20 +77,42 @@ void add_pieces(const SolidFace& face, std::vector<std::array<int, 4>>& pieces) 
   pieces.push_back(piece(face.mid_sides));
 }
 
-SolidTopology make_topology(bool hexahedron, bool quadratic) {
-  SolidTopology out;
-  const NodeVectors corners = corner_places(hexahedron);
-  out.num_corners = static_cast<int>(corners.cols());
-  out.centre = corners.rowwise().mean();
-  Corners faces;
-  if (hexahedron) {
-    out.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                 {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-    faces = {{3, 0, 4, 7}, {1, 2, 6, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-  } else {
-    out.edges = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-    faces = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
+/// Edges of an element in the order of its mid-side nodes, and its faces.
+std::pair<std::vector<std::array<int, 2>>, Corners> edges_and_faces(int corners) {
+  switch (corners) {
+    case 8:
+      return {{{0, 1},
+               {1, 2},
+               {2, 3},
+               {3, 0},
+               {4, 5},
+               {5, 6},
+               {6, 7},
+               {7, 4},
+               {0, 4},
+               {1, 5},
+               {2, 6},
+               {3, 7}},
+              {{3, 0, 4, 7}, {1, 2, 6, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
+    case 6:
+      return {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+              {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
+    case 5:
+      return {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
+              {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 3, 2, 1}}};
+    default:
+      return {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
+              {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}};
   }
+}
+
+SolidTopology make_topology(int num_corners, bool quadratic) {
+  SolidTopology out;
+  const NodeVectors corners = corner_places(num_corners);
+  out.num_corners = num_corners;
+  out.centre = centre_of(num_corners, corners);
+  Corners faces;
+  std::tie(out.edges, faces) = edges_and_faces(num_corners);
   out.num_nodes = out.num_corners + (quadratic ? static_cast<int>(out.edges.size()) : 0);
   out.natural.resize(3, out.num_nodes);
   out.natural.leftCols(out.num_corners) = corners;
@@ -137,6 +179,61 @@ SolidShape tetrahedron(const SolidTopology& element, const Vector3d& natural) {
   return out;
 }
 
+/// Triangle coordinates L times ½ (1 ± ζ); of wedge15 corners also minus ½ L (1 − ζ²), edges of the
+/// triangles 2 L_a L_b (1 ± ζ), upright edges L (1 − ζ²).
+SolidShape wedge(const SolidTopology& element, const Vector3d& natural) {
+  const Vector3d L(1.0 - natural.x() - natural.y(), natural.x(), natural.y());
+  Eigen::Matrix<double, 2, 3> dL;
+  dL << -1, 1, 0, -1, 0, 1;
+  const double z = natural.z();
+  SolidShape out{NodeValues(element.num_nodes), NodeVectors(3, element.num_nodes)};
+  // f(L) g(ζ) with the slope of f along the triangle.
+  const auto set = [&out](Eigen::Index node, double f, const Eigen::Vector2d& df, double g,
+                          double dg) {
+    out.N[node] = f * g;
+    out.slope.col(node) << g * df, f * dg;
+  };
+  for (int node = 0; node < 6; ++node) {
+    const int k = node % 3;
+    const double up = node < 3 ? -1.0 : 1.0;
+    set(node, L[k], dL.col(k), 0.5 * (1.0 + up * z), 0.5 * up);
+    if (element.num_nodes == 6) continue;
+    // ½ L (2L − 1)(1 ± ζ) − ½ L (1 − ζ²) = ½ L (1 ± ζ)(2L − 2 ± ζ)
+    const double s = 1.0 + up * z, t = 2.0 * L[k] - 2.0 + up * z;
+    out.N[node] = 0.5 * L[k] * s * t;
+    out.slope.col(node) << 0.5 * s * (t + 2.0 * L[k]) * dL.col(k), 0.5 * L[k] * up * (t + s);
+  }
+  for (int node = 6; node < element.num_nodes; ++node) {
+    const auto& [a, b] = element.edges[static_cast<std::size_t>(node - 6)];
+    const int i = a % 3, j = b % 3;
+    if (node < 12) {
+      const double up = a < 3 ? -1.0 : 1.0;
+      set(node, 2.0 * L[i] * L[j], 2.0 * (L[i] * dL.col(j) + L[j] * dL.col(i)), 1.0 + up * z, up);
+    } else {
+      set(node, L[i], dL.col(i), 1.0 - z * z, -2.0 * z);
+    }
+  }
+  return out;
+}
+
+/// ¼ (1 − ζ + s ξ + t η + s t ξ η/(1 − ζ)) at the base, ζ at the apex: linear on the triangles,
+/// bilinear on the base. At the apex the slopes depend on the way there; along the axis is taken.
+SolidShape pyramid(const SolidTopology& element, const Vector3d& natural) {
+  const double height = 1.0 - natural.z();
+  const double a = height > 0.0 ? natural.x() / height : 0.0;
+  const double b = height > 0.0 ? natural.y() / height : 0.0;
+  SolidShape out{NodeValues(5), NodeVectors(3, 5)};
+  for (int node = 0; node < 4; ++node) {
+    const double s = element.natural(0, node), t = element.natural(1, node);
+    out.N[node] = 0.25 * height * (1.0 + s * a) * (1.0 + t * b);
+    out.slope.col(node) << 0.25 * s * (1.0 + t * b), 0.25 * t * (1.0 + s * a),
+        0.25 * (s * t * a * b - 1.0);
+  }
+  out.N[4] = natural.z();
+  out.slope.col(4) << 0.0, 0.0, 1.0;
+  return out;
+}
+
 }  // namespace
 
 std::vector<int> SolidFace::nodes() const {
@@ -146,15 +243,25 @@ std::vector<int> SolidFace::nodes() const {
 }
 
 const SolidTopology& solid_topology(SolidKind kind) {
-  static const std::array<SolidTopology, 4> all = {
-      make_topology(true, false), make_topology(true, true), make_topology(false, false),
-      make_topology(false, true)};
+  static const std::array<SolidTopology, 7> all = {make_topology(8, false), make_topology(8, true),
+                                                   make_topology(4, false), make_topology(4, true),
+                                                   make_topology(6, false), make_topology(6, true),
+                                                   make_topology(5, false)};
   return all[static_cast<std::size_t>(kind)];
 }
 
 SolidShape solid_shape(SolidKind kind, const Vector3d& natural) {
   const SolidTopology& element = solid_topology(kind);
-  return element.is_hexahedron() ? hexahedron(element, natural) : tetrahedron(element, natural);
+  switch (element.num_corners) {
+    case 8:
+      return hexahedron(element, natural);
+    case 6:
+      return wedge(element, natural);
+    case 5:
+      return pyramid(element, natural);
+    default:
+      return tetrahedron(element, natural);
+  }
 }
 
 }  // namespace buckens::fem

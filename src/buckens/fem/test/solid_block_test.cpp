@@ -8,7 +8,6 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/assemble.h"
-#include "buckens/fem/quadrature.h"
 #include "buckens/fem/solid_element.h"
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/fem/test/solid_fixture.h"
@@ -80,11 +79,6 @@ TEST_P(Solids, HaveSixMotionsWithoutEnergy) {
   EXPECT_GE(values[6], 1e-3);  // hourglass modes would be at 1e-16
 }
 
-/// A rule of higher degree than those of the element.
-QuadratureRule fine_rule(SolidKind kind) {
-  return solid_topology(kind).is_hexahedron() ? cube_rule(7) : conical_rule(6);
-}
-
 TEST_P(Solids, InertiaIntegralsMatchQuadrature) {
   const Structure s = distorted_block(GetParam());
   const FeModel fe = assemble(s);
@@ -97,7 +91,8 @@ TEST_P(Solids, InertiaIntegralsMatchQuadrature) {
   for (int e = 0; e < s.solids.num_elements(); ++e) {
     const auto nodes = s.solids.nodes(e);
     const NodeVectors x = s.solids.positions(s.nodes, e);
-    for (const QuadraturePoint& at : fine_rule(GetParam().kind)) {
+    // A rule of higher degree than that of the element.
+    for (const QuadraturePoint& at : test::fine_rule(GetParam().kind, 7)) {
       const SolidPoint p = solid_point(GetParam().kind, x, at.natural);
       const double dm = test::steel().rho * p.volume * at.weight;
       const Vector3d s0 = x * p.N - fe.shape.com;
@@ -168,6 +163,18 @@ TEST(SolidBlock, RefusesWrongNodesAndModes) {
         block.add({SolidKind::tet10, SolidIntegration::incompatible_modes}, ten, 0);
       },
       ThrowsMessage<ModelError>(HasSubstr("only hex8 has incompatible modes")));
+}
+
+TEST(SolidBlock, RefusesCollapsedElements) {
+  Structure s;
+  add_box(s, {{0, 0, 0}, {1, 1, 1}, {1, 1, 1}}, test::steel());
+  std::vector<int> nodes(s.solids.nodes(0).begin(), s.solids.nodes(0).end());
+  nodes[3] = nodes[2];
+  nodes[7] = nodes[6];
+  s.solids.add(SolidForm::usual(SolidKind::hex8), nodes, 0);
+  EXPECT_THAT([&] { assemble(s); }, ThrowsMessage<ModelError>(AllOf(
+                                        HasSubstr("solid element 2 (hex8)"),
+                                        HasSubstr("stands in it twice"), HasSubstr("wedge6"))));
 }
 
 TEST(SolidBlock, HoldsSeveralKinds) {

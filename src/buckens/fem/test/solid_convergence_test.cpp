@@ -7,44 +7,16 @@
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/quadrature.h"
 #include "buckens/fem/solid_element.h"
+#include "buckens/fem/test/held_solution.h"
 #include "buckens/fem/test/solid_fixture.h"
-#include "buckens/linalg/sparse_cholesky.h"
 
 namespace buckens::fem {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using linalg::SparseMatrix;
 using linalg::Vector;
-
-/// Solves K d = f with some DOF given.
-Vector solve(const FeModel& fe, const Vector& f, const std::vector<bool>& given, Vector d) {
-  std::vector<int> number(given.size(), -1);
-  int free = 0;
-  for (std::size_t k = 0; k < given.size(); ++k) {
-    if (!given[k]) number[k] = free++;
-  }
-  const Vector load = f - fe.K * d;
-  std::vector<linalg::Triplet> entries;
-  Vector x(free);
-  for (int column = 0; column < fe.K.outerSize(); ++column) {
-    const int j = number[static_cast<std::size_t>(column)];
-    if (j < 0) continue;
-    x[j] = load[column];
-    for (SparseMatrix::InnerIterator it(fe.K, column); it; ++it) {
-      const int i = number[static_cast<std::size_t>(it.row())];
-      if (i >= 0) entries.emplace_back(i, j, it.value());
-    }
-  }
-  SparseMatrix K(free, free);
-  K.setFromTriplets(entries.begin(), entries.end());
-  linalg::SparseCholesky(K).solve_in_place(x);
-  for (std::size_t k = 0; k < given.size(); ++k) {
-    if (number[k] >= 0) d[static_cast<Eigen::Index>(k)] += x[number[k]];
-  }
-  return d;
-}
+using test::solve;
 
 std::vector<bool> held(const Structure& s, const std::vector<std::string>& faces) {
   std::vector<bool> out(3 * s.nodes.size(), false);
@@ -54,10 +26,6 @@ std::vector<bool> held(const Structure& s, const std::vector<std::string>& faces
     }
   }
   return out;
-}
-
-QuadratureRule fine_rule(SolidKind kind) {
-  return solid_topology(kind).is_hexahedron() ? cube_rule(5) : conical_rule(5);
 }
 
 /// A displacement field with its body force in the unit cube, E = 1, ν = 0.3: every component is
@@ -109,7 +77,7 @@ double energy_error(const SolidForm& form, int divisions) {
   const FeModel fe = assemble(s);
   const Elasticity D = solid_elasticity(material);
   Vector f = Vector::Zero(fe.dofs.num_dofs);
-  const QuadratureRule rule = fine_rule(form.kind);
+  const QuadratureRule rule = test::fine_rule(form.kind, 5);
   const auto visit = [&](auto&& at_point) {
     for (int e = 0; e < s.solids.num_elements(); ++e) {
       const NodeVectors x = s.solids.positions(s.nodes, e);

@@ -7,16 +7,18 @@
 #include <vector>
 
 #include "buckens/fem/box_mesh.h"
+#include "buckens/fem/quadrature.h"
+#include "buckens/fem/solid_shape.h"
 #include "buckens/fem/test/fixture.h"
 
 namespace buckens::fem::test {
 
 inline const std::vector<SolidForm>& all_forms() {
-  static const std::vector<SolidForm> all = {{SolidKind::hex8, SolidIntegration::full},
-                                             SolidForm::usual(SolidKind::hex8),
-                                             SolidForm::usual(SolidKind::hex20),
-                                             SolidForm::usual(SolidKind::tet4),
-                                             SolidForm::usual(SolidKind::tet10)};
+  static const std::vector<SolidForm> all = {
+      {SolidKind::hex8, SolidIntegration::full}, SolidForm::usual(SolidKind::hex8),
+      SolidForm::usual(SolidKind::hex20),        SolidForm::usual(SolidKind::tet4),
+      SolidForm::usual(SolidKind::tet10),        SolidForm::usual(SolidKind::wedge6),
+      SolidForm::usual(SolidKind::wedge15),      SolidForm::usual(SolidKind::pyramid5)};
   return all;
 }
 
@@ -28,7 +30,16 @@ inline std::string form_name(const SolidForm& form) {
 }
 
 inline bool is_quadratic(const SolidForm& form) {
-  return form.kind == SolidKind::hex20 || form.kind == SolidKind::tet10;
+  return form.kind == SolidKind::hex20 || form.kind == SolidKind::tet10 ||
+         form.kind == SolidKind::wedge15;
+}
+
+/// n×n×n points of the shape of a kind.
+inline QuadratureRule fine_rule(SolidKind kind, int n) {
+  const SolidTopology& topology = solid_topology(kind);
+  if (topology.is_hexahedron()) return cube_rule(n);
+  if (topology.is_tetrahedron()) return conical_rule(n);
+  return topology.is_wedge() ? wedge_rule(n) : pyramid_rule(n);
 }
 
 /// Moves every node a little, so that no element keeps plane faces or straight edges.

@@ -71,6 +71,7 @@ TEST_P(SolidShapes, FacesCloseTheElementAndLookOutwards) {
 
 INSTANTIATE_TEST_SUITE_P(All, SolidShapes,
                          testing::Values(SolidKind::hex8, SolidKind::hex20, SolidKind::tet4,
+                                         SolidKind::wedge6, SolidKind::wedge15, SolidKind::pyramid5,
                                          SolidKind::tet10),
                          [](const auto& kind) {
                            return choice_names(kind.param)[static_cast<std::size_t>(kind.param)];
