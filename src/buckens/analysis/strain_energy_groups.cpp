@@ -51,7 +51,8 @@ Parts split_bars(const fem::BarBlock& block) {
 
 const char* kind_name(const fem::ElementBlock& block) {
   if (block.is_solid()) return "solids";
-  if (!block.is_line()) return "other elements";
+  if (block.is_shell()) return "shells";
+  if (!block.is_line()) return "springs";
   return block.has_rotations() ? "beams" : "bars";
 }
 

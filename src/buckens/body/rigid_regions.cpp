@@ -5,27 +5,31 @@
 #include <array>
 #include <utility>
 
-#include <Eigen/Geometry>
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/body/second_moments.h"
+#include "buckens/fem/elimination.h"
+#include "buckens/fem/node_label.h"
 
 namespace buckens::body {
 
-using Eigen::Vector3d;
 using linalg::SparseMatrix;
 using linalg::Triplet;
 
 namespace {
 
-/// Region of each node, −1: none.
-std::vector<int> regions_of_nodes(const std::string& body, std::size_t num_nodes,
-                                  const std::vector<RigidRegion>& regions) {
-  std::vector<int> out(num_nodes, -1);
+// Share of a node's mass that a motion of it must have: rounding stays below 1e-15, nodes that are
+// nearly on a line above 1e-10.
+constexpr double kMassless = 1e-12;
+
+void refuse_common_nodes(const std::string& body, std::size_t num_nodes,
+                         const std::vector<RigidRegion>& regions) {
+  std::vector<int> owners(num_nodes, -1);
   for (std::size_t k = 0; k < regions.size(); ++k) {
     for (const int node : regions[k].nodes) {
-      int& owner = out.at(static_cast<std::size_t>(node));
+      int& owner = owners.at(static_cast<std::size_t>(node));
       if (owner < 0) {
         owner = static_cast<int>(k);
         continue;
@@ -41,22 +45,43 @@ std::vector<int> regions_of_nodes(const std::string& body, std::size_t num_nodes
           body, first.name, first.nodes.size(), regions[k].name, regions[k].nodes.size(), common));
     }
   }
-  return out;
 }
 
-/// Nodes and variables after the elimination, and the way back.
-class Elimination {
+/// Variables that a node of the mesh can have: all, or those of the plane of a planar model.
+std::array<bool, 6> known_variables(const fem::DofMap& dofs) {
+  std::array<bool, 6> known{};
+  for (const auto& node : dofs.node_dofs) {
+    for (std::size_t k = 0; k < 3; ++k) known[k] = known[k] || node[k] >= 0;
+  }
+  const bool is_planar = !(known[0] && known[1] && known[2]);
+  for (std::size_t k = 0; k < 3; ++k) known[3 + k] = !is_planar || !known[k];
+  return known;
+}
+
+/// The mesh with one more node per region, and its links solved.
+class Condensation {
  public:
-  Elimination(const fem::FeModel& full, const std::vector<RigidRegion>& regions,
-              const std::vector<int>& region_of)
-      : full_(full), regions_(regions), region_of_(region_of), nodes_(full.nodes) {
-    number();
-    make_map();
+  Condensation(const fem::FeModel& full, const std::vector<RigidRegion>& regions,
+               fem::NodeLinks links)
+      : full_(full), nodes_(full.nodes) {
+    fem::DofMap dofs = full.dofs;
+    const std::array<bool, 6> known = known_variables(full.dofs);
+    for (const RigidRegion& region : regions) {
+      links.rigid.push_back({fmt::format("rigid interface \"{}\"", region.name),
+                             static_cast<int>(nodes_.size()), region.nodes});
+      nodes_.push_back({region.name, region.centre});
+      auto& own = dofs.node_dofs.emplace_back();
+      for (std::size_t k = 0; k < 6; ++k) own[k] = known[k] ? dofs.num_dofs++ : -1;
+    }
+    elimination_ = fem::eliminate(nodes_, dofs, links);
+    T_ = elimination_.T.topRows(full.dofs.num_dofs);
+    T_.makeCompressed();
   }
 
   const std::vector<fem::Node>& nodes() const { return nodes_; }
-  const fem::DofMap& dofs() const { return dofs_; }
+  const fem::DofMap& dofs() const { return elimination_.dofs; }
   const SparseMatrix& T() const { return T_; }
+  bool is_free(std::size_t node) const { return elimination_.is_free[node]; }
   /// TᵀAT.
   SparseMatrix condensed(const SparseMatrix& A) const {
     if (A.nonZeros() == 0) return SparseMatrix(T_.cols(), T_.cols());
@@ -76,74 +101,21 @@ class Elimination {
   }
 
  private:
-  /// Free nodes keep their variables; those of the regions come last.
-  void number() {
-    std::array<int, 6> none{};
-    none.fill(-1);
-    dofs_.node_dofs.assign(full_.nodes.size(), none);
-    for (std::size_t node = 0; node < full_.nodes.size(); ++node) {
-      if (region_of_[node] >= 0) continue;
-      for (std::size_t k = 0; k < 6; ++k) {
-        if (full_.dofs.node_dofs[node][k] >= 0) dofs_.node_dofs[node][k] = dofs_.num_dofs++;
-      }
-    }
-    for (const RigidRegion& region : regions_) {
-      nodes_.push_back({region.name, region.centre});
-      auto& own = dofs_.node_dofs.emplace_back();
-      for (int& dof : own) dof = dofs_.num_dofs++;
-    }
-  }
-
-  void make_map() {
-    std::vector<Triplet> entries;
-    for (std::size_t node = 0; node < full_.nodes.size(); ++node) {
-      const auto& from = full_.dofs.node_dofs[node];
-      if (region_of_[node] < 0) {
-        const auto& to = dofs_.node_dofs[node];
-        for (std::size_t k = 0; k < 6; ++k) {
-          if (from[k] >= 0) entries.emplace_back(from[k], to[k], 1.0);
-        }
-      } else {
-        follow(node, entries);
-      }
-    }
-    T_.resize(full_.dofs.num_dofs, dofs_.num_dofs);
-    T_.setFromTriplets(entries.begin(), entries.end());
-  }
-
-  /// u_i = u + θ × r.
-  void follow(std::size_t node, std::vector<Triplet>& entries) const {
-    const auto region = static_cast<std::size_t>(region_of_[node]);
-    const auto& from = full_.dofs.node_dofs[node];
-    const auto& to = dofs_.node_dofs[full_.nodes.size() + region];
-    const Vector3d r = full_.nodes[node].position - regions_[region].centre;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Vector3d turned = Vector3d::Unit(static_cast<Eigen::Index>(axis)).cross(r);
-      if (from[axis] >= 0) entries.emplace_back(from[axis], to[axis], 1.0);
-      if (from[3 + axis] >= 0) entries.emplace_back(from[3 + axis], to[3 + axis], 1.0);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double arm = turned[static_cast<Eigen::Index>(k)];
-        if (from[k] >= 0 && arm != 0.0) entries.emplace_back(from[k], to[3 + axis], arm);
-      }
-    }
-  }
-
   const fem::FeModel& full_;
-  const std::vector<RigidRegion>& regions_;
-  const std::vector<int>& region_of_;
   std::vector<fem::Node> nodes_;
-  fem::DofMap dofs_;
+  fem::Elimination elimination_;
   SparseMatrix T_;
 };
 
 /// Splits the scalar mass matrix: entries between free nodes stay, all others become W_ab.
-void condense_nodal_mass(const fem::NodalMass& full, const Elimination& elimination,
-                         const std::vector<int>& region_of, fem::ShapeIntegrals& out) {
+void condense_nodal_mass(const fem::NodalMass& full, const Condensation& elimination,
+                         fem::ShapeIntegrals& out) {
   std::vector<Triplet> kept, taken;
   for (int column = 0; column < full.Ms.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator it(full.Ms, column); it; ++it) {
       const auto row = static_cast<std::size_t>(it.row());
-      const bool is_free = region_of[row] < 0 && region_of[static_cast<std::size_t>(column)] < 0;
+      const bool is_free =
+          elimination.is_free(row) && elimination.is_free(static_cast<std::size_t>(column));
       (is_free ? kept : taken).emplace_back(static_cast<int>(it.row()), column, it.value());
     }
   }
@@ -168,8 +140,7 @@ void condense_nodal_mass(const fem::NodalMass& full, const Elimination& eliminat
   }
 }
 
-fem::ShapeIntegrals condensed(const fem::ShapeIntegrals& full, const Elimination& elimination,
-                              const std::vector<int>& region_of) {
+fem::ShapeIntegrals condensed(const fem::ShapeIntegrals& full, const Condensation& elimination) {
   fem::ShapeIntegrals out;
   out.mass = full.mass;
   out.com = full.com;
@@ -178,18 +149,50 @@ fem::ShapeIntegrals condensed(const fem::ShapeIntegrals& full, const Elimination
   out.c = elimination.T().transpose() * full.c;
   for (std::size_t k = 0; k < out.W.size(); ++k) out.W[k] = elimination.condensed(full.W[k]);
   if (full.nodal.Ms.nonZeros() > 0) {
-    condense_nodal_mass(full.nodal, elimination, region_of, out);
+    condense_nodal_mass(full.nodal, elimination, out);
   }
   return out;
 }
 
+/// Refuses variables that move no mass: a reference node whose links leave it a motion of its own.
+void refuse_massless(const std::string& body, const fem::FeModel& fe) {
+  for (std::size_t node = 0; node < fe.dofs.node_dofs.size(); ++node) {
+    std::vector<int> own;
+    for (const int dof : fe.dofs.node_dofs[node]) {
+      if (dof >= 0) own.push_back(dof);
+    }
+    const auto count = static_cast<Eigen::Index>(own.size());
+    Eigen::MatrixXd M(count, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index j = 0; j < count; ++j) {
+        M(i, j) = fe.M.coeff(own[static_cast<std::size_t>(i)], own[static_cast<std::size_t>(j)]);
+      }
+    }
+    const Eigen::VectorXd size = M.diagonal().cwiseSqrt();
+    bool is_massless = count > 0 && !(size.minCoeff() > 0.0);
+    if (count > 0 && !is_massless) {
+      const Eigen::MatrixXd scaled =
+          size.cwiseInverse().asDiagonal() * M * size.cwiseInverse().asDiagonal();
+      is_massless = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+                        .eigenvalues()[0] < kMassless;
+    }
+    if (!is_massless) continue;
+    throw ModelError(fmt::format(
+        "body \"{}\": {} can move or turn without moving any mass, since what is linked to it does "
+        "not hold it in all directions; link nodes that span a surface, or nodes with rotations, "
+        "or give it a point mass with inertia",
+        body, fem::node_label(fe.nodes, static_cast<int>(node))));
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<FlexiblePart> with_rigid_regions(const std::string& body, FlexiblePart& part,
-                                                 const std::vector<RigidRegion>& regions) {
+std::unique_ptr<FlexiblePart> with_links(const std::string& body, FlexiblePart& part,
+                                         const std::vector<RigidRegion>& regions,
+                                         const fem::NodeLinks& links) {
   auto full = std::make_shared<const fem::FeModel>(std::move(part.fe));
-  const std::vector<int> region_of = regions_of_nodes(body, full->nodes.size(), regions);
-  const Elimination elimination(*full, regions, region_of);
+  refuse_common_nodes(body, full->nodes.size(), regions);
+  const Condensation elimination(*full, regions, links);
   fem::FeModel fe;
   fe.nodes = elimination.nodes();
   fe.dofs = elimination.dofs();
@@ -197,7 +200,8 @@ std::unique_ptr<FlexiblePart> with_rigid_regions(const std::string& body, Flexib
   fe.K = elimination.condensed(full->K);
   fe.K_damping = elimination.condensed(full->K_damping);
   fe.mass_damping = full->mass_damping;
-  fe.shape = condensed(full->shape, elimination, region_of);
+  fe.shape = condensed(full->shape, elimination);
+  if (!links.empty()) refuse_massless(body, fe);
   auto out = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);
   out->full_mesh = std::move(full);
   out->recovery = NodalRecovery(elimination.T());

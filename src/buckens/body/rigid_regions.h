@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "buckens/body/body.h"
+#include "buckens/fem/node_links.h"
 
 namespace buckens::body {
 
@@ -16,15 +17,18 @@ struct RigidRegion {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< where its variables are, model axes [m]
 };
 
-/// The body with the variables of each region replaced by one node with six, three translations and
-/// three rotations at its centre: d = T x with u_i = u + θ × (x_i − centre), sparse.
+/// The body without the variables that links inside its mesh make depend on others: d = T x,
+/// sparse, see fem/elimination.h. The variables of a rigid region are those of one more node at its
+/// centre, three translations and three rotations, with u_i = u + θ × (x_i − centre).
 ///
 /// M, K, C, c_ab and W_ab become Tᵀ(·)T. The scalar mass matrix keeps its entries between nodes
-/// outside the regions; those that a region takes part in stand in W_ab. The result has the mass
+/// that T leaves alone; those that others take part in stand in W_ab. The result has the mass
 /// and the six rigid motions of the whole; mesh() and nodal() lead back to all nodes.
 /// @param part full body without marker rows
-/// @throws ModelError naming two regions that have nodes in common
-std::unique_ptr<FlexiblePart> with_rigid_regions(const std::string& body, FlexiblePart& part,
-                                                 const std::vector<RigidRegion>& regions);
+/// @throws ModelError naming two regions that have nodes in common, a link that would ground the
+/// body, or a node that can move without mass
+std::unique_ptr<FlexiblePart> with_links(const std::string& body, FlexiblePart& part,
+                                         const std::vector<RigidRegion>& regions,
+                                         const fem::NodeLinks& links = {});
 
 }  // namespace buckens::body

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/node_label.h"
+#include "buckens/fem/node_region.h"
 
 namespace buckens::fem {
 
@@ -18,8 +19,32 @@ namespace {
 
 using Blocks = std::vector<std::shared_ptr<const ElementBlock>>;
 
+/// Calls visit(nodes) for the nodes of each link, a reference node first.
+template <class Visitor>
+void visit_links(const NodeLinks& links, Visitor&& visit) {
+  const auto with_reference = [&visit](const auto& link) {
+    std::vector<int> nodes = {link.reference};
+    nodes.insert(nodes.end(), link.nodes.begin(), link.nodes.end());
+    visit(nodes);
+  };
+  for (const RigidLink& link : links.rigid) with_reference(link);
+  for (const AverageLink& link : links.averages) with_reference(link);
+  for (const LinearEquation& equation : links.equations) {
+    std::vector<int> nodes;
+    for (const LinearEquation::Term& term : equation.terms) nodes.push_back(term.node);
+    visit(nodes);
+  }
+}
+
 void check_node_numbers(const Structure& structure, const Blocks& blocks) {
   const int num_nodes = static_cast<int>(structure.nodes.size());
+  visit_links(structure.links, [&](const std::vector<int>& nodes) {
+    for (const int node : nodes) {
+      if (node >= 0 && node < num_nodes) continue;
+      throw ModelError(
+          fmt::format("a link refers to node {}, but there are {} nodes", node, num_nodes));
+    }
+  });
   for (const auto& block : blocks) {
     for (int e = 0; e < block->num_elements(); ++e) {
       for (const int node : block->nodes(e)) {
@@ -32,7 +57,7 @@ void check_node_numbers(const Structure& structure, const Blocks& blocks) {
 }
 
 /// Refuses nodes without elements that hold them and meshes in several pieces.
-void check_connected(const std::vector<Node>& nodes, const Blocks& blocks) {
+void check_connected(const std::vector<Node>& nodes, const Blocks& blocks, const NodeLinks& links) {
   std::vector<int> parent(nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<bool> used(nodes.size(), false);
@@ -44,16 +69,16 @@ void check_connected(const std::vector<Node>& nodes, const Blocks& blocks) {
     }
     return node;
   };
-  for (const auto& block : blocks) {
-    if (!block->is_line() && !block->is_solid()) continue;
-    for (int e = 0; e < block->num_elements(); ++e) {
-      const auto of_element = block->nodes(e);
-      for (const int node : of_element) {
-        used[static_cast<std::size_t>(node)] = true;
-        parent[static_cast<std::size_t>(root(node))] = root(of_element.front());
-      }
+  const auto join = [&](std::span<const int> together) {
+    for (const int node : together) {
+      used[static_cast<std::size_t>(node)] = true;
+      parent[static_cast<std::size_t>(root(node))] = root(together.front());
     }
+  };
+  for (const auto& block : blocks) {
+    for (int e = 0; block->holds_nodes() && e < block->num_elements(); ++e) join(block->nodes(e));
   }
+  visit_links(links, [&](const std::vector<int>& together) { join(together); });
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const int node = static_cast<int>(k);
     if (!used[k]) {
@@ -81,14 +106,52 @@ std::array<bool, 6> kept_variables(std::optional<spatial::Plane> planar) {
   return kept;
 }
 
-DofMap number_dofs(std::size_t num_nodes, const Blocks& blocks,
-                   std::optional<spatial::Plane> planar) {
-  std::vector<bool> turns(num_nodes, false);
-  for (const auto& block : blocks) {
-    for (int e = 0; block->has_rotations() && e < block->num_elements(); ++e) {
-      for (const int node : block->nodes(e)) turns[static_cast<std::size_t>(node)] = true;
+/// Followers that no element holds turn with their reference; references turn if what follows them
+/// has a lever or turns itself.
+void give_rotations_to_links(const Structure& structure, const std::vector<bool>& held,
+                             std::vector<bool>& turns) {
+  const auto place = [&](int node) {
+    return structure.nodes[static_cast<std::size_t>(node)].position;
+  };
+  for (const RigidLink& link : structure.links.rigid) {
+    const auto& v = link.variables;
+    for (const int node : link.nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      if (!held[n] && (v[3] || v[4] || v[5])) turns[n] = true;
     }
   }
+  for (bool found = true; found;) {
+    found = false;
+    for (const RigidLink& link : structure.links.rigid) {
+      const auto reference = static_cast<std::size_t>(link.reference);
+      const auto& v = link.variables;
+      for (const int node : link.nodes) {
+        const bool has_lever = (v[0] || v[1] || v[2]) && place(node) != place(link.reference);
+        const bool follows = (v[3] || v[4] || v[5]) && turns[static_cast<std::size_t>(node)];
+        if (turns[reference] || (!has_lever && !follows)) continue;
+        turns[reference] = found = true;
+      }
+    }
+  }
+}
+
+DofMap number_dofs(const Structure& structure, const Blocks& blocks,
+                   std::optional<spatial::Plane> planar) {
+  const std::size_t num_nodes = structure.nodes.size();
+  std::vector<bool> turns(num_nodes, false), held(num_nodes, false);
+  for (const AverageLink& link : structure.links.averages) {
+    if (!weighted_region(structure.nodes, link.nodes, link.weights).turns()) continue;
+    turns[static_cast<std::size_t>(link.reference)] = true;
+  }
+  for (const auto& block : blocks) {
+    for (int e = 0; block->holds_nodes() && e < block->num_elements(); ++e) {
+      for (const int node : block->nodes(e)) {
+        held[static_cast<std::size_t>(node)] = true;
+        if (block->has_rotations()) turns[static_cast<std::size_t>(node)] = true;
+      }
+    }
+  }
+  give_rotations_to_links(structure, held, turns);
   const bool has_solids = std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
     return block->is_solid() && block->num_elements() > 0;
   });
@@ -187,10 +250,14 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
                std::make_shared<BarBlock>(structure.bars),
                std::make_shared<PointMassBlock>(structure.masses),
                std::make_shared<SolidBlock>(structure.solids)};
+  auto shells = std::make_shared<ShellBlock>(structure.shells);
+  fe.blocks.push_back(shells);
+  fe.blocks.push_back(std::make_shared<SpringBlock>(structure.springs));
   check_node_numbers(structure, fe.blocks);
-  check_connected(structure.nodes, fe.blocks);
+  check_connected(structure.nodes, fe.blocks, structure.links);
+  shells->choose_directors(structure.nodes);
   fe.nodes = structure.nodes;
-  fe.dofs = number_dofs(fe.nodes.size(), fe.blocks, planar);
+  fe.dofs = number_dofs(structure, fe.blocks, planar);
   const MeshView mesh{fe.nodes, fe.dofs};
   for (const auto& block : fe.blocks) block->check(mesh);
 

@@ -67,6 +67,10 @@ class ElementBlock {
   virtual bool is_line() const = 0;
   /// Whether the elements fill a volume.
   virtual bool is_solid() const { return false; }
+  /// Whether the elements are surfaces with a thickness.
+  virtual bool is_shell() const { return false; }
+  /// Whether the elements hold their nodes together.
+  virtual bool holds_nodes() const { return is_line() || is_solid() || is_shell(); }
   /// Whether the elements give rotations to their nodes.
   virtual bool has_rotations() const = 0;
   /// Null for elements without material or section.
@@ -89,13 +93,14 @@ class ElementBlock {
   /// @param xi 0 at the first end, 1 at the second
   virtual PointRows point_rows(const MeshView& mesh, int element, double xi) const = 0;
 
-  /// Stresses σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx at the centres of solid elements, model axes, as
-  /// rows over d: rows 6 e + (0…5) with e counted from `first_element`.
+  /// Stresses σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx at the centres of solid elements or of the two
+  /// sides of shells, model axes, as rows over d: rows 6 e + (0…5) with e counted from
+  /// `first_element`; a shell has two sets of rows, those of the side the normal points to first.
   virtual void add_stress_rows(const MeshView& /*mesh*/, int /*first_element*/,
                                std::vector<linalg::Triplet>& /*rows*/) const {}
-  /// Faces of a solid element in pieces that can be drawn, nodes counter-clockwise seen from
-  /// outside; −1 in place of the fourth node of a triangle. Elements with a common face have the
-  /// same pieces there.
+  /// Faces of a solid element, or the one of a shell, in pieces that can be drawn, nodes
+  /// counter-clockwise seen from outside; −1 in place of the fourth node of a triangle. Elements
+  /// with a common face have the same pieces there.
   virtual std::vector<std::array<int, 4>> faces(int /*element*/) const { return {}; }
 };
 

@@ -33,7 +33,7 @@ std::vector<FacePoint> face_points(const SolidTopology& topology, const SolidFac
   constexpr int kPoints = 5;  // degree 9 in each direction: 4 + 4 on curved quadratic faces
   std::vector<FacePoint> out;
   const LineRule line = gauss_jacobi(kPoints, 0);
-  if (topology.is_hexahedron()) {
+  if (face.corners.size() == 4) {
     const Vector3d a = 0.5 * (corner(1) - corner(0)), b = 0.5 * (corner(3) - corner(0));
     const Vector3d middle = 0.5 * (corner(0) + corner(2));
     for (int i = 0; i < kPoints; ++i) {

@@ -14,10 +14,18 @@ struct ElementFace {
   int face = 0;     ///< number in SolidTopology::faces
 };
 
-/// Faces of solid elements under one name, such as `x0` of a box or `side` of a cylinder.
+/// One side of a shell element.
+struct ShellSide {
+  int element = 0;           ///< counted among the shell elements
+  bool is_negative = false;  ///< the side the normal points away from
+};
+
+/// Faces of solid elements and sides of shells under one name, such as `x0` of a box or `side` of a
+/// cylinder.
 struct FaceSet {
   std::string name;
   std::vector<ElementFace> faces;
+  std::vector<ShellSide> shells = {};
 };
 
 /// Nodes of one face: corners counter-clockwise seen from outside, then mid-side nodes.

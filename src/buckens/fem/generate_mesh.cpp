@@ -10,6 +10,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/fem/box_mesh.h"
 #include "buckens/fem/cylinder_mesh.h"
+#include "buckens/fem/plate_mesh.h"
 
 namespace buckens::fem {
 
@@ -37,6 +38,9 @@ std::vector<std::string> names_of(const BoxMeshSpec& spec) {
 }
 
 std::vector<std::string> names_of(const MeshFileSpec& /*spec*/) { return {}; }
+std::vector<std::string> names_of(const PlateMeshSpec& spec) {
+  return plate_node_names(spec.divisions);
+}
 
 template <class Round>
 std::vector<std::string> names_of(const Round& spec) {
@@ -68,18 +72,21 @@ std::vector<std::string> named_nodes(const MeshSpec& spec) {
 
 std::optional<std::string> size_problem(const MeshSpec& spec) {
   if (spec.is_file()) return std::nullopt;
-  const auto [kind, cells] = std::visit(
+  const auto [count, most] = std::visit(
       []<class Shape>(const Shape& shape) {
+        const auto limit = [](double variables) { return kMostEntries / (variables * variables); };
         if constexpr (std::is_same_v<Shape, MeshFileSpec>) {
-          return std::pair(SolidKind::hex8, 0.0);
+          return std::pair(0.0, 0.0);
+        } else if constexpr (std::is_same_v<Shape, PlateMeshSpec>) {
+          const double fields = static_cast<double>(shape.divisions[0]) * shape.divisions[1];
+          const bool is_quad = shape.element == ShellShapeKind::quad4;
+          return std::pair(is_quad ? fields : 2.0 * fields, limit(is_quad ? 24.0 : 18.0));
         } else {
-          return std::pair(shape.element, cells_in(shape));
+          return std::pair(cells_in(shape) * elements_per_cell(shape.element),
+                           limit(3.0 * solid_topology(shape.element).num_nodes));
         }
       },
       spec.shape);
-  const SolidTopology& topology = solid_topology(kind);
-  const double count = cells * (topology.is_hexahedron() ? 1 : 6);
-  const double most = kMostEntries / (9.0 * topology.num_nodes * topology.num_nodes);
   if (count <= most) return std::nullopt;
   return fmt::format(
       "these are {:.3g} elements, more than the {:.3g} that can be numbered; use "
@@ -90,8 +97,8 @@ std::optional<std::string> size_problem(const MeshSpec& spec) {
 GeneratedMesh add_mesh(Structure& structure, const MeshSpec& spec, const Material& material) {
   return std::visit(
       [&]<class Shape>(const Shape& shape) -> GeneratedMesh {
-        if constexpr (std::is_same_v<Shape, MeshFileSpec>) {
-          throw ModelError("a mesh from a file is not generated");
+        if constexpr (std::is_same_v<Shape, MeshFileSpec> || std::is_same_v<Shape, PlateMeshSpec>) {
+          throw ModelError("only solids are generated in this way");
         } else {
           return add_cells(structure, cells_of(shape), shape.form(), material);
         }

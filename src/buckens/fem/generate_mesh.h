@@ -17,7 +17,7 @@ std::vector<std::string> named_nodes(const MeshSpec& spec);
 /// Why a mesh cannot be made although each of its numbers is fine; empty if it can.
 std::optional<std::string> size_problem(const MeshSpec& spec);
 
-/// Adds the nodes, elements and named faces of a mesh.
+/// Adds the nodes, elements and named faces of a mesh of solids; add_plate() makes plates.
 /// @throws ModelError as box_cells() and cylinder_cells()
 GeneratedMesh add_mesh(Structure& structure, const MeshSpec& spec, const Material& material);
 

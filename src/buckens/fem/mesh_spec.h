@@ -9,6 +9,7 @@
 
 #include "buckens/fem/cylinder.h"
 #include "buckens/fem/mesh_file_spec.h"
+#include "buckens/fem/shell_spec.h"
 #include "buckens/fem/solid_element_spec.h"
 #include "buckens/fem/structure_spec.h"
 
@@ -173,7 +174,9 @@ struct MeshSpec : GroupMaterials {
   static constexpr const char* kKey = "mesh";
   static constexpr const char* kDoc = "flexible body: a mesh, generated or from a file";
   SourceLocation where;
-  std::variant<BoxMeshSpec, CylinderMeshSpec, TubeMeshSpec, DiscMeshSpec, MeshFileSpec> shape;
+  std::variant<BoxMeshSpec, CylinderMeshSpec, TubeMeshSpec, DiscMeshSpec, PlateMeshSpec,
+               MeshFileSpec>
+      shape;
   std::optional<LengthUnit> length_unit;
   std::optional<MassUnit> mass_unit;
   std::vector<PointMassSpec> masses;

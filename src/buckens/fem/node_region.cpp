@@ -60,6 +60,32 @@ Eigen::VectorXd areas_of(const Structure& structure, const std::vector<ElementFa
   return areas;
 }
 
+/// Shares the area of a shell among its nodes, all of which are among the given ones.
+void add_shell_area(const Structure& structure, int element, const std::vector<int>& nodes,
+                    Eigen::VectorXd& areas) {
+  const ShellVectors x = structure.shells.positions(structure.nodes, element);
+  const bool is_triangle = x.cols() == 3;
+  const Vector3d along = x.col(is_triangle ? 1 : 2) - x.col(0);
+  const Vector3d across =
+      is_triangle ? Vector3d(x.col(2) - x.col(0)) : Vector3d(x.col(3) - x.col(1));
+  const double share = 0.5 * along.cross(across).norm() / static_cast<double>(x.cols());
+  for (const int node : structure.shells.nodes(element)) {
+    areas[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()] += share;
+  }
+}
+
+/// The shells all of whose nodes are among the given ones.
+void add_shell_areas(const Structure& structure, const std::vector<int>& nodes,
+                     Eigen::VectorXd& areas) {
+  for (int e = 0; e < structure.shells.num_elements(); ++e) {
+    const auto own = structure.shells.nodes(e);
+    const bool is_within = std::all_of(own.begin(), own.end(), [&](int node) {
+      return std::binary_search(nodes.begin(), nodes.end(), node);
+    });
+    if (is_within) add_shell_area(structure, e, nodes, areas);
+  }
+}
+
 }  // namespace
 
 std::vector<ElementFace> faces_within(const Structure& structure, const std::vector<int>& nodes) {
@@ -93,8 +119,11 @@ bool NodeRegion::turns() const {
 
 NodeRegion face_region(const Structure& structure, const FaceSet& faces) {
   NodeRegion out;
-  out.nodes = face_set_nodes(structure.solids, faces.faces);
-  complete(structure.nodes, areas_of(structure, faces.faces, out.nodes), out);
+  out.nodes = face_set_nodes(structure, faces);
+  Eigen::VectorXd areas = areas_of(structure, faces.faces, out.nodes);
+  for (const ShellSide& side : faces.shells)
+    add_shell_area(structure, side.element, out.nodes, areas);
+  complete(structure.nodes, areas, out);
   return out;
 }
 
@@ -103,8 +132,24 @@ NodeRegion node_region(const Structure& structure, std::vector<int> nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   NodeRegion out;
   out.nodes = std::move(nodes);
-  complete(structure.nodes, areas_of(structure, faces_within(structure, out.nodes), out.nodes),
-           out);
+  Eigen::VectorXd areas = areas_of(structure, faces_within(structure, out.nodes), out.nodes);
+  add_shell_areas(structure, out.nodes, areas);
+  complete(structure.nodes, areas, out);
+  return out;
+}
+
+NodeRegion weighted_region(const std::vector<Node>& all, const std::vector<int>& nodes,
+                           const std::vector<double>& weights) {
+  std::map<int, double> shares;
+  for (std::size_t k = 0; k < nodes.size(); ++k) shares[nodes[k]] += weights.at(k);
+  NodeRegion out;
+  Eigen::VectorXd areas(static_cast<Eigen::Index>(shares.size()));
+  for (const auto& [node, share] : shares) {
+    areas[static_cast<Eigen::Index>(out.nodes.size())] = share;
+    out.nodes.push_back(node);
+  }
+  complete(all, areas, out);
+  out.area = 0.0;
   return out;
 }
 
@@ -121,6 +166,11 @@ NodeRegion renumbered(const NodeRegion& region, const std::vector<int>& nodes) {
 }
 
 PointRows region_rows(const FeModel& fe, const NodeRegion& region, const Vector3d& at) {
+  return region_rows(fe.nodes, fe.dofs, region, at);
+}
+
+PointRows region_rows(const std::vector<Node>& nodes, const DofMap& dofs, const NodeRegion& region,
+                      const Vector3d& at) {
   PointRows out;
   out.position = at;
   out.has_rotation = region.turns();
@@ -131,12 +181,13 @@ PointRows region_rows(const FeModel& fe, const NodeRegion& region, const Vector3
     const double weight = region.weights[static_cast<Eigen::Index>(k)];
     if (weight == 0.0) continue;
     const auto node = static_cast<std::size_t>(region.nodes[k]);
-    const Vector3d r = fe.nodes[node].position - region.centre;
+    const Vector3d r = nodes[node].position - region.centre;
     const Matrix3d turn = weight * inverse * cross_matrix(r);
     const Matrix3d move = weight * Matrix3d::Identity() - offset * turn;  // θ × s = −s × θ
     for (int row = 0; row < 3; ++row) {
       for (int axis = 0; axis < 3; ++axis) {
-        const int dof = fe.dofs.node_dofs[node][static_cast<std::size_t>(axis)];
+        const int dof = dofs.node_dofs[node][static_cast<std::size_t>(axis)];
+        if (dof < 0) continue;
         if (move(row, axis) != 0.0) out.translation.emplace_back(row, dof, move(row, axis));
         if (turn(row, axis) != 0.0) out.rotation.emplace_back(row, dof, turn(row, axis));
       }

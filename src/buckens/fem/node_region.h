@@ -27,13 +27,18 @@ struct NodeRegion {
 /// The nodes of a set of faces, weighted by the area that belongs to each.
 NodeRegion face_region(const Structure& structure, const FaceSet& faces);
 
-/// Any nodes. Their weights are areas of those faces on the surface of the mesh all of whose nodes
-/// are among them; where there is no such face all nodes count alike.
+/// Any nodes. Their weights are areas of those faces on the surface of the mesh and of those shells
+/// all of whose nodes are among them; where there are none all nodes count alike.
 NodeRegion node_region(const Structure& structure, std::vector<int> nodes);
 
 /// Faces that one solid element only has, the surface of the mesh, and whose nodes are all among
 /// the given ones.
 std::vector<ElementFace> faces_within(const Structure& structure, const std::vector<int>& nodes);
+
+/// Nodes with given weights; each node once.
+/// @param weights positive, as many as nodes
+NodeRegion weighted_region(const std::vector<Node>& all, const std::vector<int>& nodes,
+                           const std::vector<double>& weights);
 
 /// The same region with other node numbers, for instance in a part of the mesh.
 NodeRegion renumbered(const NodeRegion& region, const std::vector<int>& nodes);
@@ -46,6 +51,8 @@ NodeRegion renumbered(const NodeRegion& region, const std::vector<int>& nodes);
 /// with S the spread. Rigid motion of the mesh is followed exactly, and a force on the frame
 /// becomes nodal forces with the same resultant and moment. Without turns() there are no rotation
 /// rows, and u is the mean wherever `at` lies.
+PointRows region_rows(const std::vector<Node>& nodes, const DofMap& dofs, const NodeRegion& region,
+                      const Eigen::Vector3d& at);
 PointRows region_rows(const FeModel& fe, const NodeRegion& region, const Eigen::Vector3d& at);
 
 }  // namespace buckens::fem

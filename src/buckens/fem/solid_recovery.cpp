@@ -11,6 +11,18 @@ namespace buckens::fem {
 
 namespace {
 
+/// Solids, then shells; shells may be left out.
+template <class Visitor>
+void visit_elements(const FeModel& fe, Visitor&& visit) {
+  int number = 0;
+  for (const bool of_shells : {false, true}) {
+    for (const auto& block : fe.blocks) {
+      if (of_shells ? !block->is_shell() : !block->is_solid()) continue;
+      for (int e = 0; e < block->num_elements(); ++e) visit(*block, e, number++);
+    }
+  }
+}
+
 template <class Visitor>
 void visit_solids(const FeModel& fe, Visitor&& visit) {
   int number = 0;
@@ -73,40 +85,58 @@ std::vector<SurfaceFace> surface_faces(const FeModel& fe) {
   std::stable_sort(out.begin(), out.end(), [](const SurfaceFace& a, const SurfaceFace& b) {
     return a.element < b.element;
   });
+  visit_elements(fe, [&out](const ElementBlock& block, int e, int number) {
+    if (!block.is_shell()) return;
+    for (const auto& face : block.faces(e)) out.push_back({face, number});
+  });
   return out;
 }
 
 int num_solids(const FeModel& fe) {
   int count = 0;
-  visit_solids(fe, [&count](const ElementBlock&, int, int) { ++count; });
+  visit_elements(fe, [&count](const ElementBlock&, int, int) { ++count; });
   return count;
 }
 
 std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe) {
   std::vector<std::vector<int>> out(fe.nodes.size());
-  visit_solids(fe, [&](const ElementBlock& block, int e, int number) {
+  visit_elements(fe, [&](const ElementBlock& block, int e, int number) {
     for (const int node : block.nodes(e)) out[static_cast<std::size_t>(node)].push_back(number);
   });
   return out;
 }
 
 SolidRecovery::SolidRecovery(const FeModel& fe) {
-  std::vector<linalg::Triplet> triplets;
-  int count = 0;
+  std::vector<linalg::Triplet> triplets, of_shells;
   for (const auto& block : fe.blocks) {
-    if (!block->is_solid()) continue;
-    block->add_stress_rows({fe.nodes, fe.dofs}, count, triplets);
-    count += block->num_elements();
+    if (block->is_solid()) {
+      block->add_stress_rows({fe.nodes, fe.dofs}, num_solids_, triplets);
+      num_solids_ += block->num_elements();
+    } else if (block->is_shell()) {
+      block->add_stress_rows({fe.nodes, fe.dofs}, num_shells_, of_shells);
+      num_shells_ += block->num_elements();
+    }
   }
-  rows_.resize(6 * count, fe.dofs.num_dofs);
+  for (const linalg::Triplet& entry : of_shells) {
+    triplets.emplace_back(6 * num_solids_ + entry.row(), entry.col(), entry.value());
+  }
+  rows_.resize(6 * num_solids_ + 12 * num_shells_, fe.dofs.num_dofs);
   rows_.setFromTriplets(triplets.begin(), triplets.end());
 }
 
 linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
-  linalg::Vector values = rows_ * d;
+  const linalg::Vector values = rows_ * d;
   linalg::Matrix out(7, num_elements());
-  out.topRows<6>() = values.reshaped(6, num_elements());
-  for (Eigen::Index e = 0; e < out.cols(); ++e) out(kMises, e) = mises_stress(out.col(e).head<6>());
+  for (Eigen::Index e = 0; e < num_solids_; ++e) {
+    out.col(e).head<6>() = values.segment<6>(6 * e);
+    out(kMises, e) = mises_stress(values.segment<6>(6 * e));
+  }
+  for (Eigen::Index e = 0; e < num_shells_; ++e) {
+    const Eigen::Index first = 6 * num_solids_ + 12 * e;
+    out.col(num_solids_ + e).head<6>() = values.segment<6>(first);
+    out(kMises, num_solids_ + e) = std::max(mises_stress(values.segment<6>(first)),
+                                            mises_stress(values.segment<6>(first + 6)));
+  }
   return out;
 }
 

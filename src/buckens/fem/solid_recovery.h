@@ -11,20 +11,20 @@ namespace buckens::fem {
 /// A face on the surface of a mesh of solids.
 struct SurfaceFace {
   std::array<int, 4> nodes;  ///< counter-clockwise seen from outside; fourth −1 for triangles
-  int element = 0;           ///< to which it belongs, counted among the solid elements
+  int element = 0;           ///< to which it belongs, counted among solids, then shells
 };
 
-/// The faces that only one solid element has, in the order of the elements.
+/// The faces that only one solid element has, in the order of the elements, then the shells.
 std::vector<SurfaceFace> surface_faces(const FeModel& fe);
 
 /// Whether every solid element hangs together with all others by common faces: then a mesh of
 /// solids alone is no mechanism.
 bool solids_join_by_faces(const FeModel& fe);
 
-/// Number of solid elements.
+/// Number of solid and shell elements. They are counted together, solids first.
 int num_solids(const FeModel& fe);
 
-/// The solid elements that have each node, counted among the solid elements.
+/// The solid and shell elements that have each node, counted as by num_solids().
 std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe);
 
 /// Row of the von Mises stress in SolidRecovery::stresses.
@@ -34,20 +34,23 @@ inline constexpr int kMises = 6;
 double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s);
 
 /// Stresses of all solid elements at once, at their centres: there those of trilinear elements are
-/// most accurate.
+/// most accurate. Of shells, which are counted behind them, stresses of their two sides.
 class SolidRecovery {
  public:
   explicit SolidRecovery(const FeModel& fe);
 
-  int num_elements() const { return static_cast<int>(rows_.rows()) / 6; }
+  int num_elements() const { return num_solids_ + num_shells_; }
 
   /// @param d nodal variables
   /// @return 7×(number of elements): σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx in model axes, then the von
-  ///         Mises stress [Pa]. Cost: one sparse product.
+  ///         Mises stress [Pa]. Shells: those of the side the normal points to, and the larger of
+  ///         the von Mises stresses of both sides. Cost: one sparse product.
   linalg::Matrix stresses(const linalg::Vector& d) const;
 
  private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // 6 per solid, 12 per shell
+  int num_solids_ = 0;
+  int num_shells_ = 0;
 };
 
 }  // namespace buckens::fem

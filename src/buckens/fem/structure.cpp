@@ -22,6 +22,17 @@ const FaceSet* find_face_set(const Structure& structure, const std::string& name
   return found == structure.face_sets.end() ? nullptr : &*found;
 }
 
+std::vector<int> face_set_nodes(const Structure& structure, const FaceSet& set) {
+  std::vector<int> out = face_set_nodes(structure.solids, set.faces);
+  for (const ShellSide& side : set.shells) {
+    const auto own = structure.shells.nodes(side.element);
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 int add_node(Structure& structure, const std::string& name, const Eigen::Vector3d& position) {
   if (!name.empty() && find_node(structure, name) >= 0) {
     throw ModelError(fmt::format("node \"{}\" is given twice; rename one of them", name));

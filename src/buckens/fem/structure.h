@@ -8,8 +8,11 @@
 #include "buckens/fem/beam_block.h"
 #include "buckens/fem/dof_map.h"
 #include "buckens/fem/face_set.h"
+#include "buckens/fem/node_links.h"
 #include "buckens/fem/point_mass_block.h"
+#include "buckens/fem/shell_block.h"
 #include "buckens/fem/solid_block.h"
+#include "buckens/fem/spring_block.h"
 
 namespace buckens::fem {
 
@@ -22,18 +25,22 @@ struct NodeSet {
 /// Elements under one name, numbered within their kind.
 struct ElementSet {
   std::string name;
-  std::vector<int> beams, bars, solids;
+  std::vector<int> beams, bars, solids, shells;
 };
 
 /// The mesh of one body before assembly: nodes and elements in model axes.
 ///
-/// Elements are numbered through all kinds: beams first, then bars, point masses, solids.
+/// Elements are numbered through all kinds: beams first, then bars, point masses, solids,
+/// shells, springs.
 struct Structure {
   std::vector<Node> nodes;
   BeamBlock beams;
   BarBlock bars;
   PointMassBlock masses;
   SolidBlock solids;
+  ShellBlock shells;
+  SpringBlock springs;
+  NodeLinks links;
   /// Nodes that only divide a bar. Bars there keep one direction although they are hinged.
   std::vector<int> straight_nodes;
   /// Faces, nodes and elements that generators or mesh files named. The parts of a divided mesh
@@ -64,6 +71,9 @@ BeamDivision add_beam(Structure& structure, int node_a, int node_b, int division
 /// @throws ModelError if `divisions` < 1 or a node does not exist
 void add_bar(Structure& structure, int node_a, int node_b, int divisions, const Material& material,
              const Section& section);
+
+/// All nodes of the faces of solids and shells in a set, ascending, each once.
+std::vector<int> face_set_nodes(const Structure& structure, const FaceSet& set);
 
 /// The faces with this name, null if there are none.
 const FaceSet* find_face_set(const Structure& structure, const std::string& name);

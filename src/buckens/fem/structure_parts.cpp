@@ -20,10 +20,10 @@ namespace buckens::fem {
 
 namespace {
 
-/// A beam, bar or solid: what holds nodes together.
+/// A beam, bar, solid or shell: what holds nodes together.
 struct Holder {
   std::span<const int> nodes;
-  double length;  // of a solid: from its first to its opposite corner
+  double length;  // of a solid or shell: from its first to its opposite corner
 };
 
 std::vector<Holder> holders_of(const Structure& structure) {
@@ -41,6 +41,7 @@ std::vector<Holder> holders_of(const Structure& structure) {
   add(structure.beams);
   add(structure.bars);
   add(structure.solids);
+  add(structure.shells);
   return out;
 }
 
@@ -151,18 +152,20 @@ bool is_connected(const linalg::Graph& graph) {
   return pieces <= 1;
 }
 
-/// The elements and how they hang together: solids by their faces, lines by their nodes. With
+/// The elements and how they hang together: solids by their faces, lines and shells by their
+/// nodes. With
 /// `faces` null every common node counts.
-linalg::Graph graph_of(const std::vector<Holder>& holders, const Pairs& pairs,
-                       const std::set<Pair>* faces) {
+linalg::Graph graph_of(const std::vector<Holder>& holders, std::size_t first_shell,
+                       const Pairs& pairs, const std::set<Pair>* faces) {
   linalg::Graph graph;
   for (const Holder& holder : holders) graph.vertex_weights.push_back(holder.length);
-  const auto is_line = [&holders](int e) {
-    return holders[static_cast<std::size_t>(e)].nodes.size() == 2;
+  const auto turns = [&](int e) {
+    const auto k = static_cast<std::size_t>(e);
+    return holders[k].nodes.size() == 2 || k >= first_shell;
   };
   for (const auto& [pair, count] : pairs) {
     const bool holds =
-        faces == nullptr || faces->contains(pair) || is_line(pair.first) || is_line(pair.second);
+        faces == nullptr || faces->contains(pair) || turns(pair.first) || turns(pair.second);
     for (int k = 0; k < count && holds; ++k) graph.edges.push_back(pair);
   }
   return graph;
@@ -172,7 +175,8 @@ linalg::Graph graph_of(const std::vector<Holder>& holders, const Pairs& pairs,
 class Divider {
  public:
   Divider(const Structure& whole, const std::vector<int>& part_of)
-      : whole_(whole), part_of_(part_of) {
+      : whole_(whole), part_of_(part_of), shells_(whole.shells) {
+    shells_.choose_directors(whole.nodes);  // parts keep those of the whole
     const int count = 1 + *std::max_element(part_of.begin(), part_of.end());
     out_.parts.resize(static_cast<std::size_t>(count));
     out_.nodes.resize(whole.nodes.size());
@@ -183,6 +187,7 @@ class Divider {
   StructureParts run() {
     const int beams = whole_.beams.num_elements();
     const int lines = beams + whole_.bars.num_elements();
+    const int solids = whole_.solids.num_elements();
     for (std::size_t e = 0; e < part_of_.size(); ++e) {
       Elements& own = own_[static_cast<std::size_t>(part_of_[e])];
       const int element = static_cast<int>(e);
@@ -190,12 +195,14 @@ class Divider {
         own.beams.push_back(element);
       } else if (element < lines) {
         own.bars.push_back(element - beams);
-      } else {
+      } else if (element < lines + solids) {
         own.solids.push_back(element - lines);
+      } else {
+        own.shells.push_back(element - lines - solids);
       }
     }
     out_.lines.resize(static_cast<std::size_t>(lines));
-    out_.solids.resize(static_cast<std::size_t>(whole_.solids.num_elements()));
+    out_.solids.resize(static_cast<std::size_t>(solids + whole_.shells.num_elements()));
     for (std::size_t p = 0; p < out_.parts.size(); ++p) add_elements(static_cast<int>(p));
     for (int m = 0; m < whole_.masses.num_elements(); ++m) add_mass(m);
     return std::move(out_);
@@ -203,7 +210,7 @@ class Divider {
 
  private:
   struct Elements {
-    std::vector<int> beams, bars, solids;
+    std::vector<int> beams, bars, solids, shells;
   };
 
   void add_elements(int p) {
@@ -229,10 +236,15 @@ class Divider {
       collect(whole_.solids, e);
       out_.solids[static_cast<std::size_t>(e)] = {p, solid++};
     }
+    for (const int e : own.shells) {
+      collect(whole_.shells, e);
+      out_.solids[static_cast<std::size_t>(whole_.solids.num_elements() + e)] = {p, solid++};
+    }
     add_nodes(p, nodes);
     part.beams = whole_.beams.subset(own.beams, number_);
     part.bars = whole_.bars.subset(own.bars, number_);
     part.solids = whole_.solids.subset(own.solids, number_);
+    part.shells = shells_.subset(own.shells, number_);
   }
 
   /// Copies the nodes of one part, in the order of the whole mesh.
@@ -259,6 +271,7 @@ class Divider {
   const std::vector<int>& part_of_;
   StructureParts out_;
   std::vector<Elements> own_;
+  ShellBlock shells_;
   std::vector<int> number_;  // of each node in the part at work
 };
 
@@ -266,7 +279,7 @@ class Divider {
 
 int num_holding_elements(const Structure& structure) {
   return structure.beams.num_elements() + structure.bars.num_elements() +
-         structure.solids.num_elements();
+         structure.solids.num_elements() + structure.shells.num_elements();
 }
 
 std::vector<int> choose_parts(const Structure& structure, int count) {
@@ -284,9 +297,11 @@ std::vector<int> choose_parts(const Structure& structure, int count) {
   // Solids that share an edge or a node only could turn about it: such pairs count only where the
   // mesh falls to pieces without them.
   const std::set<Pair> faces = face_neighbours(structure);
-  const linalg::Graph by_faces = graph_of(holders, pairs, &faces);
+  const std::size_t first_shell =
+      holders.size() - static_cast<std::size_t>(structure.shells.num_elements());
+  const linalg::Graph by_faces = graph_of(holders, first_shell, pairs, &faces);
   if (is_connected(by_faces)) return linalg::divide_graph(by_faces, count);
-  return linalg::divide_graph(graph_of(holders, pairs, nullptr), count);
+  return linalg::divide_graph(graph_of(holders, first_shell, pairs, nullptr), count);
 }
 
 StructureParts divide(const Structure& structure, const std::vector<int>& part_of) {

@@ -20,20 +20,20 @@ struct StructureParts {
   std::vector<std::vector<PartPlace>> nodes;
   /// Per line element of the whole mesh (beams, then bars) its place among those of its part.
   std::vector<PartPlace> lines;
-  std::vector<PartPlace> solids;  ///< the same for its solid elements
+  std::vector<PartPlace> solids;  ///< the same for its solids, then its shells
 };
 
-/// Number of elements that hold nodes together: beams, bars and solids.
+/// Number of elements that hold nodes together: beams, bars, solids and shells.
 int num_holding_elements(const Structure& structure);
 
-/// Chooses the part of each beam, bar and solid, in this order. Line elements that follow one
-/// another are divided by length; any other mesh by linalg::divide_graph.
+/// Chooses the part of each beam, bar, solid and shell, in this order. Line elements that follow
+/// one another are divided by length; any other mesh by linalg::divide_graph.
 /// @param count number of parts, 1 … number of these elements
 /// @throws ModelError if count is out of range or the mesh is in pieces
 std::vector<int> choose_parts(const Structure& structure, int count);
 
 /// Divides a mesh. Point masses go to the first part that has their node.
-/// @param part_of part of each beam, bar and solid, numbers from 0 without gaps
+/// @param part_of part of each beam, bar, solid and shell, numbers from 0 without gaps
 StructureParts divide(const Structure& structure, const std::vector<int>& part_of);
 
 }  // namespace buckens::fem

@@ -10,8 +10,10 @@
 
 #include "buckens/base/field.h"
 #include "buckens/fem/beam_shape.h"
+#include "buckens/fem/link_spec.h"
 #include "buckens/fem/material_spec.h"
 #include "buckens/fem/section_spec.h"
+#include "buckens/fem/shell_spec.h"
 #include "buckens/fem/solid_element_spec.h"
 
 namespace buckens::fem {
@@ -182,18 +184,20 @@ struct BarMemberSpec {
   }
 };
 
-/// Beams, bars, solid elements and point masses between named nodes. Beams meet rigidly, bars and
-/// solids hold the place of a node only.
+/// Beams, bars, solids, shells and point masses between named nodes. Beams and shells meet rigidly,
+/// bars and solids hold the place of a node only.
 struct StructureSpec {
   static constexpr const char* kKey = "structure";
   static constexpr const char* kDoc =
-      "flexible body: beams, bars, solid elements and masses between named nodes";
+      "flexible body: beams, bars, solids, shells and masses between named nodes";
   SourceLocation where;
   std::vector<NodeSpec> nodes;
   std::vector<BeamMemberSpec> beams;
   std::vector<BarMemberSpec> bars;
   std::vector<SolidMemberSpec> solids;
+  std::vector<ShellMemberSpec> shells;
   std::vector<PointMassSpec> masses;
+  std::optional<StructureLinksSpec> links;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -203,7 +207,10 @@ struct StructureSpec {
     visit(base::field("beams", beams, "beams between nodes"));
     visit(base::field("bars", bars, "bars between nodes: axial stiffness only"));
     visit(base::field("solids", solids, "single solid elements between nodes"));
+    visit(base::field("shells", shells, "single shell elements between nodes"));
     visit(base::field("masses", masses, "point masses at nodes"));
+    visit(
+        base::field("links", links, "rigid links, averages, equations and springs between nodes"));
   }
 };
 
