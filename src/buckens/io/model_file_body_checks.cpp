@@ -144,10 +144,9 @@ Finding member_problem(const fem::StructureSpec& spec, const Member& member, con
   return std::nullopt;
 }
 
-/// Finding about the corners of a solid element.
-Finding corner_problem(const fem::StructureSpec& spec, std::size_t index) {
-  const std::vector<std::string>& nodes = spec.solids[index].nodes;
-  const std::string key = fmt::format("solids.{}.nodes", index);
+/// Finding about the corners of a solid or shell element.
+Finding corner_problem(const fem::StructureSpec& spec, const std::vector<std::string>& nodes,
+                       const std::string& key) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (base::find_named(spec.nodes, nodes[i]) == nullptr) {
       return unknown_node(key, nodes[i], names_of(spec.nodes));
@@ -157,6 +156,38 @@ Finding corner_problem(const fem::StructureSpec& spec, std::size_t index) {
       return Problem{key, fmt::format("node \"{}\" stands here twice; the corners of an element "
                                       "are different nodes",
                                       nodes[i])};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Finding about a node that a link names.
+Finding link_problem(const fem::StructureSpec& spec) {
+  if (!spec.links) return std::nullopt;
+  const auto check = [&spec](const std::string& key, const std::string& node) -> Finding {
+    if (base::find_named(spec.nodes, node) != nullptr) return std::nullopt;
+    return unknown_node("links." + key, node, names_of(spec.nodes));
+  };
+  const auto check_links = [&check](const char* kind, const auto& links) -> Finding {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const std::string key = fmt::format("{}.{}", kind, i);
+      if (Finding found = check(key + ".reference", links[i].reference)) return found;
+      for (const std::string& node : links[i].nodes) {
+        if (Finding found = check(key + ".nodes", node)) return found;
+      }
+    }
+    return std::nullopt;
+  };
+  if (Finding found = check_links("rigid", spec.links->rigid)) return found;
+  if (Finding found = check_links("averages", spec.links->averages)) return found;
+  for (std::size_t i = 0; i < spec.links->equations.size(); ++i) {
+    for (const auto& term : spec.links->equations[i].terms) {
+      if (Finding found = check(fmt::format("equations.{}.terms", i), term.node)) return found;
+    }
+  }
+  for (std::size_t i = 0; i < spec.links->springs.size(); ++i) {
+    for (const std::string& node : spec.links->springs[i].between) {
+      if (Finding found = check(fmt::format("springs.{}.between", i), node)) return found;
     }
   }
   return std::nullopt;
@@ -204,8 +235,8 @@ Finding problem(const fem::FaceColorSpec& spec, const ReadContext&) {
 }
 
 Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
-  if (spec.beams.empty() && spec.bars.empty() && spec.solids.empty()) {
-    return Problem{"", "a structure needs beams, bars or solids"};
+  if (spec.beams.empty() && spec.bars.empty() && spec.solids.empty() && spec.shells.empty()) {
+    return Problem{"", "a structure needs beams, bars, solids or shells"};
   }
   for (const auto& node : spec.nodes) {
     if (node.name == "origin" || node.name == "com") {
@@ -220,8 +251,14 @@ Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
     if (Finding found = member_problem(spec, spec.bars[i], "bars", i)) return found;
   }
   for (std::size_t i = 0; i < spec.solids.size(); ++i) {
-    if (Finding found = corner_problem(spec, i)) return found;
+    const std::string key = fmt::format("solids.{}.nodes", i);
+    if (Finding found = corner_problem(spec, spec.solids[i].nodes, key)) return found;
   }
+  for (std::size_t i = 0; i < spec.shells.size(); ++i) {
+    const std::string key = fmt::format("shells.{}.nodes", i);
+    if (Finding found = corner_problem(spec, spec.shells[i].nodes, key)) return found;
+  }
+  if (Finding found = link_problem(spec)) return found;
   return mass_problem(spec.masses, names_of(spec.nodes));
 }
 

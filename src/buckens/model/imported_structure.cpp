@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/model/imported_links.h"
 #include "buckens/model/imported_materials.h"
 #include "buckens/model/spec_properties.h"
 
@@ -26,6 +27,12 @@ std::optional<fem::SolidKind> solid_kind(CellKind kind) {
       return fem::SolidKind::tet4;
     case CellKind::tet10:
       return fem::SolidKind::tet10;
+    case CellKind::wedge6:
+      return fem::SolidKind::wedge6;
+    case CellKind::wedge15:
+      return fem::SolidKind::wedge15;
+    case CellKind::pyramid5:
+      return fem::SolidKind::pyramid5;
     default:
       return std::nullopt;
   }
@@ -33,7 +40,7 @@ std::optional<fem::SolidKind> solid_kind(CellKind kind) {
 
 /// Where an element of the file went.
 struct Place {
-  enum class Block { none, beams, bars, solids };
+  enum class Block { none, beams, bars, solids, shells };
   Block block = Block::none;
   int index = -1;
 };
@@ -47,7 +54,7 @@ class Import {
   ImportedStructure run() {
     number_nodes();
     for (const fem::ImportedBlock& block : mesh_.blocks) add_block(block);
-    for (const fem::ImportedMass& mass : mesh_.masses) add_mass(mass);
+    add_imported_links(mesh_, new_numbers_, where_, out_.structure);
     add_sets();
     return std::move(out_);
   }
@@ -58,8 +65,10 @@ class Import {
   void add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
   void add_line(const fem::ImportedBlock& block, int in_block, const std::vector<int>& nodes,
                 int element);
-  void add_mass(const fem::ImportedMass& mass);
+  void add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
+  fem::ShellSection shell_section(const fem::ImportedBlock& block, int element);
   void add_sets();
+  fem::ShellSide shell_side(const fem::ImportedFace& face) const;
   fem::ElementFace solid_face(const fem::ImportedFace& face, const std::string& set) const;
   int node(int imported) const { return new_numbers_[static_cast<std::size_t>(imported)]; }
   const fem::ImportedProperty* property(const fem::ImportedBlock& block) const {
@@ -77,6 +86,7 @@ class Import {
   std::vector<int> new_numbers_;        // per node of the file, −1 where nothing uses it
   std::vector<Place> places_;           // per element of the file
   std::map<int, int> solid_materials_;  // number in the block by that of ImportedMaterials
+  std::map<std::pair<int, int>, int> shell_sections_;  // by property and material
 };
 
 void Import::number_nodes() {
@@ -86,7 +96,7 @@ void Import::number_nodes() {
   for (const fem::ImportedBlock& block : mesh_.blocks) {
     std::for_each(block.nodes.begin(), block.nodes.end(), use);
   }
-  for (const fem::ImportedMass& mass : mesh_.masses) use(mass.node);
+  mark_linked_nodes(mesh_, used);
   new_numbers_.assign(count, -1);
   for (std::size_t k = 0; k < count; ++k) {
     if (!used[k]) continue;
@@ -109,6 +119,8 @@ void Import::add_block(const fem::ImportedBlock& block) {
       add_solid(block, nodes, element);
     } else if (block.kind == CellKind::line2) {
       add_line(block, k, nodes, element);
+    } else if (block.kind == CellKind::tri3 || block.kind == CellKind::quad4) {
+      add_shell(block, nodes, element);
     } else {
       refuse(fmt::format("elements {} ({}) cannot be used in a body", block.source,
                          fem::name_of(block.kind)));
@@ -154,19 +166,58 @@ void Import::add_line(const fem::ImportedBlock& block, int in_block, const std::
   places_.back() = {Place::Block::beams, beams.add(nodes[0], nodes[1], beams.add_properties(beam))};
 }
 
-void Import::add_mass(const fem::ImportedMass& mass) {
-  if (!mass.offset.isZero()) {
+fem::ShellSection Import::shell_section(const fem::ImportedBlock& block, int element) {
+  const fem::ImportedProperty* of = property(block);
+  if (of == nullptr || of->kind != fem::PropertyKind::shell ||
+      (!of->thickness && of->layers.empty())) {
     refuse(
-        fmt::format("the point mass at node {} lies beside its node; put it at a node of its own",
-                    mesh_.node_ids[static_cast<std::size_t>(mass.node)]));
+        fmt::format("the {} elements have no thickness; give them one in the file", block.source));
   }
-  out_.structure.masses.add(node(mass.node), mass.mass, mass.inertia);
+  fem::ShellSection out;
+  out.offset = of->offset;
+  if (of->axes) out.direction = of->axes->col(0);
+  // Nastran counts angles from the first side of each element, others from the mesh's x axis.
+  out.along_first_side = mesh_.format.starts_with("Nastran");
+  if (of->layers.empty()) {
+    out.layers.push_back(
+        {materials_.material(materials_.number(block, element)), *of->thickness, 0.0});
+  }
+  for (const fem::ImportedLayer& layer : of->layers) {
+    const int number = layer.material.empty() ? materials_.number(block, element)
+                                              : materials_.number(layer.material);
+    out.layers.push_back({materials_.material(number), layer.thickness, layer.angle});
+  }
+  return out;
+}
+
+void Import::add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes,
+                       int element) {
+  const fem::ImportedProperty* of = property(block);
+  const bool is_layered = of != nullptr && !of->layers.empty();
+  const std::pair<int, int> key = {block.property,
+                                   is_layered ? -1 : materials_.number(block, element)};
+  fem::ShellBlock& shells = out_.structure.shells;
+  auto known = shell_sections_.find(key);
+  if (known == shell_sections_.end()) {
+    known = shell_sections_.emplace(key, shells.add_section(shell_section(block, element))).first;
+  }
+  places_.back() = {Place::Block::shells, shells.add(nodes, known->second)};
+}
+
+/// The side from which the corners run counter-clockwise.
+fem::ShellSide Import::shell_side(const fem::ImportedFace& face) const {
+  const int element = places_.at(static_cast<std::size_t>(face.element)).index;
+  const auto own = out_.structure.shells.nodes(element);
+  const auto first = std::find(own.begin(), own.end(), node(face.corners.at(0)));
+  const auto next = first == own.end() || first + 1 == own.end() ? own.begin() : first + 1;
+  return {element, *next != node(face.corners.at(1))};
 }
 
 fem::ElementFace Import::solid_face(const fem::ImportedFace& face, const std::string& set) const {
   const Place& place = places_.at(static_cast<std::size_t>(face.element));
   if (place.block != Place::Block::solids) {
-    refuse(fmt::format("surface \"{}\" has a face of an element that is no solid", set));
+    refuse(fmt::format("surface \"{}\" has a face of an element that is neither solid nor shell",
+                       set));
   }
   std::vector<int> corners;
   for (const int corner : face.corners) corners.push_back(node(corner));
@@ -201,12 +252,17 @@ void Import::add_sets() {
       if (place.block == Place::Block::beams) own.beams.push_back(place.index);
       if (place.block == Place::Block::bars) own.bars.push_back(place.index);
       if (place.block == Place::Block::solids) own.solids.push_back(place.index);
+      if (place.block == Place::Block::shells) own.shells.push_back(place.index);
     }
   }
   for (const fem::ImportedFaceSet& set : mesh_.face_sets) {
     fem::FaceSet& own = structure.face_sets.emplace_back(fem::FaceSet{set.name, {}});
     for (const fem::ImportedFace& face : set.faces) {
-      own.faces.push_back(solid_face(face, set.name));
+      if (places_.at(static_cast<std::size_t>(face.element)).block == Place::Block::shells) {
+        own.shells.push_back(shell_side(face));
+      } else {
+        own.faces.push_back(solid_face(face, set.name));
+      }
     }
   }
 }

@@ -92,7 +92,7 @@ class RegionFinder {
       return;
     }
     if (const auto* set = base::find_named(structure.face_sets, name)) {
-      const auto more = fem::face_set_nodes(structure.solids, set->faces);
+      const auto more = fem::face_set_nodes(structure, *set);
       nodes.insert(nodes.end(), more.begin(), more.end());
       return;
     }
@@ -150,10 +150,10 @@ std::vector<InterfaceRegion> find_interfaces(const body::BodySpec& spec,
                                              const NamedStructure& mesh) {
   std::vector<InterfaceRegion> out;
   for (const body::InterfaceSpec& interface : spec.interfaces) {
-    if (mesh.structure.solids.num_elements() == 0) {
+    if (mesh.structure.solids.num_elements() + mesh.structure.shells.num_elements() == 0) {
       throw InputError(interface.where,
                        fmt::format("interface \"{}\" of body \"{}\": interfaces belong to meshes "
-                                   "of solids; beams and bars have markers at nodes",
+                                   "of solids and shells; beams and bars have markers at nodes",
                                    interface.name, spec.name));
     }
     out.push_back(find_interface(spec, interface, mesh));

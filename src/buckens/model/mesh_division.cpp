@@ -58,7 +58,8 @@ double predicted_bytes(const MeshDivision& division) {
   double bytes = 0.0;
   for (std::size_t p = 0; p < cut.size(); ++p) {
     const fem::Structure& part = division.parts[p].structure;
-    const double per_node = part.beams.num_elements() > 0 ? 6.0 : 3.0;
+    const bool turns = part.beams.num_elements() > 0 || part.shells.num_elements() > 0;
+    const double per_node = turns ? 6.0 : 3.0;
     const double n = per_node * static_cast<double>(part.nodes.size());
     const double m = per_node * cut[p];
     bytes += sizeof(double) * (4.0 * n * m + 8.0 * m * m);
@@ -77,6 +78,11 @@ void require_memory(const MeshDivision& division, double memory) {
 
 MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision& frames) {
   const fem::Structure& structure = whole.structure;
+  if (!structure.links.empty() || structure.springs.num_elements() > 0) {
+    throw ModelError(
+        "links and springs between the nodes of a body need one frame; remove `frames`, or make "
+        "separate bodies with joints");
+  }
   const int count = frames.of(fem::num_holding_elements(structure));
   fem::StructureParts divided = fem::divide(structure, fem::choose_parts(structure, count));
   MeshDivision out;

@@ -30,7 +30,7 @@ void require_memory(const MeshDivision& division, double memory);
 /// Half of the memory of this machine [bytes].
 double usable_memory();
 
-/// @throws ModelError if there are more frames than elements
+/// @throws ModelError if there are more frames than elements, or links inside the mesh
 MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision& frames);
 
 }  // namespace buckens::model

@@ -7,7 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/free_modes.h"
-#include "buckens/fem/recovery.h"
+#include "buckens/fem/element_block.h"
 #include "buckens/fem/solid_recovery.h"
 
 namespace buckens::model {
@@ -16,15 +16,29 @@ namespace {
 // Share of the stiffness scale |K|/|M| below which a vibration has none: rounding stays near 1e-16,
 // the slackest sensible truss above 1e-9.
 constexpr double kNoStiffness = 1e-12;
+
+/// Whether a mesh can have motions without strain: not beams and shells, which share rotations, nor
+/// solids that join by faces; but bars, springs, links, and what turns at nodes of solids.
+bool may_be_mechanism(const body::FlexiblePart& part) {
+  const fem::FeModel& mesh = part.mesh();
+  bool solids = false, turning = false, loose = part.full_mesh != nullptr;
+  for (const auto& block : mesh.blocks) {
+    if (block->num_elements() == 0 || !block->holds_nodes()) continue;
+    if (block->is_solid()) {
+      solids = true;
+    } else if (block->has_rotations()) {
+      turning = true;
+    } else {
+      loose = true;
+    }
+  }
+  return loose || (solids && turning) || !fem::solids_join_by_faces(mesh);
+}
 }  // namespace
 
 void refuse_mechanisms(const body::Body& body) {
   const fem::FeModel& fe = body.flexible->fe;
-  const auto lines = fem::line_elements(fe);
-  const bool has_bars =
-      std::any_of(lines.begin(), lines.end(), [](const auto& line) { return !line.bends; });
-  const bool is_mixed = !lines.empty() && fem::num_solids(fe) > 0;
-  if (!has_bars && !is_mixed && fem::solids_join_by_faces(fe)) return;
+  if (!may_be_mechanism(*body.flexible)) return;
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), 1);
   if (modes.omega.size() == 0) return;
   const double scale = fe.K.diagonal().maxCoeff() / fe.M.diagonal().maxCoeff();

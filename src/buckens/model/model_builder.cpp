@@ -202,9 +202,11 @@ class Builder {
       body.J0 = fe.shape.J0;
       body.flexible =
           std::make_unique<body::FlexiblePart>(body.name, std::move(fe), spec.coupling.choice());
-      refuse_mechanisms(body);
+      const bool has_links = !mesh->structure.links.empty();
+      if (!has_links) refuse_mechanisms(body);
       if (spec.geometric_stiffness) body.flexible->stiffen();
-      hold_rigid_interfaces(whole, *mesh, body);
+      eliminate_links(whole, *mesh, body);
+      if (has_links) refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,
@@ -219,27 +221,30 @@ class Builder {
         spec, body, mesh, whole.is_divided() ? std::optional(whole.com) : std::nullopt));
   }
 
-  void hold_rigid_interfaces(const WholeBody& whole, const NamedStructure& mesh,
-                             body::Body& body) const {
+  void eliminate_links(const WholeBody& whole, const NamedStructure& mesh, body::Body& body) const {
     std::vector<body::RigidRegion> regions;
     for (const InterfaceRegion& interface : mesh.interfaces) {
       if (!interface.is_rigid) continue;
       regions.push_back({interface.name, interface.region.nodes, interface.region.centre});
     }
-    if (regions.empty()) return;
+    const fem::NodeLinks& links = mesh.structure.links;
+    if (regions.empty() && links.empty()) return;
+    const std::string what = regions.empty()
+                                 ? "links inside its mesh"
+                                 : fmt::format("the rigid interface \"{}\"", regions.front().name);
     if (whole.is_divided()) {
       throw ModelError(
-          fmt::format("rigid interface \"{}\": a body with several frames can have "
-                      "`average` interfaces only; change its kind or remove `frames`",
-                      regions.front().name));
+          fmt::format("{}: a body with several frames can have neither links nor rigid interfaces; "
+                      "make the interface `average` or remove `frames`",
+                      what));
     }
     if (body.flexible->geometric) {
       throw ModelError(fmt::format(
-          "geometric stiffness and the rigid interface \"{}\" exclude each other; make it "
-          "`average`, or give the body more `frames`",
-          regions.front().name));
+          "geometric stiffness and {} exclude each other; make the interface `average`, or give "
+          "the body more `frames`",
+          what));
     }
-    body.flexible = body::with_rigid_regions(body.name, *body.flexible, regions);
+    body.flexible = body::with_links(body.name, *body.flexible, regions, links);
   }
 
   /// Adds their rows behind those of joints and markers, and ends the interface.

@@ -8,8 +8,11 @@
 #include "buckens/base/errors.h"
 #include "buckens/fem/generate_mesh.h"
 #include "buckens/fem/node_number.h"
+#include "buckens/fem/plate_mesh.h"
 #include "buckens/model/imported_structure.h"
 #include "buckens/model/interface_regions.h"
+#include "buckens/model/links_from_spec.h"
+#include "buckens/model/shell_from_spec.h"
 #include "buckens/model/spec_properties.h"
 
 namespace buckens::model {
@@ -59,6 +62,7 @@ class Builder {
                     const std::vector<fem::PointMassSpec>& masses, const SourceLocation& where);
   void add_structure(const fem::StructureSpec& structure);
   void add_solid(const fem::SolidMemberSpec& solid);
+  void add_shell(const fem::ShellMemberSpec& shell);
   int node_called(const std::string& name, const SourceLocation& where) const;
   void add_mass(const fem::PointMassSpec& mass) {
     out_.structure.masses.add(node_called(mass.at, mass.where), mass.mass, mass.inertia_matrix());
@@ -103,7 +107,22 @@ void Builder::add_structure(const fem::StructureSpec& spec) {
                  make_material(*bar.material, spec_.damping), section);
   }
   for (const fem::SolidMemberSpec& solid : spec.solids) add_solid(solid);
+  for (const fem::ShellMemberSpec& shell : spec.shells) add_shell(shell);
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
+  if (!spec.links) return;
+  add_links(
+      *spec.links,
+      [this](const std::string& name, const SourceLocation& where) {
+        return node_called(name, where);
+      },
+      structure);
+}
+
+void Builder::add_shell(const fem::ShellMemberSpec& shell) {
+  std::vector<int> nodes;
+  for (const std::string& name : shell.nodes) nodes.push_back(node_called(name, shell.where));
+  fem::ShellBlock& block = out_.structure.shells;
+  block.add(nodes, block.add_section(make_shell_section(shell, *shell.material, spec_.damping)));
 }
 
 void Builder::add_solid(const fem::SolidMemberSpec& solid) {
@@ -114,8 +133,12 @@ void Builder::add_solid(const fem::SolidMemberSpec& solid) {
 }
 
 void Builder::add_generated(const fem::MeshSpec& spec) {
+  const auto* plate = std::get_if<fem::PlateMeshSpec>(&spec.shape);
   const fem::GeneratedMesh mesh =
-      fem::add_mesh(out_.structure, spec, make_material(**spec.material, spec_.damping));
+      plate != nullptr
+          ? fem::add_plate(out_.structure, *plate,
+                           make_shell_section(*plate, **spec.material, spec_.damping))
+          : fem::add_mesh(out_.structure, spec, make_material(**spec.material, spec_.damping));
   for (const auto& [name, node] : mesh.names) name_place(name, {node, -1, 0});
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
 }
