@@ -117,9 +117,10 @@ class SetStatement {
 
   void add(std::int64_t number) {
     if (thru_) {
-      if (!set_.members.empty()) set_.members.back().last = number;
+      // A set that begins with THRU is not usable.
+      ranging_ = !set_.members.empty();
+      if (ranging_) set_.members.back().last = number;
       thru_ = false;
-      ranging_ = true;
       return;
     }
     // What EXCEPT takes out lies in the range before; the first number beyond it is a member again.

@@ -73,6 +73,14 @@ TEST(NastranCards, a_deck_may_be_bulk_data_alone_or_have_control_sections) {
   EXPECT_TRUE(has_note(read_deck("SOL 101\nCEND\nBEGIN BULK\n" + kTetra), "ENDDATA is missing"));
 }
 
+TEST(NastranCards, sets_of_the_case_control_that_hold_no_numbers_are_passed_over) {
+  for (const char* set : {"SET 9 = THRU 8 EXCEPT 5, 21", "SET 9 = 1.5, 2", "SET 9 = 1 THRU",
+                          "SET 9 = ALL", "SET 9 = EXCEPT 1 THRU"}) {
+    const auto mesh = read_deck(std::string(set) + "\nBEGIN BULK\n" + kTetra + "ENDDATA\n");
+    EXPECT_TRUE(mesh.node_sets.empty()) << set;
+  }
+}
+
 TEST(NastranCards, weights_become_masses) {
   const auto mesh = read_deck(kTetra + "CONM2,5,1,,2.,,,,,\n,3.,,3.,,,3.\nPARAM,WTMASS,.5\n");
   EXPECT_EQ(mesh.materials.at(0).rho, 0.5 * 7850);
