@@ -98,6 +98,20 @@ def test_a_flap_swings_on_its_edge(buckens, tmp_path):
         assert file["bodies/flap/solid_stress"].shape == (21, 10)
 
 
+@pytest.mark.parametrize("side, sign", [("top", -1), ("bottom", 1)])
+def test_pressure_pushes_a_plate(buckens, tmp_path, side, sign):
+    text = PLATE.replace("[16, 16]", "[2, 2]") + f"""
+loads:
+  push: {{pressure: {{on: plate/{side}, value: 4 kPa}}}}
+simulation: {{duration: 0.1 s, step: 1 ms}}
+output: {{sensors: {{com: {{velocity: plate/com}}}}}}
+"""
+    (tmp_path / "model.yaml").write_text(text)
+    buckens("run", "model.yaml", "-o", "out").must(0)
+    # 4 kPa over 8000 kg/m^3 x 0.05 m are 10 m/s^2.
+    assert columns(tmp_path / "out")["com.z"][-1] == pytest.approx(sign * 1.0, rel=1e-9)
+
+
 @pytest.mark.parametrize("frames", [1, 3])
 def test_a_flap_swings_in_several_frames(buckens, tmp_path, frames):
     (tmp_path / "model.yaml").write_text(SWING)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/plate_mesh.h"
 
+#include <utility>
+
 namespace buckens::fem {
 
 namespace {
@@ -54,6 +56,7 @@ GeneratedMesh add_plate(Structure& structure, const PlateMeshSpec& spec,
   }
   for (NodeSet& edge : edges) structure.node_sets.push_back(std::move(edge));
   const int number = structure.shells.add_section(section);
+  const int first = structure.shells.num_elements();
   const auto add = [&](const std::vector<int>& nodes) { structure.shells.add(nodes, number); };
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
@@ -69,6 +72,13 @@ GeneratedMesh add_plate(Structure& structure, const PlateMeshSpec& spec,
       }
     }
   }
+  FaceSet top{"top", {}, {}}, bottom{"bottom", {}, {}};
+  for (int e = first; e < structure.shells.num_elements(); ++e) {
+    top.shells.push_back({e, false});
+    bottom.shells.push_back({e, true});
+  }
+  structure.face_sets.push_back(std::move(top));
+  structure.face_sets.push_back(std::move(bottom));
   for (const GridName& place : kNames) {
     if (!is_node(place, spec.divisions)) continue;
     out.names.emplace_back(place.name, node(place.half[0] * nx / 2, place.half[1] * ny / 2));

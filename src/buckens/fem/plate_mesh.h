@@ -15,7 +15,8 @@ namespace buckens::fem {
 /// centre, those in the middle only where a node is there.
 std::vector<std::string> plate_node_names(const std::array<int, 2>& divisions);
 
-/// Adds the nodes and shells of a plate, and its edges as node sets x0, x1, y0, y1. Triangles
+/// Adds the nodes and shells of a plate, its edges as node sets x0, x1, y0, y1, and its sides as
+/// faces `top` (towards z) and `bottom`. Triangles
 /// change the direction of their diagonal from field to field.
 GeneratedMesh add_plate(Structure& structure, const PlateMeshSpec& spec,
                         const ShellSection& section);

@@ -98,7 +98,7 @@ struct PlateMeshSpec : ShellPropertySpec {
   static constexpr const char* kDoc =
       "rectangular plate of shells, parallel to the model's x–y plane, its normal along z; the "
       "node "
-      "sets x0, x1, y0, y1 are its edges";
+      "sets x0, x1, y0, y1 are its edges, the faces `top` and `bottom` its sides";
   SourceLocation where;
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the least coordinates [m]
   std::array<double, 2> size = {1, 1};             ///< [m]

@@ -33,6 +33,11 @@ constexpr bool kIsDistributed =
     std::is_same_v<Kind, loads::LineLoadSpec> || std::is_same_v<Kind, loads::BodyForceSpec> ||
     std::is_same_v<Kind, loads::BaseAccelerationSpec>;
 
+void add_faces(const LoadedFaces& faces, LoadShares& shares) {
+  for (const fem::ElementFace& face : faces.solids) shares.add_face(face);
+  for (const fem::ShellSide& side : faces.shells) shares.add_side(side);
+}
+
 std::vector<Triplet> scaled(const std::vector<Triplet>& entries, double factor) {
   std::vector<Triplet> out;
   out.reserve(entries.size());
@@ -132,7 +137,7 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::PressureSpec&
   const Place on = place_on_mesh(spec, kind.on);
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
-  for (const fem::ElementFace& face : find.faces()) shares.add_face(face);
+  add_faces(find.faces(), shares);
   for (const auto& [b, share] : shares.shares()) {
     MarkerTable& table = *tables_[static_cast<std::size_t>(b)];
     const Vector3d& com = model_.bodies[static_cast<std::size_t>(b)].com;
@@ -155,7 +160,7 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::TractionSpec&
   const Place on = place_on_mesh(spec, kind.on);
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
-  for (const fem::ElementFace& face : find.faces()) shares.add_face(face);
+  add_faces(find.faces(), shares);
   add_uniform(spec, on, shares, {kind.axes, &kind.value, kArea, "Pa"});
 }
 
@@ -191,6 +196,7 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BodyForceSpec
   for (const int solid : elements.solids) {
     shares.add_solid(solid, is_per_mass ? mesh.structure.solids.material(solid)->rho : 1.0);
   }
+  for (const int shell : elements.shells) shares.add_shell(shell, is_per_mass);
   add_uniform(spec, on, shares, load);
 }
 

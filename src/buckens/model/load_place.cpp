@@ -33,9 +33,9 @@ void LoadPlaceFinder::fail_unknown(const char* kind, const std::vector<std::stri
                                  : base::suggestion(on_.part(), known)));
 }
 
-std::vector<fem::ElementFace> LoadPlaceFinder::faces() const {
+LoadedFaces LoadPlaceFinder::faces() const {
   const fem::Structure& structure = mesh_.structure;
-  if (structure.solids.num_elements() == 0) {
+  if (structure.solids.num_elements() + structure.shells.num_elements() == 0) {
     fail(
         "its mesh has no faces; a load on beams is a `line-load`, one on a point a `force` on a "
         "marker");
@@ -50,11 +50,13 @@ std::vector<fem::ElementFace> LoadPlaceFinder::faces() const {
   }
   const body::InterfaceSpec* interface = base::find_named(body_.interfaces, part);
   if (interface == nullptr) {
-    if (const fem::FaceSet* set = fem::find_face_set(structure, part)) return set->faces;
+    if (const fem::FaceSet* set = fem::find_face_set(structure, part))
+      return {set->faces, set->shells};
     fail_unknown("face", known);
   }
   if (const auto* face = std::get_if<fem::NamedFaceSpec>(&interface->region)) {
-    return fem::find_face_set(structure, face->name)->faces;
+    const fem::FaceSet* set = fem::find_face_set(structure, face->name);
+    return {set->faces, set->shells};
   }
   const auto found = fem::faces_within(structure, mesh_.find_interface(part)->region.nodes);
   if (found.empty()) {
@@ -63,7 +65,7 @@ std::vector<fem::ElementFace> LoadPlaceFinder::faces() const {
                     "select more nodes{}",
                     structure.face_sets.empty() ? "" : " or take a named face"));
   }
-  return found;
+  return {found, {}};
 }
 
 LoadedElements LoadPlaceFinder::elements() const {
@@ -74,6 +76,7 @@ LoadedElements LoadPlaceFinder::elements() const {
   if (part.empty()) {
     for (int e = 0; e < beams + structure.bars.num_elements(); ++e) out.lines.push_back(e);
     for (int e = 0; e < structure.solids.num_elements(); ++e) out.solids.push_back(e);
+    for (int e = 0; e < structure.shells.num_elements(); ++e) out.shells.push_back(e);
     return out;
   }
   std::vector<std::string> known;
@@ -85,6 +88,7 @@ LoadedElements LoadPlaceFinder::elements() const {
         out.lines = set.beams;
         for (const int bar : set.bars) out.lines.push_back(beams + bar);
         out.solids = set.solids;
+        out.shells = set.shells;
         return true;
       }
     }
@@ -109,6 +113,7 @@ LoadedElements LoadPlaceFinder::elements() const {
 LoadedElements LoadPlaceFinder::lines() const {
   LoadedElements out = elements();
   out.solids.clear();
+  out.shells.clear();
   if (out.lines.empty()) {
     fail(
         "there are no beams and bars there; a load on solids is a `pressure`, `traction` or "

@@ -11,6 +11,13 @@ namespace buckens::model {
 struct LoadedElements {
   std::vector<int> lines;  ///< beams, then bars
   std::vector<int> solids;
+  std::vector<int> shells;
+};
+
+/// Faces of solids and sides of shells that take a load.
+struct LoadedFaces {
+  std::vector<fem::ElementFace> solids;
+  std::vector<fem::ShellSide> shells;
 };
 
 /// Finds the part of a body that a load of the model file names.
@@ -23,12 +30,12 @@ class LoadPlaceFinder {
 
   /// Faces of a named face or face set, or those on the surface of the mesh that lie in an
   /// interface.
-  /// @throws InputError if the mesh has no solids, or none of its faces is meant
-  std::vector<fem::ElementFace> faces() const;
-  /// Lines and solids: all, those of an element set, or of one beam of the model file.
+  /// @throws InputError if the mesh has neither solids nor shells, or none of its faces is meant
+  LoadedFaces faces() const;
+  /// Lines, solids and shells: all, those of an element set, or of one beam of the model file.
   /// @throws InputError if there is no such part
   LoadedElements elements() const;
-  /// The same without solids.
+  /// The same without solids and shells.
   /// @throws InputError if there is no line among them
   LoadedElements lines() const;
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "buckens/fem/shell_shares.h"
 #include "buckens/fem/uniform_shares.h"
 
 namespace buckens::model {
@@ -40,8 +41,42 @@ void LoadShares::add_node(int body, int own_node, double share, LoadShare& to) c
 
 void LoadShares::add_face(const fem::ElementFace& face) {
   const fem::Structure& structure = mesh_.structure;
-  const fem::FaceIntegrals own = fem::face_integrals(structure.solids, structure.nodes, face);
-  const int part = place_of(&MeshDivision::solids, face.element).part;
+  add_integrals(fem::face_integrals(structure.solids, structure.nodes, face),
+                place_of(&MeshDivision::solids, face.element).part);
+}
+
+void LoadShares::add_side(const fem::ShellSide& side) {
+  const fem::Structure& structure = mesh_.structure;
+  const int number = structure.solids.num_elements() + side.element;
+  add_integrals(fem::shell_side_integrals(structure.shells, structure.nodes, side),
+                place_of(&MeshDivision::solids, number).part);
+}
+
+void LoadShares::add_shell(int element, bool per_mass) {
+  const fem::Structure& structure = mesh_.structure;
+  const fem::ShellShares own =
+      fem::shell_shares(structure.shells, structure.nodes, element, per_mass);
+  const int part = place_of(&MeshDivision::solids, structure.solids.num_elements() + element).part;
+  const fem::FeModel& fe = mesh_of(whole_.first + part);
+  LoadShare& share = shares_[whole_.first + part];
+  share.extent += own.translation.sum();
+  for (Eigen::Index k = 0; k < own.translation.size(); ++k) {
+    const int node = node_in(part, own.nodes[static_cast<std::size_t>(k)]);
+    add_node(whole_.first + part, node, own.translation[k], share);
+    const Vector3d arm = own.arm.col(k);
+    share.first_moment += arm;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3d turned = Vector3d::Unit(axis).cross(arm);
+      const int dof =
+          fe.dofs.node_dofs[static_cast<std::size_t>(node)][static_cast<std::size_t>(3 + axis)];
+      for (int row = 0; row < 3; ++row) {
+        if (turned[row] != 0.0) share.rows.emplace_back(row, dof, turned[row]);
+      }
+    }
+  }
+}
+
+void LoadShares::add_integrals(const fem::FaceIntegrals& own, int part) {
   const int body = whole_.first + part;
   LoadShare& share = shares_[body];
   share.extent += own.area.sum();

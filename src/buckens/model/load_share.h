@@ -35,8 +35,11 @@ class LoadShares {
       : model_(model), whole_(whole), mesh_(mesh), division_(division) {}
 
   void add_face(const fem::ElementFace& face);
+  void add_side(const fem::ShellSide& side);
   /// @param density extent per volume: 1, or that of the element's mass
   void add_solid(int element, double density);
+  /// @param per_mass the extent is mass, else volume
+  void add_shell(int element, bool per_mass);
   /// @param density extent per length
   void add_line(int line, double density);
 
@@ -44,6 +47,7 @@ class LoadShares {
   const std::map<int, LoadShare>& shares() const { return shares_; }
 
  private:
+  void add_integrals(const fem::FaceIntegrals& own, int part);
   const fem::FeModel& mesh_of(int body) const;
   fem::PartPlace place_of(const std::vector<fem::PartPlace> MeshDivision::*list, int element) const;
   int node_in(int part, int node) const;
