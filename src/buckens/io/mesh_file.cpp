@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/io/abaqus_deck.h"
 #include "buckens/io/gmsh_mesh.h"
 #include "buckens/io/nastran_deck.h"
 
@@ -21,11 +22,9 @@ struct Format {
 };
 
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {{".msh", read_gmsh_mesh},
-                                          {".unv", read_gmsh_mesh},
-                                          {".bdf", read_nastran_deck},
-                                          {".dat", read_nastran_deck},
-                                          {".nas", read_nastran_deck}};
+  static const std::vector<Format> all = {{".inp", read_abaqus_deck},  {".msh", read_gmsh_mesh},
+                                          {".unv", read_gmsh_mesh},    {".bdf", read_nastran_deck},
+                                          {".dat", read_nastran_deck}, {".nas", read_nastran_deck}};
   return all;
 }
 

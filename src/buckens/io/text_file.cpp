@@ -13,8 +13,6 @@ namespace buckens::io {
 
 namespace {
 
-constexpr std::size_t kLargestFile = 200u << 20;
-
 [[noreturn]] void fail(const std::string& name, const std::string& kind,
                        const std::string& reason) {
   throw IoError(fmt::format("{}: cannot read the {}: {}", name, kind, reason));
@@ -22,7 +20,8 @@ constexpr std::size_t kLargestFile = 200u << 20;
 
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& path, const std::string& kind) {
+std::string read_text_file(const std::filesystem::path& path, const std::string& kind,
+                           std::size_t largest) {
   namespace fs = std::filesystem;
   const std::string name = path.string();
   std::error_code error;
@@ -39,8 +38,8 @@ std::string read_text_file(const std::filesystem::path& path, const std::string&
   while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())) ||
          stream.gcount() > 0) {
     text.append(piece, 0, static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kLargestFile) {
-      fail(name, kind, fmt::format("it is larger than {} MB", kLargestFile >> 20));
+    if (text.size() > largest) {
+      fail(name, kind, fmt::format("it is larger than {} MB", largest >> 20));
     }
   }
   if (stream.bad()) fail(name, kind, errno != 0 ? std::strerror(errno) : "reading failed");

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "buckens/io/abaqus_mesh.h"
+
+namespace buckens::io {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Turns what couples nodes into links, averages and equations of the mesh.
+class LinkMaker {
+ public:
+  LinkMaker(const AbaqusLines& lines, AbaqusNames& names, fem::ImportedMesh& out)
+      : lines_(lines), names_(names), out_(out) {}
+
+  void run() {
+    find_turning();
+    find_transforms();
+    for (std::size_t s = 0; s < names_.scopes().size(); ++s) {
+      const AbaqusScope& scope = *names_.scopes()[s].scope;
+      scope_ = static_cast<int>(s);
+      for (const AbaqusLink& link : scope.links) add(link);
+      for (const AbaqusEquation& equation : scope.equations) add(equation);
+    }
+  }
+
+ private:
+  /// Marks the nodes that have rotations.
+  void find_turning() {
+    turns_.assign(names_.positions().size(), false);
+    for (std::size_t s = 0; s < names_.scopes().size(); ++s) {
+      for (int e = 0; e < names_.scopes()[s].num_elements; ++e) {
+        const AbaqusRole role = names_.scopes()[s].at(e).first->type->role;
+        if (role != AbaqusRole::shell && role != AbaqusRole::beam) continue;
+        for (const int node : names_.element_nodes({static_cast<int>(s), e})) {
+          turns_[static_cast<std::size_t>(node)] = true;
+        }
+      }
+    }
+  }
+
+  void find_transforms() {
+    for (std::size_t s = 0; s < names_.scopes().size(); ++s) {
+      for (const AbaqusTransform& transform : names_.scopes()[s].scope->transforms) {
+        for (const int node :
+             names_.nodes(static_cast<int>(s), transform.node_set, transform.place)) {
+          transforms_[node] = {&transform, static_cast<int>(s)};
+        }
+      }
+    }
+  }
+
+  std::vector<int> followers(const AbaqusLink& link, int reference) {
+    std::vector<int> nodes;
+    const auto take = [&nodes](const std::vector<int>& more) {
+      nodes.insert(nodes.end(), more.begin(), more.end());
+    };
+    for (const std::string& name : link.nodes) take(names_.nodes(scope_, name, link.place));
+    for (const std::string& name : link.surfaces) {
+      take(names_.surface_nodes(scope_, name, link.place));
+    }
+    for (const std::string& name : link.element_sets) {
+      for (const auto& at : names_.elements(scope_, name, link.place)) {
+        take(names_.element_nodes(at));
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    const auto& positions = names_.positions();
+    std::erase_if(nodes, [&](int node) {
+      const double distance = (positions[static_cast<std::size_t>(node)] -
+                               positions[static_cast<std::size_t>(reference)])
+                                  .norm();
+      return node == reference || (link.radius && distance > *link.radius);
+    });
+    if (nodes.empty()) lines_.fail(link.place, "no node follows the reference node");
+    return nodes;
+  }
+
+  void add(const AbaqusLink& link) {
+    if (link.kind == AbaqusLinkKind::mpc_tie || link.kind == AbaqusLinkKind::mpc_pin ||
+        link.kind == AbaqusLinkKind::mpc_beam) {
+      return add_pairs(link);
+    }
+    const int reference = names_.node(scope_, link.reference, link.place);
+    std::vector<int> nodes = followers(link, reference);
+    if (link.kind == AbaqusLinkKind::distributing) {
+      out_.averages.push_back({link.name, reference, std::move(nodes), {}, link.place.line});
+    } else {
+      out_.rigid_links.push_back(
+          {link.name, reference, std::move(nodes), link.variables, link.place.line});
+    }
+  }
+
+  /// Nodes of two sets in the order of their numbers, or all of one set with a single node.
+  void add_pairs(const AbaqusLink& link) {
+    std::vector<int> first = by_number(names_.nodes(scope_, link.nodes.front(), link.place));
+    std::vector<int> second = by_number(names_.nodes(scope_, link.reference, link.place));
+    if (second.size() == 1) second.resize(first.size(), second.front());
+    if (first.size() != second.size()) {
+      lines_.fail(link.place, fmt::format("the sets of the *MPC have {} and {} nodes; they must "
+                                          "have as many, or the second a single one",
+                                          first.size(), second.size()));
+    }
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      if (first[k] == second[k]) {
+        lines_.fail(link.place, "the *MPC joins a node to itself");
+      }
+      if (link.kind == AbaqusLinkKind::mpc_beam) {
+        out_.rigid_links.push_back(
+            {link.name, second[k], {first[k]}, link.variables, link.place.line});
+        continue;
+      }
+      const bool turn = link.kind == AbaqusLinkKind::mpc_tie &&
+                        turns_[static_cast<std::size_t>(first[k])] &&
+                        turns_[static_cast<std::size_t>(second[k])];
+      for (int v = 0; v < (turn ? 6 : 3); ++v) {
+        out_.equations.push_back({{{first[k], v, 1.0}, {second[k], v, -1.0}}, link.place.line});
+      }
+    }
+  }
+
+  std::vector<int> by_number(std::vector<int> nodes) const {
+    const auto& labels = names_.labels();
+    std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) {
+      return labels[static_cast<std::size_t>(a)] < labels[static_cast<std::size_t>(b)];
+    });
+    return nodes;
+  }
+
+  void add(const AbaqusEquation& equation) {
+    std::vector<std::vector<int>> nodes;
+    for (const AbaqusEquation::Term& term : equation.terms) {
+      nodes.push_back(by_number(names_.nodes(scope_, term.reference, equation.place)));
+    }
+    const std::size_t count = nodes.front().size();
+    for (const auto& list : nodes) {
+      if (list.size() == count || list.size() == 1) continue;
+      lines_.fail(equation.place, fmt::format("the sets of the equation have {} and {} nodes; they "
+                                              "must have as many, or a single one",
+                                              count, list.size()));
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      fem::ImportedEquation& out = out_.equations.emplace_back();
+      out.line = equation.place.line;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const int node = nodes[i].size() == 1 ? nodes[i].front() : nodes[i][k];
+        add_term(node, equation.terms[i], out);
+      }
+    }
+  }
+
+  /// A term in the axes of *TRANSFORM becomes up to three in those of the mesh.
+  void add_term(int node, const AbaqusEquation::Term& term, fem::ImportedEquation& out) const {
+    const auto found = transforms_.find(node);
+    if (found == transforms_.end()) {
+      out.terms.push_back({node, term.variable, term.coefficient});
+      return;
+    }
+    const Matrix3d axes = axes_at(node, *found->second.first, found->second.second);
+    const int first = term.variable < 3 ? 0 : 3;
+    const Vector3d shares = term.coefficient * axes.col(term.variable - first);
+    std::vector<int> order = {0, 1, 2};
+    // The term that is eliminated comes first, so it must be the largest.
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return std::abs(shares[a]) > std::abs(shares[b]); });
+    for (const int k : order) {
+      if (shares[k] != 0.0) out.terms.push_back({node, first + k, shares[k]});
+    }
+  }
+
+  /// Columns: the directions 1, 2, 3 of a *TRANSFORM at a node.
+  Matrix3d axes_at(int node, const AbaqusTransform& transform, int scope) const {
+    const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
+    if (!transform.is_supported) {
+      lines_.fail(transform.place,
+                  "an *EQUATION uses nodes of this *TRANSFORM; only TYPE=R and "
+                  "TYPE=C are supported there");
+    }
+    Matrix3d out;
+    if (transform.is_cylindrical) {
+      const Vector3d axis = placed.rotation * (transform.b - transform.a).normalized();
+      Vector3d radial = names_.positions()[static_cast<std::size_t>(node)] -
+                        (placed.rotation * transform.a + placed.origin);
+      radial -= radial.dot(axis) * axis;
+      if (radial.norm() == 0.0) {
+        lines_.fail(transform.place,
+                    "a node of this *TRANSFORM lies on its axis, where no radial "
+                    "direction is");
+      }
+      out.col(0) = radial.normalized();
+      out.col(1) = axis.cross(out.col(0));
+      out.col(2) = axis;
+      return out;
+    }
+    out.col(0) = transform.a.normalized();
+    out.col(2) = transform.a.cross(transform.b).normalized();
+    out.col(1) = out.col(2).cross(out.col(0));
+    return placed.rotation * out;
+  }
+
+  const AbaqusLines& lines_;
+  AbaqusNames& names_;
+  fem::ImportedMesh& out_;
+  int scope_ = 0;
+  std::vector<bool> turns_;
+  /// Per node its *TRANSFORM and the placed scope where it stands.
+  std::map<int, std::pair<const AbaqusTransform*, int>> transforms_;
+};
+
+}  // namespace
+
+void add_abaqus_links(const AbaqusLines& lines, AbaqusNames& names, fem::ImportedMesh& out) {
+  LinkMaker(lines, names, out).run();
+}
+
+}  // namespace buckens::io

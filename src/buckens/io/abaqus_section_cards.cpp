@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "buckens/io/abaqus_cards.h"
+#include "buckens/io/deck_number.h"
+
+namespace buckens::io {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+AbaqusSection& add_section(AbaqusReading& in, const DeckKeyword& keyword, fem::PropertyKind kind) {
+  AbaqusSection& section = in.scope->sections.emplace_back();
+  section.kind = kind;
+  section.element_set = in.parameter(keyword, "ELSET");
+  section.material = in.optional_parameter(keyword, "MATERIAL");
+  section.orientation = in.optional_parameter(keyword, "ORIENTATION");
+  section.place = keyword.place;
+  return section;
+}
+
+/// OFFSET=SPOS, SNEG or a share of the thickness.
+double read_offset(AbaqusReading& in, const DeckKeyword& keyword) {
+  const std::string text = upper(in.optional_parameter(keyword, "OFFSET"));
+  if (text.empty()) return 0.0;
+  if (text == "SPOS") return 0.5;
+  if (text == "SNEG") return -0.5;
+  if (const auto value = deck_number(text)) return *value;
+  in.lines.fail(keyword.place, fmt::format("OFFSET={}: expected is SPOS, SNEG or a number (offsets "
+                                           "from node to node are not supported)",
+                                           text));
+}
+
+double positive(AbaqusReading& in, const DeckRow& row, std::size_t i, const char* what) {
+  const double value = in.lines.number(row, i, what);
+  if (value > 0.0) return value;
+  in.lines.fail(row.place, fmt::format("{} is {:g}; it must be positive", what, value));
+}
+
+void read_layers(AbaqusReading& in, AbaqusSection& section) {
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    AbaqusSection::Layer& layer = section.layers.emplace_back();
+    layer.thickness = positive(in, row, 0, "thickness of the layer");
+    layer.material = row.cell(2);
+    layer.place = row.place;
+    if (layer.material.empty()) in.lines.fail(row.place, "the layer has no material (third value)");
+    if (const auto angle = deck_number(row.cell(3))) {
+      layer.angle = *angle * kDegree;
+    } else {
+      layer.orientation = row.cell(3);
+    }
+  }
+  if (section.layers.empty()) in.lines.fail(section.place, "the laminate has no layers");
+}
+
+/// A hollow rectangle whose opposite walls are alike, by its constants.
+fem::GeneralSectionSpec box_constants(double a, double b, double t_side, double t_flat) {
+  const double inner_a = a - 2.0 * t_side;
+  const double inner_b = b - 2.0 * t_flat;
+  fem::GeneralSectionSpec out;
+  out.A = a * b - inner_a * inner_b;
+  out.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
+  out.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
+  const double mid_a = a - t_side;
+  const double mid_b = b - t_flat;
+  out.J = 2.0 * mid_a * mid_a * mid_b * mid_b / (mid_b / t_side + mid_a / t_flat);  // Bredt
+  out.stress_points = {{a / 2, b / 2}, {-a / 2, b / 2}, {-a / 2, -b / 2}, {a / 2, -b / 2}};
+  return out;
+}
+
+fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
+  const double a = positive(in, row, 0, "width of the box");
+  const double b = positive(in, row, 1, "height of the box");
+  std::array<double, 4> t;
+  for (std::size_t k = 0; k < 4; ++k) {
+    t[k] = row.cell(2 + k).empty() && k > 0 ? t[0] : positive(in, row, 2 + k, "wall of the box");
+  }
+  if (t[0] != t[2] || t[1] != t[3]) {
+    in.lines.fail(row.place, "opposite walls of a box must be alike; give SECTION=GENERAL");
+  }
+  if (2.0 * t[0] >= a || 2.0 * t[1] >= b) {
+    in.lines.fail(row.place, "the walls are thicker than half of the box; use SECTION=RECT");
+  }
+  fem::SectionSpec out;
+  if (t[0] == t[1]) {
+    out.shape = fem::BoxSpec{a, b, t[0]};
+  } else {
+    out.shape = box_constants(a, b, t[0], t[1]);
+  }
+  return out;
+}
+
+/// A, I11, I12, I22, J.
+fem::SectionSpec read_general(AbaqusReading& in, const DeckRow& row) {
+  fem::GeneralSectionSpec shape;
+  shape.A = positive(in, row, 0, "area of the section");
+  shape.Iy = positive(in, row, 1, "I11 of the section");
+  shape.Iz = positive(in, row, 3, "I22 of the section");
+  shape.J = positive(in, row, 4, "torsion constant of the section");
+  if (in.lines.number_or(row, 2, 0.0, "I12 of the section") != 0.0) {
+    in.lines.fail(row.place,
+                  "I12 must be zero; give the moments about the principal axes and turn "
+                  "n1 into the first of them");
+  }
+  fem::SectionSpec out;
+  out.shape = shape;
+  return out;
+}
+
+/// The shape on a data line. Direction 1 of the section becomes local y, direction 2 local z.
+fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row) {
+  fem::SectionSpec out;
+  if (name == "RECT") {
+    const double a = positive(in, row, 0, "width of the rectangle");
+    out.shape = fem::RectangleSpec{a, positive(in, row, 1, "height of the rectangle")};
+  } else if (name == "CIRC") {
+    const double radius = positive(in, row, 0, "radius of the circle");
+    if (in.lines.number_or(row, 1, radius, "second radius") != radius) {
+      in.lines.fail(row.place, "the two radii of CIRC differ; give an ellipse as SECTION=GENERAL");
+    }
+    out.shape = fem::CircleSpec{2.0 * radius};
+  } else if (name == "PIPE") {
+    const double radius = positive(in, row, 0, "radius of the pipe");
+    const double wall = positive(in, row, 1, "wall of the pipe");
+    if (wall > radius) in.lines.fail(row.place, "the wall is thicker than the radius");
+    if (wall == radius) {
+      out.shape = fem::CircleSpec{2.0 * radius};
+    } else {
+      out.shape = fem::TubeSpec{2.0 * radius, wall, std::nullopt};
+    }
+  } else if (name == "BOX") {
+    out = read_box(in, row);
+  } else if (name == "GENERAL") {
+    out = read_general(in, row);
+  } else {
+    in.lines.fail(row.place, fmt::format("SECTION={} is not supported; RECT, CIRC, PIPE, BOX and "
+                                         "GENERAL are. Give its constants as SECTION=GENERAL",
+                                         name));
+  }
+  return out;
+}
+
+/// Shape and, on the next line, direction n1.
+void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& section) {
+  DeckRow row;
+  if (!in.lines.next_row(row))
+    in.lines.fail(section.place, "the measures of the section are missing");
+  section.shape = read_shape(in, name, row);
+  section.shape->where = in.lines.where(row.place);
+  if (!in.lines.next_row_or_blank(row) || row.cells.empty()) return;
+  section.n1 = read_vector(in.lines, row, 0, "direction n1");
+  if (section.n1.norm() == 0.0) in.lines.fail(row.place, "direction n1 cannot be zero");
+}
+
+/// Orthonormal axes from a point on axis 1 and one in the plane of axes 1 and 2.
+std::optional<Matrix3d> axes_from(const Vector3d& a, const Vector3d& b) {
+  const Vector3d normal = a.cross(b);
+  if (!(normal.norm() > 1e-10 * a.norm() * b.norm()) || a.norm() == 0.0) return std::nullopt;
+  Matrix3d out;
+  out.col(0) = a.normalized();
+  out.col(2) = normal.normalized();
+  out.col(1) = out.col(2).cross(out.col(0));
+  return out;
+}
+
+}  // namespace
+
+void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::solid);
+  if (keyword.has("COMPOSITE")) {
+    in.lines.fail(keyword.place,
+                  "layered solids are not supported; use one element through each "
+                  "layer, or shells with *SHELL SECTION, COMPOSITE");
+  }
+  DeckRow row;
+  if (!in.lines.next_row(row) || row.cell(0).empty()) return;
+  section.area = positive(in, row, 0, "area or thickness");
+}
+
+void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::shell);
+  section.offset = read_offset(in, keyword);
+  if (keyword.has("COMPOSITE")) return read_layers(in, section);
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "the thickness of the shell is missing on the next line");
+  }
+  section.thickness = positive(in, row, 0, "thickness of the shell");
+}
+
+void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
+  read_shape_rows(in, upper(in.parameter(keyword, "SECTION")), section);
+}
+
+void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
+  std::string shape = upper(in.optional_parameter(keyword, "SECTION"));
+  if (shape.empty()) shape = "GENERAL";
+  read_shape_rows(in, shape, section);
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "Young's modulus and shear modulus are missing on the third line");
+  }
+  fem::MaterialSpec material;
+  material.name = "*BEAM GENERAL SECTION " + section.element_set;
+  material.where = in.lines.where(row.place);
+  material.E = positive(in, row, 0, "Young's modulus");
+  material.G = positive(in, row, 1, "shear modulus");
+  material.nu = material.E / (2.0 * *material.G) - 1.0;
+  if (material.nu > 0.5 || material.nu < -1.0) material.nu = 0.0;  // the beam uses E and G only
+  if (const std::string density = in.optional_parameter(keyword, "DENSITY"); !density.empty()) {
+    const auto value = deck_number(density);
+    if (!value || *value < 0.0) {
+      in.lines.fail(keyword.place, fmt::format("DENSITY={} is no density", density));
+    }
+    material.rho = *value;
+  }
+  section.material = material.name;
+  in.deck.materials[upper(material.name)] = material;
+}
+
+void read_mass(AbaqusReading& in, const DeckKeyword& keyword) {
+  const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  if (!type.empty() && type != "ISOTROPIC") {
+    in.lines.fail(
+        keyword.place,
+        fmt::format("a *MASS of TYPE={} acts differently in its directions, which no body "
+                    "in space does; give one mass",
+                    type));
+  }
+  AbaqusMass& mass = in.scope->masses.emplace_back();
+  mass.element_set = in.parameter(keyword, "ELSET");
+  mass.place = keyword.place;
+  DeckRow row;
+  if (!in.lines.next_row(row)) in.lines.fail(keyword.place, "the mass is missing on the next line");
+  mass.mass = in.lines.number(row, 0, "mass");
+  if (mass.mass < 0.0)
+    in.lines.fail(row.place, fmt::format("the mass {:g} is negative", mass.mass));
+}
+
+void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusMass& mass = in.scope->masses.emplace_back();
+  mass.element_set = in.parameter(keyword, "ELSET");
+  mass.orientation = in.optional_parameter(keyword, "ORIENTATION");
+  mass.place = keyword.place;
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "the moments of inertia are missing on the next line");
+  }
+  Matrix3d& I = mass.inertia;
+  for (int k = 0; k < 3; ++k) {
+    I(k, k) = in.lines.number(row, static_cast<std::size_t>(k), "moment of inertia");
+  }
+  I(0, 1) = I(1, 0) = in.lines.number_or(row, 3, 0.0, "product of inertia");
+  I(0, 2) = I(2, 0) = in.lines.number_or(row, 4, 0.0, "product of inertia");
+  I(1, 2) = I(2, 1) = in.lines.number_or(row, 5, 0.0, "product of inertia");
+}
+
+void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusOrientation out;
+  out.name = in.parameter(keyword, "NAME");
+  out.place = keyword.place;
+  out.system = upper(in.optional_parameter(keyword, "SYSTEM"));
+  const std::string definition = upper(in.optional_parameter(keyword, "DEFINITION"));
+  if (out.system.empty() || out.system == "R") out.system = "RECTANGULAR";
+  if (!definition.empty() && definition != "COORDINATES") out.system = "DEFINITION=" + definition;
+  DeckRow row;
+  if (out.system == "RECTANGULAR") {
+    if (!in.lines.next_row(row)) {
+      in.lines.fail(keyword.place, "the points a and b are missing on the next line");
+    }
+    const Vector3d origin = read_vector(in.lines, row, 6, "coordinate of point c");
+    const auto axes = axes_from(read_vector(in.lines, row, 0, "coordinate of point a") - origin,
+                                read_vector(in.lines, row, 3, "coordinate of point b") - origin);
+    if (!axes) {
+      in.lines.fail(row.place, "the points a, b and c lie on one line and give no axes");
+    }
+    out.axes = *axes;
+    if (in.lines.next_row(row)) {
+      const double axis = in.lines.number_or(row, 0, 1.0, "axis of the additional rotation");
+      const double angle = in.lines.number_or(row, 1, 0.0, "angle of the additional rotation");
+      if (axis != 1.0 && axis != 2.0 && axis != 3.0) {
+        in.lines.fail(row.place, fmt::format("{:g} is no axis; it is 1, 2 or 3", axis));
+      }
+      const Vector3d about = out.axes.col(static_cast<Eigen::Index>(axis) - 1);
+      out.axes = Eigen::AngleAxisd(angle * kDegree, about).toRotationMatrix() * out.axes;
+    }
+  } else {
+    in.note(keyword.place, fmt::format("*ORIENTATION of {}: used for isotropic materials only, "
+                                       "where it changes nothing",
+                                       out.system));
+  }
+  in.scope->orientations[upper(out.name)] = out;
+}
+
+void read_transform(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusTransform out;
+  out.node_set = in.parameter(keyword, "NSET");
+  out.place = keyword.place;
+  const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  out.is_cylindrical = type == "C";
+  out.is_supported = type.empty() || type == "R" || out.is_cylindrical;
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "the points a and b are missing on the next line");
+  }
+  out.a = read_vector(in.lines, row, 0, "coordinate of point a");
+  out.b = read_vector(in.lines, row, 3, "coordinate of point b");
+  const bool is_bad =
+      out.is_cylindrical ? (out.a - out.b).norm() == 0.0 : !axes_from(out.a, out.b).has_value();
+  if (is_bad) in.lines.fail(row.place, "the points a and b give no axes");
+  in.scope->transforms.push_back(out);
+}
+
+}  // namespace buckens::io
