@@ -13,6 +13,7 @@
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/frame_division.h"
 #include "buckens/body/reduction_spec.h"
+#include "buckens/fem/matrices_spec.h"
 #include "buckens/fem/mesh_spec.h"
 #include "buckens/fem/region_spec.h"
 #include "buckens/fem/structure_spec.h"
@@ -232,7 +233,7 @@ struct BodySpec {
   /// What the body is made of. The reader replaces LikeSpec by the other body's content; `like`
   /// then holds the other body's name.
   std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, fem::MeshSpec, fem::GeometrySpec,
-               LikeSpec>
+               fem::MatricesSpec, LikeSpec>
       kind;
   std::string like;
   PlacementSpec at;

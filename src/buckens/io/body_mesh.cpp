@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/node_number.h"
+#include "buckens/io/matrix_body.h"
 #include "buckens/io/mesh_file.h"
 #include "buckens/io/step_mesh.h"
 
@@ -18,10 +20,22 @@ std::filesystem::path full_path(const std::string& name, const ReadContext& cont
   return context.directory / name;
 }
 
-const fem::ImportedMesh* imported_mesh(const body::BodySpec& body) {
-  if (const auto* mesh = std::get_if<fem::MeshSpec>(&body.kind)) return mesh->imported.get();
-  if (const auto* part = std::get_if<fem::GeometrySpec>(&body.kind)) return part->imported.get();
-  return nullptr;
+/// Numbers of the nodes in the file of the body, null if it has none.
+const std::vector<std::int64_t>* node_numbers(const body::BodySpec& body) {
+  const fem::GroupMaterials* source = std::get_if<fem::MeshSpec>(&body.kind);
+  if (source == nullptr) source = std::get_if<fem::GeometrySpec>(&body.kind);
+  if (source != nullptr) return source->imported ? &source->imported->node_ids : nullptr;
+  const auto* matrices = std::get_if<fem::MatricesSpec>(&body.kind);
+  return matrices != nullptr && matrices->imported ? &matrices->imported->numbers : nullptr;
+}
+
+void load_matrices(fem::MatricesSpec& matrices, const ReadContext& context) {
+  if (matrices.imported) return;
+  try {
+    matrices.imported = read_body_matrices(matrices, context.directory);
+  } catch (const IoError& error) {
+    throw InputError(matrices.where, error.what());
+  }
 }
 
 void load_geometry(fem::GeometrySpec& part, const ReadContext& context) {
@@ -40,6 +54,9 @@ void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
     if (!part->imported) load_geometry(*part, context);
     return;
   }
+  if (auto* matrices = std::get_if<fem::MatricesSpec>(&body.kind)) {
+    return load_matrices(*matrices, context);
+  }
   auto* mesh = std::get_if<fem::MeshSpec>(&body.kind);
   if (mesh == nullptr || !mesh->is_file() || mesh->imported) return;
   const auto& source = std::get<fem::MeshFileSpec>(mesh->shape);
@@ -53,10 +70,10 @@ void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
 }
 
 bool is_numbered_node(const body::BodySpec& body, const std::string& name) {
-  const fem::ImportedMesh* mesh = imported_mesh(body);
+  const std::vector<std::int64_t>* known = node_numbers(body);
   const auto number = fem::node_number(name);
-  if (mesh == nullptr || !number) return false;
-  return std::find(mesh->node_ids.begin(), mesh->node_ids.end(), *number) != mesh->node_ids.end();
+  if (known == nullptr || !number) return false;
+  return std::find(known->begin(), known->end(), *number) != known->end();
 }
 
 }  // namespace buckens::io

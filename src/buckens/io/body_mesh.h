@@ -8,7 +8,8 @@
 
 namespace buckens::io {
 
-/// Reads the file of a `mesh` and turns it into SI units; other bodies stay as they are.
+/// Reads the file of a `mesh` or those of `matrices` and turns them into SI units; other bodies
+/// stay as they are.
 /// @throws InputError with the place of the file name where it cannot be read
 void load_body_mesh(body::BodySpec& body, const ReadContext& context);
 

@@ -307,6 +307,26 @@ Finding problem(const body::RigidSpec& spec, const ReadContext&) {
   return inertia_problem(spec.inertia);
 }
 
+namespace {
+
+/// Keys that need elements.
+Finding matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& matrices) {
+  if (!spec.frames.is_one()) {
+    return Problem{"frames", "a body given by matrices cannot be divided; remove the key"};
+  }
+  if (spec.geometric_stiffness) {
+    return Problem{"geometric-stiffness", "it belongs to beams and bars; remove the key"};
+  }
+  if (spec.damping && !matrices.damping.empty()) {
+    return Problem{
+        "damping",
+        "give either a damping matrix (`matrices: {damping: file}`) or Rayleigh damping"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Finding problem(const body::BodySpec& spec, const ReadContext&) {
   if (const auto conflict = body::reduction_conflict(spec)) {
     return Problem{conflict->key, conflict->text};
@@ -316,6 +336,9 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   }
   if (spec.is_rigid() && spec.geometric_stiffness) {
     return Problem{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
+  }
+  if (const auto* matrices = std::get_if<fem::MatricesSpec>(&spec.kind)) {
+    return matrices_problem(spec, *matrices);
   }
   const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind);
   const bool is_solid =

@@ -76,6 +76,12 @@ void find_section(const SectionPlace& kind, bool of_forces, MarkerFinder& find,
                                  kind.of.text));
   }
   const fem::FeModel& fe = model.bodies[b].flexible->mesh();
+  if (fe.blocks.empty()) {
+    throw ModelError(kind.of.where,
+                     fmt::format("body \"{}\" is given by matrices; without elements "
+                                 "it has neither stresses nor section forces",
+                                 kind.of.body));
+  }
   const WholeBody& whole = model.wholes[static_cast<std::size_t>(model.whole_of(found.body))];
   if (kind.element) {
     find_numbered(kind, whole, fe, found);

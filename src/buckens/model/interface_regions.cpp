@@ -150,7 +150,9 @@ std::vector<InterfaceRegion> find_interfaces(const body::BodySpec& spec,
                                              const NamedStructure& mesh) {
   std::vector<InterfaceRegion> out;
   for (const body::InterfaceSpec& interface : spec.interfaces) {
-    if (mesh.structure.solids.num_elements() + mesh.structure.shells.num_elements() == 0) {
+    const bool has_surface =
+        mesh.structure.solids.num_elements() + mesh.structure.shells.num_elements() > 0;
+    if (!has_surface && !mesh.matrices) {
       throw InputError(interface.where,
                        fmt::format("interface \"{}\" of body \"{}\": interfaces belong to meshes "
                                    "of solids and shells; beams and bars have markers at nodes",

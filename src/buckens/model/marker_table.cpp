@@ -76,7 +76,8 @@ std::optional<MeshPlace> MarkerTable::place_at(const Vector3d& position) const {
     if (xi > 1.0 - kOnMesh) return MeshPlace{lines[e].b, -1, 0};
     return MeshPlace{-1, static_cast<int>(e), xi};
   }
-  if (fem::num_solids(fe) == 0) return std::nullopt;
+  const bool is_matrices = fe.blocks.empty();
+  if (fem::num_solids(fe) == 0 && !is_matrices) return std::nullopt;
   const NearNode near = nearest_node(fe.nodes, position);
   if (near.distance <= kOnMesh * near.next) return MeshPlace{near.node, -1, 0};
   return std::nullopt;

@@ -38,7 +38,8 @@ bool may_be_mechanism(const body::FlexiblePart& part) {
 
 void refuse_mechanisms(const body::Body& body) {
   const fem::FeModel& fe = body.flexible->fe;
-  if (!may_be_mechanism(*body.flexible)) return;
+  const bool is_matrices = fe.blocks.empty();
+  if (!is_matrices && !may_be_mechanism(*body.flexible)) return;
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), 1);
   if (modes.omega.size() == 0) return;
   const double scale = fe.K.diagonal().maxCoeff() / fe.M.diagonal().maxCoeff();
@@ -51,6 +52,12 @@ void refuse_mechanisms(const body::Body& body) {
     if (std::find(dofs.begin(), dofs.end(), static_cast<int>(dof)) == dofs.end()) continue;
     node = fe.nodes[k].name.empty() ? fmt::format("node {}", k)
                                     : fmt::format("node \"{}\"", fe.nodes[k].name);
+  }
+  if (is_matrices) {
+    throw ModelError(fmt::format(
+        "body \"{}\": its stiffness matrix leaves more than the rigid motions free: {} can move "
+        "without strain, or the matrix is not positive; write the matrices of one connected body",
+        body.name, node));
   }
   throw ModelError(fmt::format(
       "body \"{}\" is a mechanism in itself: {} can move without straining an element; add bars, "

@@ -9,7 +9,6 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_regions.h"
-#include "buckens/fem/assemble.h"
 #include "buckens/model/add_distributed_load.h"
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
@@ -121,7 +120,7 @@ class Builder {
     whole.interfaces = meshes_[w]->interfaces;
     if (spec.frames.is_one()) return;
     // The whole mesh comes first: it finds what is wrong with nodes and elements.
-    auto mesh = std::make_shared<fem::FeModel>(fem::assemble(meshes_[w]->structure, model_.planar));
+    auto mesh = std::make_shared<fem::FeModel>(assemble(*meshes_[w], model_.planar));
     MeshDivision division = divide_mesh(*meshes_[w], spec.frames);
     if (division.parts.size() == 1) return;
     require_memory(division, usable_memory());
@@ -196,7 +195,7 @@ class Builder {
       body.com = rigid->com;
       body.J0 = rigid->inertia_matrix();
     } else {
-      fem::FeModel fe = fem::assemble(mesh->structure, model_.planar);
+      fem::FeModel fe = assemble(*mesh, model_.planar);
       body.mass = fe.shape.mass;
       body.com = fe.shape.com;
       body.J0 = fe.shape.J0;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/assemble.h"
 #include "buckens/fem/generate_mesh.h"
 #include "buckens/fem/node_number.h"
 #include "buckens/fem/plate_mesh.h"
@@ -34,6 +35,8 @@ class Builder {
       }
     } else if (const auto* part = std::get_if<fem::GeometrySpec>(&spec_.kind)) {
       add_imported(*part, part->masses, part->where);
+    } else if (const auto* matrices = std::get_if<fem::MatricesSpec>(&spec_.kind)) {
+      add_matrices(*matrices);
     } else {
       add_structure(std::get<fem::StructureSpec>(spec_.kind));
     }
@@ -60,6 +63,7 @@ class Builder {
   void add_generated(const fem::MeshSpec& mesh);
   void add_imported(const fem::GroupMaterials& source,
                     const std::vector<fem::PointMassSpec>& masses, const SourceLocation& where);
+  void add_matrices(const fem::MatricesSpec& matrices);
   void add_structure(const fem::StructureSpec& structure);
   void add_solid(const fem::SolidMemberSpec& solid);
   void add_shell(const fem::ShellMemberSpec& shell);
@@ -153,6 +157,16 @@ void Builder::add_imported(const fem::GroupMaterials& source,
   for (const fem::PointMassSpec& mass : masses) add_mass(mass);
 }
 
+void Builder::add_matrices(const fem::MatricesSpec& matrices) {
+  if (!matrices.imported) throw InputError(matrices.where, "the matrices have not been read");
+  out_.matrices = matrices.imported;
+  out_.structure.nodes = matrices.imported->nodes;
+  for (std::size_t k = 0; k < matrices.imported->numbers.size(); ++k) {
+    out_.numbers.emplace(matrices.imported->numbers[k], static_cast<int>(k));
+  }
+  if (spec_.damping) out_.rayleigh = {spec_.damping->alpha(), spec_.damping->beta()};
+}
+
 int Builder::node_called(const std::string& name, const SourceLocation& where) const {
   const auto place = out_.find(name);
   if (!place) {
@@ -182,6 +196,12 @@ std::optional<MeshPlace> NamedStructure::find(const std::string& name) const {
 
 const InterfaceRegion* NamedStructure::find_interface(const std::string& name) const {
   return base::find_named(interfaces, name);
+}
+
+fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> planar) {
+  // Matrices keep all variables in a plane model, as solids do.
+  return mesh.matrices ? fem::assemble(*mesh.matrices, mesh.rayleigh)
+                       : fem::assemble(mesh.structure, planar);
 }
 
 NamedStructure structure_from_spec(const body::BodySpec& spec) {

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "buckens/body/body_spec.h"
+#include "buckens/fem/body_matrices.h"
 #include "buckens/fem/structure.h"
 #include "buckens/model/interface_region.h"
+#include "buckens/spatial/plane.h"
 
 namespace buckens::model {
 
@@ -28,6 +31,9 @@ struct NamedStructure {
   std::vector<MeshPlace> places;
   std::unordered_map<std::int64_t, int> numbers;  ///< nodes by their number in a mesh file
   std::vector<InterfaceRegion> interfaces;
+  /// Of a body without elements; its nodes are those of `structure`.
+  std::shared_ptr<const fem::BodyMatrices> matrices;
+  fem::RayleighFactors rayleigh;  ///< damping of such a body
 
   /// A named place; nodes of mesh files are `n` and the number.
   std::optional<MeshPlace> find(const std::string& name) const;
@@ -35,8 +41,11 @@ struct NamedStructure {
   const InterfaceRegion* find_interface(const std::string& name) const;
 };
 
-/// Turns a `beam`, `structure` or `mesh` of the model file into nodes and elements.
+/// Turns a `beam`, `structure`, `mesh` or `matrices` of the model file into nodes and elements.
 /// @throws InputError or ModelError with the place in the file
 NamedStructure structure_from_spec(const body::BodySpec& spec);
+
+/// The constant matrices of a mesh, or those that stand in its place.
+fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> planar);
 
 }  // namespace buckens::model

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
+
+#include "buckens/fem/coupled_nodes.h"
 #include "buckens/fem/recovery.h"
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/model/model_description.h"
@@ -15,6 +18,9 @@ namespace buckens::results {
 using Eigen::Vector3d;
 
 namespace {
+
+// Of lines that stand for elements, as a share of the size of the body.
+constexpr double kLineRadius = 0.002;
 
 /// Number of markers on the parts of a divided body before the one with this index.
 int markers_before(const model::Model& model, const model::WholeBody& whole, int body) {
@@ -78,12 +84,23 @@ Vector3d to_body(const model::Model& model, const model::MarkerId& id, const Vec
          axis;
 }
 
+/// Lines in place of the elements that a body given by matrices does not have.
+void add_lines(const fem::FeModel& mesh, GeometryBody& shape) {
+  Eigen::AlignedBox3d box;
+  for (const fem::Node& node : mesh.nodes) box.extend(node.position);
+  for (const auto& pair : fem::coupled_nodes(mesh)) {
+    shape.elements.push_back(pair);
+    shape.radius.push_back(kLineRadius * box.diagonal().norm());
+  }
+}
+
 void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape) {
   shape.kind = fem::num_solids(mesh) > 0 ? BodyKind::solid : BodyKind::beam;
   shape.nodes.resize(static_cast<Eigen::Index>(mesh.nodes.size()), 3);
   for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
     shape.nodes.row(static_cast<Eigen::Index>(k)) = (mesh.nodes[k].position - com).transpose();
   }
+  if (mesh.blocks.empty()) return add_lines(mesh, shape);
   for (const fem::LineElement& line : fem::line_elements(mesh)) {
     shape.elements.push_back({line.a, line.b});
     shape.radius.push_back(line.radius);
