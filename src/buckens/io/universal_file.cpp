@@ -82,6 +82,7 @@ class UniversalReader {
   TaggedMesh& mesh_;
   std::unordered_map<std::int64_t, int> nodes_, element_numbers_;
   std::vector<Element> elements_;
+  int unknown_members_ = 0;
 };
 
 void UniversalReader::read_nodes() {
@@ -157,8 +158,8 @@ void UniversalReader::read_group_members(std::int64_t number, const std::string&
     if (type != 7 && type != 8) continue;
     const auto found = known.find(id);
     if (found == known.end()) {
-      text_.fail(fmt::format("group \"{}\" has {} {}, which does not stand before it", name,
-                             type == 7 ? "node" : "element", id));
+      ++unknown_members_;  // Gmsh counts points among the members but writes them nowhere
+      continue;
     }
     if (type == 7) {
       nodes.push_back(found->second);
@@ -221,6 +222,10 @@ void UniversalReader::read() {
     text_.next_line("-1, the end of the data set,");
   }
   if (!found_nodes) text_.fail("the file has no nodes (data set 2411)");
+  if (unknown_members_ > 0) {
+    mesh_.notes.push_back(
+        {"members of groups that the file does not have are left out", 0, unknown_members_});
+  }
   for (Element& element : elements_) {
     std::sort(element.groups.begin(), element.groups.end());
     element.groups.erase(std::unique(element.groups.begin(), element.groups.end()),

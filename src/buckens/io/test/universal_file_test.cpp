@@ -93,6 +93,14 @@ TEST(UniversalFile, ReadsNodesElementsAndGroups) {
   EXPECT_THAT(mesh.notes[0].text, HasSubstr("1 m is 1000 of its units"));
 }
 
+TEST(UniversalFile, LeavesOutMembersThatAreNotThere) {
+  const ImportedMesh mesh = read_gmsh_bytes(
+      replaced(kPart, "         8         7         0", "         8        70         0"),
+      "part.unv");
+  EXPECT_TRUE(mesh.properties.empty());
+  EXPECT_THAT(mesh.notes.back().text, HasSubstr("members of groups"));
+}
+
 TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(message_of("hello\n"), HasSubstr("part.unv:1:1: -1, with which"));
   EXPECT_THAT(message_of("    -1\n  2412\n    -1\n"), HasSubstr("no nodes"));
@@ -104,10 +112,6 @@ TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
               HasSubstr("has 4 nodes in place of 10"));
   EXPECT_THAT(message_of(replaced(kPart, "2.0000000000000000D+00", "                   inf")),
               HasSubstr("part.unv:12:"));
-  EXPECT_THAT(message_of(replaced(kPart, "         8         7         0",
-                                  "         8        70  "
-                                  "       0")),
-              HasSubstr("group \"body\" has element 70"));
 }
 
 TEST(UniversalFile, SurvivesEveryTruncation) {
