@@ -2,7 +2,6 @@
 #include "buckens/fem/cell_measure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -20,37 +19,31 @@ namespace {
 
 using Points = std::vector<Vector3d>;
 
-/// The solid element that interpolates a kind, with the node that stands at each of its places.
-/// Wedges and pyramids are hexahedra whose edges have shrunk to points.
-struct Interpolation {
-  SolidKind kind;
-  std::vector<std::size_t> nodes;
-};
-
-std::vector<std::size_t> first_numbers(std::size_t count) {
-  std::vector<std::size_t> out(count);
-  for (std::size_t k = 0; k < count; ++k) out[k] = k;
-  return out;
-}
-
-std::optional<Interpolation> interpolation(CellKind kind) {
+std::optional<SolidKind> solid_kind(CellKind kind) {
   switch (kind) {
     case CellKind::tet4:
-      return Interpolation{SolidKind::tet4, first_numbers(4)};
+      return SolidKind::tet4;
     case CellKind::tet10:
-      return Interpolation{SolidKind::tet10, first_numbers(10)};
+      return SolidKind::tet10;
     case CellKind::hex8:
-      return Interpolation{SolidKind::hex8, first_numbers(8)};
+      return SolidKind::hex8;
     case CellKind::hex20:
-      return Interpolation{SolidKind::hex20, first_numbers(20)};
+      return SolidKind::hex20;
     case CellKind::wedge6:
+      return SolidKind::wedge6;
     case CellKind::wedge15:
-      return Interpolation{SolidKind::hex8, {0, 1, 2, 2, 3, 4, 5, 5}};
+      return SolidKind::wedge15;
     case CellKind::pyramid5:
-      return Interpolation{SolidKind::hex8, {0, 1, 2, 3, 4, 4, 4, 4}};
+      return SolidKind::pyramid5;
     default:
       return std::nullopt;
   }
+}
+
+NodeVectors columns(const Points& x) {
+  NodeVectors out(3, static_cast<Eigen::Index>(x.size()));
+  for (std::size_t k = 0; k < x.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = x[k];
+  return out;
 }
 
 CellMeasure simplex_measure(const Points& x, double size) {
@@ -96,12 +89,10 @@ CellMeasure cell_measure(CellKind kind, const Points& x) {
   if (dimension_of(kind) == 2) {
     return surface_measure({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(corners)});
   }
-  const auto form = interpolation(kind);
-  NodeVectors places(3, static_cast<Eigen::Index>(form->nodes.size()));
-  for (std::size_t k = 0; k < form->nodes.size(); ++k) {
-    places.col(static_cast<Eigen::Index>(k)) = x[form->nodes[k]];
-  }
-  const NodeProducts products = solid_volume_products(form->kind, places);
+  const auto solid = solid_kind(kind);
+  if (!solid) return {};
+  const NodeVectors places = columns(x);
+  const NodeProducts products = solid_volume_products(*solid, places);
   CellMeasure out;
   out.size = products.sum();
   out.first = places * products.rowwise().sum();
@@ -137,13 +128,6 @@ double aspect_ratio(CellKind kind, const Points& x) {
 
 bool is_inverted(CellKind kind, const Points& x) {
   if (dimension_of(kind) < 3) return false;
-  if (kind == CellKind::wedge6 || kind == CellKind::wedge15) {
-    constexpr std::array<std::array<std::size_t, 4>, 6> frames = {
-        {{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
-    return std::any_of(frames.begin(), frames.end(), [&](const auto& f) {
-      return determinant(x[f[1]] - x[f[0]], x[f[2]] - x[f[0]], x[f[3]] - x[f[0]]) <= 0.0;
-    });
-  }
   if (kind == CellKind::pyramid5) {
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector3d &here = x[k], &next = x[(k + 1) % 4], &last = x[(k + 3) % 4];
@@ -151,10 +135,8 @@ bool is_inverted(CellKind kind, const Points& x) {
     }
     return false;
   }
-  const auto form = interpolation(kind);
-  NodeVectors places(3, static_cast<Eigen::Index>(x.size()));
-  for (std::size_t k = 0; k < x.size(); ++k) places.col(static_cast<Eigen::Index>(k)) = x[k];
-  return solid_least_volume(form->kind, places) <= 0.0;
+  const auto solid = solid_kind(kind);
+  return solid && solid_least_volume(*solid, columns(x)) <= 0.0;
 }
 
 }  // namespace buckens::fem

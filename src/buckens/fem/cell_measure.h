@@ -19,7 +19,7 @@ struct CellMeasure {
   CellMeasure& add(const CellMeasure& other, double factor = 1.0);
 };
 
-/// Tetrahedra and hexahedra of either order exactly, other shapes by their corners.
+/// Volumes exactly, surfaces and lines by their corners.
 /// @param x places of all nodes
 CellMeasure cell_measure(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 
@@ -28,7 +28,7 @@ CellMeasure cell_measure(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 /// Infinite for flat ones. 1 for lines and points.
 double aspect_ratio(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 
-/// Whether a volume is turned inside out or flat at a node or integration point; of wedges and
+/// Whether a volume is turned inside out or flat at a node or integration point; of
 /// pyramids at a corner of the base.
 bool is_inverted(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 
