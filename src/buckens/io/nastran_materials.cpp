@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/nastran_materials.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -152,7 +151,7 @@ std::string NastranMaterials::name(std::int64_t id, Use use, const std::string& 
   return specs_[taken->second].name;
 }
 
-fem::MaterialSpec NastranMaterials::convert(const NastranCard& card) const {
+fem::MaterialSpec NastranMaterials::convert(const NastranCard& card) {
   fem::MaterialSpec out;
   out.where = card.where();
   out.name = unique_name(card);
@@ -169,11 +168,11 @@ fem::MaterialSpec NastranMaterials::convert(const NastranCard& card) const {
   return out;
 }
 
-std::string NastranMaterials::unique_name(const NastranCard& card) const {
+std::string NastranMaterials::unique_name(const NastranCard& card) {
   const std::string given = names_->material(card.id(0));
-  const bool taken = std::any_of(specs_.begin(), specs_.end(),
-                                 [&](const auto& other) { return other.name == given; });
-  return given.empty() || taken ? card.label() : given;
+  const std::string name = given.empty() || used_names_.contains(given) ? card.label() : given;
+  used_names_.insert(name);
+  return name;
 }
 
 }  // namespace buckens::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -35,12 +36,13 @@ class NastranMaterials {
   std::vector<fem::MaterialSpec> take() { return std::move(specs_); }
 
  private:
-  fem::MaterialSpec convert(const NastranCard& card) const;
-  std::string unique_name(const NastranCard& card) const;
+  fem::MaterialSpec convert(const NastranCard& card);
+  std::string unique_name(const NastranCard& card);
 
   std::unordered_map<std::int64_t, const NastranCard*> cards_;
   std::unordered_map<std::int64_t, std::size_t> taken_;
   std::vector<fem::MaterialSpec> specs_;
+  std::set<std::string> used_names_;
   const NastranNames* names_;
   NastranNotes* notes_;
   double weight_to_mass_ = 1;
