@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Decks of Nastran through the program."""
 
+import csv
 import math
 
 import numpy
@@ -141,3 +142,31 @@ def test_bad_decks_say_where(buckens, tmp_path, change, words):
 def test_a_missing_deck_is_named(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(FILE)
     buckens("check", "model.yaml").must(2, "model.yaml:5", "block.bdf", "there is no such file")
+
+
+PLATE = "plate_bdf/plate_bdf"
+
+
+def test_the_plate_vibrates_as_leissa_says(buckens):
+    report = buckens("modes", SOURCE / "examples" / f"{PLATE}.yaml", "--count", 6, "--json").must(0)
+    found = [mode["frequency"] for mode in report.json["analyses"][0]["modes"]]
+    # Leissa (1973), free rectangle with sides as 3 to 2, nu = 0.3: omega a^2 sqrt(rho h / D).
+    leissa = numpy.array([20.128, 21.603, 46.654, 50.293, 58.201, 67.494])
+    stiffness, mass = 210e9 * 0.004**3 / (12 * (1 - 0.3**2)), 7850 * 0.004
+    expected = leissa / (2 * math.pi * 0.6**2) * math.sqrt(stiffness / mass)
+    # 18 x 12 elements: the error of the mesh goes with h^2.
+    assert found == pytest.approx(expected, rel=1e-2)
+
+
+def test_the_plate_swings_as_a_pendulum(buckens, tmp_path):
+    buckens("run", SOURCE / "examples" / f"{PLATE}.yaml", "-o", "out").must(0)
+    rows = list(csv.reader((tmp_path / "out" / "sensors.csv").open()))
+    values = {name.split(" [")[0]: column
+              for name, column in zip(rows[0], numpy.array(rows[1:], dtype=float).T)}
+    # A rigid plate passes the lowest point after sqrt(2a/3g) K(sin 45 deg).
+    fall = math.sqrt(2 * 0.6 / (3 * 9.81)) * 1.8540746773
+    x = numpy.interp(fall, values["t"], values["edge.x"])
+    speed = math.sqrt(3 * 9.81 / 0.6) * 0.6
+    # Bending moves the edge by millimetres; in time that is 2 ms at its speed.
+    assert abs(x) < 2e-3 * speed
+    assert values["edge.z"].min() == pytest.approx(-0.6, abs=2e-3)
