@@ -13,6 +13,12 @@ void JournaledSink::begin(const results::RecordLayout& layout, const results::Ge
                               layout.channels().size()));
 }
 
+void JournaledSink::begin_fields(const results::FieldLayout& layout) {
+  directory_.begin_fields(layout);
+  journal_.record(fmt::format("recording {} values in {} fields over meshes",
+                              layout.fields.num_values(), layout.fields.channels().size()));
+}
+
 void JournaledSink::write(const results::Record& record) {
   directory_.write(record);
   ++num_records_;

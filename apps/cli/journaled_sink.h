@@ -20,6 +20,11 @@ class JournaledSink : public results::RecordSink {
   void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
   void write(const results::Record& record) override;
   void finish(const results::RunSummary& summary) override;
+  void begin_fields(const results::FieldLayout& layout) override;
+  void write_fields(const results::Record& fields) override { directory_.write_fields(fields); }
+  void write_extremes(const std::vector<double>& values) override {
+    directory_.write_extremes(values);
+  }
 
   /// Completes the directory of a run that failed, if the simulation has not done it: `reason` is
   /// what its summary names. Never throws; the failure itself is what the user has to learn.

@@ -12,6 +12,8 @@
 #include "cli/output.h"
 #include "cli/text_table.h"
 
+#include "buckens/analysis/output_plan.h"
+
 namespace buckens::cli {
 
 namespace {
@@ -196,6 +198,9 @@ std::string report_text(const std::string& title, const ModelReport& report) {
     entries.emplace_back("highest frequency excited by loads",
                          fmt::format("{:.5g} Hz", report.highest_frequency));
   }
+  if (report.result_bytes > 0) {
+    entries.emplace_back("size of results.h5", "about " + analysis::size_text(report.result_bytes));
+  }
   out += text_list(entries);
   for (const std::string& text : report.redundant) out += "redundant: " + text + '\n';
   for (const std::string& text : report.notes) out += "note: " + text + '\n';
@@ -218,6 +223,7 @@ std::string report_json(const std::string& title, const ModelReport& report) {
                   {"assembly_gap", report.assembly_gap},
                   {"step", report.step},
                   {"highest_frequency", report.highest_frequency},
+                  {"result_bytes", report.result_bytes},
                   {"notes", report.notes},
                   {"warnings", report.warnings}});
 }

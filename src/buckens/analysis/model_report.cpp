@@ -6,11 +6,14 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "buckens/analysis/output_plan.h"
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/step_advice.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/recovery.h"
 #include "buckens/fem/solid_recovery.h"
+#include "buckens/results/field_recorder.h"
+#include "buckens/results/recorder.h"
 
 namespace buckens::analysis {
 
@@ -141,6 +144,14 @@ ModelReport report_model(const model::BuiltModel& built) {
   out.redundant_rows = static_cast<int>(prepared.redundant_rows.size());
   out.redundant = prepared.redundant_text;
   out.notes = prepared.notes;
+
+  if (built.description.simulation) {
+    const results::Recorder recorder(built, metric, !prepared.redundant_rows.empty());
+    const results::FieldRecorder fields(built);
+    out.result_bytes = plan_output(built.description).bytes(recorder.layout(), fields.layout());
+    const std::string advice = judge_size(out.result_bytes);
+    if (!advice.empty()) out.warnings.push_back(advice);
+  }
 
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, prepared.state), 0.0,

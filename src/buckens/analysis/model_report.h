@@ -56,6 +56,7 @@ struct ModelReport {
   int degrees_of_freedom = 0;                ///< of the mechanism with rigid bodies
   std::vector<std::string> redundant;        ///< by joint
   double assembly_gap = 0;                   ///< largest |g| left by assembly [m] or [-]
+  double result_bytes = 0;                   ///< of results.h5, 0 without a simulation
   double step = 0, highest_frequency = 0;    ///< [s]; of the modes that loads excite [Hz]
   std::vector<std::string> notes, warnings;  ///< warnings carry advice on step size
 };

@@ -10,6 +10,7 @@
 
 #include "buckens/analysis/coupling_watch.h"
 #include "buckens/analysis/drive_laws.h"
+#include "buckens/analysis/output_plan.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/run_statistics.h"
@@ -18,6 +19,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
+#include "buckens/results/field_recorder.h"
 #include "buckens/results/recorder.h"
 #include "buckens/results/state_interpolation.h"
 #include "buckens/stepping/time_march.h"
@@ -26,9 +28,7 @@ namespace buckens::analysis {
 
 namespace {
 
-// About this many records where the model file does not say `every`.
-constexpr double kDefaultRecords = 500;
-constexpr double kMostRecords = 1e7;
+constexpr double kSecondsBetweenExtremes = 1;
 constexpr Eigen::Index kAdvisedDofs = 600;
 // With `step: auto` the longest step is this part of the duration.
 constexpr long kStepsOfLongest = 100;
@@ -110,6 +110,7 @@ class Simulation {
     summary_.end_time = prepared_->state.t;
     statistics_->fill(*march_, summary_);
     watch_->fill(prepared_->state, summary_);
+    if (!is_first_) write_extremes();
     sink_.finish(summary_);
     if (failure) std::rethrow_exception(failure);
     return summary_;
@@ -145,6 +146,7 @@ class Simulation {
 
   void set_up() {
     check_method();
+    plan_ = plan_output(built_.description);
     summary_.title = built_.model.title;
     summary_.version = kVersion;
     metric_.emplace(built_.model);
@@ -155,17 +157,8 @@ class Simulation {
     settings.exchange = options_.exchange;
     march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
     if (!march.tolerance) steps_ = march.longest_steps;
-    every_ = built_.description.output.every.value_or(
-        march.tolerance ? spec_.duration / kDefaultRecords
-                        : std::max(spec_.duration / kDefaultRecords, march_->longest_step()));
-    if (spec_.duration / every_ > kMostRecords) {
-      throw InputError(
-          built_.description.output.where,
-          fmt::format("output: `every` asks for {:.3g} records, more than {:.0e}; use a "
-                      "longer time than {:.3g} s",
-                      spec_.duration / every_, kMostRecords, every_));
-    }
     recorder_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
+    fields_.emplace(built_);
     work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
     drives_.emplace(built_.description);
     statistics_.emplace(built_);
@@ -176,11 +169,20 @@ class Simulation {
       summary_.warnings.push_back(std::move(text));
     }
     advise_on_step();
+    const double bytes = plan_.bytes(recorder_->layout(), fields_->layout());
+    if (const std::string advice = judge_size(bytes); !advice.empty()) {
+      summary_.warnings.push_back(advice);
+    }
     watch_->start(march_->stepper(), prepared_->state);
     for (const std::string& warning : summary_.warnings) {
       base::log(base::LogLevel::warning, warning);
     }
-    sink_.begin(recorder_->layout(), recorder_->geometry());
+    results::Geometry geometry = recorder_->geometry();
+    if (!fields_->is_empty()) {
+      fields_->add_places(geometry);
+      sink_.begin_fields(fields_->layout());
+    }
+    sink_.begin(recorder_->layout(), geometry);
   }
 
   void advise_on_step() {
@@ -223,6 +225,7 @@ class Simulation {
       const stepping::StepReport report = take_step(before, state);
       statistics_->add_step(report, state);
       work_->add(state);
+      if (fields_->watches_steps()) fields_->watch(state);
       write_records(before, march_->is_done());
       watch_->after_step(march_->stepper(), state);
       if (!report_progress(step) && !march_->is_done()) return;
@@ -283,7 +286,7 @@ class Simulation {
     }
   }
 
-  double next_record() const { return static_cast<double>(records_) * every_; }
+  double next_record() const { return static_cast<double>(records_) * plan_.every; }
 
   /// @param levels energies and work in place of those of the state
   void write_record(const model::State& state,
@@ -295,8 +298,28 @@ class Simulation {
     const double scale = std::max(e.kinetic + e.strain + e.springs, work_->turnover());
     statistics_->add_record(state, recorder_->last_balance(), scale);
     sink_.write(record);
+    write_fields(state);
     last_written_ = state.t;
     recording_seconds_ += seconds_since(start);
+  }
+
+  /// @pre the record of this instant is written
+  void write_fields(const model::State& state) {
+    if (fields_->is_empty()) return;
+    const bool is_end = state.t >= (1.0 - 1e-9) * spec_.duration;
+    if (is_first_ || is_end || records_ % plan_.fields_stride == 0) {
+      sink_.write_fields(fields_->record(state));
+    } else if (fields_->has_extremes()) {
+      fields_->watch(state);
+    }
+    if (seconds_since(extremes_written_) > kSecondsBetweenExtremes) write_extremes();
+    is_first_ = false;
+  }
+
+  void write_extremes() {
+    if (!fields_->has_extremes()) return;
+    sink_.write_extremes(fields_->extremes());
+    extremes_written_ = std::chrono::steady_clock::now();
   }
 
   const model::BuiltModel& built_;
@@ -308,12 +331,15 @@ class Simulation {
   std::optional<stepping::TimeMarch> march_;
   std::optional<DriveLaws> drives_;
   std::optional<results::Recorder> recorder_;
+  std::optional<results::FieldRecorder> fields_;
+  std::chrono::steady_clock::time_point extremes_written_ = std::chrono::steady_clock::now();
+  bool is_first_ = true;  // no fields are written yet
   std::optional<WorkAccount> work_;
   std::optional<RunStatistics> statistics_;
   std::optional<CouplingWatch> watch_;
   results::RunSummary summary_;
   long steps_ = 0;  // 0 where step control leaves that open
-  double every_ = 0;
+  OutputPlan plan_;
   long records_ = 1;  // the state at t = 0 is written before the first step
   double last_written_ = 0;
   bool has_quasi_static_ = false;

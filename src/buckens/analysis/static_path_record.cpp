@@ -57,6 +57,7 @@ StaticPathRecord::StaticPathRecord(const model::BuiltModel& built,
       metric_(metric),
       compliances_(compliances),
       sink_(sink),
+      fields_(built),
       state_(model::placed_state(built.model)),
       largest_rotation_(built.model.bodies.size(), 0.0) {
   state_.t = time;
@@ -79,7 +80,12 @@ void StaticPathRecord::begin(const PathPoint& start) {
                {}});
   for (const results::Channel& channel : recorder_->layout().channels()) layout_.add(channel);
   find_stop();
-  sink_.begin(layout_, recorder_->geometry());
+  results::Geometry geometry = recorder_->geometry();
+  if (!fields_.is_empty()) {
+    fields_.add_places(geometry);
+    sink_.begin_fields(fields_.layout());
+  }
+  sink_.begin(layout_, geometry);
 }
 
 void StaticPathRecord::find_stop() {
@@ -161,6 +167,9 @@ void StaticPathRecord::write(const PathPoint& at) {
   summary.end_time = record.t;
   if (stop_) watch_stop(record.values[*stop_]);
   sink_.write(record);
+  if (!fields_.is_empty()) {
+    sink_.write_fields(fields_.record(state_, record.t));
+  }
   last_ = std::move(record);
   has_last_ = true;
 }
@@ -210,6 +219,7 @@ void StaticPathRecord::finish(double load_factor) {
     newton.per_step_mean = static_cast<double>(newton.total) / static_cast<double>(summary.steps);
   }
   summary.energy_error = energy_scale_ > 0.0 ? largest_balance_ / energy_scale_ : 0.0;
+  if (has_last_ && fields_.has_extremes()) sink_.write_extremes(fields_.extremes());
   sink_.finish(summary);
 }
 

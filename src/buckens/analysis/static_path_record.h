@@ -9,6 +9,7 @@
 #include "buckens/analysis/static_continuation.h"
 #include "buckens/analysis/static_state.h"
 #include "buckens/model/model_builder.h"
+#include "buckens/results/field_recorder.h"
 #include "buckens/results/record_sink.h"
 #include "buckens/results/recorder.h"
 
@@ -47,6 +48,7 @@ class StaticPathRecord {
   const dynamics::MassMetric& metric_;
   const Compliances& compliances_;
   results::RecordSink& sink_;
+  results::FieldRecorder fields_;
   model::State state_;
   std::unique_ptr<results::Recorder> recorder_;
   results::RecordLayout layout_;

@@ -83,6 +83,60 @@ void write_faces(const Hdf5File& file, const std::string& path, const GeometryBo
   write_dataset(file, path + "/face_elements", {body.face_elements.size()}, body.face_elements);
 }
 
+constexpr auto kCellKinds = choice_names(fem::CellKind{});
+
+void write_cells(const Hdf5File& file, const std::string& path, const GeometryBody& body) {
+  if (!body.cell_kinds.empty()) {
+    std::vector<int> kinds;
+    for (const fem::CellKind kind : body.cell_kinds) kinds.push_back(static_cast<int>(kind));
+    write_dataset(file, path + "/cell_kinds", {kinds.size()}, kinds);
+    write_attribute(file, path + "/cell_kinds", "kinds",
+                    std::vector<std::string>(kCellKinds.begin(), kCellKinds.end()));
+    write_dataset(file, path + "/cell_nodes", {body.cell_nodes.size()}, body.cell_nodes);
+  }
+  const auto write = [&](const char* name, const std::vector<int>& values) {
+    if (!values.empty()) write_dataset(file, path + "/" + name, {values.size()}, values);
+  };
+  write("field_nodes", body.field_nodes);
+  write("field_elements", body.field_elements);
+  write("cell_places", body.cell_places);
+  if (body.face_places.empty()) return;
+  std::vector<int> places;
+  for (const auto& face : body.face_places) places.insert(places.end(), face.begin(), face.end());
+  write_dataset(file, path + "/face_places", {body.face_places.size(), 4}, places);
+}
+
+/// A list of numbers from `least` on and below `end`; empty where it is missing.
+std::vector<int> read_numbers(const Hdf5File& file, const std::string& path, int least, int end) {
+  if (!has_object(file, path)) return {};
+  std::vector<int> values = read_int_dataset(file, path);
+  for (const int value : values) expect(file, path, value >= least && value < end);
+  return values;
+}
+
+void read_cells(const Hdf5File& file, const std::string& path, GeometryBody& body) {
+  const auto num_nodes = static_cast<int>(body.nodes.rows());
+  std::size_t count = 0;
+  const auto num_kinds = static_cast<int>(kCellKinds.size());
+  for (const int kind : read_numbers(file, path + "/cell_kinds", 0, num_kinds)) {
+    body.cell_kinds.push_back(static_cast<fem::CellKind>(kind));
+    count += static_cast<std::size_t>(fem::num_nodes(body.cell_kinds.back()));
+  }
+  body.cell_nodes = read_numbers(file, path + "/cell_nodes", 0, num_nodes);
+  expect(file, path, body.cell_nodes.size() == count);
+  body.field_nodes = read_numbers(file, path + "/field_nodes", 0, num_nodes);
+  const auto cells = static_cast<int>(body.cell_kinds.size());
+  body.field_elements = read_numbers(file, path + "/field_elements", 0, cells);
+  const auto num_places = static_cast<int>(body.field_nodes.size());
+  const std::vector<int> places = read_numbers(file, path + "/face_places", -1, num_places);
+  expect(file, path, places.empty() || places.size() == 4 * body.faces.size());
+  body.cell_places = read_numbers(file, path + "/cell_places", -1, num_places);
+  expect(file, path, body.cell_places.empty() || body.cell_places.size() == count);
+  for (std::size_t i = 0; i < places.size(); i += 4) {
+    body.face_places.push_back({places[i], places[i + 1], places[i + 2], places[i + 3]});
+  }
+}
+
 void read_faces(const Hdf5File& file, const std::string& path, GeometryBody& body) {
   if (!has_object(file, path + "/faces")) return;
   const std::vector<int> faces = read_int_dataset(file, path + "/faces");
@@ -115,6 +169,7 @@ void write_body(const Hdf5File& file, int index, const GeometryBody& body) {
   write_dataset(file, path + "/radius", {body.radius.size()}, body.radius);
   write_attribute(file, path + "/radius", "unit", std::string("m"));
   write_faces(file, path, body);
+  write_cells(file, path, body);
   write_markers(file, path, body.markers);
 }
 
@@ -217,6 +272,7 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
     body.elements.push_back(pair);
   }
   read_faces(file, path, body);
+  read_cells(file, path, body);
   body.markers = read_markers(file, path);
   return body;
 }

@@ -5,11 +5,13 @@
 #include <condition_variable>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "buckens/io/hdf5_extremes.h"
 #include "buckens/io/hdf5_file.h"
 #include "buckens/io/hdf5_table.h"
 #include "buckens/results/record_sink.h"
@@ -34,10 +36,12 @@ class Hdf5Recorder {
  public:
   /// @param writer  carries out the writes; must outlive this
   /// @param title, version  attributes of the file
+  /// @param fields  null: the run has none
   /// @throws IoError
   Hdf5Recorder(const std::filesystem::path& path, WriteProcess& writer,
                const results::RecordLayout& layout, const results::Geometry& geometry,
-               const std::string& title, const std::string& version, const FlushRule& rule);
+               const results::FieldLayout* fields, const std::string& title,
+               const std::string& version, const FlushRule& rule);
   /// Writes what waits, as far as that is possible.
   ~Hdf5Recorder();
   Hdf5Recorder(const Hdf5Recorder&) = delete;
@@ -46,22 +50,29 @@ class Hdf5Recorder {
   /// @throws IoError, also for what the flushing thread met since the last call; the file then
   ///   keeps what was flushed before, and every further call throws the same
   void write(const results::Record& record);
+  /// A record of fields. @throws IoError as write()
+  void write_fields(const results::Record& fields);
+  /// Replaces the largest values so far. @throws IoError as write()
+  void write_extremes(const std::vector<double>& values);
   /// Writes what waits and completes the file. @throws IoError
   void close();
 
  private:
+  void note_age();
   void flush_waiting();
+  void guarded(const std::function<void()>& work);
   void watch_age();
   void stop_thread();
   void rethrow_failure() const;
 
   FlushRule rule_;
   Hdf5File file_;
-  Hdf5Table table_;
+  Hdf5Table table_, fields_;
+  Hdf5Extremes extremes_;
 
   std::mutex mutex_;  // guards all below, file_ and table_
   std::condition_variable changed_;
-  std::vector<double> times_, values_;
+  std::vector<double> times_, values_, field_times_, field_values_;
   std::chrono::steady_clock::time_point oldest_;
   std::exception_ptr failure_;
   bool stopping_ = false;

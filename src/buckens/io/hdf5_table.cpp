@@ -26,20 +26,24 @@ Hdf5Handle access_settings(hsize_t chunk_values) {
 
 }  // namespace
 
-Hdf5Table::Hdf5Table(const Hdf5File& file, const results::RecordLayout& layout)
+Hdf5Table::Hdf5Table(const Hdf5File& file, const results::RecordLayout& layout,
+                     const std::string& time, hid_t type)
     : row_size_(layout.num_values()) {
-  time_ = create_column(file, {.path = "time",
-                               .unit = "s",
-                               .shape = {},
-                               .description = "instants of the records",
-                               .components = {}});
+  time_ = create_column(file,
+                        {.path = time,
+                         .unit = "s",
+                         .shape = {},
+                         .description = "instants of the records",
+                         .components = {}},
+                        H5T_IEEE_F64LE);
   for (std::size_t i = 0; i < layout.channels().size(); ++i) {
-    columns_.push_back(create_column(file, layout.channel(i)));
+    columns_.push_back(create_column(file, layout.channel(i), type));
     columns_.back().offset = layout.offset(i);
   }
 }
 
-Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::Channel& channel) {
+Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::Channel& channel,
+                                           hid_t type) {
   Column column;
   column.path = "/" + channel.path;
   column.size = channel.size();
@@ -56,9 +60,8 @@ Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::
   H5Pset_chunk(creation.get(), rank, chunk.data());
   const Hdf5Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.get(), 1);
-  const hid_t id =
-      H5Dcreate2(file.id(), column.path.c_str(), H5T_IEEE_F64LE, space.get(), link.get(),
-                 creation.get(), access_settings(chunk[0] * column.size).get());
+  const hid_t id = H5Dcreate2(file.id(), column.path.c_str(), type, space.get(), link.get(),
+                              creation.get(), access_settings(chunk[0] * column.size).get());
   column.dataset = Hdf5Handle(file.check(id, "create " + column.path), H5Dclose);
 
   write_attribute(file, column.path, "unit", channel.unit);
@@ -101,7 +104,7 @@ void Hdf5Table::append(Hdf5File& file, std::span<const double> times,
   }
   file.flush();
   append_to(file, time_, times.size(), times.data());
-  file.check(H5Dflush(time_.dataset.get()), "write /time");
+  file.check(H5Dflush(time_.dataset.get()), "write " + time_.path);
   file.check_written();
   num_records_ += times.size();
 }

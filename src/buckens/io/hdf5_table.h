@@ -11,18 +11,22 @@
 
 namespace buckens::io {
 
-/// The growing part of results.h5: `/time` and one data set per channel, [records × shape].
+/// A growing table of results.h5: the instants and one data set per channel, [records × shape].
 class Hdf5Table {
  public:
   Hdf5Table() = default;
   /// Creates the empty data sets with their attributes `unit`, `description` and `components`.
-  /// Must happen before Hdf5File::start_swmr. @throws IoError
-  Hdf5Table(const Hdf5File& file, const results::RecordLayout& layout);
+  /// Must happen before Hdf5File::start_swmr.
+  /// @param time path of the instants
+  /// @param type of the values in the file; the instants have double precision
+  /// @throws IoError
+  Hdf5Table(const Hdf5File& file, const results::RecordLayout& layout,
+            const std::string& time = "time", hid_t type = H5T_IEEE_F64LE);
 
   /// Appends records and makes them visible to readers.
   ///
-  /// `/time` grows last: whoever reads it finds at least as many rows in every channel, at any
-  /// moment and after a crash.
+  /// The instants grow last: whoever reads them finds at least as many rows in every channel, at
+  /// any moment and after a crash.
   /// @param values  the records one after the other, layout.num_values() each
   /// @throws IoError; the file is then to be abandoned
   void append(Hdf5File& file, std::span<const double> times, std::span<const double> values);
@@ -40,7 +44,7 @@ class Hdf5Table {
     std::size_t size = 1;
   };
 
-  static Column create_column(const Hdf5File& file, const results::Channel& channel);
+  static Column create_column(const Hdf5File& file, const results::Channel& channel, hid_t type);
   void append_to(const Hdf5File& file, const Column& column, hsize_t count, const double* values);
 
   Column time_;

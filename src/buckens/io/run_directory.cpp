@@ -120,26 +120,49 @@ void RunDirectory::write_status(std::string_view json) const {
 void RunDirectory::begin(const results::RecordLayout& layout, const results::Geometry& geometry) {
   num_values_ = layout.num_values();
   recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
-                                             options_.title, kVersion, options_.flush);
+                                             fields_ ? &*fields_ : nullptr, options_.title,
+                                             kVersion, options_.flush);
   sensors_ = SensorsCsv(path_ / kSensorsName, layout);
   write_status(status_json(RunStatus::running, options_.title, kVersion, started_));
 }
 
-void RunDirectory::write(const results::Record& record) {
+void RunDirectory::begin_fields(const results::FieldLayout& layout) { fields_ = layout; }
+
+/// What a recorder that failed has said is said again.
+void RunDirectory::guarded(const std::function<void()>& work) {
   if (!recorder_) throw IoError(fmt::format("{}: no record is expected now.", path_.string()));
-  if (record.values.size() != num_values_) {
-    throw IoError(fmt::format("{}: record at t = {} s: {} values for channels that hold {}.",
-                              path_.string(), record.t, record.values.size(), num_values_));
-  }
   if (!failure_.empty()) throw IoError(failure_);
   try {
-    recorder_->write(record);
-    sensors_.write(record);
+    work();
   } catch (const IoError& error) {
     failure_ = error.what();
     throw;
   }
+}
+
+void RunDirectory::write(const results::Record& record) {
+  if (recorder_ && record.values.size() != num_values_) {
+    throw IoError(fmt::format("{}: record at t = {} s: {} values for channels that hold {}.",
+                              path_.string(), record.t, record.values.size(), num_values_));
+  }
+  guarded([&] {
+    recorder_->write(record);
+    sensors_.write(record);
+  });
   last_time_ = record.t;
+}
+
+void RunDirectory::write_fields(const results::Record& fields) {
+  if (!fields_ || fields.values.size() != fields_->fields.num_values()) {
+    throw IoError(fmt::format("{}: fields at t = {} s: {} values for channels that hold {}.",
+                              path_.string(), fields.t, fields.values.size(),
+                              fields_ ? fields_->fields.num_values() : 0));
+  }
+  guarded([&] { recorder_->write_fields(fields); });
+}
+
+void RunDirectory::write_extremes(const std::vector<double>& values) {
+  guarded([&] { recorder_->write_extremes(values); });
 }
 
 void RunDirectory::finish(const results::RunSummary& summary) {

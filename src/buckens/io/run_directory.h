@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "buckens/io/hdf5_recorder.h"
 #include "buckens/io/output_file.h"
@@ -49,6 +52,10 @@ class RunDirectory : public results::RecordSink {
   /// Completes all files; summary.json even if completing another one fails.
   /// @throws IoError unless `write` has thrown the same before
   void finish(const results::RunSummary& summary) override;
+  void begin_fields(const results::FieldLayout& layout) override;
+  /// @throws IoError as write()
+  void write_fields(const results::Record& fields) override;
+  void write_extremes(const std::vector<double>& values) override;
 
   /// Appends lines to log.txt; a line break is added at the end. @throws IoError
   void log(std::string_view lines);
@@ -59,6 +66,7 @@ class RunDirectory : public results::RecordSink {
  private:
   void take_directory();
   void write_status(std::string_view json) const;
+  void guarded(const std::function<void()>& work);
 
   std::filesystem::path path_;
   RunDirectoryOptions options_;
@@ -67,6 +75,7 @@ class RunDirectory : public results::RecordSink {
   WriteProcess writer_;  // outlives the recorder
   SensorsCsv sensors_;
   std::unique_ptr<Hdf5Recorder> recorder_;
+  std::optional<results::FieldLayout> fields_;
   std::size_t num_values_ = 0;
   double last_time_ = 0;
   std::string failure_;  // why recording ended early

@@ -70,19 +70,27 @@ RunReader::RunReader(const std::filesystem::path& directory) {
   title_ = read_string(file_, "/", "title");
   version_ = read_string(file_, "/", "version");
   geometry_ = read_geometry(file_);
-  read_channels("/");
-  read_times();
+  read_channels("/", layout_);
+  // Fields first: each of their instants is then one of the records.
+  if (has_object(file_, "/fields/time")) {
+    read_channels("/fields/", field_layout_);
+    field_times_ = read_times("/fields/time");
+  }
+  times_ = read_times("/time");
 }
 
-void RunReader::read_channels(const std::string& group) {
+void RunReader::read_channels(const std::string& group, results::RecordLayout& layout) {
   for (const std::string& name : list_objects(file_, group)) {
     const std::string path = group + name;
-    if (path == "/geometry" || path == "/time") continue;
+    if (path == "/geometry" || path == "/time" || path == "/fields" || path == "/extremes" ||
+        path == "/fields/time") {
+      continue;
+    }
     const Hdf5Quiet quiet;
     const Hdf5Handle object(
         file_.check(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), "read " + path), H5Oclose);
     if (H5Iget_type(object.get()) == H5I_GROUP) {
-      read_channels(path + "/");
+      read_channels(path + "/", layout);
     } else if (H5Iget_type(object.get()) == H5I_DATASET) {
       const std::vector<hsize_t> extents = shape_of(file_, object);
       if (extents.empty()) continue;
@@ -94,17 +102,18 @@ void RunReader::read_channels(const std::string& group) {
       for (std::size_t i = 1; i < extents.size(); ++i) {
         channel.shape.push_back(static_cast<int>(extents[i]));
       }
-      layout_.add(std::move(channel));
+      layout.add(std::move(channel));
     }
   }
 }
 
-void RunReader::read_times() {
+std::vector<double> RunReader::read_times(const std::string& path) const {
   const Hdf5Quiet quiet;
-  const Hdf5Handle dataset = open_dataset(file_, "/time");
+  const Hdf5Handle dataset = open_dataset(file_, path);
   const std::vector<hsize_t> extents = shape_of(file_, dataset);
-  times_.resize(extents.empty() ? 0 : extents[0]);
-  if (!times_.empty()) read_rows(file_, dataset, "/time", 0, times_.size(), times_.data());
+  std::vector<double> times(extents.empty() ? 0 : extents[0]);
+  if (!times.empty()) read_rows(file_, dataset, path, 0, times.size(), times.data());
+  return times;
 }
 
 std::vector<double> RunReader::read(std::string_view path) const {
@@ -115,14 +124,39 @@ std::vector<double> RunReader::read(std::string_view path) const {
 
 std::vector<double> RunReader::read(std::string_view path,
                                     std::span<const std::size_t> records) const {
-  const int index = layout_.find(path);
+  return read_rows_of(layout_, path, records);
+}
+
+std::vector<double> RunReader::read_fields(std::string_view path,
+                                           std::span<const std::size_t> rows) const {
+  return read_rows_of(field_layout_, path, rows);
+}
+
+std::vector<double> RunReader::read_fixed(std::string_view path) const {
+  const std::string place = fmt::format("/{}", path);
+  return has_object(file_, place) ? read_double_dataset(file_, place) : std::vector<double>();
+}
+
+std::size_t RunReader::record_of_field(std::size_t row) const {
+  const auto at = std::lower_bound(times_.begin(), times_.end(), field_times_.at(row));
+  if (at == times_.end()) {
+    throw IoError(fmt::format("{}: fields at t = {} s belong to no record.", file_.path().string(),
+                              field_times_[row]));
+  }
+  return static_cast<std::size_t>(at - times_.begin());
+}
+
+std::vector<double> RunReader::read_rows_of(const results::RecordLayout& layout,
+                                            std::string_view path,
+                                            std::span<const std::size_t> records) const {
+  const int index = layout.find(path);
   if (index < 0) {
     throw IoError(fmt::format("{}: holds no \"{}\".", file_.path().string(), path));
   }
   const Hdf5Quiet quiet;
   const std::string place = fmt::format("/{}", path);
   const Hdf5Handle dataset = open_dataset(file_, place);
-  const std::size_t size = layout_.channel(static_cast<std::size_t>(index)).size();
+  const std::size_t size = layout.channel(static_cast<std::size_t>(index)).size();
   std::vector<double> values(records.size() * size);
   // Neighbouring records are read together.
   for (std::size_t i = 0; i < records.size();) {

@@ -42,16 +42,32 @@ class RunReader {
   /// The same for some records, given by their increasing indices.
   std::vector<double> read(std::string_view path, std::span<const std::size_t> records) const;
 
+  /// Fields over meshes, paths "fields/bodies/<body>/nodes/von_mises" and the like; empty if the
+  /// run has none.
+  const results::RecordLayout& field_layout() const { return field_layout_; }
+  const std::vector<double>& field_times() const { return field_times_; }  ///< [s], increasing
+  /// The record at the instant of a field record.
+  std::size_t record_of_field(std::size_t row) const;
+  /// A field at some instants, given by increasing indices into field_times().
+  /// @throws IoError if there is no such field or it cannot be read
+  std::vector<double> read_fields(std::string_view path, std::span<const std::size_t> rows) const;
+  /// Values that exist once: "extremes/bodies/<body>/nodes/von_mises". Empty where they are
+  /// missing.
+  /// @throws IoError if they cannot be read
+  std::vector<double> read_fixed(std::string_view path) const;
+
  private:
-  void read_channels(const std::string& group);
-  void read_times();
+  void read_channels(const std::string& group, results::RecordLayout& layout);
+  std::vector<double> read_times(const std::string& path) const;
+  std::vector<double> read_rows_of(const results::RecordLayout& layout, std::string_view path,
+                                   std::span<const std::size_t> rows) const;
 
   std::string summary_text_, title_, version_;
   RunStatus status_ = RunStatus::starting;
   Hdf5File file_;
   results::Geometry geometry_;
-  results::RecordLayout layout_;
-  std::vector<double> times_;
+  results::RecordLayout layout_, field_layout_;
+  std::vector<double> times_, field_times_;
 };
 
 }  // namespace buckens::io

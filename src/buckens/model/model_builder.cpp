@@ -53,6 +53,9 @@ class Builder {
     }
     add_distributed_loads();
     for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor, find);
+    if (d.output.field_output) {
+      out_->fields = find_field_places(*d.output.field_output, model_, meshes_);
+    }
     add_remaining_markers(find);
     for (std::size_t b = 0; b < tables_.size(); ++b) {
       if (model_.bodies[b].is_flexible()) model_.bodies[b].flexible->rows = tables_[b]->rows();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "buckens/body/basis_store.h"
+#include "buckens/model/field_places.h"
 #include "buckens/model/model.h"
 #include "buckens/model/model_description.h"
 
@@ -25,6 +26,7 @@ struct BuiltModel {
   Model model;
   ModelDescription description;
   std::vector<SensorPlace> sensors;  ///< one per entry of description.output.sensors
+  std::vector<FieldPlaces> fields;   ///< of description.output.field_output; empty without it
 };
 
 /// Builds and checks the mechanism.

@@ -11,6 +11,7 @@
 
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
+#include "buckens/model/field_spec.h"
 
 namespace buckens::model {
 
@@ -240,6 +241,7 @@ struct OutputSpec {
   SourceLocation where;
   std::optional<double> every;  ///< [s]; default: about 500 records over the duration
   std::vector<SensorSpec> sensors;
+  std::optional<FieldOutputSpec> field_output;  ///< of meshes
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -251,6 +253,10 @@ struct OutputSpec {
             .otherwise("duration/500, at least one step"));
     visit(base::field("sensors", sensors, "observed quantities by name")
               .like("{tip: {position: rod/end}}"));
+    visit(base::field("fields", field_output, "fields over the meshes of bodies")
+              .like("[von-mises]")
+              .otherwise("displacements of all nodes; stresses of lines and at the centres of "
+                         "solids"));
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "buckens/fem/cell_kind.h"
 #include "buckens/spatial/pose.h"
 
 namespace buckens::results {
@@ -34,7 +35,18 @@ struct GeometryBody {
   /// F faces on the surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for
   /// triangles.
   std::vector<std::array<int, 4>> faces;
-  std::vector<int> face_elements;  ///< F, solid element of each face
+  std::vector<int> face_elements;         ///< F, solid element of each face
+  std::vector<fem::CellKind> cell_kinds;  ///< S, of the solid elements
+  std::vector<int> cell_nodes;            ///< nodes of all solid elements, one after the other
+  /// P places of fields at nodes: the node of each. A node occurs once for each material that meets
+  /// there, and for each part of a divided body.
+  std::vector<int> field_nodes;
+  std::vector<int> field_elements;  ///< solid elements of fields at elements, ascending
+  /// F, for each corner of a face its place in field_nodes, −1 where there is none.
+  std::vector<std::array<int, 4>> face_places;
+  /// As cell_nodes, the place of each corner, −1 where there is none; empty where nodes and places
+  /// belong together one to one.
+  std::vector<int> cell_places;
   std::vector<GeometryMarker> markers;
 };
 

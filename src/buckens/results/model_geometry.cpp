@@ -9,6 +9,7 @@
 
 #include "buckens/fem/coupled_nodes.h"
 #include "buckens/fem/recovery.h"
+#include "buckens/fem/solid_block.h"
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/model/model_description.h"
 #include "buckens/results/divided_body.h"
@@ -94,6 +95,25 @@ void add_lines(const fem::FeModel& mesh, GeometryBody& shape) {
   }
 }
 
+/// The kind of mesh cell with the same name.
+fem::CellKind cell_kind(fem::SolidKind kind) {
+  const std::string name = choice_names(kind)[static_cast<std::size_t>(kind)];
+  const auto names = choice_names(fem::CellKind{});
+  const auto* at = std::find(names.begin(), names.end(), name);
+  return static_cast<fem::CellKind>(at - names.begin());
+}
+
+void add_cells(const fem::FeModel& mesh, GeometryBody& shape) {
+  for (const auto& block : mesh.blocks) {
+    const auto* solids = dynamic_cast<const fem::SolidBlock*>(block.get());
+    for (int e = 0; solids != nullptr && e < solids->num_elements(); ++e) {
+      const auto nodes = solids->nodes(e);
+      shape.cell_kinds.push_back(cell_kind(solids->form(e).kind));
+      shape.cell_nodes.insert(shape.cell_nodes.end(), nodes.begin(), nodes.end());
+    }
+  }
+}
+
 void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape) {
   shape.kind = fem::num_solids(mesh) > 0 ? BodyKind::solid : BodyKind::beam;
   shape.nodes.resize(static_cast<Eigen::Index>(mesh.nodes.size()), 3);
@@ -109,6 +129,7 @@ void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape
     shape.faces.push_back(face.nodes);
     shape.face_elements.push_back(face.element);
   }
+  add_cells(mesh, shape);
 }
 
 // Arrows that are drawn of one load on one body.

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/results/body_fields.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "buckens/fem/solid_recovery.h"
+#include "buckens/model/state.h"
+#include "buckens/results/model_geometry.h"
+
+namespace buckens::results {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using fem::TensorColumns;
+using model::FieldQuantity;
+
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+bool is_motion(FieldQuantity quantity) { return quantity <= FieldQuantity::acceleration; }
+
+bool has_tensors(const std::vector<FieldQuantity>& list) {
+  return !std::all_of(list.begin(), list.end(), is_motion);
+}
+
+struct QuantityNote {
+  const char* name;
+  const char* unit;
+  const char* description;
+  std::vector<std::string> components;
+};
+
+QuantityNote note_of(FieldQuantity quantity) {
+  const std::vector<std::string> xyz = {"x", "y", "z"};
+  const std::vector<std::string> tensor = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  switch (quantity) {
+    case FieldQuantity::displacement:
+      return {"displacement", "m", "from the undeformed place, body axes", xyz};
+    case FieldQuantity::velocity:
+      return {"velocity", "m/s", "in the world, world axes", xyz};
+    case FieldQuantity::acceleration:
+      return {"acceleration", "m/s^2", "in the world, world axes", xyz};
+    case FieldQuantity::stress:
+      return {"stress", "Pa", "body axes", tensor};
+    case FieldQuantity::strain:
+      return {"strain", "1", "body axes, shear strains as twice the tensor's", tensor};
+    case FieldQuantity::von_mises:
+      return {"von_mises", "Pa", "equivalent stress", {}};
+    case FieldQuantity::principal_stress:
+      return {"principal_stress", "Pa", "falling", {"1", "2", "3"}};
+    case FieldQuantity::strain_energy_density:
+      break;
+  }
+  return {"strain_energy_density", "J/m^3", "half of stress times strain", {}};
+}
+
+Matrix3d tensor(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s, double shear) {
+  Matrix3d out;
+  out << s[0], shear * s[3], shear * s[5],  //
+      shear * s[3], s[1], shear * s[4],     //
+      shear * s[5], shear * s[4], s[2];
+  return out;
+}
+
+/// Turns tensors into other axes. @param shear 1 for stresses, ½ for strains with doubled shear
+void rotate(const Matrix3d& R, double shear, Eigen::Ref<TensorColumns> columns) {
+  for (Index k = 0; k < columns.cols(); ++k) {
+    const Matrix3d T = R * tensor(columns.col(k), shear) * R.transpose();
+    columns.col(k) << T(0, 0), T(1, 1), T(2, 2), T(0, 1) / shear, T(1, 2) / shear, T(0, 2) / shear;
+  }
+}
+
+}  // namespace
+
+BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& places,
+                       const model::FieldOutputSpec& spec)
+    : model_(model), whole_(places.whole) {
+  const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(whole_)];
+  const fem::FeModel& mesh = *mesh_of(model, whole);
+  const int num_solids = fem::num_solids(mesh);
+  choose_quantities(spec, num_solids > 0);
+  std::vector<bool> wanted(mesh.nodes.size(), places.is_everywhere && !at_nodes_.empty());
+  if (!at_nodes_.empty()) {
+    for (const int node : places.nodes) wanted[static_cast<std::size_t>(node)] = true;
+  }
+  if (!at_elements_.empty()) {
+    elements_ = places.solids;
+    if (places.is_everywhere) {
+      elements_.resize(static_cast<std::size_t>(num_solids));
+      std::iota(elements_.begin(), elements_.end(), 0);
+    }
+  }
+  is_element_.assign(elements_.size(), true);
+  if (is_empty()) return;
+  for (int b = whole.first; b < whole.first + whole.count; ++b) add_part(b, wanted);
+}
+
+void BodyFields::choose_quantities(const model::FieldOutputSpec& spec, bool has_solids) {
+  for (const FieldQuantity quantity : spec.record) {
+    const auto add = [quantity](std::vector<FieldQuantity>& list) {
+      if (std::find(list.begin(), list.end(), quantity) == list.end()) list.push_back(quantity);
+    };
+    if (is_motion(quantity)) {
+      add(at_nodes_);
+    } else if (has_solids) {
+      if (spec.at != model::FieldLocation::elements) add(at_nodes_);
+      if (spec.at != model::FieldLocation::nodes) add(at_elements_);
+    }
+  }
+  has_stresses_ = has_tensors(at_nodes_) || has_tensors(at_elements_);
+  has_extremes_ = has_stresses_ && spec.extremes != model::ExtremeRate::off;
+}
+
+void BodyFields::add_part(int body, const std::vector<bool>& wanted) {
+  const model::WholeBody& whole = model_.wholes[static_cast<std::size_t>(whole_)];
+  const body::FlexiblePart& flexible = *model_.bodies[static_cast<std::size_t>(body)].flexible;
+  PartFields& part = parts_.emplace_back();
+  part.body = body;
+  part.first_place = static_cast<Index>(nodes_.size());
+  std::vector<int> part_elements;
+  for (std::size_t row = 0; row < elements_.size(); ++row) {
+    model::MeshCopy copy{body, elements_[row]};
+    if (whole.is_divided()) copy = whole.solids[static_cast<std::size_t>(elements_[row])];
+    if (copy.body != body) continue;
+    part_elements.push_back(copy.index);
+    part.element_rows.push_back(static_cast<Index>(row));
+  }
+  const std::vector<int> whole_nodes = whole_nodes_of(model_, whole, body);
+  std::vector<int> own;
+  for (std::size_t n = 0; n < whole_nodes.size(); ++n) {
+    if (whole_nodes[n] >= 0 && wanted[static_cast<std::size_t>(whole_nodes[n])]) {
+      own.push_back(static_cast<int>(n));
+    }
+  }
+  if (has_stresses_) {
+    part.strains = std::make_unique<fem::SolidStrains>(flexible.mesh(), own, part_elements);
+    for (const fem::StrainPlace& place : part.strains->places()) {
+      part.nodes.push_back(place.node);
+      has_solid_.push_back(place.material >= 0);
+    }
+  } else {
+    part.nodes = own;
+    has_solid_.insert(has_solid_.end(), own.size(), false);
+  }
+  for (const int node : part.nodes) nodes_.push_back(whole_nodes[static_cast<std::size_t>(node)]);
+  part.compose(flexible, std::any_of(at_nodes_.begin(), at_nodes_.end(), is_motion));
+}
+
+void BodyFields::add_channels(FieldLayout& layout) const {
+  const std::string body = "bodies/" + model_.wholes[static_cast<std::size_t>(whole_)].name;
+  const auto add = [&](const char* location, const std::vector<FieldQuantity>& quantities,
+                       std::size_t count) {
+    const int extent = static_cast<int>(count);
+    for (const FieldQuantity quantity : quantities) {
+      const QuantityNote note = note_of(quantity);
+      std::vector<int> shape = {extent};
+      if (!note.components.empty()) shape.push_back(static_cast<int>(note.components.size()));
+      layout.fields.add({"fields/" + body + "/" + location + "/" + note.name, note.unit,
+                         std::move(shape), note.description, note.components});
+    }
+    if (!has_extremes_ || !has_tensors(quantities)) return;
+    const std::string path = "extremes/" + body + "/" + location + "/von_mises";
+    layout.extremes.add({path, "Pa", {extent}, "largest over the run so far", {}});
+    layout.extremes.add({path + "_time", "s", {extent}, "when it was largest", {}});
+  };
+  add("nodes", at_nodes_, nodes_.size());
+  add("elements", at_elements_, elements_.size());
+}
+
+void BodyFields::add_places(GeometryBody& shape) const {
+  const model::WholeBody& whole = model_.wholes[static_cast<std::size_t>(whole_)];
+  shape.field_nodes = nodes_;
+  shape.field_elements = elements_;
+  if (nodes_.empty()) return;
+  // Per part: first place of each node of the whole mesh.
+  const auto num_nodes = static_cast<std::size_t>(shape.nodes.rows());
+  std::vector<std::vector<int>> first(parts_.size(), std::vector<int>(num_nodes, -1));
+  bool is_one_to_one = parts_.size() == 1;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    for (Index p = parts_[k].num_places(); p-- > 0;) {
+      const auto place = static_cast<std::size_t>(parts_[k].first_place + p);
+      int& there = first[k][static_cast<std::size_t>(nodes_[place])];
+      is_one_to_one = is_one_to_one && there < 0;
+      there = static_cast<int>(p);
+    }
+  }
+  const auto place_of = [&](int element, int node) {
+    model::MeshCopy copy{whole.first, element};
+    if (whole.is_divided()) copy = whole.solids[static_cast<std::size_t>(element)];
+    const auto k = static_cast<std::size_t>(copy.body - whole.first);
+    const int local = node < 0 ? -1 : first[k][static_cast<std::size_t>(node)];
+    if (local < 0) return -1;
+    const PartFields& part = parts_[k];
+    const int own = part.nodes[static_cast<std::size_t>(local)];
+    const int found = part.strains ? part.strains->place_of(own, copy.index) : local;
+    return found < 0 ? -1 : static_cast<int>(part.first_place) + found;
+  };
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    const auto& face = shape.faces[f];
+    const int e = shape.face_elements[f];
+    shape.face_places.push_back({place_of(e, face[0]), place_of(e, face[1]), place_of(e, face[2]),
+                                 place_of(e, face[3])});
+  }
+  if (is_one_to_one) return;
+  std::size_t corner = 0;
+  for (std::size_t e = 0; e < shape.cell_kinds.size(); ++e) {
+    for (int k = 0; k < fem::num_nodes(shape.cell_kinds[e]); ++k) {
+      shape.cell_places.push_back(place_of(static_cast<int>(e), shape.cell_nodes[corner++]));
+    }
+  }
+}
+
+void BodyFields::evaluate_stresses(const model::State& state) {
+  const model::WholeBody& whole = model_.wholes[static_cast<std::size_t>(whole_)];
+  node_strain_.resize(6, static_cast<Index>(nodes_.size()));
+  node_stress_.resize(6, static_cast<Index>(nodes_.size()));
+  element_strain_.resize(6, static_cast<Index>(elements_.size()));
+  element_stress_.resize(6, static_cast<Index>(elements_.size()));
+  const Eigen::Quaterniond to_whole = whole_motion(model_, whole, state).X_WB.q.conjugate();
+  TensorColumns at_nodes, at_elements;
+  for (const PartFields& part : parts_) {
+    if (!part.strains) continue;
+    const auto b = static_cast<std::size_t>(part.body);
+    const model::BodyState& s = state.bodies[b];
+    part.evaluate(*model_.bodies[b].flexible, s.d, at_nodes, at_elements);
+    TensorColumns node_stress, element_stress;
+    part.strains->stresses(at_nodes, at_elements, node_stress, element_stress);
+    if (whole.is_divided()) {
+      const Matrix3d R = (to_whole * s.frame.X_WB.q).toRotationMatrix();
+      rotate(R, 0.5, at_nodes);
+      rotate(R, 1.0, node_stress);
+      rotate(R, 0.5, at_elements);
+      rotate(R, 1.0, element_stress);
+    }
+    node_strain_.middleCols(part.first_place, part.num_places()) = at_nodes;
+    node_stress_.middleCols(part.first_place, part.num_places()) = node_stress;
+    for (Index e = 0; e < part.num_elements(); ++e) {
+      const Index row = part.element_rows[static_cast<std::size_t>(e)];
+      element_strain_.col(row) = at_elements.col(e);
+      element_stress_.col(row) = element_stress.col(e);
+    }
+  }
+}
+
+void BodyFields::append_motion(const model::State& state, FieldQuantity quantity,
+                               std::vector<double>& values) const {
+  const model::WholeBody& whole = model_.wholes[static_cast<std::size_t>(whole_)];
+  const spatial::Pose X = whole_motion(model_, whole, state).X_WB;
+  for (const PartFields& part : parts_) {
+    const auto b = static_cast<std::size_t>(part.body);
+    const body::Body& body = model_.bodies[b];
+    const model::BodyState& s = state.bodies[b];
+    const Matrix3d R = s.frame.X_WB.R();
+    const Vector3d& w = s.frame.w;
+    const Eigen::Matrix3Xd u = part.translations(*body.flexible, s.d);
+    Eigen::Matrix3Xd u_dot, u_ddot;
+    if (quantity != FieldQuantity::displacement) {
+      u_dot = part.translations(*body.flexible, s.d_dot);
+    }
+    if (quantity == FieldQuantity::acceleration) {
+      u_ddot = part.translations(*body.flexible, s.d_ddot);
+    }
+    for (Index p = 0; p < part.num_places(); ++p) {
+      const auto node = static_cast<std::size_t>(part.nodes[static_cast<std::size_t>(p)]);
+      const Vector3d& at = body.flexible->mesh().nodes[node].position;
+      const Vector3d z = at - body.com + u.col(p);
+      Vector3d value;
+      if (quantity == FieldQuantity::displacement) {
+        value = u.col(p);
+        if (whole.is_divided()) {
+          value = X.q.conjugate() * (s.frame.X_WB * z - X.p) - (at - whole.com);
+        }
+      } else if (quantity == FieldQuantity::velocity) {
+        value = s.frame.v + R * (w.cross(z) + u_dot.col(p));
+      } else {
+        value = s.v_dot + R * (s.w_dot.cross(z) + w.cross(w.cross(z)) +
+                               2.0 * w.cross(u_dot.col(p)) + u_ddot.col(p));
+      }
+      values.insert(values.end(), value.data(), value.data() + 3);
+    }
+  }
+}
+
+void BodyFields::append_tensors(FieldQuantity quantity, const TensorColumns& strain,
+                                const TensorColumns& stress, const std::vector<bool>& known,
+                                std::vector<double>& values) const {
+  const std::size_t components = std::max<std::size_t>(1, note_of(quantity).components.size());
+  for (Index p = 0; p < stress.cols(); ++p) {
+    if (!known[static_cast<std::size_t>(p)]) {
+      values.insert(values.end(), components, kNoValue);
+      continue;
+    }
+    switch (quantity) {
+      case FieldQuantity::stress:
+        values.insert(values.end(), stress.col(p).data(), stress.col(p).data() + 6);
+        break;
+      case FieldQuantity::strain:
+        values.insert(values.end(), strain.col(p).data(), strain.col(p).data() + 6);
+        break;
+      case FieldQuantity::von_mises:
+        values.push_back(fem::mises_stress(stress.col(p)));
+        break;
+      case FieldQuantity::principal_stress: {
+        const Vector3d principal = fem::principal_stresses(stress.col(p));
+        values.insert(values.end(), principal.data(), principal.data() + 3);
+        break;
+      }
+      default:
+        values.push_back(0.5 * stress.col(p).dot(strain.col(p)));
+    }
+  }
+}
+
+void BodyFields::append(const model::State& state, std::vector<double>& values) const {
+  for (const FieldQuantity quantity : at_nodes_) {
+    if (is_motion(quantity)) {
+      append_motion(state, quantity, values);
+    } else {
+      append_tensors(quantity, node_strain_, node_stress_, has_solid_, values);
+    }
+  }
+  for (const FieldQuantity quantity : at_elements_) {
+    append_tensors(quantity, element_strain_, element_stress_, is_element_, values);
+  }
+}
+
+void BodyFields::update_extremes(double t) {
+  if (!has_extremes_) return;
+  const auto update = [t](const TensorColumns& stress, const std::vector<bool>& known,
+                          std::vector<double>& largest, std::vector<double>& times) {
+    const bool is_first = largest.empty();
+    largest.resize(known.size(), kNoValue);
+    times.resize(known.size(), kNoValue);
+    for (std::size_t p = 0; p < known.size(); ++p) {
+      if (!known[p]) continue;
+      const double now = fem::mises_stress(stress.col(static_cast<Index>(p)));
+      if (!is_first && !(now > largest[p])) continue;
+      largest[p] = now;
+      times[p] = t;
+    }
+  };
+  update(node_stress_, has_solid_, largest_.nodes, largest_.node_times);
+  update(element_stress_, is_element_, largest_.elements, largest_.element_times);
+}
+
+void BodyFields::append_extremes(std::vector<double>& values) const {
+  if (!has_extremes_) return;
+  const auto append = [&values](const std::vector<FieldQuantity>& quantities,
+                                const std::vector<double>& largest,
+                                const std::vector<double>& times) {
+    if (!has_tensors(quantities)) return;
+    values.insert(values.end(), largest.begin(), largest.end());
+    values.insert(values.end(), times.begin(), times.end());
+  };
+  append(at_nodes_, largest_.nodes, largest_.node_times);
+  append(at_elements_, largest_.elements, largest_.element_times);
+}
+
+}  // namespace buckens::results

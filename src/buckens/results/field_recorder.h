@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "buckens/model/model_builder.h"
+#include "buckens/results/body_fields.h"
+#include "buckens/results/record_sink.h"
+
+namespace buckens::results {
+
+/// Turns states into records of the fields that the model file asks for, and keeps the largest von
+/// Mises stress of every place.
+class FieldRecorder {
+ public:
+  /// @param built outlives the object
+  /// @throws InputError if nothing of what is asked for exists: stresses need solid elements
+  explicit FieldRecorder(const model::BuiltModel& built);
+
+  /// Nothing is asked for.
+  bool is_empty() const { return bodies_.empty(); }
+  /// Whether the largest stresses are to be brought up to date at every step.
+  bool watches_steps() const;
+  bool has_extremes() const { return !layout_.extremes.channels().empty(); }
+
+  const FieldLayout& layout() const { return layout_; }
+  void add_places(Geometry& geometry) const;
+
+  /// Fields of a state; its stresses count among the largest.
+  /// @param stamp time stamp of the record; default: the state's time
+  Record record(const model::State& state, const std::optional<double>& stamp = {});
+  /// Takes note of the largest stresses of a state. Cost: as for record().
+  void watch(const model::State& state);
+  /// The largest so far, values of FieldLayout::extremes. @pre a state was seen
+  std::vector<double> extremes() const;
+
+ private:
+  const model::BuiltModel& built_;
+  std::vector<BodyFields> bodies_;
+  FieldLayout layout_;
+};
+
+}  // namespace buckens::results

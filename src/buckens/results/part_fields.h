@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/body/body.h"
+#include "buckens/fem/solid_strains.h"
+#include "buckens/model/model.h"
+
+namespace buckens::results {
+
+/// The share that one body of the model has in the fields of a whole body: its places follow one
+/// another.
+struct PartFields {
+  int body = 0;                                // index into Model::bodies
+  Eigen::Index first_place = 0;                // among those of the whole
+  std::vector<int> nodes;                      // of the part, one per place
+  std::vector<Eigen::Index> element_rows;      // among all elements, one per element of the part
+  std::unique_ptr<fem::SolidStrains> strains;  // null without solids or stresses
+  // Reduced bodies: what one unit of each variable does. Empty where the mesh is evaluated.
+  linalg::Matrix node_basis, element_basis, motion_basis;
+
+  Eigen::Index num_places() const { return static_cast<Eigen::Index>(nodes.size()); }
+  Eigen::Index num_elements() const { return static_cast<Eigen::Index>(element_rows.size()); }
+
+  /// Multiplies the recovery of a reduced body with its basis, so that costs follow its modes and
+  /// the places. @param has_motion whether translations() will be asked for
+  void compose(const body::FlexiblePart& flexible, bool has_motion);
+  /// Strains in the part's own axes.
+  /// @param d variables of the body
+  void evaluate(const body::FlexiblePart& flexible, const linalg::Vector& d,
+                fem::TensorColumns& at_nodes, fem::TensorColumns& at_elements) const;
+  /// 3×places: translations of the nodes by some values of the variables.
+  Eigen::Matrix3Xd translations(const body::FlexiblePart& flexible, const linalg::Vector& d) const;
+};
+
+/// Nodes of the whole mesh that the nodes of a body are, −1 where that is unknown.
+std::vector<int> whole_nodes_of(const model::Model& model, const model::WholeBody& whole, int body);
+
+}  // namespace buckens::results
