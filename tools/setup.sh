@@ -9,9 +9,11 @@ buckens_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 buckens_packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
-  libmuparser-dev libhdf5-dev libgmsh-dev zlib1g-dev libsuitesparse-dev libmetis-dev libopenblas-openmp-dev libspectra-dev
+  libmuparser-dev libhdf5-dev libgmsh-dev zlib1g-dev libsuitesparse-dev libmetis-dev
+  libopenblas-openmp-dev libspectra-dev libcairo2-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  clang-format-14 clang-14 libclang-rt-14-dev python3 python3-pytest python3-numpy python3-h5py
+  clang-format-14 clang-14 libclang-rt-14-dev
+  python3 python3-pytest python3-numpy python3-h5py python3-vtk9
 )
 
 # Object files are cached by what the sources say, not by where the checkout lies.

@@ -96,6 +96,8 @@ int run_program(int argc, const char* const* argv) {
     add_mesh_info_verb(app, invocation);
     add_convert_verb(app, invocation);
     add_view_verb(app, invocation);
+    add_export_verb(app, invocation);
+    add_plot_verb(app, invocation);
     add_schema_verb(app, invocation);
     add_reference_verb(app, invocation);
     add_version_verb(app, invocation);

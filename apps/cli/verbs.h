@@ -27,6 +27,8 @@ void add_compare_verb(CLI::App& program, Invocation& invocation);
 void add_mesh_info_verb(CLI::App& program, Invocation& invocation);
 void add_convert_verb(CLI::App& program, Invocation& invocation);
 void add_view_verb(CLI::App& program, Invocation& invocation);
+void add_export_verb(CLI::App& program, Invocation& invocation);
+void add_plot_verb(CLI::App& program, Invocation& invocation);
 void add_schema_verb(CLI::App& program, Invocation& invocation);
 void add_reference_verb(CLI::App& program, Invocation& invocation);
 void add_version_verb(CLI::App& program, Invocation& invocation);
