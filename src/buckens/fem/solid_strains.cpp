@@ -44,6 +44,27 @@ Matrix3d jacobian(const NodeVectors& x, const SolidShape& shape) {
   return x.lazyProduct(shape.slope.transpose());
 }
 
+/// Adds to the displacement gradients at the points of a hex8 what its inner modes answer.
+/// @param centre Jacobian there
+/// @param inverse of their stiffness
+void add_inner_modes(const SolidSampling& sampling, const Matrix3d& centre,
+                     const std::array<double, 8>& volume, const Elasticity& D,
+                     const Eigen::Matrix<double, 9, 9>& inverse, std::array<Matrix3d, 8>& H) {
+  const Matrix3d centre_inverse = centre.inverse();
+  const double centre_volume = centre.determinant();
+  std::array<Matrix3d, 8> g;
+  Eigen::Matrix<double, 9, 1> load = Eigen::Matrix<double, 9, 1>::Zero();
+  for (std::size_t p = 0; p < sampling.points.size(); ++p) {
+    g[p] = inner_gradients(sampling.points[p].natural, centre_inverse, centre_volume / volume[p]);
+    const Matrix3d stress = matrix_of(D * strain_of(H[p]));
+    load += volume[p] * Matrix3d(stress * g[p]).reshaped();
+  }
+  const Eigen::Matrix<double, 9, 1> modes = inverse * load;
+  for (std::size_t p = 0; p < sampling.points.size(); ++p) {
+    H[p] -= modes.reshaped(3, 3) * g[p].transpose();
+  }
+}
+
 }  // namespace
 
 SolidStrains::SolidStrains(const FeModel& fe, const std::vector<int>& nodes,
@@ -193,21 +214,9 @@ void SolidStrains::evaluate_element(const Element& element, const linalg::Vector
     H[p] = gradient_at(sampling.points[p].shape, &volume[p]);
   }
   if (element.inner >= 0) {
-    const Elasticity& D = elasticities_[static_cast<std::size_t>(element.material)];
-    Vectors slope = sampling.centre.slope;
-    const Matrix3d centre = x.lazyProduct(slope.transpose());
-    const Matrix3d centre_inverse = centre.inverse();
-    const double centre_volume = centre.determinant();
-    std::array<Matrix3d, 8> g;
-    Eigen::Matrix<double, 9, 1> load = Eigen::Matrix<double, 9, 1>::Zero();
-    for (std::size_t p = 0; p < num_points; ++p) {
-      g[p] = inner_gradients(sampling.points[p].natural, centre_inverse, centre_volume / volume[p]);
-      const Matrix3d stress = matrix_of(D * strain_of(H[p]));
-      load += volume[p] * Matrix3d(stress * g[p]).reshaped();
-    }
-    const Eigen::Matrix<double, 9, 1> modes =
-        inner_[static_cast<std::size_t>(element.inner)] * load;
-    for (std::size_t p = 0; p < num_points; ++p) H[p] -= modes.reshaped(3, 3) * g[p].transpose();
+    add_inner_modes(sampling, jacobian(x, sampling.centre), volume,
+                    elasticities_[static_cast<std::size_t>(element.material)],
+                    inner_[static_cast<std::size_t>(element.inner)], H);
   }
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 8> strain(6,
                                                            static_cast<Eigen::Index>(num_points));

@@ -13,8 +13,9 @@ namespace buckens::io {
 ///         nodes [N×3], elements [E×2], radius [E]            body frame, m; beams and bars
 ///         faces [F×4], face_elements [F]       surface of solids only; fourth node −1 in triangles
 ///         cell_kinds [S], cell_nodes           solid elements; attribute `kinds` names the kinds
-///         field_nodes [P], field_elements [S'], face_places [F×4], cell_places       fields, if any
-///         marker_names [M], marker_nodes [M], marker_positions [M×3], marker_orientations [M×4]
+///         field_nodes [P], field_elements [S'], face_places [F×4], cell_places       fields, if
+///         any marker_names [M], marker_nodes [M], marker_positions [M×3], marker_orientations
+///         [M×4]
 ///     /geometry/joints/<joint>         attributes index, type, axis [3], bodies [2], markers [2]
 ///         (names; the ground is "ground", no marker is ""), positions [2×3]
 /// @throws IoError

@@ -204,8 +204,8 @@ void BodyFields::add_places(GeometryBody& shape) const {
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const auto& face = shape.faces[f];
     const int e = shape.face_elements[f];
-    shape.face_places.push_back({place_of(e, face[0]), place_of(e, face[1]), place_of(e, face[2]),
-                                 place_of(e, face[3])});
+    shape.face_places.push_back(
+        {place_of(e, face[0]), place_of(e, face[1]), place_of(e, face[2]), place_of(e, face[3])});
   }
   if (is_one_to_one) return;
   std::size_t corner = 0;
