@@ -146,7 +146,9 @@ void SolidStrains::add_places(const std::vector<int>& nodes) {
 int SolidStrains::place_of(int node, int element) const {
   const int first = first_place_.at(static_cast<std::size_t>(node));
   if (first < 0) return -1;
-  const int material = solid_materials_.at(static_cast<std::size_t>(element));
+  // Shells are counted behind the solids.
+  const auto e = static_cast<std::size_t>(element);
+  const int material = e < solid_materials_.size() ? solid_materials_[e] : -1;
   for (auto p = static_cast<std::size_t>(first); p < places_.size() && places_[p].node == node;
        ++p) {
     if (places_[p].material == material) return static_cast<int>(p);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "buckens/fem/element_block.h"
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/model/state.h"
 #include "buckens/results/model_geometry.h"
@@ -60,6 +61,15 @@ QuantityNote note_of(FieldQuantity quantity) {
   return {"strain_energy_density", "J/m^3", "half of stress times strain", {}};
 }
 
+/// Solid elements without shells, which are counted behind them.
+int volume_elements(const fem::FeModel& mesh) {
+  int count = 0;
+  for (const auto& block : mesh.blocks) {
+    if (block->is_solid()) count += block->num_elements();
+  }
+  return count;
+}
+
 Matrix3d tensor(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s, double shear) {
   Matrix3d out;
   out << s[0], shear * s[3], shear * s[5],  //
@@ -83,7 +93,7 @@ BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& plac
     : model_(model), whole_(places.whole) {
   const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(whole_)];
   const fem::FeModel& mesh = *mesh_of(model, whole);
-  const int num_solids = fem::num_solids(mesh);
+  const int num_solids = volume_elements(mesh);
   choose_quantities(spec, num_solids > 0);
   std::vector<bool> wanted(mesh.nodes.size(), places.is_everywhere && !at_nodes_.empty());
   if (!at_nodes_.empty()) {
@@ -91,6 +101,7 @@ BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& plac
   }
   if (!at_elements_.empty()) {
     elements_ = places.solids;
+    std::erase_if(elements_, [num_solids](int e) { return e >= num_solids; });
     if (places.is_everywhere) {
       elements_.resize(static_cast<std::size_t>(num_solids));
       std::iota(elements_.begin(), elements_.end(), 0);

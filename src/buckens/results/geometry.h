@@ -36,8 +36,8 @@ struct GeometryBody {
   /// triangles.
   std::vector<std::array<int, 4>> faces;
   std::vector<int> face_elements;         ///< F, solid element of each face
-  std::vector<fem::CellKind> cell_kinds;  ///< S, of the solid elements
-  std::vector<int> cell_nodes;            ///< nodes of all solid elements, one after the other
+  std::vector<fem::CellKind> cell_kinds;  ///< S, of the solids, then the shells
+  std::vector<int> cell_nodes;            ///< nodes of all of them, one after the other
   /// P places of fields at nodes: the node of each. A node occurs once for each material that meets
   /// there, and for each part of a divided body.
   std::vector<int> field_nodes;

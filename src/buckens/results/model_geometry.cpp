@@ -112,6 +112,13 @@ void add_cells(const fem::FeModel& mesh, GeometryBody& shape) {
       shape.cell_nodes.insert(shape.cell_nodes.end(), nodes.begin(), nodes.end());
     }
   }
+  for (const auto& block : mesh.blocks) {
+    for (int e = 0; block->is_shell() && e < block->num_elements(); ++e) {
+      const auto nodes = block->nodes(e);
+      shape.cell_kinds.push_back(nodes.size() == 3 ? fem::CellKind::tri3 : fem::CellKind::quad4);
+      shape.cell_nodes.insert(shape.cell_nodes.end(), nodes.begin(), nodes.end());
+    }
+  }
 }
 
 void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape) {
