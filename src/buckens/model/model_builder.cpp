@@ -233,17 +233,17 @@ class Builder {
     if (regions.empty() && links.empty()) return;
     const std::string what = regions.empty()
                                  ? "links inside its mesh"
-                                 : fmt::format("the rigid interface \"{}\"", regions.front().name);
+                                 : fmt::format("rigid interface \"{}\"", regions.front().name);
     if (whole.is_divided()) {
-      throw ModelError(
-          fmt::format("{}: a body with several frames can have neither links nor rigid interfaces; "
-                      "make the interface `average` or remove `frames`",
-                      what));
+      throw ModelError(fmt::format(
+          "{}: a body with several frames can have `average` interfaces only and no links; change "
+          "the interface's kind or remove `frames`",
+          what));
     }
     if (body.flexible->geometric) {
       throw ModelError(fmt::format(
-          "geometric stiffness and {} exclude each other; make the interface `average`, or give "
-          "the body more `frames`",
+          "geometric stiffness and {} exclude each other; make an interface `average`, or give the "
+          "body more `frames`",
           what));
     }
     body.flexible = body::with_links(body.name, *body.flexible, regions, links);

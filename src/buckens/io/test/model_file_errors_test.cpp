@@ -142,7 +142,7 @@ TEST(ModelFileErrors, Bodies) {
           {"{beam: {to: [1, 0, 0], material: steel, section: {box: {width: 1, height: 1, "
            "thickness: 1}}}}",
            {"thicker than half"}},
-          {"{structure: {nodes: {a: [0, 0, 0]}}}", {"needs beams, bars or solids"}},
+          {"{structure: {nodes: {a: [0, 0, 0]}}}", {"needs beams, bars, solids or shells"}},
           {"{structure: {nodes: {a: [0, 0, 0]}, bars: [{between: [a, b], area: 1, material: "
            "steel}]}}",
            {"bars.0.between: unknown node \"b\""}},
