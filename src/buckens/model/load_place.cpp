@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/load_place.h"
 
+#include <algorithm>
 #include <charconv>
 #include <system_error>
 
@@ -58,14 +59,22 @@ LoadedFaces LoadPlaceFinder::faces() const {
     const fem::FaceSet* set = fem::find_face_set(structure, face->name);
     return {set->faces, set->shells};
   }
-  const auto found = fem::faces_within(structure, mesh_.find_interface(part)->region.nodes);
-  if (found.empty()) {
+  const std::vector<int>& nodes = mesh_.find_interface(part)->region.nodes;
+  LoadedFaces found{fem::faces_within(structure, nodes), {}};
+  for (int e = 0; e < structure.shells.num_elements(); ++e) {
+    const auto own = structure.shells.nodes(e);
+    const bool is_within = std::all_of(own.begin(), own.end(), [&](int node) {
+      return std::binary_search(nodes.begin(), nodes.end(), node);
+    });
+    if (is_within) found.shells.push_back({e, false});
+  }
+  if (found.solids.empty() && found.shells.empty()) {
     fail(
         fmt::format("no face on the surface of the mesh has all its nodes in the interface; "
                     "select more nodes{}",
                     structure.face_sets.empty() ? "" : " or take a named face"));
   }
-  return {found, {}};
+  return found;
 }
 
 LoadedElements LoadPlaceFinder::elements() const {
@@ -80,21 +89,15 @@ LoadedElements LoadPlaceFinder::elements() const {
     return out;
   }
   std::vector<std::string> known;
-  const auto take_set = [&](const auto& mesh) {
-    if constexpr (requires { mesh.element_sets; }) {
-      for (const auto& set : mesh.element_sets) {
-        known.push_back(set.name);
-        if (set.name != part) continue;
-        out.lines = set.beams;
-        for (const int bar : set.bars) out.lines.push_back(beams + bar);
-        out.solids = set.solids;
-        out.shells = set.shells;
-        return true;
-      }
-    }
-    return false;
-  };
-  if (take_set(structure)) return out;
+  for (const fem::ElementSet& set : structure.element_sets) {
+    known.push_back(set.name);
+    if (set.name != part) continue;
+    out.lines = set.beams;
+    for (const int bar : set.bars) out.lines.push_back(beams + bar);
+    out.solids = set.solids;
+    out.shells = set.shells;
+    return out;
+  }
   const int number = beam_number(part);
   if (number >= 1 && number <= static_cast<int>(mesh_.beams.size())) {
     const fem::BeamDivision& beam = mesh_.beams[static_cast<std::size_t>(number - 1)];

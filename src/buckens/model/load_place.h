@@ -29,7 +29,7 @@ class LoadPlaceFinder {
       : load_(std::move(load)), on_(on), body_(body), mesh_(mesh) {}
 
   /// Faces of a named face or face set, or those on the surface of the mesh that lie in an
-  /// interface.
+  /// interface; of shells there the side is meant that their normal points to.
   /// @throws InputError if the mesh has neither solids nor shells, or none of its faces is meant
   LoadedFaces faces() const;
   /// Lines, solids and shells: all, those of an element set, or of one beam of the model file.
