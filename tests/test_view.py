@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """`buckens view`: where it finds its page and what it writes; viewer/ tests the page itself."""
 
+import base64
 import json
 import os
 import pathlib
 import shutil
 import subprocess
 
+import h5py
+import numpy
 import pytest
 
 from conftest import PROGRAM, Result
@@ -85,6 +88,65 @@ def test_fields_of_a_page_are_chosen(buckens, models, installed, tmp_path):
         text = (tmp_path / "out" / "view.html").read_text()
         data = json.loads(text.split("const run = ")[1].split(";</script>")[0])
         assert sorted(f["name"] for f in data["runs"][0]["bodies"][0]["fields"]) == names
+
+
+# A block on a wall that is pressed at its end; fields at every fourth record.
+BLOCK = """
+buckens: 1
+title: A pressed block
+materials: {plain: {E: 210 GPa, nu: 0, rho: 7850 kg/m^3}}
+bodies:
+  block:
+    mesh: {box: {size: [1 m, 0.1 m, 0.1 m], divisions: [4, 2, 2]}, material: plain}
+    interfaces: {root: {face: x0, kind: rigid}, end: {face: x1}}
+joints: {wall: {fixed: {between: [{ground: [0, 0.05 m, 0.05 m]}, block/root]}}}
+loads: {push: {force: {on: block/end, value: ["-1000*sin(300*t) N", 0, 0]}}}
+simulation: {duration: 100 ms, step: 1 ms}
+output:
+  every: 1 ms
+  fields: {record: [stress, von-mises], every: EVERY}
+"""
+
+
+def numbers(field, kind):
+    return numpy.frombuffer(base64.b64decode(field), kind)
+
+
+@pytest.mark.parametrize("every, frames", [("4 ms", 26), ("50 ms", 101)])
+def test_fields_over_meshes_go_into_the_page(buckens, installed, tmp_path, every, frames):
+    """Frames at the fields' instants where they make a film, else all with the fields between."""
+    (tmp_path / "block.yaml").write_text(BLOCK.replace("EVERY", every))
+    buckens("run", "block.yaml", "-o", "out", "-q").must(0)
+    add_viewer(installed)
+    report = view(installed, "out", "--json", cwd=tmp_path).must(0).json
+    assert report["frames"] == frames
+    text = (tmp_path / "out" / "view.html").read_text()
+    run = json.loads(text.split("const run = ")[1].split(";</script>")[0])["runs"][0]
+    body = run["bodies"][0]
+    places = numbers(body["facePlaces"], "<i4")
+    assert len(places) == len(numbers(body["faces"], "<i4")) and places.min() == 0
+    fields = {(f["name"], f["on"]): f for f in body["fields"]}
+    stress = fields["stress", "places"]
+    assert stress["components"] == ["xx", "yy", "zz", "xy", "yz", "zx"]
+    if frames == 26:
+        assert "frames" not in stress
+    else:
+        assert list(numbers(stress["frames"], "<i4")) == [0, 50, 100]
+    mises = numbers(fields["von_mises", "places"]["values"]["values"], "<f4")
+    mises = mises.reshape(-1, places.max() + 1)
+    with h5py.File(tmp_path / "out" / "results.h5", "r", swmr=True) as file:
+        exact = file["fields/bodies/block/nodes/von_mises"][:]
+        on_surface = numpy.unique(file["geometry/bodies/block/face_places"][:])
+        assert numpy.array_equal(mises, exact[:, on_surface[on_surface >= 0]])
+        most = file["extremes/bodies/block/nodes/von_mises"][:][on_surface[on_surface >= 0]]
+    largest = numbers(fields["von_mises_largest", "places"]["values"]["values"], "<f4")
+    assert numpy.allclose(largest, most, rtol=1e-6)  # float32
+    assert fields["von_mises_time", "places"]["unit"] == "s"
+    # The load: along −x at first, of 1000 N at most.
+    (load,) = run["loads"]
+    assert (load["name"], load["kind"], load["width"]) == ("push", "force", 3)
+    values = numbers(load["values"], "<f4").reshape(-1, 3)
+    assert len(values) == frames and 990 < abs(values[:, 0]).max() <= 1000
 
 
 @pytest.mark.parametrize("name", ["empty", "missing"])

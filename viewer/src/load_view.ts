@@ -67,9 +67,9 @@ export class LoadView {
     const body = motion.bodies[load.body];
     for (const { glyph, foot } of this.arrows) {
       const factor = load.width === 1 ? row[0]! : 1;
-      const given = load.width === 3 ? row : load.directions[foot]!;
+      const given = load.width === 3 ? row : (load.directions[foot] ?? [0, 0, 0]);
       const v = new THREE.Vector3(given[0], given[1], given[2]).multiplyScalar(factor);
-      if (load.follows && body) {
+      if (body && (load.follows || load.width !== 3)) {
         const [w, x, y, z] = body.pose.slice(3);
         v.applyQuaternion(new THREE.Quaternion(x, y, z, w));
       }

@@ -42,6 +42,8 @@ export interface PageField {
   constant?: boolean;
   /** frames × places × components. */
   values: PageRows;
+  /** Frame of each row as int32, where not every frame has one. */
+  frames?: Base64;
 }
 
 export interface PageBody {
@@ -107,7 +109,7 @@ export interface PageLoad {
   positions: Triple[];
   /** Node that carries each foot, −1 if none. */
   nodes: number[];
-  /** Unit vectors, for a value of one. */
+  /** Unit vectors for a value of one, body axes; may be missing where values have three numbers. */
   directions: Triple[];
   /** frames × 1: factor of the directions; frames × 3: vector in their place; null if not recorded. */
   values: Base64 | null;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { checkBase64, decodeBytes, decodeInts } from './base64';
-import { PackedRows, SwingingRows } from './rows';
+import { PackedRows, SparseRows, SwingingRows } from './rows';
 import { base64, coded, ints, rows } from '../tests/fixture.mjs';
 
 describe('base64', () => {
@@ -80,5 +80,20 @@ describe('SwingingRows', () => {
     expect([...out]).toEqual([10, 20, 40]);
     expect(swinging.value(2, 1)).toBe(-20);
     expect(swinging.range(2)).toEqual([-40, -10]);
+  });
+});
+
+describe('SparseRows', () => {
+  it('are linear between their frames and stay at the ends', () => {
+    const sparse = new SparseRows(new PackedRows(rows([0, 8]), 1, 2, 'x'), Int32Array.of(2, 6), 9);
+    const at = (index: number, fraction = 0) => {
+      const out = new Float32Array(1);
+      sparse.interpolate({ index, fraction }, out);
+      return out[0];
+    };
+    expect([at(0), at(2), at(3), at(3, 0.5), at(6), at(8)]).toEqual([0, 0, 2, 3, 8, 8]);
+    expect([0, 3, 8].map((frame) => sparse.value(frame, 0))).toEqual([0, 2, 8]);
+    expect(sparse.range(4)).toEqual([0, 8]);
+    expect(sparse.range(8)).toEqual([8, 8]);
   });
 });

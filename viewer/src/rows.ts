@@ -1,5 +1,5 @@
 import { checkBase64, decodeFloats, floatsAt, PageDataError, shortsAt } from './base64';
-import type { FramePlace } from './interpolation';
+import { locate, type FramePlace } from './interpolation';
 import type { PageRows } from './page_data';
 
 /** A quantity with one row of numbers per frame. NaN stands for what was not recorded. */
@@ -120,6 +120,43 @@ export function rangeOf(values: ArrayLike<number>): [number, number] {
     if (value > high && value < Infinity) high = value;
   }
   return low <= high ? [low, high] : [NaN, NaN];
+}
+
+/** Rows at some frames only; between them values are interpolated linearly over the frames. */
+export class SparseRows implements Rows {
+  /** `at` holds the frame of each row, increasing. */
+  constructor(
+    private readonly rows: Rows,
+    private readonly at: Int32Array,
+    readonly frames: number,
+  ) {}
+
+  get width(): number {
+    return this.rows.width;
+  }
+
+  /** Place among the rows of a place among the frames. */
+  private place(frame: number): FramePlace {
+    return locate(this.at, frame);
+  }
+
+  interpolate({ index, fraction }: FramePlace, out: Float32Array): void {
+    this.rows.interpolate(this.place(index + fraction), out);
+  }
+
+  value(frame: number, index: number): number {
+    const { index: row, fraction } = this.place(frame);
+    const now = this.rows.value(row, index);
+    return fraction === 0 ? now : (1 - fraction) * now + fraction * this.rows.value(row + 1, index);
+  }
+
+  range(frame: number): [number, number] {
+    const { index, fraction } = this.place(frame);
+    const [low, high] = this.rows.range(index);
+    if (fraction === 0) return [low, high];
+    const [nextLow, nextHigh] = this.rows.range(index + 1);
+    return [Math.min(low, nextLow), Math.max(high, nextHigh)];
+  }
 }
 
 /** One shape that swings: row k is the shape times `factors[k]`. */

@@ -1,5 +1,5 @@
 import { decodeFloats, decodeInts, PageDataError } from './base64';
-import { PackedRows, type Rows } from './rows';
+import { PackedRows, SparseRows, type Rows } from './rows';
 import type {
   PageBody,
   PageData,
@@ -147,14 +147,12 @@ function decodeFaces(body: PageBody, count: number, where: string): Faces | null
 
 function decodeField(field: PageField, frames: number, count: number, where: string): Field {
   const components = field.components?.length ? field.components : [''];
-  const rows = new PackedRows(
-    field.values,
-    count * components.length,
-    field.constant ? 1 : frames,
-    where,
-  );
-  const { name, unit, on } = field;
-  return { name, unit: unit ?? '', on, components, constant: field.constant ?? false, rows };
+  const { name, unit, on, constant = false } = field;
+  const width = count * components.length;
+  const at = field.frames ? decodeInts(field.frames, 1, `${where}.frames`) : null;
+  const packed = new PackedRows(field.values, width, constant ? 1 : (at?.length ?? frames), where);
+  const rows = at ? new SparseRows(packed, at, frames) : packed;
+  return { name, unit: unit ?? '', on, components, constant, rows };
 }
 
 /** Whether any node ever turns; asked only of bodies with beams, which are small. */

@@ -21,6 +21,12 @@ constexpr std::array<const char*, 3> kKinds = {"rigid", "beam", "solid"};
 
 Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Where a number stands in an increasing list that holds it.
+int index_in(const std::vector<std::size_t>& list, int number) {
+  const auto at = std::lower_bound(list.begin(), list.end(), static_cast<std::size_t>(number));
+  return static_cast<int>(at - list.begin());
+}
+
 }  // namespace
 
 VisibleParts::VisibleParts(const results::GeometryBody& body) {
@@ -41,8 +47,15 @@ VisibleParts::VisibleParts(const results::GeometryBody& body) {
     nodes.push_back(n);
   }
   for (const int e : body.face_elements) solids.push_back(static_cast<std::size_t>(e));
-  std::sort(solids.begin(), solids.end());
-  solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
+  for (const auto& face : body.face_places) {
+    for (const int place : face) {
+      if (place >= 0) places.push_back(static_cast<std::size_t>(place));
+    }
+  }
+  for (auto* list : {&solids, &places}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
 }
 
 PageBody::PageBody(const results::GeometryBody& body) : body_(body), visible_(body) {}
@@ -85,18 +98,21 @@ Json PageBody::json(const FrameReader& reader) const {
 }
 
 Json PageBody::faces_into(Json out) const {
-  std::vector<int> faces, of_face;
+  std::vector<int> faces, of_face, places;
   for (std::size_t f = 0; f < body_.faces.size(); ++f) {
     for (const int node : body_.faces[f]) {
       faces.push_back(node < 0 ? node : visible_.number.at(static_cast<std::size_t>(node)));
     }
-    const auto& solids = visible_.solids;
-    const auto element = static_cast<std::size_t>(body_.face_elements[f]);
-    const auto at = std::lower_bound(solids.begin(), solids.end(), element);
-    of_face.push_back(static_cast<int>(at - solids.begin()));
+    of_face.push_back(index_in(visible_.solids, body_.face_elements[f]));
+  }
+  for (const auto& face : body_.face_places) {
+    for (const int place : face) {
+      places.push_back(place < 0 ? place : index_in(visible_.places, place));
+    }
   }
   out["faces"] = base64_int32(faces);
   out["faceElements"] = base64_int32(of_face);
+  out["facePlaces"] = places.empty() ? Json(nullptr) : Json(base64_int32(places));
   return out;
 }
 

@@ -19,6 +19,7 @@ struct VisibleParts {
   std::vector<std::size_t> nodes;   ///< of the body that the page has, increasing
   std::vector<int> number;          ///< in the page of each node of the body, −1 if it has not
   std::vector<std::size_t> solids;  ///< solid elements below the surface, increasing
+  std::vector<std::size_t> places;  ///< of fields at nodes on the surface, increasing
 };
 
 /// A body as the page holds it (PageBody in viewer/src/page_data.ts).

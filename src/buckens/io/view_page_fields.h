@@ -12,15 +12,21 @@ namespace buckens::io {
 
 /// One quantity of a body that the page can show in colour (PageField in viewer/src/page_data.ts).
 struct PageField {
+  enum class From { records, fields, fixed };
+
   std::string name;  ///< "von_mises" …; the page knows the usual ones
-  std::string on;    ///< "elements" with a face, or "lines"
-  std::string path;  ///< channel
+  std::string on;    ///< "places" on the surface, "elements" with a face, or "lines"
+  /// Where the values are: a channel of the records, a field over a mesh, values that exist once.
+  From from = From::records;
+  std::string path;
   std::string unit;
   std::vector<std::string> components;  ///< one empty name for a scalar
   std::size_t count = 0;                ///< of places
   FrameReader::Choose choose;           ///< the row of the page from that of the channel
 
-  std::size_t values_per_frame() const { return count * components.size(); }
+  std::size_t values_per_frame() const {
+    return from == From::fixed ? 0 : count * components.size();
+  }
   nlohmann::ordered_json json(const FrameReader& reader) const;
 };
 

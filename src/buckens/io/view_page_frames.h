@@ -11,16 +11,26 @@
 
 namespace buckens::io {
 
+/// The instants that a page shows.
+struct PageFrames {
+  std::vector<std::size_t> records;     ///< of the run, increasing
+  std::vector<std::size_t> field_rows;  ///< of the fields over meshes, increasing
+  std::vector<int> field_frames;        ///< index into `records` of each of them
+};
+
+/// At most about `limit` frames, evenly spread, the first and the last among them. Where a run has
+/// fields over meshes they are at the fields' instants, unless those are very few: then frames
+/// without fields stand between them.
+PageFrames choose_frames(const RunReader& run, bool with_fields, std::size_t limit);
+
 /// Reads the records that a page shows, channel by channel, in the page's form.
 class FrameReader {
  public:
-  /// @param frames indices of the records, increasing
-  /// @param coded  whether rows are rounded to 16 bits
-  FrameReader(const RunReader& run, std::vector<std::size_t> frames, bool coded);
+  /// @param coded whether rows are rounded to 16 bits
+  FrameReader(const RunReader& run, PageFrames frames, bool coded);
 
-  std::size_t num_frames() const { return frames_.size(); }
-  bool coded() const { return coded_; }
-  const RunReader& run() const { return run_; }
+  const PageFrames& frames() const { return frames_; }
+  std::size_t num_frames() const { return frames_.records.size(); }
   /// Base64 of the times.
   std::string times() const;
   /// Base64 of a whole channel as float32.
@@ -28,6 +38,10 @@ class FrameReader {
   /// A channel's rows, one per frame: `choose` makes the page's row of the channel's.
   using Choose = std::function<std::vector<double>(const std::vector<double>&)>;
   nlohmann::ordered_json rows(const std::string& path, const Choose& choose) const;
+  /// The same of a field over a mesh, one row per instant of the fields.
+  nlohmann::ordered_json field_rows(const std::string& path, const Choose& choose) const;
+  /// The same of values that exist once: one row.
+  nlohmann::ordered_json fixed_row(const std::string& path, const Choose& choose) const;
   /// Values of a scalar channel, empty where it is missing.
   std::vector<double> scalars(const std::string& path) const;
   /// Number of values of a channel, 0 where it is missing.
@@ -35,7 +49,7 @@ class FrameReader {
 
  private:
   const RunReader& run_;
-  std::vector<std::size_t> frames_;
+  PageFrames frames_;
   bool coded_;
 };
 

@@ -42,16 +42,6 @@ nlohmann::json parse_summary(const std::string& text) {
 
 Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Which records become frames: evenly spread, the first and the last among them.
-std::vector<std::size_t> choose_frames(std::size_t records, std::size_t limit) {
-  const std::size_t count = std::min(records, std::max<std::size_t>(limit, 2));
-  std::vector<std::size_t> frames(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    frames[i] = count == 1 ? 0 : i * (records - 1) / (count - 1);
-  }
-  return frames;
-}
-
 Json joint_json(const results::GeometryJoint& joint) {
   Json between = Json::array();
   for (const results::GeometrySide& side : joint.between) {
@@ -62,6 +52,40 @@ Json joint_json(const results::GeometryJoint& joint) {
           {"type", joint.type},
           {"between", std::move(between)},
           {"axis", json_of(joint.axis)}};
+}
+
+/// Loads as arrows; the nodes that carry them by their numbers in the page.
+Json loads_json(const RunReader& run, const FrameReader& reader, const std::vector<Shown>& shown) {
+  Json all = Json::array();
+  for (const results::GeometryLoad& load : run.geometry().loads) {
+    Json positions = Json::array();
+    Json directions = Json::array();
+    Json nodes = Json::array();
+    for (const Eigen::Vector3d& p : load.positions) positions.push_back(json_of(p));
+    for (const Eigen::Vector3d& v : load.directions) directions.push_back(json_of(v));
+    for (const int node : load.nodes) {
+      const std::vector<int>* numbers =
+          load.body < 0 ? nullptr
+                        : &shown.at(static_cast<std::size_t>(load.body)).body.visible().number;
+      const bool known =
+          numbers != nullptr && node >= 0 && static_cast<std::size_t>(node) < numbers->size();
+      nodes.push_back(known ? (*numbers)[static_cast<std::size_t>(node)] : -1);
+    }
+    const std::string path = fmt::format("loads/{}/value", load.name);
+    const std::size_t width = reader.size_of(path);
+    const bool has_values = width == 1 || width == 3;
+    all.push_back({{"name", load.name},
+                   {"kind", load.kind},
+                   {"body", load.body},
+                   {"follows", load.follows},
+                   {"unit", load.unit},
+                   {"positions", std::move(positions)},
+                   {"nodes", std::move(nodes)},
+                   {"directions", std::move(directions)},
+                   {"values", has_values ? Json(reader.values(path)) : Json(nullptr)},
+                   {"width", has_values ? width : 0}});
+  }
+  return all;
 }
 
 /// Names of a channel's values, one each.
@@ -134,9 +158,11 @@ void choose_size(const RunReader& run, const std::vector<Shown>& shown,
   report.frames = std::min(wanted, options.max_bytes / bytes);
 }
 
-Json storage_json(const ViewPageReport& report, const ViewPageOptions& options) {
+Json storage_json(const ViewPageReport& report, const ViewPageOptions& options, bool at_fields,
+                  std::size_t possible) {
   Json notes = Json::array();
-  if (report.frames < std::min(report.records, options.max_frames)) {
+  if (at_fields) notes.push_back("Frames are at the instants at which fields were recorded");
+  if (report.frames < std::min(possible, options.max_frames)) {
     notes.push_back(fmt::format("Frames were left out to keep the page below {} MiB of numbers",
                                 options.max_bytes >> 20U));
   }
@@ -172,8 +198,16 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
   }
   report.records = run.num_records();
   choose_size(run, shown, options, report);
-  const FrameReader reader(run, choose_frames(run.num_records(), report.frames), report.rounded);
+  const bool with_fields = std::any_of(shown.begin(), shown.end(), [](const Shown& one) {
+    return std::any_of(one.fields.begin(), one.fields.end(), [](const PageField& field) {
+      return field.from == PageField::From::fields;
+    });
+  });
+  const FrameReader reader(run, choose_frames(run, with_fields, report.frames), report.rounded);
   report.frames = reader.num_frames();
+  const bool at_fields = with_fields && reader.frames().field_rows.size() == report.frames &&
+                         run.field_times().size() < report.records;
+  const std::size_t possible = at_fields ? run.field_times().size() : report.records;
   Json joints = Json::array();
   for (const results::GeometryJoint& joint : geometry.joints) joints.push_back(joint_json(joint));
   Json modes = modes_json(run, reader);
@@ -189,13 +223,14 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
           {"time", {{"n", reader.num_frames()}, {"f32", reader.times()}}},
           {"bodies", bodies_json(shown, reader)},
           {"joints", std::move(joints)},
+          {"loads", loads_json(run, reader, shown)},
           {"gravity", json_of(geometry.gravity)},
           {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
           {"sensors", curves_json(run, reader, "sensors/", true)},
           {"energies", curves_json(run, reader, "energies/", false)},
           {"modes", std::move(modes)},
           {"summary", std::move(summary)},
-          {"storage", storage_json(report, options)}};
+          {"storage", storage_json(report, options, at_fields, possible)}};
 }
 
 }  // namespace buckens::io
