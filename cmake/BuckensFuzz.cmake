@@ -29,6 +29,7 @@ function(buckens_fuzz target seconds)
   endif()
   set(name fuzz_${target})
   add_executable(${name} "${main}" ${sources})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE buckens buckens_common yaml-cpp nlohmann_json::nlohmann_json)
   # clang knows more warnings than the compiler that the sources are written for.
   target_compile_options(${name} PRIVATE -w -O1 -g0 ${BUCKENS_FUZZ_FLAGS})
@@ -53,10 +54,12 @@ endfunction()
 
 set_source_files_properties(
   "${PROJECT_SOURCE_DIR}/src/buckens/io/gmsh_msh4.cpp"
+  "${PROJECT_SOURCE_DIR}/src/buckens/io/matrix_node_table.cpp"
   "${PROJECT_SOURCE_DIR}/src/buckens/io/universal_file.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 buckens_fuzz(nastran 5 io/nastran_*.cpp)
 buckens_fuzz(abaqus 5 io/abaqus_*.cpp)
 buckens_fuzz(gmsh 5 io/gmsh_elements.cpp io/gmsh_mesh.cpp io/gmsh_msh?.cpp io/gmsh_reader.cpp
              io/mesh_text.cpp io/tagged_mesh.cpp io/universal_file.cpp)
+buckens_fuzz(matrix 4 io/matrix_file.cpp io/matrix_node_table.cpp)
 buckens_fuzz(model_file 8 io/yaml_tree.cpp io/model_file.cpp io/model_file_values.cpp)
