@@ -15,6 +15,10 @@ if(NOT BUCKENS_FUZZ_CLANG)
 endif()
 
 set(BUCKENS_FUZZ_FLAGS -fsanitize=fuzzer,address)
+set(fuzz_cache "")
+if(BUCKENS_CCACHE)
+  set(fuzz_cache "${BUCKENS_CCACHE}")
+endif()
 set(BUCKENS_WITH_CLANG "${PROJECT_SOURCE_DIR}/tests/fuzz/with_clang.sh" "${BUCKENS_FUZZ_CLANG}")
 
 function(buckens_fuzz target seconds)
@@ -36,7 +40,7 @@ function(buckens_fuzz target seconds)
   target_link_options(${name} PRIVATE ${BUCKENS_FUZZ_FLAGS})
   set_target_properties(
     ${name}
-    PROPERTIES CXX_COMPILER_LAUNCHER "${BUCKENS_WITH_CLANG};${BUCKENS_CCACHE};--"
+    PROPERTIES CXX_COMPILER_LAUNCHER "${BUCKENS_WITH_CLANG};${fuzz_cache};--"
                UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
                RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
   list(JOIN BUCKENS_WITH_CLANG " " launcher)
