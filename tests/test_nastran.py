@@ -68,7 +68,7 @@ def solved(buckens, tmp_path):
     """Mass properties and free-free frequencies of a body."""
     def call(model, count=9):
         (tmp_path / "model.yaml").write_text(model)
-        body = buckens("check", "model.yaml", "--json").must(0).json["bodies"][0]
+        body = buckens("check", "model.yaml", "--json").must(0).json["bodies"]["block"]
         modes = buckens("modes", "model.yaml", "--count", count, "--json").must(0).json
         return body, numpy.array([mode["frequency"] for mode in modes["analyses"][0]["modes"]])
 
@@ -81,6 +81,7 @@ def test_a_box_is_the_same_as_a_deck(solved, tmp_path, form):
     body, found = solved(FILE)
     expected_body, expected = solved(BOX)
     assert body["mass"] == pytest.approx(expected_body["mass"], rel=1e-12)
+    assert body["principal_inertia"] == pytest.approx(expected_body["principal_inertia"], rel=1e-12)
     # Coordinates such as 33.3333 are not needed: all divide evenly, what is left is rounding.
     assert found == pytest.approx(expected, rel=1e-9)
 
