@@ -414,8 +414,8 @@ void AbaqusMesh::note_element_types() {
     for (int e = 0; e < scopes[s].num_elements; ++e) {
       const auto [block, k] = scopes[s].at(e);
       const DeckPlace place = block->places[k];
-      const auto count = [&](auto& counts) {
-        ++counts.try_emplace(block->type, place, 0).first->second.second;
+      const auto count = [type = block->type, &place](auto& counts) {
+        ++counts.try_emplace(type, place, 0).first->second.second;
       };
       if (!block->type->becomes.empty()) count(seen);
       const bool has_section = section_of_[s][static_cast<std::size_t>(e)] >= 0;
