@@ -38,7 +38,7 @@ bool may_be_mechanism(const body::FlexiblePart& part) {
 
 void refuse_mechanisms(const body::Body& body) {
   const fem::FeModel& fe = body.flexible->fe;
-  const bool is_matrices = fe.blocks.empty();
+  const bool is_matrices = body.flexible->mesh().blocks.empty();
   if (!is_matrices && !may_be_mechanism(*body.flexible)) return;
   const body::FreeModes modes = body::free_modes(fe.M, fe.K, body.flexible->sieve.Phi(), 1);
   if (modes.omega.size() == 0) return;
