@@ -106,9 +106,31 @@ void set_inner(const QuadPoint& centre, const QuadPoint& p, double r, double s,
   }
 }
 
+/// Drilling of the nodes against the surface, Σ N_i m_i·(θ_i − ω), with ω the rotation of the
+/// surface at the point and m_i halfway between its normal there and the director of node i. Where
+/// a curved shell bends without stretching, its rotation changes along the surface only, so that
+/// this vanishes to second order in the angle between normals; n·(θ_i − ω) does not, and locks.
+/// With axes x, y, n the surface turns by ω_x = n·U,y, ω_y = −n·U,x, ω_n = ½ (y·U,x − x·U,y).
+ShellRow drilling_row(const ShellElement& element, const QuadPoint& p) {
+  const ShellRowBuilder build{element};
+  const Vector3d n = p.axes.col(2);
+  ShellRow row = ShellRow::Zero(element.num_variables());
+  Vector3d mean = Vector3d::Zero();
+  for (Eigen::Index i = 0; i < element.nodes.cols(); ++i) {
+    const Vector3d between = 0.5 * (n + element.directors.col(i));
+    row.segment<3>(6 * i + 3) += p.shape.N[i] * between.transpose();
+    mean += p.shape.N[i] * between;
+  }
+  const Vector3d m = p.axes.transpose() * mean;
+  build.add_surface(row, -m.x() * n, p.slope.row(1));
+  build.add_surface(row, m.y() * n, p.slope.row(0));
+  build.add_surface(row, -0.5 * m.z() * p.axes.col(1), p.slope.row(0));
+  build.add_surface(row, 0.5 * m.z() * p.axes.col(0), p.slope.row(1));
+  return row;
+}
+
 ShellStrainPoint quad_point(const ShellElement& element, const QuadPoint& centre,
                             const QuadShear& shear, const ShellRulePoint& at) {
-  const ShellRowBuilder build{element};
   const QuadPoint p(element, at.r, at.s);
   ShellStrainPoint out;
   out.area = at.weight * p.area;
@@ -117,11 +139,7 @@ ShellStrainPoint quad_point(const ShellElement& element, const QuadPoint& centre
   set_curvature(element, p.axes, p.slope, out.outer);
   out.outer.bottomRows<2>() = p.inverse.transpose() * shear.at(at.r, at.s);
   set_inner(centre, p, at.r, at.s, out);
-  // θ·n − ½ (y·U,x − x·U,y)
-  out.drilling = ShellRow::Zero(element.num_variables());
-  build.add_rotation(out.drilling, p.axes.col(2), p.shape.N);
-  build.add_surface(out.drilling, -0.5 * p.axes.col(1), p.slope.row(0));
-  build.add_surface(out.drilling, 0.5 * p.axes.col(0), p.slope.row(1));
+  out.drilling = drilling_row(element, p);
   return out;
 }
 
