@@ -25,6 +25,17 @@ Matrix3d cross_matrix(const Vector3d& r) {
   return out;
 }
 
+/// Σ w (|r|² 1 − r rᵀ) of the places of the nodes.
+Matrix3d spread_of(const std::vector<Node>& nodes, const NodeRegion& region) {
+  Matrix3d out = Matrix3d::Zero();
+  for (std::size_t k = 0; k < region.nodes.size(); ++k) {
+    const Vector3d r = nodes[static_cast<std::size_t>(region.nodes[k])].position - region.centre;
+    out += region.weights[static_cast<Eigen::Index>(k)] *
+           (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+  }
+  return out;
+}
+
 /// Weights and what follows from them, from the area of each node.
 void complete(const std::vector<Node>& nodes, const Eigen::VectorXd& areas, NodeRegion& region) {
   region.area = areas.sum();
@@ -38,12 +49,27 @@ void complete(const std::vector<Node>& nodes, const Eigen::VectorXd& areas, Node
   for (std::size_t k = 0; k < region.nodes.size(); ++k) {
     region.centre += region.weights[static_cast<Eigen::Index>(k)] * place(k);
   }
-  region.spread.setZero();
-  for (std::size_t k = 0; k < region.nodes.size(); ++k) {
-    const Vector3d r = place(k) - region.centre;
-    region.spread += region.weights[static_cast<Eigen::Index>(k)] *
-                     (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-  }
+  region.spread = spread_of(nodes, region);
+}
+
+/// Nodes on a line, such as the edge of a shell, tell a rotation about it if they have rotations of
+/// their own: these count in the fit like displacements at a tenth of the region's radius.
+void count_rotations(const Structure& structure, NodeRegion& region) {
+  if (region.turns()) return;
+  std::vector<bool> turns(structure.nodes.size(), false);
+  const auto mark = [&turns](const ElementBlock& block) {
+    for (int e = 0; e < block.num_elements(); ++e) {
+      for (const int node : block.nodes(e)) turns[static_cast<std::size_t>(node)] = true;
+    }
+  };
+  mark(structure.beams);
+  mark(structure.shells);
+  const bool all_turn = std::all_of(region.nodes.begin(), region.nodes.end(), [&](int node) {
+    return turns[static_cast<std::size_t>(node)];
+  });
+  if (!all_turn || structure.shells.num_elements() == 0) return;
+  const double radius = 0.5 * region.spread.trace();
+  region.spread += (radius > 0.0 ? 0.01 * radius : 1.0) * Matrix3d::Identity();
 }
 
 /// Adds the shares of faces to the nodes they belong to.
@@ -124,6 +150,7 @@ NodeRegion face_region(const Structure& structure, const FaceSet& faces) {
   for (const ShellSide& side : faces.shells)
     add_shell_area(structure, side.element, out.nodes, areas);
   complete(structure.nodes, areas, out);
+  count_rotations(structure, out);
   return out;
 }
 
@@ -135,6 +162,7 @@ NodeRegion node_region(const Structure& structure, std::vector<int> nodes) {
   Eigen::VectorXd areas = areas_of(structure, faces_within(structure, out.nodes), out.nodes);
   add_shell_areas(structure, out.nodes, areas);
   complete(structure.nodes, areas, out);
+  count_rotations(structure, out);
   return out;
 }
 
@@ -177,6 +205,9 @@ PointRows region_rows(const std::vector<Node>& nodes, const DofMap& dofs, const 
   Matrix3d inverse = Matrix3d::Zero();
   if (out.has_rotation) inverse = region.spread.inverse();
   const Matrix3d offset = cross_matrix(at - region.centre);
+  // What the spread has besides that of the places belongs to the rotations of the nodes.
+  const double own = (region.spread - spread_of(nodes, region)).trace() / 3.0;
+  const bool counts_rotations = own > kOnLine * region.spread.trace();
   for (std::size_t k = 0; k < region.nodes.size(); ++k) {
     const double weight = region.weights[static_cast<Eigen::Index>(k)];
     if (weight == 0.0) continue;
@@ -190,6 +221,17 @@ PointRows region_rows(const std::vector<Node>& nodes, const DofMap& dofs, const 
         if (dof < 0) continue;
         if (move(row, axis) != 0.0) out.translation.emplace_back(row, dof, move(row, axis));
         if (turn(row, axis) != 0.0) out.rotation.emplace_back(row, dof, turn(row, axis));
+      }
+    }
+    if (!counts_rotations) continue;
+    const Matrix3d follow = weight * own * inverse;
+    const Matrix3d lever = -offset * follow;
+    for (int row = 0; row < 3; ++row) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int dof = dofs.node_dofs[node][static_cast<std::size_t>(3 + axis)];
+        if (dof < 0) continue;
+        if (follow(row, axis) != 0.0) out.rotation.emplace_back(row, dof, follow(row, axis));
+        if (lever(row, axis) != 0.0) out.translation.emplace_back(row, dof, lever(row, axis));
       }
     }
   }
