@@ -40,8 +40,8 @@ void load_matrices(fem::MatricesSpec& matrices, const ReadContext& context) {
 
 void load_geometry(fem::GeometrySpec& part, const ReadContext& context) {
   try {
-    part.imported = std::make_shared<const fem::ImportedMesh>(
-        mesh_step(full_path(part.step, context), part));
+    part.imported =
+        std::make_shared<const fem::ImportedMesh>(mesh_step(full_path(part.step, context), part));
   } catch (const IoError& error) {
     throw InputError(part.where, error.what());
   }

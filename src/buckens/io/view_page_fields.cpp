@@ -70,23 +70,6 @@ void add_lines(const GeometryBody& body, const RunReader& run, std::vector<PageF
   }
 }
 
-/// Von Mises stresses at the centres of the solid elements below the surface.
-void add_solids(const GeometryBody& body, const VisibleParts& visible, const RunReader& run,
-                std::vector<PageField>& out) {
-  const std::string path = fmt::format("bodies/{}/solid_stress", body.name);
-  const Channel* channel = find(run, path);
-  const auto& solids = visible.solids;
-  if (channel == nullptr || solids.empty() || channel->size() <= solids.back()) return;
-  out.push_back({"von_mises",
-                 "elements",
-                 PageField::From::records,
-                 path,
-                 channel->unit,
-                 {""},
-                 solids.size(),
-                 [solids](const std::vector<double>& all) { return values_at(all, solids); }});
-}
-
 constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
 /// The values at the given places, `stride` at each; NaN for kNowhere.
@@ -101,6 +84,24 @@ FrameReader::Choose groups_at(std::vector<std::size_t> places, std::size_t strid
     }
     return out;
   };
+}
+
+/// Von Mises stresses at the centres of the solid elements below the surface; shells have none.
+void add_solids(const GeometryBody& body, const VisibleParts& visible, const RunReader& run,
+                std::vector<PageField>& out) {
+  const std::string path = fmt::format("bodies/{}/solid_stress", body.name);
+  const Channel* channel = find(run, path);
+  if (channel == nullptr || visible.solids.empty()) return;
+  std::vector<std::size_t> places = visible.solids;
+  for (std::size_t& place : places) place = place < channel->size() ? place : kNowhere;
+  out.push_back({"von_mises",
+                 "elements",
+                 PageField::From::records,
+                 path,
+                 channel->unit,
+                 {""},
+                 places.size(),
+                 groups_at(places, 1)});
 }
 
 /// The row in fields at elements of each visible solid element.
