@@ -41,10 +41,10 @@ std::vector<std::string_view> split_keyword(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') is_quoted = !is_quoted;
     if (line[i] != ',' || is_quoted) continue;
-    out.push_back(trimmed(line.substr(begin, i - begin)));
+    out.push_back(stripped(line.substr(begin, i - begin)));
     begin = i + 1;
   }
-  out.push_back(trimmed(line.substr(begin)));
+  out.push_back(stripped(line.substr(begin)));
   return out;
 }
 
@@ -158,7 +158,7 @@ bool AbaqusLines::physical_line(std::string_view& line, DeckPlace& place) {
     }
     const std::string_view text = source.text;
     const std::size_t end = std::min(text.find('\n', source.position), text.size());
-    line = trimmed(text.substr(source.position, end - source.position));
+    line = stripped(text.substr(source.position, end - source.position));
     source.position = end + 1;
     place = {stack_.back(), ++source.line};
     return true;
@@ -217,7 +217,7 @@ DeckKeyword AbaqusLines::parse_keyword(std::string line, DeckPlace place) const 
     DeckKeyword::Parameter& parameter = out.parameters.emplace_back();
     parameter.key = squeezed(parts[i].substr(0, equals));
     if (equals == std::string_view::npos) continue;
-    parameter.value = unquoted(trimmed(parts[i].substr(equals + 1)));
+    parameter.value = unquoted(stripped(parts[i].substr(equals + 1)));
   }
   return out;
 }
@@ -234,7 +234,7 @@ bool AbaqusLines::next_row(DeckRow& out, bool with_blank) {
   std::size_t begin = 0;
   while (begin <= line_.size()) {
     const std::size_t end = std::min(line_.find(',', begin), line_.size());
-    std::string_view cell = trimmed(line_.substr(begin, end - begin));
+    std::string_view cell = stripped(line_.substr(begin, end - begin));
     if (cell.size() > 2 && cell.front() == '"' && cell.back() == '"') {
       cell = cell.substr(1, cell.size() - 2);
     }

@@ -15,6 +15,6 @@ std::optional<double> deck_number(std::string_view text);
 std::optional<std::int64_t> deck_integer(std::string_view text);
 
 /// Without blanks, tabs and carriage returns at both ends.
-std::string_view trimmed(std::string_view text);
+std::string_view stripped(std::string_view text);
 
 }  // namespace buckens::io

@@ -28,7 +28,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   std::size_t begin = 0;
   while (begin <= line.size()) {
     const std::size_t end = std::min(line.find(separator, begin), line.size());
-    out.push_back(trimmed(line.substr(begin, end - begin)));
+    out.push_back(stripped(line.substr(begin, end - begin)));
     begin = end + 1;
   }
   return out;

@@ -20,7 +20,7 @@ class TextLines {
   bool next(std::string_view& line) {
     if (position_ >= text_.size()) return false;
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
-    line = trimmed(text_.substr(position_, end - position_));
+    line = stripped(text_.substr(position_, end - position_));
     position_ = end + 1;
     ++number_;
     return true;
