@@ -70,6 +70,13 @@ std::string quoted_excerpt(std::string_view text) {
   return out + '"';
 }
 
+std::string_view trimmed(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 std::string upper_case(std::string_view text) {
   std::string out(text);
   for (char& c : out) {
