@@ -26,7 +26,7 @@ struct StrainPlace {
 /// modes of hex8 included, carried to the nodes by its polynomial, and averaged there over the
 /// elements of one elasticity: stresses may jump where the material changes. Second order in the
 /// element size at centres of hex8 and for hex20 and tet10; at nodes of hex8 inside the mesh, too,
-/// and first order at its surface. Theory: docs/theory/17-stresses.md.
+/// and first order at its surface. Theory: docs/theory/18-stresses.md.
 ///
 /// Nothing is stored per element but the condensed inner modes of hex8 (81 numbers); the cost of an
 /// evaluation is that of the gradients at the points.

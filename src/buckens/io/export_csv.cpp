@@ -55,6 +55,15 @@ class Table {
 std::string heads_of(const results::Channel& channel, const std::string& name) {
   if (channel.shape.size() < 2) return ',' + csv_cell(fmt::format("{} [{}]", name, channel.unit));
   std::string out;
+  if (channel.shape.size() == 3) {  // levels of shells: bottom and top of each layer
+    for (int level = 0; level < channel.shape[1]; ++level) {
+      for (const std::string& component : channel.components) {
+        out += ',' + csv_cell(fmt::format("{}.{}.{}{} [{}]", name, component, level / 2 + 1,
+                                          level % 2 == 0 ? "-" : "+", channel.unit));
+      }
+    }
+    return out;
+  }
   for (const std::string& component : channel.components) {
     out += ',' + csv_cell(fmt::format("{}.{} [{}]", name, component, channel.unit));
   }
@@ -86,12 +95,17 @@ void write_sensors(const RunReader& run, const std::filesystem::path& path) {
   table.close();
 }
 
-/// Fields of one body at nodes or elements.
+std::vector<int> places_of(const results::GeometryBody& body, const std::string& location) {
+  if (location == "nodes") return body.field_nodes;
+  return location == "shells" ? shells_of(body) : body.field_elements;
+}
+
+/// Fields of one body at nodes, solids or shells.
 void write_fields(const RunReader& run, const std::vector<Instant>& instants,
                   const results::GeometryBody& body, const std::string& location,
                   const std::filesystem::path& path) {
   const bool at_nodes = location == "nodes";
-  const std::vector<int>& places = at_nodes ? body.field_nodes : body.field_elements;
+  const std::vector<int> places = places_of(body, location);
   std::string head = at_nodes ? "t [s],node,x [m],y [m],z [m]" : "t [s],element";
   std::vector<const results::Channel*> channels;
   for (const std::string& name : field_names(run, body.name, location)) {
@@ -125,7 +139,7 @@ bool write_extremes(const RunReader& run, const results::GeometryBody& body,
   const std::vector<double> largest = run.read_fixed(place);
   const std::vector<double> times = run.read_fixed(place + "_time");
   const bool at_nodes = location == "nodes";
-  const std::vector<int>& places = at_nodes ? body.field_nodes : body.field_elements;
+  const std::vector<int> places = places_of(body, location);
   if (largest.empty() || largest.size() != places.size() || times.size() != places.size()) {
     return false;
   }
@@ -156,7 +170,7 @@ std::vector<std::string> export_csv(const RunReader& run, const InstantChoice& c
   std::vector<std::string> files = {"sensors.csv"};
   write_sensors(run, directory / files.front());
   for (const results::GeometryBody& body : run.geometry().bodies) {
-    for (const std::string location : {"nodes", "elements"}) {
+    for (const std::string location : {"nodes", "elements", "shells"}) {
       if (!field_names(run, body.name, location).empty()) {
         files.push_back(fmt::format("{}_{}.csv", body.name, location));
         write_fields(run, instants, body, location, directory / files.back());

@@ -20,6 +20,11 @@ namespace {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
+/// Numbers per place.
+int width_of(const results::Channel& channel) {
+  return static_cast<int>(channel.size()) / channel.shape.front();
+}
+
 /// Points and cells of one body, which are the same at every instant.
 struct BodyGrid {
   const results::GeometryBody* body;
@@ -77,9 +82,13 @@ class Arrays {
  public:
   /// Appends values of one body, or that many NaN to all arrays that get none.
   void put(const results::Channel& channel, const std::string& name, std::vector<float> values) {
-    const int width = channel.shape.size() < 2 ? 1 : channel.shape.back();
+    const int width = width_of(channel);
     auto [at, is_new] = arrays_.try_emplace(name);
-    if (is_new) at->second = {name, width, std::vector<float>{}, channel.components};
+    if (is_new) {
+      const bool are_named = channel.components.size() == static_cast<std::size_t>(width);
+      at->second = {name, width, std::vector<float>{},
+                    are_named ? channel.components : std::vector<std::string>{}};
+    }
     auto& all = std::get<std::vector<float>>(at->second.values);
     const auto components = static_cast<std::size_t>(at->second.components);
     all.resize(count_ * components, kNoValue);
@@ -168,8 +177,7 @@ class Exporter {
   static std::vector<float> spread(const results::Channel& channel,
                                    const std::vector<double>& values,
                                    const std::vector<int>& rows) {
-    const std::size_t width =
-        channel.shape.size() < 2 ? 1 : static_cast<std::size_t>(channel.shape.back());
+    const auto width = static_cast<std::size_t>(width_of(channel));
     std::vector<float> out;
     for (const int row : rows) {
       for (std::size_t k = 0; k < width; ++k) {
@@ -212,17 +220,25 @@ class Exporter {
     }
     arrays.put(kMises, "von_mises", std::move(mises));
     if (!now.field_row) return;
+    add_rows(grid, now, "elements", grid.body->field_elements, "", arrays);
+    add_rows(grid, now, "shells", shells_of(*grid.body), "shell_", arrays);
+  }
+
+  /// Fields of some solids or shells.
+  /// @param prefix of the names of the arrays
+  void add_rows(const BodyGrid& grid, const Instant& now, const std::string& location,
+                const std::vector<int>& elements, const std::string& prefix, Arrays& arrays) const {
     std::vector<int> rows(grid.kinds.size(), -1);
-    for (std::size_t row = 0; row < grid.body->field_elements.size(); ++row) {
-      const auto element = static_cast<std::size_t>(grid.body->field_elements[row]);
-      rows.at(grid.num_lines + element) = static_cast<int>(row);
+    for (std::size_t row = 0; row < elements.size(); ++row) {
+      rows.at(grid.num_lines + static_cast<std::size_t>(elements[row])) = static_cast<int>(row);
     }
-    for (const std::string& name : field_names(run_, grid.body->name, "elements")) {
+    for (const std::string& name : field_names(run_, grid.body->name, location)) {
       if (name == "von_mises") continue;  // the same number as in every record
-      const std::string path = fmt::format("fields/bodies/{}/elements/{}", grid.body->name, name);
+      const std::string path =
+          fmt::format("fields/bodies/{}/{}/{}", grid.body->name, location, name);
       const results::Channel& channel = *find_channel(run_.field_layout(), path);
       const std::vector<double> values = run_.read_fields(path, std::array{*now.field_row});
-      arrays.put(channel, name, spread(channel, values, rows));
+      arrays.put(channel, prefix + name, spread(channel, values, rows));
     }
   }
 

@@ -79,6 +79,14 @@ Eigen::Matrix3Xd displacements_of(const RunReader& run, const results::GeometryB
       .topRows<3>();
 }
 
+std::vector<int> shells_of(const results::GeometryBody& body) {
+  std::vector<int> out;
+  for (std::size_t e = 0; e < body.cell_kinds.size(); ++e) {
+    if (fem::dimension_of(body.cell_kinds[e]) == 2) out.push_back(static_cast<int>(e));
+  }
+  return out;
+}
+
 std::vector<std::string> field_names(const RunReader& run, const std::string& body,
                                      const std::string& location) {
   const std::string group = fmt::format("fields/bodies/{}/{}/", body, location);

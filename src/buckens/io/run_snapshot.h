@@ -34,7 +34,11 @@ spatial::Pose pose_of(const RunReader& run, const std::string& body, std::size_t
 Eigen::Matrix3Xd displacements_of(const RunReader& run, const results::GeometryBody& body,
                                   std::size_t record);
 
-/// The quantities recorded of a body at "nodes" or "elements": the last parts of their paths.
+/// The shells of a body, counted behind its solids.
+std::vector<int> shells_of(const results::GeometryBody& body);
+
+/// The quantities recorded of a body at "nodes", "elements" or "shells": the last parts of their
+/// paths.
 std::vector<std::string> field_names(const RunReader& run, const std::string& body,
                                      const std::string& location);
 

@@ -13,15 +13,23 @@ FieldRecorder::FieldRecorder(const model::BuiltModel& built) : built_(built) {
   if (!spec) return;
   for (const model::FieldPlaces& places : built.fields) {
     BodyFields body(built.model, places, *spec);
-    if (body.is_empty()) continue;
-    body.add_channels(layout_);
-    bodies_.push_back(std::move(body));
+    if (!body.is_empty()) {
+      body.add_channels(layout_);
+      bodies_.push_back(std::move(body));
+    }
   }
-  if (!bodies_.empty()) return;
-  throw InputError(spec->where,
-                   "output.fields: no body there has solid elements, so there are no such fields; "
-                   "beams and bars have `stress` and `section_force` in every run, and motion "
-                   "(displacement, velocity, acceleration) exists on every mesh");
+  for (const model::FieldPlaces& places : built.fields) {
+    ShellFields shells(built.model, places, *spec);
+    if (shells.is_empty()) continue;
+    shells.add_channels(layout_);
+    shells_.push_back(std::move(shells));
+  }
+  if (!is_empty()) return;
+  throw InputError(
+      spec->where,
+      "output.fields: no body there has solids or shells, so there are no such fields; "
+      "beams and bars have `stress` and `section_force` in every run, and motion "
+      "(displacement, velocity, acceleration) exists on every mesh");
 }
 
 bool FieldRecorder::watches_steps() const {
@@ -41,6 +49,11 @@ void FieldRecorder::watch(const model::State& state) {
     body.evaluate_stresses(state);
     body.update_extremes(state.t);
   }
+  for (ShellFields& body : shells_) {
+    if (!body.has_extremes()) continue;
+    body.evaluate(state);
+    body.update_extremes(state.t);
+  }
 }
 
 Record FieldRecorder::record(const model::State& state, const std::optional<double>& stamp) {
@@ -51,6 +64,11 @@ Record FieldRecorder::record(const model::State& state, const std::optional<doub
     body.update_extremes(out.t);
     body.append(state, out.values);
   }
+  for (ShellFields& body : shells_) {
+    body.evaluate(state);
+    body.update_extremes(out.t);
+    body.append(out.values);
+  }
   return out;
 }
 
@@ -58,6 +76,7 @@ std::vector<double> FieldRecorder::extremes() const {
   std::vector<double> out;
   out.reserve(layout_.extremes.num_values());
   for (const BodyFields& body : bodies_) body.append_extremes(out);
+  for (const ShellFields& body : shells_) body.append_extremes(out);
   return out;
 }
 

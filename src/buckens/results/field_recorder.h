@@ -7,6 +7,7 @@
 #include "buckens/model/model_builder.h"
 #include "buckens/results/body_fields.h"
 #include "buckens/results/record_sink.h"
+#include "buckens/results/shell_fields.h"
 
 namespace buckens::results {
 
@@ -15,11 +16,11 @@ namespace buckens::results {
 class FieldRecorder {
  public:
   /// @param built outlives the object
-  /// @throws InputError if nothing of what is asked for exists: stresses need solid elements
+  /// @throws InputError if nothing of what is asked for exists: stresses need solids or shells
   explicit FieldRecorder(const model::BuiltModel& built);
 
   /// Nothing is asked for.
-  bool is_empty() const { return bodies_.empty(); }
+  bool is_empty() const { return bodies_.empty() && shells_.empty(); }
   /// Whether the largest stresses are to be brought up to date at every step.
   bool watches_steps() const;
   bool has_extremes() const { return !layout_.extremes.channels().empty(); }
@@ -38,6 +39,7 @@ class FieldRecorder {
  private:
   const model::BuiltModel& built_;
   std::vector<BodyFields> bodies_;
+  std::vector<ShellFields> shells_;
   FieldLayout layout_;
 };
 

@@ -279,7 +279,7 @@ TEST(FieldRecorder, BeamsHaveMotionButNoStressFields) {
   EXPECT_EQ(run.recorder.layout().fields.find("fields/bodies/rod/nodes/von_mises"), -1);
   m.d.output.field_output->record = {FieldQuantity::von_mises};
   EXPECT_THAT([&] { Fields other(m); },
-              testing::ThrowsMessage<InputError>(testing::HasSubstr("no body there has solid")));
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("no body there has solids")));
 }
 
 TEST(FieldRecorder, UnknownPlacesAreNamedWithTheNearestOnes) {
