@@ -114,26 +114,29 @@ simulation: {duration: 1 ms, step: 0.5 ms}
 def test_names_of_comments_choose_materials(solved, buckens, tmp_path):
     deck = '$HMNAME PROP                   1"beam" 4\n' + box_deck("small")
     (tmp_path / "block.bdf").write_text(deck)
-    heavy = FILE.replace("length-unit: mm", "length-unit: mm, materials: {beam: {E: 210 GPa, "
-                                            "nu: 0.3, rho: 15700 kg/m^3}}")
+    heavy = FILE.replace("length-unit: mm", "length-unit: mm, materials: {beam: heavy}") + """
+materials:
+  heavy: {E: 210 GPa, nu: 0.3, rho: 15700 kg/m^3}
+"""
     body, found = solved(heavy)
     expected_body, expected = solved(BOX)
     assert body["mass"] == pytest.approx(2 * expected_body["mass"], rel=1e-12)
     # Twice the mass; rounding as above.
     assert math.sqrt(2) * found == pytest.approx(expected, rel=1e-9)
-    (tmp_path / "model.yaml").write_text(heavy.replace("beam:", "bean:"))
+    (tmp_path / "model.yaml").write_text(heavy.replace("{beam:", "{bean:"))
     buckens("check", "model.yaml").must(2, "bean", 'Did you mean "beam"?')
 
 
 @pytest.mark.parametrize("change, words", [
     (lambda deck: deck.replace("GRID,7,", "GRID,7000,"), ["CHEXA 6", "there is no GRID 7"]),
     (lambda deck: deck.replace("2.1+5", "nan"), ["block.bdf:", "MAT1 1, field 3", '"nan"']),
-    (lambda deck: deck[:len(deck) // 2], ["block.bdf:", "CHEXA"]),
+    (lambda deck: deck[:deck.index("CHEXA,7") + 20], ["block.bdf:", "CHEXA 7", "is blank"]),
+    (lambda deck: deck[:deck.index("CHEXA,1")], ["block.bdf", "no elements", "complete"]),
     (lambda deck: deck.replace("ENDDATA", "INCLUDE 'block.bdf'"), ["block.bdf:", "circle"]),
     (lambda deck: deck.replace("ENDDATA", "SPOINT,99"), ["block.bdf:", "scalar points"]),
     (lambda deck: "\x00\x01\x02" + deck, ["block.bdf:1:1", "zero byte"]),
     (lambda deck: "", ["block.bdf", "no nodes"]),
-], ids=["missing node", "nan", "truncated", "cycle", "refused card", "binary", "empty"])
+], ids=["missing node", "nan", "truncated", "without elements", "cycle", "refused card", "binary", "empty"])
 def test_bad_decks_say_where(buckens, tmp_path, change, words):
     (tmp_path / "block.bdf").write_text(change(box_deck("free")))
     (tmp_path / "model.yaml").write_text(FILE)

@@ -69,7 +69,13 @@ fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::pat
 }
 
 fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path) {
-  return read_nastran_text(read_text_file(path, "Nastran deck"), path, load_nastran_file);
+  fem::ImportedMesh mesh =
+      read_nastran_text(read_text_file(path, "Nastran deck"), path, load_nastran_file);
+  if (mesh.num_elements() == 0 && mesh.masses.empty()) {
+    throw InputError({mesh.file, 0, 0},
+                     "the deck has nodes, but no elements and no masses; is it complete?");
+  }
+  return mesh;
 }
 
 }  // namespace buckens::io

@@ -20,8 +20,8 @@ namespace buckens::io {
 /// make another structure if it were left out; the rest stands in ImportedMesh::notes
 fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path);
 
-/// The same from a text; `name` stands for the file in messages and beside it included files are
-/// looked for.
+/// The same from a text, which may hold nodes alone; `name` stands for the file in messages and
+/// beside it included files are looked for.
 fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::path& name,
                                     const LoadNastranFile& load = load_nastran_file);
 
