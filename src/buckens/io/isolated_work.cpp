@@ -21,6 +21,17 @@ namespace {
 
 constexpr char kEnd = '\x04';  // behind the output of work that came to its end
 
+/// To what the machine has. Sanitizers reserve more addresses than that for themselves.
+void limit_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
+  if (pages <= 0 || size <= 0) return;
+  const auto bytes = static_cast<rlim_t>(pages) * static_cast<rlim_t>(size);
+  const rlimit memory = {bytes, bytes};
+  ::setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
 void keep_to_itself() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGSEGV, SIGFPE, SIGABRT}) {
@@ -30,12 +41,7 @@ void keep_to_itself() {
   for (int stream = 0; nothing >= 0 && stream < 3; ++stream) ::dup2(nothing, stream);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
-  if (pages > 0 && size > 0) {
-    const auto bytes = static_cast<rlim_t>(pages) * static_cast<rlim_t>(size);
-    const rlimit memory = {bytes, bytes};
-    ::setrlimit(RLIMIT_AS, &memory);
-  }
+  limit_memory();
 }
 
 void send(int pipe, const std::string& text) {
