@@ -48,7 +48,7 @@ def test_a_crank_web_is_measured(crank_web):
                                    "count": crank_web["elements"]}]
     assert crank_web["variables"] == 3 * crank_web["nodes"]
     assert crank_web["pieces"] == 1 and not crank_web["inverted"] and not crank_web["free_nodes"]
-    assert crank_web["box"][1] == pytest.approx([0.058, 0.025, 0.012], abs=1e-6)
+    assert crank_web["box"][1] == pytest.approx([0.058, 0.025, 0.012], abs=5e-5)
     assert set(crank_web["face_sets"]) == {"SHAFT", "PIN"}
     # Areas are those of the plane triangles between the corners.
     assert crank_web["face_sets"]["SHAFT"]["area"] == pytest.approx(2 * math.pi * 0.014 * 0.012, rel=0.06)
@@ -60,7 +60,8 @@ def test_a_crank_web_is_measured(crank_web):
 @pytest.mark.parametrize("name", CRANK_WEBS)
 def test_all_formats_hold_the_same_mesh(buckens, crank_web, name):
     other = info(buckens, PARTS / name, "--length-unit", "mm")
-    for key in ("nodes", "elements", "kinds", "variables", "pieces", "element_sets"):
+    assert [(k["kind"], k["count"]) for k in other["kinds"]] == [("tet10", crank_web["elements"])]
+    for key in ("nodes", "elements", "variables", "pieces", "element_sets"):
         assert other[key] == crank_web[key], key
     assert set(other["face_sets"]) == set(crank_web["face_sets"])
     # The universal file rounds to 17 digits of its own, the others are exact.
@@ -171,9 +172,9 @@ def test_a_mesh_becomes_a_body(buckens, tmp_path):
     body = report["bodies"]["part"]
     volume = info(buckens, PARTS / "crank_web_41.msh", "--length-unit", "mm")["volume"]
     assert body["mass"] == pytest.approx(7850 * volume, rel=1e-12)
-    assert body["interfaces"]["far"]["centre"] == pytest.approx([0.04, 0, 0.006], abs=1e-6) \
-        if isinstance(body["interfaces"], dict) else True
-    assert any("444" in note or "tet10" in note for note in report["notes"])
+    # Elements of 40 degrees approximate the circle of the bore.
+    assert body["interfaces"]["far"]["centre"] == pytest.approx([0.04, 0, 0.006], abs=1e-5)
+    assert any("tet10" in note and "worst aspect ratio" in note for note in report["notes"])
     (tmp_path / "wrong.yaml").write_text(BODY.format(file=PARTS / "crank_web_41.msh").replace("PIN", "PINN"))
     buckens("check", "wrong.yaml").must(2, "PINN")
 
@@ -216,9 +217,10 @@ def test_a_rod_from_a_step_file_bends_like_a_beam(buckens, tmp_path):
                 "--set", "simulation.step=0.25 ms", *extra, "-q").must(0)
         bends[model] = deflection(sensors(tmp_path / model / "sensors.csv"))
     largest = numpy.abs(bends["beam"]).max()
-    # The eyes are stiffer than the shank and shorten what bends by a tenth at each end.
-    assert numpy.abs(bends["connecting_rod"]).max() == pytest.approx(largest, rel=0.4)
-    assert numpy.corrcoef(bends["connecting_rod"], bends["beam"])[0, 1] > 0.9
+    # The beam has no eyes, which are stiffer and heavier than the shank; the page says how much that is
+    # (3 % of the largest deflection over 50 ms).
+    assert numpy.abs(bends["connecting_rod"]).max() == pytest.approx(largest, rel=0.1)
+    assert numpy.corrcoef(bends["connecting_rod"], bends["beam"])[0, 1] > 0.97
 
 
 BROKEN = {
@@ -226,7 +228,7 @@ BROKEN = {
     "picture.msh": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "no mesh of Gmsh"),
     "picture.unv": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "universal file"),
     "picture.step": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "no STEP file"),
-    "huge.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999999999999\n", "huge.msh:5:1"),
+    "huge.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999999999999\n", "huge.msh:5:"),
     "missing.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
                     b"1 4 2 0 1 1 2 3 4\n$EndElements\n", "missing.msh:10:"),
     "nan.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "nan.msh:6:5"),

@@ -17,11 +17,11 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
   std::vector<std::string> notes;
   analysis::choose_modes(description, notes,
                          [](const std::string& text) { base::log(base::LogLevel::info, text); });
-  std::vector<std::string> of_meshes;
   for (const body::BodySpec& body : description.bodies) {
-    for (std::string& note : mesh_notes(body)) of_meshes.push_back(std::move(note));
+    const MeshNotes of_mesh = mesh_notes(body);
+    if (!of_mesh.summary.empty()) base::log(base::LogLevel::info, of_mesh.summary);
+    notes.insert(notes.end(), of_mesh.complaints.begin(), of_mesh.complaints.end());
   }
-  notes.insert(notes.begin(), of_meshes.begin(), of_meshes.end());
   io::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
   auto built = model::build_model(std::move(description), &bases);
   built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());

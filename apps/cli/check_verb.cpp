@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/build.h"
+#include "cli/mesh_report_text.h"
 #include "cli/model_report_text.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
@@ -22,7 +23,11 @@ struct CheckArguments {
 
 ExitCode check(const CheckArguments& arguments, bool json) {
   const auto built = read_and_build(arguments.model, arguments.overrides);
-  const analysis::ModelReport report = analysis::report_model(*built);
+  analysis::ModelReport report = analysis::report_model(*built);
+  for (const body::BodySpec& body : built->description.bodies) {
+    const std::string summary = mesh_notes(body).summary;
+    if (!summary.empty()) report.notes.push_back(summary);
+  }
   const std::string& title = built->description.title;
   print(json ? report_json(title, report) : report_text(title, report));
   return ExitCode::ok;

@@ -230,7 +230,7 @@ Json mesh_report_json(const fem::ImportedMesh& mesh, const MeshReport& report) {
           {"warnings", complaints(report)}};
 }
 
-std::vector<std::string> mesh_notes(const body::BodySpec& body) {
+MeshNotes mesh_notes(const body::BodySpec& body) {
   const fem::ImportedMesh* mesh = nullptr;
   bool units_given = true;
   if (const auto* file = std::get_if<fem::MeshSpec>(&body.kind)) {
@@ -241,18 +241,19 @@ std::vector<std::string> mesh_notes(const body::BodySpec& body) {
   }
   if (mesh == nullptr) return {};
   const MeshReport report = fem::report_mesh(*mesh, units_given);
-  std::vector<std::string> out = {fmt::format(
-      "body \"{}\": {} ({}): {} nodes, {}, {}, worst aspect ratio {:.3g}", body.name, mesh->file,
-      mesh->format, report.nodes, kinds_text(report), box_text(report), report.worst_aspect)};
+  MeshNotes out;
+  out.summary = fmt::format("body \"{}\": {} ({}): {} nodes, {}, {}, worst aspect ratio {:.3g}",
+                            body.name, mesh->file, mesh->format, report.nodes, kinds_text(report),
+                            box_text(report), report.worst_aspect);
   for (const std::string& text : complaints(report)) {
-    out.push_back(fmt::format("body \"{}\": {}", body.name, text));
+    out.complaints.push_back(fmt::format("body \"{}\": {}", body.name, text));
   }
   if (!mesh->notes.empty()) {
     std::string text = note_text(mesh->notes.front());
     if (mesh->notes.size() > 1) {
       text += fmt::format("; {} more notes in `buckens mesh-info`", mesh->notes.size() - 1);
     }
-    out.push_back(fmt::format("body \"{}\": {}", body.name, text));
+    out.complaints.push_back(fmt::format("body \"{}\": {}", body.name, text));
   }
   return out;
 }

@@ -16,7 +16,11 @@ std::string mesh_report_text(const fem::ImportedMesh& mesh, const fem::MeshRepor
 nlohmann::ordered_json mesh_report_json(const fem::ImportedMesh& mesh,
                                         const fem::MeshReport& report);
 
-/// The same in a few lines, for the notes of a model; empty for bodies whose mesh is no file.
-std::vector<std::string> mesh_notes(const body::BodySpec& body);
+/// The same in a few lines; empty for bodies whose mesh is no file.
+struct MeshNotes {
+  std::string summary;
+  std::vector<std::string> complaints;  ///< what is probably wrong, and what was left out
+};
+MeshNotes mesh_notes(const body::BodySpec& body);
 
 }  // namespace buckens::cli
