@@ -158,7 +158,7 @@ def test_the_plate_vibrates_as_leissa_says(buckens):
     leissa = numpy.array([20.128, 21.603, 46.654, 50.293, 58.201, 67.494])
     stiffness, mass = 210e9 * 0.004**3 / (12 * (1 - 0.3**2)), 7850 * 0.004
     expected = leissa / (2 * math.pi * 0.6**2) * math.sqrt(stiffness / mass)
-    # 18 x 12 elements: the error of the mesh goes with h^2.
+    # 18 x 12 elements: 0.7 % at the sixth shape, less before; it goes with h^2.
     assert found == pytest.approx(expected, rel=1e-2)
 
 
@@ -170,7 +170,6 @@ def test_the_plate_swings_as_a_pendulum(buckens, tmp_path):
     # A rigid plate passes the lowest point after sqrt(2a/3g) K(sin 45 deg).
     fall = math.sqrt(2 * 0.6 / (3 * 9.81)) * 1.8540746773
     x = numpy.interp(fall, values["t"], values["edge.x"])
-    speed = math.sqrt(3 * 9.81 / 0.6) * 0.6
-    # Bending moves the edge by millimetres; in time that is 2 ms at its speed.
-    assert abs(x) < 2e-3 * speed
-    assert values["edge.z"].min() == pytest.approx(-0.6, abs=2e-3)
+    # The plate bends by 0.15 mm on its way.
+    assert abs(x) < 2e-4
+    assert values["edge.z"].min() == pytest.approx(-0.6, abs=2e-4)
