@@ -72,9 +72,7 @@ export class DisplayPanel {
       if (outside && !(event.target instanceof HTMLCanvasElement)) this.root.open = false;
     });
     this.root.addEventListener('keydown', (event) => {
-      if (event.key !== 'Escape' || !this.root.open) return;
-      this.root.open = false;
-      this.root.querySelector('summary')!.focus();
+      if (event.key === 'Escape' && this.close()) this.root.querySelector('summary')!.focus();
     });
     this.update();
   }
@@ -83,6 +81,13 @@ export class DisplayPanel {
     const { section } = this.options;
     section.axis = value as SectionChoice['axis'];
     this.changed();
+  }
+
+  /** False if it was closed already. */
+  close(): boolean {
+    const { open } = this.root;
+    this.root.open = false;
+    return open;
   }
 
   /** No section, across x, y, z. */

@@ -189,6 +189,7 @@ export class Page {
     if (key === 'e') this.display.nextEdges();
     else if (key === 'x') this.display.nextAxis();
     else if (key === 't') this.nextTheme();
+    else if (key === 'Escape') return this.display.close();
     else return this.toolbar.key(key);
     return true;
   }
