@@ -70,6 +70,7 @@ export class ModeShapes {
     this.size = runBounds({ ...shapes, bodies: still }).size;
     this.run = {
       ...shapes,
+      loads: [],
       times: new Float64Array(kFrames),
       bodies: shapes.bodies.map((body) => ({
         ...body,

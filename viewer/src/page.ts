@@ -137,6 +137,7 @@ export class Page {
     const side = el('aside', { class: 'side', 'aria-label': label }, ...curves);
     if (this.modeList) side.classList.add('modes');
     side.append(this.charts.root, this.picks.root);
+    if (this.panes.length > 1) this.view.classList.add('both');
     const panes = el('div', { class: 'panes' }, ...this.panes.map((pane) => pane.root));
     const bars = el('div', { class: 'bars' }, this.toolbar.root, this.camera.root);
     const overlay = el('div', { class: 'overlay' }, bars, this.field.root);
