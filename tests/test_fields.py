@@ -123,21 +123,23 @@ def test_places_are_bodies_interfaces_and_faces(run):
     faces = body["faces"][:]
     known = places >= 0
     assert (body["field_nodes"][:][places[known]] == faces[known]).all()
-    on_ends = numpy.isin(numpy.abs(body["nodes"][:, 0][faces]), [0.5]) & (faces >= 0)
+    on_ends = (numpy.abs(numpy.abs(body["nodes"][:, 0][faces]) - 0.5) < 1e-9) & (faces >= 0)
     assert (known == on_ends).all()
 
 
-@pytest.mark.parametrize("reduction", ["reduction: {free-free: 8}", "reduction: {craig-bampton: {modes: 6}}",
-                                       "flexibility: quasi-static"])
-def test_reduced_bodies_have_the_stresses_of_their_shape(run, reduction):
+# Free-free and quasi-static bases hold the answer to the joint's force, which is all that deforms a body under
+# uniform gravity. Fixed interface modes approach the weight by one axial mode, 8/pi^2 of the stress at the wall.
+@pytest.mark.parametrize("reduction, tolerance", [("reduction: {free-free: 8}", 1e-5),
+                                                  ("reduction: {craig-bampton: {modes: 6}}", 0.25),
+                                                  ("flexibility: quasi-static", 1e-5)])
+def test_reduced_bodies_have_the_stresses_of_their_shape(run, reduction, tolerance):
     text = BAR.replace("kind: rigid", "kind: average").replace("element: hex20", "element: hex8")
     full = run("{record: [von-mises, velocity]}", text=text)
     known = full["fields/bodies/bar/nodes/von_mises"][0]
     full.close()
     file = run("{record: [von-mises, velocity]}", reduction, text)
-    # Static corrections make the bases exact for the joint's load; the weight is shared out evenly
-    # as by the rigid body, what is left of it is the answer of the vibrations.
-    assert numpy.abs(file["fields/bodies/bar/nodes/von_mises"][0] - known).max() < 0.03 * known.max()
+    found = file["fields/bodies/bar/nodes/von_mises"][0]
+    assert numpy.abs(found - known).max() < tolerance * known.max()
     assert file["fields/bodies/bar/nodes/velocity"].shape == (11, 99, 3)
 
 
@@ -155,8 +157,8 @@ def test_check_tells_the_size_of_the_results(buckens, tmp_path):
     report = buckens("check", "bar.yaml", "--json").must(0).json
     out = buckens("run", "bar.yaml", "-o", "out", "-q").must(0)
     size = (tmp_path / "out" / "results.h5").stat().st_size
-    # Books and half-filled pieces come on top.
-    assert 0.5 * size < report["result_bytes"] < size
+    # Books, half-filled pieces and the geometry come on top.
+    assert size - 600e3 < report["result_bytes"] < size
     assert "size of results.h5" in buckens("check", "bar.yaml").must(0).out
     large = BAR.replace("REDUCTION", "").replace("FIELDS", "[stress]").replace("every: 1 ms", "every: 1 ns")
     (tmp_path / "large.yaml").write_text(large)
@@ -167,7 +169,7 @@ def test_check_tells_the_size_of_the_results(buckens, tmp_path):
 
 
 @pytest.mark.parametrize("fields, words", [
-    ("[von-mises, stres]", ["output.fields.record", "\"stres\"", "\"stress\""]),
+    ("[von-mises, stres]", ["output.fields", "stres", "stress"]),
     ("{record: [von-mises], every: 1.5 ms}", ["no multiple", "0.0015"]),
     ("{record: [von-mises], on: [bra]}", ["no body \"bra\"", "\"bar\""]),
     ("{record: [von-mises], on: [bar/roof]}", ["\"roof\"", "\"root\""]),
