@@ -274,7 +274,10 @@ def check_block(glb, curves, results, records):
     normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert (((corners.mean(1) - rest.mean(0)) * normals).sum(1) > 0).all()
     colours = glb.values(primitive["attributes"]["COLOR_0"])
-    assert colours.shape == (12, 4) and len({tuple(c) for c in colours}) > 4
+    assert colours.shape == (12, 4)
+    # The beam carries by far the larger stresses: the block is dark, the beam changes its colour along itself.
+    beam = glb.json["meshes"][glb.json["nodes"][1]["mesh"]]["primitives"][0]
+    assert len({tuple(c) for c in glb.values(beam["attributes"]["COLOR_0"])}) >= 3
     shapes = numpy.array([glb.values(target["POSITION"]) for target in primitive["targets"]])
     assert len(shapes) == len(mesh["weights"]) <= 8
     weights = glb.values(curves["block", "weights"]["output"]).reshape(6, len(shapes))

@@ -71,10 +71,10 @@ def test_svg_shows_the_curve(buckens, run):
 
 
 def test_curves_of_different_units_get_diagrams_of_their_own(buckens, run):
-    report = buckens("plot", "out", "tip", "pull.norm", "energies/kinetic", "-o", "all.svg", "--json").must(0).json
-    assert report == {"file": "all.svg", "panels": 3, "curves": 5}
+    report = buckens("plot", "out", "tip.x", "tip.y", "pull.norm", "energies/kinetic", "-o", "all.svg", "--json").must(0).json
+    assert report == {"file": "all.svg", "panels": 3, "curves": 4}
     assert "pull.norm [N]" in words_of(run / "all.svg")["desc"]
-    assert len(lines_of(run / "all.svg")) == 5
+    assert len(lines_of(run / "all.svg")) == 4
 
 
 def test_runs_are_compared(buckens, run):
