@@ -116,10 +116,12 @@ TEST(Elimination, KeepsVariablesThatAMaskLeavesFree) {
 TEST(Elimination, AveragesAsInterfacesDo) {
   Parts p;
   p.s.links.averages = {{"mean", p.near, p.face_x1(), {1, 2, 1, 3}}};
+  p.s.links.rigid = {Parts::rigid(p.near, {p.hub})};  // follows what follows
   const FeModel fe = assemble(p.s);
   const Elimination e = eliminate(fe.nodes, fe.dofs, p.s.links);
   expect_rigid_motion(fe, e);
-  EXPECT_EQ(e.dofs.num_dofs, fe.dofs.num_dofs - 6);
+  expect_rigid(fe, e, p.near, p.hub);
+  EXPECT_EQ(e.dofs.num_dofs, fe.dofs.num_dofs - 12);
   // With the weights moved to one node the fit is that of two nodes of the same place.
   const Vector d = e.T * Vector::LinSpaced(e.dofs.num_dofs, -1.0, 2.0);
   const NodeRegion region = weighted_region(fe.nodes, p.face_x1(), {1, 2, 1, 3});
@@ -142,7 +144,7 @@ TEST(Elimination, SolvesEquationsThatLetRigidMotionBe) {
                            {p.near, 0, -2.0},
                            {p.near, 4, -2.0 * -0.0500003},
                            {p.near, 5, 2.0 * 0.2}}}};
-  p.s.links.rigid = {Parts::rigid(p.near, p.face_x1())};
+  p.s.links.rigid = {Parts::rigid(p.near, p.face_x1()), Parts::rigid(p.near, {p.hub})};
   const FeModel fe = assemble(p.s);
   const Elimination e = eliminate(fe.nodes, fe.dofs, p.s.links);
   expect_rigid_motion(fe, e);
@@ -172,6 +174,7 @@ TEST(Elimination, RefusesWhatHoldsTheBodyOrDoesNotExist) {
               ThrowsMessage<ModelError>(HasSubstr("remove")));
   const auto average_of_two = [] {
     Parts q;
+    q.s.links.rigid = {Parts::rigid(q.near, {q.hub})};
     q.s.links.averages = {{"deck.inp:9: average", q.near, {q.block, q.block + 1}, {1, 1}}};
     const FeModel fe = assemble(q.s);
     eliminate(fe.nodes, fe.dofs, q.s.links);
