@@ -241,10 +241,10 @@ def test_broken_files_are_refused(buckens, tmp_path, name):
     content, words = BROKEN[name]
     (tmp_path / name).write_bytes(content)
     options = ["--size", "5 mm"] if name.endswith(".step") else []
-    buckens("mesh-info", name, *options, timeout=20).must(2, name, words)
+    buckens("mesh-info", name, *options, timeout=60).must(2, name, words)
     (tmp_path / "part.yaml").write_text(BODY.format(file=name) if not options else
                                         f"buckens: 1\nbodies: {{part: {{geometry: {{step: {name}, size: 5 mm}}}}}}\n")
-    buckens("check", "part.yaml", timeout=20).must(2, words)
+    buckens("check", "part.yaml", timeout=60).must(2, words)
 
 
 @pytest.mark.parametrize("name", ["crank_web_22_binary.msh", "crank_web_41_binary.msh", "crank_web_41.msh",
@@ -253,7 +253,7 @@ def test_files_that_are_cut_off_are_refused(buckens, tmp_path, name):
     content = (PARTS / name).read_bytes()
     for part in (0.1, 0.5, 0.9):
         (tmp_path / name).write_bytes(content[:int(part * len(content))])
-        buckens("mesh-info", name, timeout=20).must(2, name)
+        buckens("mesh-info", name, timeout=60).must(2, name)
 
 
 def test_missing_files_and_wrong_words_are_refused(buckens):
