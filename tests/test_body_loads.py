@@ -342,12 +342,12 @@ def test_without_static_correction_something_is_missing(sensors):
 
 def test_a_divided_body_takes_the_same_loads(sensors):
     average = bar(SIDE, TORSO, "hex8", 0.3).replace("kind: rigid", "kind: average")
-    average = average.replace(SKIN, "").replace("{deflection: {of: bar/corner_111, from: frame}}",
+    average = average.replace("1 MPa", "50 kPa").replace(SKIN, "").replace("{deflection: {of: bar/corner_111, from: frame}}",
                               "{position: bar/corner_111}")
     one = sensors(average)
     two = sensors(average, "--set", "bodies.bar.frames=2")
-    # Deflections of 3e-4 of the length: frames differ by their squares.
-    assert vector(two, "tip") == pytest.approx(vector(one, "tip"), abs=1e-6)
+    # Deflections of 4e-4 of the length: frames differ by their squares.
+    assert vector(two, "tip") == pytest.approx(vector(one, "tip"), abs=1e-7)
     load = "  snow: {line-load: {on: rod, value: [0, 0, -500 N/m]}}\n"
     ends = [sensors(rod(load), "--set", f"bodies.rod.frames={k}")["tip.z"][0] for k in (1, 2, 4)]
     assert ends[1:] == pytest.approx([ends[0]] * 2, rel=1e-6)
@@ -481,17 +481,17 @@ def test_loads_and_their_values_are_in_the_run_directory(buckens, tmp_path):
 
 
 def test_the_report_lists_distributed_loads(buckens, tmp_path):
-    (tmp_path / "model.yaml").write_text(bar(SIDE))
+    (tmp_path / "model.yaml").write_text(bar(SIDE, FLYING))
     out = buckens("check", "model.yaml").must(0).out
     assert "wind" in out and "pressure" in out and "bar/z1" in out and "0.1 m^2" in out
-    assert "-100000" in out or "-1e+05" in out
+    assert "0, 0, -1e+05" in out and "0, 1e+05, 0" in out
 
 
 # ---- errors
 
 
 @pytest.mark.parametrize("load, words", [
-    ("pressure: {on: bar/x3, value: 1 MPa}", ["no face \"x3\"", "x1"]),
+    ("pressure: {on: bar/x3, value: 1 MPa}", ["no face \"x3\"", "Did you mean"]),
     ("pressure: {on: bar, value: 1 MPa}", ["a face is needed", "bar/x0"]),
     ("pressure: {on: bra/x1, value: 1 MPa}", ["no body \"bra\"", "\"bar\""]),
     ("pressure: {on: bar/x1, value: 5 N}", ["\"5 N\"", "a force", "a stress"]),
@@ -509,7 +509,7 @@ def test_the_report_lists_distributed_loads(buckens, tmp_path):
     ("pressure: {on: bar/x1, value: {table: [[-1, 1], [-0.5, 2]]}}", ["needed from 0"]),
 ])
 def test_bad_loads_are_named(refuse, load, words):
-    refuse(bar(f"  gas: {{{load}}}\n"), 5 if "nowhere" in load else 2, "model.yaml:", "gas" if "needed" not in words[0] else "table", *words)
+    refuse(bar(f"  gas: {{{load}}}\n"), 5 if "nowhere" in load else 2, "model.yaml:", "table" if "needed from" in words[0] else "gas", *words)
 
 
 def test_pressure_belongs_to_faces_and_meshes(refuse, buckens, tmp_path):

@@ -135,6 +135,15 @@ Matrix self_equilibrated(const FlexiblePart& part, const Matrix& loads) {
   return loads * (qr.householderQ() * E);
 }
 
+/// Patterns, held by interface loads as far as those have resultants, and not by inertia.
+Matrix held_by(const FlexiblePart& part, const Matrix& patterns, const Matrix& loads) {
+  if (patterns.cols() == 0 || loads.cols() == 0) return patterns;
+  const Matrix& Phi = part.sieve.Phi();
+  const Eigen::CompleteOrthogonalDecomposition<Matrix> resultants(Phi.transpose() * loads);
+  const Matrix amounts = resultants.solve(Phi.transpose() * patterns);
+  return patterns - loads * amounts;
+}
+
 /// Elastic vibrations with held interface, sieved.
 struct HeldModes {
   Matrix shapes;
@@ -198,8 +207,9 @@ ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& pa
   diagonalise(part, columns, out);
   out.static_share = lacking_share(static_shapes(part, inverse, loads), out.Z, out.omega);
   if (choice.static_correction) {
-    const Matrix patterns =
-        beside(all_loads.rightCols(part.num_pattern_rows), part.invariants.centrifugal_patterns());
+    const Matrix distributed = all_loads.rightCols(part.num_pattern_rows);
+    const Matrix patterns = beside(beside(distributed, held_by(part, distributed, loads)),
+                                   part.invariants.centrifugal_patterns());
     const Matrix spun = static_shapes(part, inverse, patterns).shapes;
     columns = beside(columns, residuals(M, columns, spun));
     diagonalise(part, columns, out);
