@@ -227,7 +227,10 @@ StepMesh mesh_all(const fs::path& path, double size, int order) {
                     result.signal));
   }
   if (result.output.starts_with("error ")) {
-    throw InputError({file, 0, 0}, fmt::format("cannot be meshed: {}", result.output.substr(6)));
+    std::string reason = result.output.substr(6);
+    const std::size_t at = reason.find(task.step);  // the copy is nothing to the user
+    if (at != std::string::npos) reason.replace(at, task.step.size(), path.filename().string());
+    throw InputError({file, 0, 0}, fmt::format("cannot be meshed: {}", reason));
   }
   StepMesh out{read_gmsh_mesh(mesh), {}};
   out.mesh.file = file;
