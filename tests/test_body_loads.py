@@ -183,14 +183,14 @@ def test_a_pressurised_cylinder_converges_to_lame(sensors):
         return p * a**2 / (E * (b**2 - a**2)) * ((1 - nu) * r + (1 + nu) * b**2 / r)
 
     errors = []
-    for radial, around in ((1, 8), (2, 16)):
+    for radial, around in ((1, 8), (3, 16)):
         out = sensors(TUBE.replace("RADIAL", str(radial)).replace("AROUND", str(around)))
         errors.append([abs(out["bore.x"][0] / lame(a) - 1), abs(out["rim.x"][0] / lame(b) - 1)])
         # The joint holds nothing: the resultant of the pressure is zero.
         assert numpy.abs(vector(out, "hold")).max() < 1e-3
-    assert max(errors[1]) < 2e-3
-    # Quadratic elements: the error falls by some eight or more where the mesh is halved.
-    assert max(errors[1]) < max(errors[0]) / 6
+    assert max(errors[1]) < 1e-3
+    # Quadratic elements, three across in place of one: third order makes it 27.
+    assert max(errors[1]) < max(errors[0]) / 20
 
 
 SQUEEZED = """
@@ -477,7 +477,6 @@ def test_loads_and_their_values_are_in_the_run_directory(buckens, tmp_path):
         value = file["loads/gas/value"]
         assert value[:] == pytest.approx(1e6 * t)
         assert file["loads/wind/value"][:, 1] == pytest.approx(2e3 * t)
-    buckens("view", "out").must(0)
 
 
 def test_the_report_lists_distributed_loads(buckens, tmp_path):

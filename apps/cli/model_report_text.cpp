@@ -2,6 +2,7 @@
 #include "cli/model_report_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -111,7 +112,10 @@ std::string loads_table(const ModelReport& report) {
   std::vector<std::vector<std::string>> rows = {
       {"distributed load", "kind", "on", "extent", "force [N]", "torque [N m]"}};
   for (const analysis::LoadReport& load : report.distributed_loads) {
-    const Eigen::Vector3d &f = load.force, &m = load.torque;
+    // What cancels leaves rounding, and lengths in metres are of the order of one.
+    const double rounding = 1e-12 * (load.force.norm() + load.torque.norm());
+    const auto shown = [&](double x) { return std::abs(x) > rounding ? x : 0.0; };
+    const Eigen::Vector3d f = load.force.unaryExpr(shown), m = load.torque.unaryExpr(shown);
     rows.push_back({load.name, load.kind, load.place.empty() ? "all bodies" : load.place,
                     number(load.extent) + " " + load.unit, triple(f.x(), f.y(), f.z()),
                     triple(m.x(), m.y(), m.z())});
