@@ -25,7 +25,7 @@ loads::BodyPart part(const std::string& text) { return {model::test::at_line(61)
 std::unique_ptr<model::BuiltModel> loaded_bodies() {
   model::test::Described m;
   auto& block = m.block("block", {0.4, 0.2, 0.1}, {3, 2, 1});
-  std::get<fem::MeshSpec>(block.kind).material.value.E = 1e7;
+  std::get<fem::MeshSpec>(block.kind).material->value.E = 1e7;
   auto& rod = m.beam("rod", {0, 1, 0}, {1, 1, 0}, 4);
   std::get<fem::BeamSpec>(rod.kind).material.value.E = 1e9;
   auto& gas = m.load<loads::PressureSpec>("gas");
