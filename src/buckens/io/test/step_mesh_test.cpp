@@ -35,6 +35,7 @@ fem::GeometryFaceSpec face(const std::string& name, decltype(fem::GeometryFaceSp
 template <class Spec>
 std::string refusal(const fem::GeometrySpec& part, Spec spec) {
   fem::GeometrySpec with = part;
+  with.size = 0.03;
   spec.where = {"rod.yaml", 7, 3};
   with.faces = {face("wrong", spec)};
   try {
