@@ -94,6 +94,11 @@ export class PackedRows implements Rows {
     else mixFloats(a as Float32Array, b as Float32Array, ka, kb, out);
   }
 
+  /** Least difference that the numbers of a frame can have; 0 for float32. */
+  grain(frame: number): number {
+    return this.ranges ? this.scale(frame)[1] : 0;
+  }
+
   value(frame: number, index: number): number {
     const at = Math.min(frame, this.frames - 1);
     const known = this.rows[at];

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { kVariants, base64, rows } from '../tests/fixture.mjs';
+import { kVariants, base64, coded, rows } from '../tests/fixture.mjs';
 import { checkPage, decodeFloats, decodeRun, PageDataError } from './run';
 
 const fresh = () => kVariants['slider-crank']();
@@ -39,6 +39,16 @@ describe('decodeRun', () => {
     expect(run.joints).toHaveLength(5);
     expect(run.sensors[1]!.values).toHaveLength(1200);
     expect(run.planar).toBe('xy');
+  });
+
+  it('takes bars for straight, also where zeros were rounded', () => {
+    const data = fresh();
+    const bar = data.bodies[1]!;
+    const still = [...Array(400 * 13)].flatMap((_, i) => [-1e-3, 2e-3 * (i % 13), 1e-4, 0, 0, 0]);
+    bar.displacement = coded(still, 78);
+    expect(decodeRun(data).bodies[1]!.hasRotations).toBe(false);
+    bar.displacement = coded(still.map((x, i) => (i % 6 === 5 ? 1e-4 : x)), 78);
+    expect(decodeRun(data).bodies[1]!.hasRotations).toBe(true);
   });
 
   it('takes runs without frames, bodies or curves', () => {

@@ -155,11 +155,18 @@ function decodeField(field: PageField, frames: number, count: number, where: str
   return { name, unit: unit ?? '', on, components, constant, rows };
 }
 
-/** Whether any node ever turns; asked only of bodies with beams, which are small. */
-function anyRotation(rows: Rows): boolean {
-  for (let frame = 0; frame < rows.frames; frame++) {
-    for (let i = 0; i < rows.width; i += 6) {
-      for (let k = 3; k < 6; k++) if (rows.value(frame, i + k) !== 0) return true;
+/** Frames that are searched for rotations. */
+const kSearched = 20;
+
+/** Whether any node turns; bars have no rotations but zeros, or what rounding makes of them. */
+function anyRotation(rows: PackedRows): boolean {
+  const row = new Float32Array(rows.width);
+  const step = Math.max(1, Math.floor(rows.frames / kSearched));
+  for (let index = rows.frames - 1; index >= 0; index -= step) {
+    rows.interpolate({ index, fraction: 0 }, row);
+    const grain = rows.grain(index);
+    for (let i = 3; i < row.length; i += 6) {
+      for (let k = 0; k < 3; k++) if (Math.abs(row[i + k]!) > grain) return true;
     }
   }
   return false;
