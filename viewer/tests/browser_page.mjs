@@ -18,7 +18,8 @@ export async function open(browser, path, options = {}) {
   tab.on('request', (request) => {
     if (!/^(file|data|blob):/.test(request.url())) complaints.push(`fetched ${request.url()}`);
   });
-  await tab.goto(pathToFileURL(path).href);
+  // A busy machine may take long; the test that waits has its own limit.
+  await tab.goto(pathToFileURL(path).href, { timeout: 120000 });
   return { tab, complaints };
 }
 
@@ -88,7 +89,7 @@ export async function overflows(tab) {
       if (part.scrollWidth > part.clientWidth + 1) found.push(`${part.className} is clipped`);
       if (box.right > innerWidth + 1) found.push(`${part.className} sticks out`);
     }
-    const over = [...document.querySelectorAll('.overlay button, .overlay summary, .field-panel')];
+    const over = [...document.querySelectorAll('.bars button, .bars summary, .field-panel')];
     const boxes = over.map((part) => part.getBoundingClientRect()).filter((box) => box.width > 0);
     boxes.forEach((a, i) => {
       for (const b of boxes.slice(i + 1)) {

@@ -142,9 +142,11 @@ void choose_size(const RunReader& run, const std::vector<Shown>& shown,
   std::size_t plain = 1;  // numbers of a frame that stay float32
   std::size_t rows = 0;   // numbers that may be rounded
   for (const Channel& channel : run.layout().channels()) {
-    const bool is_field = channel.path.starts_with("bodies/") && !channel.path.ends_with("/pose");
-    if (!is_field) plain += channel.size();
-    if (channel.path.ends_with("/pose")) plain += channel.size();
+    const std::string& path = channel.path;
+    const bool is_shown = path.ends_with("/pose") || path.ends_with("/motion") ||
+                          path.starts_with("sensors/") || path.starts_with("energies/") ||
+                          path.starts_with("loads/") || path.starts_with("modes/");
+    if (is_shown) plain += channel.size();
   }
   for (const Shown& one : shown) {
     rows += one.body.displacements_per_frame(run);
