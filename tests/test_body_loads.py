@@ -326,8 +326,10 @@ def test_a_reduced_body_answers_slow_distributed_loads_like_the_full_one(sensors
     text = bar(SIDE, TORSO, "hex8", 0.3).replace("kind: rigid", f"kind: {interface}")
     full = sensors(text)
     reduced = sensors(text, "--set", f"bodies.bar.reduction={reduction}")
-    # The answers to the load patterns are in the basis, so the equilibrium is that of the mesh.
-    assert vector(reduced, "tip") == pytest.approx(vector(full, "tip"), rel=1e-7, abs=1e-13)
+    # The answers to the load patterns are in the basis, so the equilibrium is that of the mesh. What
+    # stays, 1e-8 of the deflection, goes with its square: the load turns with the held end.
+    whole = numpy.linalg.norm(vector(full, "tip"))
+    assert vector(reduced, "tip") == pytest.approx(vector(full, "tip"), abs=1e-7 * whole)
     assert vector(reduced, "wall") == pytest.approx(vector(full, "wall"), rel=1e-6, abs=1e-3)
 
 

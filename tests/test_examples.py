@@ -229,14 +229,14 @@ def test_gas_pushes_the_piston_of_solids_as_its_table_says(run):
         # The quadratic elements of the crown bound it by sixteen parabolas, 1e-5 from a circle.
         assert out.at("gas.x", float(time)) == pytest.approx(-float(bar) * 1e5 * area, rel=1e-4, abs=1e-6)
     # Held by the pin in its middle, the crown bends down around it, most when the pressure is highest.
-    assert abs(out["t"][numpy.argmax(out["crown.x"])] - out["t"][numpy.argmin(out["gas.x"])]) < 1e-3
-    assert 2e-7 < out["crown.x"].max() < 6e-7
+    assert abs(out["t"][numpy.argmax(out["crown.x"])] - out["t"][numpy.argmin(out["gas.x"])]) < 0.5e-3
+    assert 1.5e-7 < out["crown.x"].max() < 3e-7
     # Newton's law for the piston: gas, pin (its force on the second marker, the piston) and liner.
     mass = 2750 * area * 0.04
     t, x = out["t"], out["piston.x"]
     acceleration = numpy.gradient(numpy.gradient(x, t), t)[2:-2]
     force = (out["gas.x"] + out["pin.x"])[2:-2]
-    # Differences over 0.25 ms see the vibration of piston and rod, some kN, only in the mean.
+    # Differences over 0.25 ms see the vibration of the start, some kN, only in the mean.
     assert abs(numpy.mean(force - mass * acceleration)) < 0.02 * numpy.abs(force).max()
     # J, of some 1000 J that the crank gives and takes.
     assert numpy.abs(out["balance"]).max() < 0.1
