@@ -66,7 +66,7 @@ def test_a_deck_gives_the_body_of_the_generated_box(buckens, tmp_path):
     write_block(tmp_path / "block.inp")
     (tmp_path / "deck.yaml").write_text(DECK_MODEL)
     (tmp_path / "box.yaml").write_text(BOX)
-    deck, box = (buckens("check", name, "--json").must(0).json["bodies"][0]
+    deck, box = (buckens("check", name, "--json").must(0).json["bodies"]["block"]
                  for name in ("deck.yaml", "box.yaml"))
     assert deck["mass"] == pytest.approx(box["mass"], rel=1e-12)
     assert deck["mass"] == pytest.approx(7850 * 0.1 * 0.02 * 0.03, rel=1e-12)
@@ -86,9 +86,9 @@ def test_reduced_integration_becomes_incompatible_modes(buckens, tmp_path):
 def test_materials_of_the_model_file_stand_above_those_of_the_deck(buckens, tmp_path):
     write_block(tmp_path / "block.inp")
     (tmp_path / "deck.yaml").write_text(DECK_MODEL.replace(
-        "length-unit: mm", "length-unit: mm, materials: {BLOCK: "
-                           "{E: 70 GPa, nu: 0.33, rho: 2700 kg/m^3}}"))
-    body = buckens("check", "deck.yaml", "--json").must(0).json["bodies"][0]
+        "length-unit: mm", "length-unit: mm, materials: {BLOCK: aluminium}").replace(
+            "bodies:", "materials: {aluminium: {E: 70 GPa, nu: 0.33, rho: 2700 kg/m^3}}\nbodies:"))
+    body = buckens("check", "deck.yaml", "--json").must(0).json["bodies"]["block"]
     assert body["mass"] == pytest.approx(2700 * 0.1 * 0.02 * 0.03, rel=1e-12)
 
 
