@@ -19,12 +19,14 @@ using stepping::Method;
 using stepping::MonolithicStepper;
 using stepping::Stepper;
 
+constexpr int kSteps = 20;
+
 loads::BodyPart part(const std::string& text) { return {model::test::at_line(61), text}; }
 
 /// A soft block in free flight under pressure and traction of both kinds, a beam under a line load.
 std::unique_ptr<model::BuiltModel> loaded_bodies() {
   model::test::Described m;
-  auto& block = m.block("block", {0.4, 0.2, 0.1}, {3, 2, 1});
+  auto& block = m.block("block", {0.4, 0.2, 0.1}, {2, 1, 1});
   std::get<fem::MeshSpec>(block.kind).material->value.E = 1e7;
   auto& rod = m.beam("rod", {0, 1, 0}, {1, 1, 0}, 4);
   std::get<fem::BeamSpec>(rod.kind).material.value.E = 1e9;
@@ -40,7 +42,7 @@ std::unique_ptr<model::BuiltModel> loaded_bodies() {
   drag.axes = loads::LoadAxes::following;
   auto& snow = m.load<loads::LineLoadSpec>("snow");
   snow.on = part("rod");
-  snow.value = constant_law({0, 20, -300});
+  snow.value = constant_law({0, 1, -3});
   snow.axes = loads::LoadAxes::following;
   auto& ball = m.joint<joints::SphericalSpec>("ball", "ground", "rod/start");
   ball.between[0].point = Vector3d(0, 1, 0);
@@ -65,19 +67,21 @@ TEST(LoadsOnBodies, StepAsTheMonolithicRoute) {
     Stepper fast(built->model, settings, start.rows_in_use);
     MonolithicStepper slow(built->model, settings, start.rows_in_use);
     model::State a = start.state, b = start.state;
+    double difference[2] = {0, 0}, size[2] = {0, 0};
+    for (int k = 0; k < kSteps; ++k) {
+      fast.step(a);
+      slow.step(b);
+      for (std::size_t body = 0; body < 2; ++body) {
+        const linalg::Vector &x = a.bodies[body].d, &y = b.bodies[body].d;
+        difference[body] = std::max(difference[body], (x - y).cwiseAbs().maxCoeff());
+        size[body] = std::max(size[body], y.cwiseAbs().maxCoeff());
+      }
+    }
     for (std::size_t body = 0; body < 2; ++body) {
       SCOPED_TRACE(body);
-      double difference = 0, size = 0;
-      for (int k = 0; k < 100; ++k) {
-        fast.step(a);
-        slow.step(b);
-        difference =
-            std::max(difference, (a.bodies[body].d - b.bodies[body].d).cwiseAbs().maxCoeff());
-        size = std::max(size, b.bodies[body].d.cwiseAbs().maxCoeff());
-      }
-      EXPECT_GT(size, 1e-5) << "the load does something";
-      // Rounding of 100 steps, far below 1e5 ε; see fast_equals_monolithic.
-      EXPECT_LE(difference, 1e-10 * size);
+      EXPECT_GT(size[body], 1e-6) << "the load does something";
+      // Rounding of the steps, far below 1e5 ε; see fast_equals_monolithic.
+      EXPECT_LE(difference[body], 1e-10 * size[body]);
       EXPECT_LE((a.bodies[body].frame.X_WB.p - b.bodies[body].frame.X_WB.p).norm(), 1e-11);
     }
   }
