@@ -142,3 +142,44 @@ def test_links_and_frames_exclude_each_other(buckens, tmp_path):
     text = MODEL.format(**APART, more=links("rigid: [{reference: b, nodes: [c]}]"))
     (tmp_path / "model.yaml").write_text(text + "    frames: 2\n")
     buckens("check", "model.yaml").must(3, "\"arm\"", "links", "frames")
+
+
+DECK = """BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,100.,0.,0.
+GRID,3,,100.,100.,0.
+GRID,4,,0.,100.,0.
+GRID,5,,50.,50.,30.
+GRID,6,,50.,50.,0.
+GRID,7,,50.,50.,30.
+CQUAD4,1,1,1,2,3,4
+PSHELL,1,1,5.,1
+MAT1,1,210000.,,.3,7.85-9
+RBE2,10,5,123456,1,2,3,4
+RBE3,11,,6,123456,1.,123,1,2
+,3,4
+CONM2,12,6,,1.-3,10.,0.,0.
+CONM2,13,7,,2.-3
+,1.,,1.,,,1.
+PBUSH,20,K,100.,100.,100.,1.+5,1.+5,1.+5
+CBUSH,21,20,5,7,,,,0
+ENDDATA
+"""
+
+
+def test_links_springs_and_masses_of_a_deck_are_used(buckens, tmp_path):
+    (tmp_path / "part.bdf").write_text(DECK)
+    (tmp_path / "model.yaml").write_text(
+        "buckens: 1\nbodies: {part: {mesh: {file: part.bdf, length-unit: mm}}}\n")
+    part = buckens("check", "model.yaml", "--json").must(0).json["bodies"]["part"]
+    plate, beside, above = 0.3925, 1.0, 2.0
+    mass = plate + beside + above
+    assert part["mass"] == pytest.approx(mass, rel=1e-9)
+    assert part["com"] == pytest.approx(
+        [(plate * 0.05 + beside * 0.06 + above * 0.05) / mass, 0.05, above * 0.03 / mass], rel=1e-9)
+    # All is rigid but the spring between two points: one mass on another, six frequencies.
+    report = buckens("modes", "model.yaml", "--count", 6, "--json").must(0).json
+    found = [mode["frequency"] for mode in report["analyses"][0]["modes"]]
+    along_z = numpy.sqrt(1e5 / (above * (mass - above) / mass)) / (2 * numpy.pi)
+    # The mass beside the axis of the spring makes it turn as well: near, and never below 90 %.
+    assert min(abs(f - along_z) for f in found) < 0.1 * along_z

@@ -144,12 +144,18 @@ DofMap number_dofs(const Structure& structure, const Blocks& blocks,
     turns[static_cast<std::size_t>(link.reference)] = true;
   }
   for (const auto& block : blocks) {
-    for (int e = 0; block->holds_nodes() && e < block->num_elements(); ++e) {
+    const bool has_shape = block->is_line() || block->is_solid() || block->is_shell();
+    for (int e = 0; has_shape && e < block->num_elements(); ++e) {
       for (const int node : block->nodes(e)) {
         held[static_cast<std::size_t>(node)] = true;
         if (block->has_rotations()) turns[static_cast<std::size_t>(node)] = true;
       }
     }
+  }
+  // A mass on a spring turns if it has inertia.
+  for (int m = 0; m < structure.masses.num_elements(); ++m) {
+    const auto node = static_cast<std::size_t>(structure.masses.ends(m)[0]);
+    if (!held[node] && !structure.masses.inertia(m).isZero(0.0)) turns[node] = true;
   }
   give_rotations_to_links(structure, held, turns);
   const bool has_solids = std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
