@@ -160,20 +160,25 @@ export class Surface {
     this.turnNormals();
   }
 
-  /** The sum of the area vectors around each vertex, as unit vectors. */
+  /**
+   * The sum of the area vectors of the faces around each vertex, as unit vectors. That of a face with
+   * four corners is the product of its diagonals, be it plane or not.
+   */
   private turnNormals(): void {
-    const { positions: p, normals: n, indices } = this;
+    const { positions: p, normals: n, corners } = this;
     n.fill(0);
-    for (let i = 0; i < indices.length; i += 3) {
-      const a = 3 * indices[i]!;
-      const b = 3 * indices[i + 1]!;
-      const c = 3 * indices[i + 2]!;
-      const ux = p[b]! - p[a]!;
-      const uy = p[b + 1]! - p[a + 1]!;
-      const uz = p[b + 2]! - p[a + 2]!;
-      const vx = p[c]! - p[a]!;
-      const vy = p[c + 1]! - p[a + 1]!;
-      const vz = p[c + 2]! - p[a + 2]!;
+    for (let f = 0; f < corners.length; f += 4) {
+      const a = 3 * corners[f]!;
+      const b = 3 * corners[f + 1]!;
+      const c = 3 * corners[f + 2]!;
+      const d = 3 * corners[f + 3]!;
+      const e = d < 0 ? a : d;
+      const ux = p[c]! - p[a]!;
+      const uy = p[c + 1]! - p[a + 1]!;
+      const uz = p[c + 2]! - p[a + 2]!;
+      const vx = p[e]! - p[b]!;
+      const vy = p[e + 1]! - p[b + 1]!;
+      const vz = p[e + 2]! - p[b + 2]!;
       const x = uy * vz - uz * vy;
       const y = uz * vx - ux * vz;
       const z = ux * vy - uy * vx;
@@ -186,6 +191,10 @@ export class Surface {
       n[c]! += x;
       n[c + 1]! += y;
       n[c + 2]! += z;
+      if (d < 0) continue;
+      n[d]! += x;
+      n[d + 1]! += y;
+      n[d + 2]! += z;
     }
     for (let v = 0; v < n.length; v += 3) {
       const length = Math.sqrt(n[v]! * n[v]! + n[v + 1]! * n[v + 1]! + n[v + 2]! * n[v + 2]!) || 1;
