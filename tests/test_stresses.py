@@ -48,16 +48,27 @@ def bar_error(places, stress):
     return numpy.abs(stress - exact).max() / (RHO * 100 / 8)
 
 
-# Orders: 2 for quadratic elements and at the centres of hex8. Nodes of hex8 at the ends of the bar, where the
-# strains of one element are extrapolated, have order 1; there the strain is linear in x only.
-@pytest.mark.parametrize("element, nodes, centres, largest", [
-    ("hex20", 1.9, 1.9, 0.004), ("tet10", 1.7, 1.8, 0.02), ("hex8", 0.9, 1.9, 0.15)])
-def test_bar_in_free_flight(stresses, element, nodes, centres, largest):
-    coarse = stresses("spinning_bar", "[4,1,1]", element)
-    fine = stresses("spinning_bar", "[8,2,2]", element)
-    assert order(bar_error(*coarse[0]), bar_error(*fine[0])) > nodes
-    assert order(bar_error(*coarse[1]), bar_error(*fine[1])) > centres
-    assert bar_error(*fine[0]) < largest
+# The bar's elements answer the axial load as bars: those of hex20 have the exact displacement of their nodes and a linear
+# stress, those of hex8 the mean stress of their length. With h = length of an element: relative errors at the ends, and at
+# centres.
+@pytest.mark.parametrize("element, at_ends, at_centres", [
+    ("hex20", lambda h: 2 * h * h / 3, lambda h: h * h / 3),
+    ("hex8", lambda h: 2 * h - 4 * h * h / 3, lambda h: h * h / 3)])
+def test_bar_in_free_flight(stresses, element, at_ends, at_centres):
+    for divisions, h in ("[4,1,1]", 1 / 4), ("[8,2,2]", 1 / 8):
+        nodes, centres = stresses("spinning_bar", divisions, element)
+        # Single precision, and the little that the deformation changes the load: (w/w_1)^2 = 4e-7.
+        assert bar_error(*nodes) == pytest.approx(at_ends(h), rel=1e-4)
+        assert bar_error(*centres) == pytest.approx(at_centres(h), rel=1e-4)
+
+
+def test_bar_of_tetrahedra_in_free_flight(stresses):
+    coarse = stresses("spinning_bar", "[8,2,2]", "tet10")
+    fine = stresses("spinning_bar", "[12,3,3]", "tet10")
+    # Theory: 2. Six tetrahedra per brick have no symmetry that would make it exact; measured 1.96 and 1.87.
+    assert order(bar_error(*coarse[0]), bar_error(*fine[0]), 1.5) > 1.8
+    assert order(bar_error(*coarse[1]), bar_error(*fine[1]), 1.5) > 1.7
+    assert bar_error(*fine[0]) < 0.01
 
 
 def disc_error(places, stress):
@@ -75,28 +86,32 @@ def disc_error(places, stress):
     return max(numpy.abs(radial - exact_radial).max(), numpy.abs(hoop - exact_hoop).max()) / largest
 
 
-@pytest.mark.parametrize("element, divisions, nodes, centres", [
-    ("hex20", ("[3,16,1]", "[6,32,1]"), 1.6, 1.6), ("hex8", ("[6,32,1]", "[12,64,1]"), 0.8, 1.6)])
-def test_rotating_disc(stresses, element, divisions, nodes, centres):
+# Theory: 2, at nodes of hex8 1. Elements as long as a quarter of the bore's radius are still coarse for stresses that fall
+# with 1/r^2; orders grow from mesh to mesh (hex20: 1.4, 1.65 at nodes).
+@pytest.mark.parametrize("element, divisions, nodes, centres, largest", [
+    ("hex20", ("[6,32,1]", "[12,64,1]"), 1.5, 1.3, 0.015), ("hex8", ("[6,32,1]", "[12,64,1]"), 0.7, 1.5, 0.1)])
+def test_rotating_disc(stresses, element, divisions, nodes, centres, largest):
     coarse, fine = (stresses("disc", d, element) for d in divisions)
     assert order(disc_error(*coarse[0]), disc_error(*fine[0])) > nodes
     assert order(disc_error(*coarse[1]), disc_error(*fine[1])) > centres
-    assert disc_error(*fine[0]) < 0.05
+    assert disc_error(*fine[0]) < largest
 
 
 def cantilever_error(places, stress):
-    """Largest error of the stress along the bar two heights away from its ends, relative to its largest there."""
+    """Largest error of the stress along the bar well away from its ends, relative to its largest there. What the clamp and
+    the free end disturb has fallen to 5e-5: exp(-2.1 distance/c), 5 and 3 half heights away."""
     c, length = 0.1, 1.0
     x, y = places[:, 0] + length / 2, places[:, 1]
     exact = RHO * G * ((length - x)**2 * 3 * y / (2 * c * c) + 0.6 * y - y**3 / c**2)
-    inside = (x > 0.4 - 1e-9) & (x < 0.6 + 1e-9)
+    inside = (x > 0.5 - 1e-9) & (x < 0.65 + 1e-9)
     return numpy.abs(stress[inside, 0] - exact[inside]).max() / numpy.abs(exact[inside]).max()
 
 
-@pytest.mark.parametrize("element, nodes, centres", [("hex8", 0.9, 1.8), ("hex20", 1.8, 1.8)])
-def test_cantilever_under_gravity(stresses, element, nodes, centres):
-    coarse = stresses("cantilever", "[10,2,1]", element)
-    fine = stresses("cantilever", "[20,4,1]", element)
-    assert order(cantilever_error(*coarse[0]), cantilever_error(*fine[0])) > nodes
-    assert order(cantilever_error(*coarse[1]), cantilever_error(*fine[1])) > centres
-    assert cantilever_error(*fine[0]) < 0.05
+# Theory: 2; nodes of hex8 there are inside the bar along it, and trilinear polynomials carry bending to its surface.
+@pytest.mark.parametrize("element", ["hex8", "hex20"])
+def test_cantilever_under_gravity(stresses, element):
+    coarse = stresses("cantilever", "[20,4,1]", element)
+    fine = stresses("cantilever", "[40,8,1]", element)
+    assert order(cantilever_error(*coarse[0]), cantilever_error(*fine[0])) > 1.7
+    assert order(cantilever_error(*coarse[1]), cantilever_error(*fine[1])) > 1.7
+    assert cantilever_error(*fine[0]) < 0.003
