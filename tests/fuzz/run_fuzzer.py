@@ -14,8 +14,9 @@ def arguments_of(options, scratch):
     """Everything libFuzzer is told. New inputs and artifacts go to the scratch directory."""
     (scratch / "found").mkdir()
     arguments = [options.program, f"-max_total_time={options.seconds}", f"-seed={options.seed}",
-                 # A reader of a few kilobytes needs neither; with the sanitizer's own share.
-                 "-rss_limit_mb=1024", "-malloc_limit_mb=256", "-timeout=10", "-max_len=8192",
+                 # A reader of a few kilobytes needs neither; with the sanitizer's own share. Inputs
+                 # take milliseconds, but time is that of the clock and machines have other work.
+                 "-rss_limit_mb=1024", "-malloc_limit_mb=256", "-timeout=30", "-max_len=8192",
                  "-print_final_stats=1", f"-artifact_prefix={scratch}/"]
     if options.dictionary:
         arguments.append(f"-dict={options.dictionary}")
