@@ -29,8 +29,8 @@ OutputPlan plan_output(const model::ModelDescription& description) {
     step = simulation.duration / std::max(1.0, std::ceil(simulation.duration / longest - 1e-9));
   }
   plan.every = output.every.value_or(std::max(simulation.duration / kDefaultRecords, step));
-  plan.records = simulation.duration / plan.every + 1.0;
-  if (plan.records > kMostRecords) {
+  plan.records = simulation.duration / plan.every + 1.0;  // the one at the start
+  if (plan.records > kMostRecords + 1.0) {
     throw InputError(output.where,
                      fmt::format("output: `every` asks for {:.3g} records, more than {:.0e}; use a "
                                  "longer time than {:.3g} s",
