@@ -56,19 +56,20 @@ class BodyReader {
   /// Which variables each node has, and the order of the rows.
   void find_dofs() {
     has_.resize(out_.nodes.size());
-    if (mass_file_.is_labelled || stiffness_file_.is_labelled) {
-      take_labels(mass_file_);
-      take_labels(stiffness_file_);
-    } else if (table_.has_rows) {
+    const MatrixFile* counted = file_that_counts();
+    if (table_.has_rows) {
       for (std::size_t k = 0; k < has_.size(); ++k) {
         for (std::size_t v = 0; v < 6; ++v) has_[k][v] = table_.nodes[k].rows[v] > 0;
       }
+    } else if (counted == nullptr) {
+      take_labels(mass_file_);
+      take_labels(stiffness_file_);
     } else {
       const auto count = static_cast<std::int64_t>(has_.size());
-      const std::int64_t rows = stiffness_file_.size;
+      const std::int64_t rows = counted->size;
       if (rows != 3 * count && rows != 6 * count) {
         throw InputError(
-            {stiffness_file_.file, 0, 0},
+            {counted->file, 0, 0},
             fmt::format("the matrix has {} rows, the table {} nodes; without the "
                         "columns ux … rz in the table every node must have 3 or 6 rows",
                         rows, count));
@@ -76,12 +77,19 @@ class BodyReader {
       for (auto& has : has_) std::fill_n(has.begin(), rows == 3 * count ? 3 : 6, true);
     }
     number_dofs();
-    if (!mass_file_.is_labelled || !stiffness_file_.is_labelled) number_rows();
+    if (counted != nullptr) number_rows();
+  }
+
+  /// A file whose rows are counted; null if all go by nodes and variables.
+  const MatrixFile* file_that_counts() const {
+    for (const MatrixFile* file : {&stiffness_file_, &mass_file_, &damping_file_}) {
+      if (!file->is_labelled && !file->entries.empty()) return file;
+    }
+    return nullptr;
   }
 
   void take_labels(const MatrixFile& file) {
     for (const MatrixEntry& entry : file.entries) {
-      if (!file.is_labelled) return;
       for (const auto& [label, variable] : {std::pair(entry.row, entry.row_variable),
                                             std::pair(entry.column, entry.column_variable)}) {
         const int node = nodes_.find(label);
