@@ -105,7 +105,11 @@ BENCHMARK(rigid_chain_step)->RangeMultiplier(10)->Range(10, 10000)->Unit(benchma
 BENCHMARK_CAPTURE(reduced_step, none, "none")->Apply(mode_numbers);
 BENCHMARK_CAPTURE(reduced_step, first_order, "first-order")->Apply(mode_numbers);
 BENCHMARK_CAPTURE(reduced_step, full, "full")->Apply(mode_numbers);
-BENCHMARK(planar_beam_step)->RangeMultiplier(4)->Range(8, 2048)->Unit(benchmark::kMicrosecond);
+BENCHMARK(planar_beam_step)
+    ->RangeMultiplier(4)
+    ->Range(8, 2048)
+    ->Arg(128)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK(divided_beam_step)->RangeMultiplier(4)->Range(8, 2048)->Unit(benchmark::kMicrosecond);
 BENCHMARK(divided_tree_step)->DenseRange(3, 11, 2)->Unit(benchmark::kMicrosecond);
 
