@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,10 +23,10 @@ struct Running {
   std::unique_ptr<stepping::Stepper> stepper;
 };
 
-inline Running start(const std::string& text, double step, int threads = 1,
+inline Running start(model::ModelDescription description, double step, int threads = 1,
                      linalg::SolveExchange* exchange = nullptr) {
   Running run;
-  run.built = model::build_model(io::read_model_text(text, "bench.yaml", {}));
+  run.built = model::build_model(std::move(description));
   run.metric = std::make_unique<dynamics::MassMetric>(run.built->model);
   run.prepared = analysis::prepare(*run.built, *run.metric);
   stepping::StepSettings settings;
@@ -34,6 +36,11 @@ inline Running start(const std::string& text, double step, int threads = 1,
   run.stepper =
       std::make_unique<stepping::Stepper>(run.built->model, settings, run.prepared.rows_in_use);
   return run;
+}
+
+inline Running start(const std::string& text, double step, int threads = 1,
+                     linalg::SolveExchange* exchange = nullptr) {
+  return start(io::read_model_text(text, "bench.yaml", {}), step, threads, exchange);
 }
 
 /// Steel beam of 1 m in space on a ball joint, falling from the horizontal.
@@ -117,10 +124,11 @@ inline std::string divided_tree(int levels) {
          "joints: {foot: {fixed: {between: [ground, tree/n0]}}}\n";
 }
 
-/// Rigid links in space, each on a revolute joint, starting horizontally.
-inline std::string rigid_chain(int links) {
+/// Rigid links in space, each on a revolute joint, starting horizontally. The first two come from a
+/// model file, the others are copies: ten thousand would make a longer text than is admitted.
+inline model::ModelDescription rigid_chain(int links) {
   std::string text = "buckens: 1\ngravity: [0, -9.81, 0]\nbodies:\n";
-  for (int k = 0; k < links; ++k) {
+  for (int k = 0; k < 2; ++k) {
     text += fmt::format(
         "  link{0}:\n"
         "    rigid: {{mass: 1, com: [0.05, 0, 0], inertia: [1e-4, 1e-3, 1e-3]}}\n"
@@ -128,13 +136,22 @@ inline std::string rigid_chain(int links) {
         "    at: {{position: [{1}, 0, 0]}}\n",
         k, 0.1 * k);
   }
-  text += "joints:\n";
-  for (int k = 0; k < links; ++k) {
-    const std::string before = k == 0 ? "ground" : fmt::format("link{}/b", k - 1);
-    text += fmt::format("  j{0}: {{revolute: {{between: [{1}, link{0}/a], axis: [0, 0, 1]}}}}\n", k,
-                        before);
+  text +=
+      "joints:\n"
+      "  j0: {revolute: {between: [ground, link0/a], axis: [0, 0, 1]}}\n"
+      "  j1: {revolute: {between: [link0/b, link1/a], axis: [0, 0, 1]}}\n";
+  model::ModelDescription out = io::read_model_text(text, "bench.yaml", {});
+  for (int k = 2; k < links; ++k) {
+    out.bodies.push_back(out.bodies[1]);
+    out.bodies.back().name = fmt::format("link{}", k);
+    out.bodies.back().at.position.x() = 0.1 * k;
+    out.joints.push_back(out.joints[1]);
+    out.joints.back().name = fmt::format("j{}", k);
+    auto& between = std::get<joints::RevoluteSpec>(out.joints.back().kind).between;
+    between[0].body = fmt::format("link{}", k - 1);
+    between[1].body = fmt::format("link{}", k);
   }
-  return text;
+  return out;
 }
 
 }  // namespace buckens::bench

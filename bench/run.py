@@ -53,7 +53,7 @@ class Programs:
     def google(self, name, pattern):
         """Results of Google Benchmark: name, time [s], counters."""
         out = self.bench(name, f"--benchmark_filter={pattern}", "--benchmark_format=json",
-                         "--benchmark_repetitions=3", "--benchmark_min_time=0.2")
+                         "--benchmark_repetitions=3", "--benchmark_min_time=0.1")
         best = {}
         for entry in out["benchmarks"]:
             if entry["run_type"] == "aggregate":
@@ -189,8 +189,8 @@ def memory(programs, size):
                 # The samples of the last half of the run are those of stepping.
                 stepping = told["wall_seconds"]["stepping"]
                 last = seen[-max(2, int(0.5 * stepping / 0.05)):-1] or seen[-1:]
-                row.update(resident_bytes=sorted(last)[len(last) // 2], dof=told["bodies"][0]["dof"],
-                           steps=told["steps"], wall_seconds=told["wall_seconds"])
+                row.update(resident_bytes=sorted(last)[len(last) // 2], steps=told["steps"],
+                           dof=told["bodies"]["block"]["dof"], wall_seconds=told["wall_seconds"])
             else:
                 row["error"] = (run.stderr.read() or "").strip()[-200:]
             out.append(row)

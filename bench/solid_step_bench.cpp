@@ -59,12 +59,15 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 /// A block that falls from the horizontal on a ball joint at a corner.
-/// @param loads forces on as many points along an edge, three interface variables each
+/// @param loads forces on as many nodes of a face, three interface variables each
 std::string block_pendulum(const SolidBlock& block, const std::string& level, int loads = 0) {
   std::string markers, forces;
   for (int k = 0; k < loads; ++k) {
-    const double x = block.size().x() * (k + 1) / loads;
-    markers += fmt::format("      m{}: {{position: [{}, 0, 0]}}\n", k, x);
+    // Nodes of the face x = 0 but the one that is held.
+    const int across = block.divisions[1] + 1;
+    const double y = 0.1 * ((k + 1) % across) / block.divisions[1];
+    const double z = 0.1 * ((k + 1) / across) / block.divisions[2];
+    markers += fmt::format("      m{}: {{position: [0, {}, {}]}}\n", k, y, z);
     forces += fmt::format("  f{0}: {{force: {{on: block/m{0}, value: [0, 1, 0]}}}}\n", k);
   }
   return fmt::format(R"(buckens: 1
