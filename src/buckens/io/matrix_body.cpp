@@ -156,6 +156,10 @@ class BodyReader {
                                                       label, out_.dofs.num_dofs));
     }
     const int node = nodes_.find(label);
+    if (node < 0) {
+      throw InputError(file.where(entry),
+                       fmt::format("node {} is not in the table {}", label, table_.file));
+    }
     const int found = node < 0 ? -1
                                : out_.dofs.node_dofs[static_cast<std::size_t>(node)]
                                                     [static_cast<std::size_t>(variable)];

@@ -152,7 +152,7 @@ TEST_F(MatrixBody, MalformedMatricesAreRefusedWithFileAndLine) {
   with("7,1,7,8,1.0\n", {"degree of freedom", "\"8\""});
   with("-1,1,7,1,1.0\n", {"internal nodes"});
   with("8,1,8,1,1.0\n", {"k.mtx:1:1", "node 8 is not in the table"});
-  with("7,4,7,4,1.0\n7,1,7,1,1.\n", {"node 7", "it needs ux, uy, uz"});
+  with("7,4,7,4,1.0\n7,1,7,1,1.\n", {"rx of node 7 is not among the variables"});
   with("1 1 5\n" + std::string(1, '\0'), {"no text"});
   spec_.stiffness = "missing.mtx";
   EXPECT_THROW(read(), IoError);
