@@ -2,6 +2,7 @@
 // Nodal forces over cuts of a mesh against joint forces, and stresses integrated over them.
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -62,16 +63,23 @@ class Cantilever {
 
   const fem::FeModel& mesh() const { return built_->model.bodies[0].flexible->mesh(); }
 
+  const fem::SolidBlock& solids() const {
+    for (const auto& block : mesh().blocks) {
+      if (const auto* own = dynamic_cast<const fem::SolidBlock*>(block.get())) return *own;
+    }
+    throw std::logic_error("the bar has no solids");
+  }
+
   /// Nodal forces that the part x < cut exerts on the part beyond, as the difference of elastic and
   /// weight forces of the elements beyond; they act at the nodes of the cut only.
   Resultant cut_force(double cut) const {
-    const auto& solids = dynamic_cast<const fem::SolidBlock&>(*mesh().blocks.back());
+    const fem::SolidBlock& elements = solids();
     std::vector<int> beyond, number(mesh().nodes.size(), -1), nodes;
     fem::Structure part;
-    for (int e = 0; e < solids.num_elements(); ++e) {
-      if (solids.positions(mesh().nodes, e).row(0).mean() < cut) continue;
+    for (int e = 0; e < elements.num_elements(); ++e) {
+      if (elements.positions(mesh().nodes, e).row(0).mean() < cut) continue;
       beyond.push_back(e);
-      for (const int node : solids.nodes(e)) {
+      for (const int node : elements.nodes(e)) {
         int& known = number[static_cast<std::size_t>(node)];
         if (known >= 0) continue;
         known = static_cast<int>(nodes.size());
@@ -79,7 +87,7 @@ class Cantilever {
         part.nodes.push_back(mesh().nodes[static_cast<std::size_t>(node)]);
       }
     }
-    part.solids = solids.subset(beyond, number);
+    part.solids = elements.subset(beyond, number);
     const fem::FeModel fe = fem::assemble(part, std::nullopt);
     linalg::Vector d(fe.dofs.num_dofs), g(fe.dofs.num_dofs);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -112,15 +120,15 @@ class Cantilever {
   Vector3d integrated(double cut) const {
     const Eigen::VectorXd values = table_.field_values("fields/bodies/bar/nodes/stress").row(0);
     const Eigen::MatrixXd stress = values.reshaped(6, values.size() / 6);
-    const auto& solids = dynamic_cast<const fem::SolidBlock&>(*mesh().blocks.back());
+    const fem::SolidBlock& elements = solids();
     Vector3d out = Vector3d::Zero();
-    for (int e = 0; e < solids.num_elements(); ++e) {
-      const fem::NodeVectors x = solids.positions(mesh().nodes, e);
+    for (int e = 0; e < elements.num_elements(); ++e) {
+      const fem::NodeVectors x = elements.positions(mesh().nodes, e);
       if (x.row(0).mean() < cut || x.row(0).minCoeff() < cut - 1e-9) continue;
       if (x.row(0).minCoeff() > cut + 1e-9) continue;
-      const auto& topology = fem::solid_topology(solids.form(e).kind);
+      const auto& topology = fem::solid_topology(elements.form(e).kind);
       for (int face = 0; face < static_cast<int>(topology.faces.size()); ++face) {
-        const auto integrals = fem::face_integrals(solids, mesh().nodes, {e, face});
+        const auto integrals = fem::face_integrals(elements, mesh().nodes, {e, face});
         const bool is_cut =
             std::all_of(integrals.nodes.begin(), integrals.nodes.end(), [&](int node) {
               return std::abs(mesh().nodes[static_cast<std::size_t>(node)].position.x() - cut) <
