@@ -148,15 +148,18 @@ void choose_size(const RunReader& run, const std::vector<Shown>& shown,
                           path.starts_with("loads/") || path.starts_with("modes/");
     if (is_shown) plain += channel.size();
   }
+  std::size_t ranges = 0;  // ends of ranges of rounded rows
   for (const Shown& one : shown) {
     rows += one.body.displacements_per_frame(run);
     for (const PageField& field : one.fields) rows += field.values_per_frame();
+    ranges += 2 * (1 + one.fields.size());
   }
   const std::size_t wanted = std::min(run.num_records(), options.max_frames);
   constexpr std::size_t kFloat = sizeof(float);
   constexpr std::size_t kCode = sizeof(std::uint16_t);
   report.rounded = wanted * kFloat * (plain + rows) > options.max_bytes / 4;
-  const std::size_t bytes = kFloat * plain + (report.rounded ? kCode : kFloat) * rows;
+  const std::size_t of_rows = report.rounded ? kCode * rows + kFloat * ranges : kFloat * rows;
+  const std::size_t bytes = kFloat * plain + of_rows;
   report.frames = std::min(wanted, options.max_bytes / bytes);
 }
 

@@ -105,8 +105,9 @@ TEST_F(SolidPage, HoldsWhatCanBeSeenOnly) {
 }
 
 TEST_F(SolidPage, RoundsToSixteenBitsWhereItMust) {
-  // Pose 7 and the time stay float32; 24 displacements and two stresses take two bytes each.
-  const nlohmann::json page = body({.max_frames = 2000, .max_bytes = 3 * (8 * 4 + 26 * 2)});
+  // Pose 7 and the time stay float32, 24 displacements and two stresses take two bytes each, the
+  // ends of the two ranges four numbers.
+  const nlohmann::json page = body({.max_frames = 2000, .max_bytes = 3 * (12 * 4 + 26 * 2)});
   EXPECT_EQ(report_.frames, 3U);
   EXPECT_TRUE(report_.rounded);
   const nlohmann::json& rows = page["displacement"];
