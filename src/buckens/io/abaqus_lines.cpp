@@ -108,6 +108,10 @@ void AbaqusLines::open(const fs::path& path, const DeckPlace* from) {
                               "are read",
                               stack_.size(), sources_.size(), kDeepest, kMostFiles));
     }
+    // Reading a pipe or a terminal would wait for ever.
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+      fail(*from, fmt::format("\"{}\" is no file that can be included", path.string()));
+    }
     try {
       source->text = read_text_file(path, "included file", kMostBytes);
     } catch (const IoError& failure) {

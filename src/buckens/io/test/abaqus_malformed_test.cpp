@@ -135,6 +135,8 @@ TEST_F(AbaqusMalformed, IncludedFilesAreNamedWithTheirOwnLines) {
   refuses("*NODE, INPUT=nodes.inc\n", {"nodes.inc:3:1"});
   refuses("*INCLUDE, INPUT=nowhere.inc\n", {"deck.inp:1:1", "nowhere.inc", "no such file"});
   refuses("*INCLUDE\n", {"*INCLUDE needs the name of a file"});
+  refuses("*INCLUDE, INPUT=/dev/tty\n",
+          {"deck.inp:1:1", "/dev/tty", "no file that can be included"});
 }
 
 TEST_F(AbaqusMalformed, CirclesAndCascadesOfIncludedFilesEnd) {
