@@ -104,7 +104,9 @@ TEST(ModelFileErrors, Bodies) {
   expect_messages(
       {
           {"{rigd: {mass: 1}}", {"unknown key \"rigd\" in bodies.a. Did you mean \"rigid\"?"}},
-          {"{at: {}}", {"one of these keys is missing: rigid, beam, structure, mesh, geometry, matrices, like"}},
+          {"{at: {}}",
+           {"one of these keys is missing: rigid, beam, structure, mesh, geometry, matrices, "
+            "like"}},
           {"{rigid: {mass: 1}, like: b}", {"only one of these keys can be"}},
           {"{rigid: {mas: 1}}", {"unknown key \"mas\" in bodies.a.rigid"}},
           {"{rigid: {}}", {"the key \"mass\" is missing; add it, for example mass: 0.36 kg"}},
