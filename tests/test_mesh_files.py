@@ -74,8 +74,8 @@ def test_info_is_for_people_too(buckens):
     for words in ("Gmsh 4.1 binary", "tet4 (tetrahedron)", "worst aspect ratio", "SCREWS", "EYE", "BRACKET",
                   "without density"):
         assert words in text
-    # 60 m high: no bracket is.
-    assert "warning" not in text
+    assert "the mesh is 60 m wide; its lengths are probably in mm" in text and "length-unit: mm" in text
+    assert "warning" not in buckens("mesh-info", PARTS / "bracket.msh", "--length-unit", "mm").must(0).out
     shell = buckens("mesh-info", PARTS / "housing.msh").must(0).out
     assert "quad4 (quadrangle)" in shell and "WALLS" in shell
     assert "the mesh is 120 m wide" in shell and "length-unit: mm" in shell
@@ -274,3 +274,9 @@ def test_faces_that_are_not_there_are_refused(buckens, tmp_path):
                             ("label: small bore", "sphere: {center: [9, 9, 9], radius: 1 mm}", "lies wholly")]:
         (tmp_path / "rod.yaml").write_text(text.replace(old, new))
         buckens("check", "rod.yaml").must(2, "rod.yaml:", words)
+
+
+def test_the_line_of_the_model_is_named_where_a_file_cannot_be_a_mesh(buckens, tmp_path):
+    (tmp_path / "part.msg").write_text("no mesh")
+    (tmp_path / "part.yaml").write_text(BODY.format(file="part.msg"))
+    buckens("check", "part.yaml").must(2, "part.yaml:6:", 'files that end in ".msg"', ".inp", ".msh")

@@ -9,10 +9,11 @@ namespace buckens::fem {
 
 namespace {
 
-// Bounds beyond which a number is taken for one in another unit. The largest machines of today,
-// such as excavators and wind turbines, are below 250 m; parts that are meshed are above half a
-// millimetre. Rubber has 1 MPa, diamond 1.2 TPa; osmium 22 600 kg/m³, aerogels 1 kg/m³.
-constexpr double kLargest = 100.0, kSmallest = 5e-4;
+// Bounds beyond which a number is taken for one in another unit. Few parts are wider than 20 m, the
+// blades of wind turbines among them; parts of 20 mm and more are everyday. Parts that are meshed
+// are above half a millimetre. Rubber has 1 MPa, diamond 1.2 TPa; osmium 22 600 kg/m³, aerogels 1
+// kg/m³.
+constexpr double kLargest = 20.0, kSmallest = 5e-4;
 constexpr double kSoftest = 5e5, kStiffest = 3e12;
 constexpr double kDensest = 30000.0, kLightest = 0.5;
 

@@ -66,6 +66,9 @@ void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
         std::move(read), fem::size_of(mesh->unit_of_length()), fem::size_of(mesh->unit_of_mass())));
   } catch (const IoError& error) {
     throw InputError(source.where, error.what());
+  } catch (const InputError& error) {
+    if (error.where().line > 0) throw;  // a place in the mesh file says more
+    throw InputError(source.where, error.what());
   }
 }
 
