@@ -23,8 +23,8 @@ export async function fieldSpecs({ test, browser, variant }) {
     assert.deepEqual(await legend(tab), ['8.00', '6.00', '4.00', '2.00', '0']);
     const coloured = await pixels(tab);
     await tab.locator('button[data-toggle=colors]').click();
-    assert.equal(await tab.locator('.field-panel').isVisible(), false);
     const plain = await pixels(tab);
+    assert.equal(await tab.locator('.field-panel').isVisible(), false);
     assert.ok(difference(coloured, plain) > 500, 'stresses give no colour');
     await tab.keyboard.press('s');
     await setTime(tab, 0);
@@ -134,6 +134,7 @@ export async function fieldSpecs({ test, browser, variant }) {
     await tab.getByLabel('Edges of elements').selectOption('wireframe');
     assert.ok(difference(before, await pixels(tab)) > 3000, 'faces stay');
     await tab.keyboard.press('Escape');
+    await settle(tab);
     assert.equal(await tab.locator('.display[open]').count(), 0);
     await tab.locator('.view canvas').focus();
     await tab.keyboard.press('x');
