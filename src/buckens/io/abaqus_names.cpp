@@ -149,9 +149,7 @@ AbaqusNames::Scoped AbaqusNames::in_instance(int scope, const std::string& refer
   return {scope, reference};
 }
 
-std::vector<int> AbaqusNames::set_nodes(int scope, const AbaqusSet& set) {
-  const auto known = known_nodes_.find({scope, &set});
-  if (known != known_nodes_.end()) return known->second;
+void AbaqusNames::open(const AbaqusSet& set) {
   const bool is_open = std::find(open_sets_.begin(), open_sets_.end(), &set) != open_sets_.end();
   if (is_open || open_sets_.size() > kDeepestSets) {
     lines_.fail(
@@ -159,6 +157,12 @@ std::vector<int> AbaqusNames::set_nodes(int scope, const AbaqusSet& set) {
         fmt::format("set \"{}\" contains itself, directly or by way of other sets", set.name));
   }
   open_sets_.push_back(&set);
+}
+
+std::vector<int> AbaqusNames::set_nodes(int scope, const AbaqusSet& set) {
+  const auto known = known_nodes_.find({scope, &set});
+  if (known != known_nodes_.end()) return known->second;
+  open(set);
   std::vector<int> out;
   for (const AbaqusSetPart& part : set.parts) {
     const int own = in_instance(scope, "", part.instance, part.place).scope;
@@ -224,13 +228,7 @@ int AbaqusNames::node(int scope, const std::string& reference, DeckPlace place) 
 std::vector<AbaqusElementAt> AbaqusNames::set_elements(int scope, const AbaqusSet& set) {
   const auto known = known_elements_.find({scope, &set});
   if (known != known_elements_.end()) return known->second;
-  const bool is_open = std::find(open_sets_.begin(), open_sets_.end(), &set) != open_sets_.end();
-  if (is_open || open_sets_.size() > kDeepestSets) {
-    lines_.fail(
-        set.parts.front().place,
-        fmt::format("set \"{}\" contains itself, directly or by way of other sets", set.name));
-  }
-  open_sets_.push_back(&set);
+  open(set);
   std::vector<AbaqusElementAt> out;
   for (const AbaqusSetPart& part : set.parts) {
     const int own = in_instance(scope, "", part.instance, part.place).scope;

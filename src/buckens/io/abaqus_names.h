@@ -88,6 +88,9 @@ class AbaqusNames {
                      DeckPlace place) const;
   int find_instance(const std::string& name) const;
   std::string described(int scope) const;
+  /// Notes that a set is being looked up. @throws InputError if it is already, or sets nest too
+  /// deep
+  void open(const AbaqusSet& set);
   std::vector<int> set_nodes(int scope, const AbaqusSet& set);
   std::vector<AbaqusElementAt> set_elements(int scope, const AbaqusSet& set);
   void add_faces(const AbaqusElementAt& at, const AbaqusSurface::Item& item,

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/io/abaqus_deck.h"
+#include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
@@ -17,15 +18,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// A folder for decks that vanishes with the test.
+/// Decks in a folder of their own.
 class AbaqusMalformed : public testing::Test {
  protected:
-  AbaqusMalformed() {
-    std::string name = (fs::temp_directory_path() / "buckens-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~AbaqusMalformed() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -43,7 +38,7 @@ class AbaqusMalformed : public testing::Test {
     ADD_FAILURE() << "nothing was refused, expected: " << words.front();
   }
 
-  fs::path folder_;
+  test::TemporaryDirectory folder_;
 };
 
 const char* const kNodes =
@@ -53,7 +48,7 @@ std::string with_nodes(const std::string& rest) { return kNodes + rest; }
 
 TEST_F(AbaqusMalformed, FilesThatAreNoDecks) {
   EXPECT_THROW(read_abaqus_deck(folder_ / "missing.inp"), IoError);
-  EXPECT_THROW(read_abaqus_deck(folder_), IoError);
+  EXPECT_THROW(read_abaqus_deck(folder_.path()), IoError);
   refuses("", {"deck.inp", "no *NODE"});
   refuses("*HEADING\nnothing else\n", {"no *NODE"});
   refuses("1, 2, 3\n*NODE\n", {"deck.inp:1:1", "before any keyword"});

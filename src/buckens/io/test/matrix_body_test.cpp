@@ -9,6 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/io/matrix_file.h"
+#include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
@@ -27,8 +28,6 @@ const char* const kNodes = "node,x,y,z\n7,0,0,0\n3,1,0,0\n";
 class MatrixBody : public testing::Test {
  protected:
   MatrixBody() {
-    std::string name = (fs::temp_directory_path() / "buckens-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
     write("m.mtx", kMass);
     write("k.mtx", kStiffness);
     write("nodes.csv", kNodes);
@@ -36,12 +35,11 @@ class MatrixBody : public testing::Test {
     spec_.stiffness = "k.mtx";
     spec_.nodes = "nodes.csv";
   }
-  ~MatrixBody() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  fem::BodyMatrices read() const { return *read_body_matrices(spec_, folder_); }
+  fem::BodyMatrices read() const { return *read_body_matrices(spec_, folder_.path()); }
 
   void refuses(const std::vector<std::string>& words) const {
     try {
@@ -53,7 +51,7 @@ class MatrixBody : public testing::Test {
     ADD_FAILURE() << "nothing was refused, expected: " << words.front();
   }
 
-  fs::path folder_;
+  test::TemporaryDirectory folder_;
   fem::MatricesSpec spec_;
 };
 
