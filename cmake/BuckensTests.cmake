@@ -1,7 +1,6 @@
 # Tests, found by globbing:
 #   src/buckens/<module>/test/*_test.cpp  -> <module>_test      label unit
 #   verification/*/*_test.cpp             -> verification_test  label verify
-#   apps/cli/test/*_test.cpp              -> cli_test           label unit
 #   tests/test_*.py                       -> pytest, one entry per file, label cli
 #   tools/check_*                         -> structural checks  label structure
 #   tests/kill/*.cpp                      -> programs used by those
@@ -49,15 +48,6 @@ file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/verification/*/*_test
      "${PROJECT_SOURCE_DIR}/verification/*.cpp")
 if(sources)
   buckens_test(verification_test verify buckens ${sources})
-endif()
-
-file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/test/*_test.cpp")
-if(sources)
-  file(GLOB program CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/*.cpp")
-  list(FILTER program EXCLUDE REGEX "/main\\.cpp$")
-  buckens_test(cli_test unit buckens ${sources} ${program})
-  target_include_directories(cli_test PRIVATE "${PROJECT_SOURCE_DIR}/apps")
-  target_link_libraries(cli_test PRIVATE CLI11::CLI11 spdlog::spdlog Threads::Threads)
 endif()
 
 file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")

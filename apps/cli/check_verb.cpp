@@ -33,7 +33,7 @@ ExitCode check(const CheckArguments& arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kCheckFooter[] = R"(
 Example:
   buckens check slider_crank.yaml
 
@@ -52,7 +52,7 @@ void add_check_verb(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<CheckArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kCheckFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return check(*arguments, invocation.json); };
   });

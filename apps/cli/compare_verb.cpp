@@ -103,7 +103,7 @@ ExitCode compare(const CompareArguments& arguments, bool json) {
   return differ ? ExitCode::different : ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kCompareFooter[] = R"(
 Examples:
   buckens compare full reduced                       what differs, the largest first
   buckens compare full reduced --sensors --tolerance 1e-3
@@ -128,7 +128,7 @@ void add_compare_verb(CLI::App& program, Invocation& invocation) {
       ->check(CLI::PositiveNumber);
   verb.add_flag("--sensors", arguments->sensors_only, "Sensors only");
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kCompareFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return compare(*arguments, invocation.json); };
   });

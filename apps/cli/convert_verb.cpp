@@ -78,7 +78,7 @@ ExitCode convert(const ConvertArguments& arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kConvertFooter[] = R"(
 Examples:
   buckens convert housing.inp housing.msh --length-unit mm
   buckens convert rod.step rod.vtu --size "5 mm"
@@ -101,7 +101,7 @@ void add_convert_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("--msh-version", arguments->version, "Version of the .msh format: 4.1 or 2.2");
   verb.add_flag("--binary", arguments->binary, "Write .msh as bytes");
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kConvertFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return convert(*arguments, invocation.json); };
   });

@@ -98,7 +98,7 @@ ExitCode export_run(const ExportArguments& arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kExportFooter[] = R"(
 Examples:
   buckens export out --vtk                  out/export/out.pvd and .vtu files for ParaView
   buckens export out --csv --at 0.05        fields at one instant as tables
@@ -136,7 +136,7 @@ void add_export_verb(CLI::App& program, Invocation& invocation) {
                   "the run, but 2 to 30 s")
       ->check(CLI::PositiveNumber);
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kExportFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] {
       return export_run(*arguments, invocation.json);

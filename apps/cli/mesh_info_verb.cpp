@@ -20,7 +20,7 @@ ExitCode tell(const MeshArguments& arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kMeshInfoFooter[] = R"(
 Examples:
   buckens mesh-info housing.inp --length-unit mm
   buckens mesh-info rod.step --size "5 mm"
@@ -40,7 +40,7 @@ void add_mesh_info_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("FILE", arguments->file, "Mesh of another program, or STEP file")->required();
   add_mesh_options(verb, *arguments);
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kMeshInfoFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return tell(*arguments, invocation.json); };
   });

@@ -11,6 +11,8 @@
 
 #include "cli/text_table.h"
 
+#include "buckens/io/vector_json.h"
+
 namespace buckens::cli {
 
 namespace {
@@ -18,6 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 using fem::MeshReport;
+using io::json_of;
 
 constexpr std::size_t kMostNamed = 5;
 constexpr std::size_t kMostSets = 60;
@@ -148,8 +151,6 @@ std::string sets_text(const MeshReport& report) {
   return out;
 }
 
-Json json_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 }  // namespace
 
 std::string mesh_report_text(const fem::ImportedMesh& mesh, const MeshReport& report) {
@@ -201,8 +202,6 @@ Json mesh_report_json(const fem::ImportedMesh& mesh, const MeshReport& report) {
   for (const auto& set : report.element_sets) element_sets[set.name] = set.count;
   for (const auto& [a, b] : report.duplicate_nodes) duplicates.push_back({a, b});
   for (const auto& note : mesh.notes) notes.push_back(note_text(note));
-  Json inertia = Json::array();
-  for (int row = 0; row < 3; ++row) inertia.push_back(json_of(report.inertia.row(row)));
   return {{"file", mesh.file},
           {"format", mesh.format},
           {"nodes", report.nodes},
@@ -214,7 +213,7 @@ Json mesh_report_json(const fem::ImportedMesh& mesh, const MeshReport& report) {
           {"volume_centre", json_of(report.volume_centre)},
           {"mass", report.mass},
           {"mass_centre", json_of(report.mass_centre)},
-          {"inertia", std::move(inertia)},
+          {"inertia", json_of(report.inertia)},
           {"without_density", report.without_density},
           {"worst_aspect_ratio", report.worst_aspect},
           {"worst_element", report.worst_element},

@@ -14,6 +14,7 @@
 #include "cli/text_table.h"
 
 #include "buckens/analysis/output_plan.h"
+#include "buckens/io/vector_json.h"
 
 namespace buckens::cli {
 
@@ -22,6 +23,7 @@ namespace {
 using analysis::BodyReport;
 using analysis::ModelReport;
 using Json = nlohmann::ordered_json;
+using io::json_of;
 
 /// Columns of the frequency list; the rest stands in the JSON output.
 constexpr std::size_t kFrequenciesShown = 6;
@@ -122,14 +124,6 @@ std::string loads_table(const ModelReport& report) {
   }
   if (rows.size() == 1) return "";
   return text_table(rows) + "  forces and torques at t = 0, torques about the mass centre\n";
-}
-
-Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json json_of(const Eigen::Matrix3d& matrix) {
-  Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
-  return rows;
 }
 
 Json json_of(const std::vector<analysis::LoadReport>& loads) {

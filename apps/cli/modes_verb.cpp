@@ -104,7 +104,7 @@ ExitCode modes(const ModesArguments& arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kModesFooter[] = R"(
 Examples:
   buckens modes slider_crank.yaml                       free vibrations of each flexible body
   buckens modes slider_crank.yaml --system --count 6    those of the mechanism, joints included
@@ -149,7 +149,7 @@ void add_modes_verb(CLI::App& program, Invocation& invocation) {
       ->check(CLI::Range(1e-14, 1e-2));
   verb.add_option("-o,--out", arguments->out, "Directory for the shapes")->type_name("OUT");
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kModesFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return modes(*arguments, invocation.json); };
   });

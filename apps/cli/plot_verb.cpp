@@ -148,7 +148,7 @@ ExitCode plot(PlotArguments arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kPlotFooter[] = R"(
 Examples:
   buckens plot out tip.x tip.y -o tip.svg          two components of a sensor over time
   buckens plot out energies/kinetic energies/strain -o energy.png
@@ -185,7 +185,7 @@ void add_plot_verb(CLI::App& program, Invocation& invocation) {
       ->type_name("W H")
       ->check(CLI::Range(150.0, 10000.0));
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kPlotFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return plot(*arguments, invocation.json); };
   });

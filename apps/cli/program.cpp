@@ -25,7 +25,7 @@ constexpr char kDescription[] =
     "finite-element\n"
     "model, which is factorised once per simulation.\n";
 
-constexpr char kFooter[] = R"(
+constexpr char kProgramFooter[] = R"(
 Begin with:
   buckens check examples/slider_crank/slider_crank.yaml        what the model is
   buckens run examples/slider_crank/slider_crank.yaml -o out   simulate it
@@ -47,7 +47,7 @@ prints, docs/reference/command-line.md describes the verbs.)";
 void describe(CLI::App& app) {
   app.name("buckens");
   app.description(kDescription);
-  app.footer(kFooter);
+  app.footer(kProgramFooter);
   app.set_version_flag("--version", fmt::format("buckens {}", kVersion), "Print the version");
   app.get_formatter()->column_width(24);
   app.get_formatter()->label("SUBCOMMAND", "VERB");

@@ -138,7 +138,7 @@ ExitCode run(const RunArguments& arguments, bool json) {
   return summary.finished ? ExitCode::ok : ExitCode::interrupted;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kRunFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out --set bodies.rod.beam.elements=32
   buckens view out
@@ -171,7 +171,7 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
                   "body; 1 if not given. Results are the same to the last bit")
       ->check(CLI::Range(1, kMostThreads));
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kRunFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return run(*arguments, invocation.json); };
   });

@@ -90,7 +90,7 @@ ExitCode run(const StaticArguments& arguments, bool json) {
   return summary.interrupted == kStopped ? ExitCode::interrupted : ExitCode::numerical;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kStaticFooter[] = R"(
 Example:
   buckens static examples/snap_through/snap_through.yaml -o path
   buckens view path
@@ -119,7 +119,7 @@ void add_static_verb(CLI::App& program, Invocation& invocation) {
       ->type_name("OUT");
   verb.add_flag("-q,--quiet", arguments->quiet, "No summary; warnings and errors only");
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kStaticFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return run(*arguments, invocation.json); };
   });

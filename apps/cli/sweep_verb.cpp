@@ -156,7 +156,7 @@ ExitCode sweep(const SweepArguments& arguments, bool json) {
   return exit_code_of(outcome);
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kSweepFooter[] = R"(
 Example:
   buckens sweep slider_crank.yaml variants.csv -o speeds
   buckens sweep slider_crank.yaml --vary "parameters.speed=[100, 125, 150]" -o speeds
@@ -195,7 +195,7 @@ void add_sweep_verb(CLI::App& program, Invocation& invocation) {
       ->check(CLI::Range(1, 32));
   verb.add_flag("-q,--quiet", arguments->quiet, "Failures only");
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kSweepFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return sweep(*arguments, invocation.json); };
   });

@@ -85,7 +85,7 @@ ExitCode view(const ViewArguments& arguments, bool json) {
   return ExitCode::ok;
 }
 
-constexpr char kFooter[] = R"(
+constexpr char kViewFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out
   buckens view out
@@ -118,7 +118,7 @@ void add_view_verb(CLI::App& program, Invocation& invocation) {
       ->capture_default_str()
       ->check(CLI::Range(1, 300));
   add_json_option(verb, invocation);
-  verb.footer(kFooter);
+  verb.footer(kViewFooter);
   verb.callback([arguments, &invocation] {
     invocation.action = [arguments, &invocation] { return view(*arguments, invocation.json); };
   });

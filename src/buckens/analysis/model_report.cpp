@@ -2,13 +2,13 @@
 #include "buckens/analysis/model_report.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <Eigen/Eigenvalues>
 
 #include "buckens/analysis/output_plan.h"
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/step_advice.h"
+#include "buckens/analysis/turn.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/recovery.h"
 #include "buckens/fem/solid_recovery.h"
@@ -18,8 +18,6 @@
 namespace buckens::analysis {
 
 namespace {
-
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// What mesh and mass properties say; `fe` is null for rigid bodies.
 void describe(const fem::FeModel* fe, const body::FreeModes& modes, BodyReport& out) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/static_tolerances.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/spatial/rotation.h"
@@ -21,9 +22,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 namespace {
 
-constexpr int kMaxIterations = 200;
-constexpr double kClosed = 1e-12;         // of the model's length, about 1e4 roundings
-constexpr double kAcceptedGap = 1e-9;     // closed as far as anyone can tell
+constexpr int kMaxAssemblyIterations = 200;
 constexpr double kLargestRotation = 0.5;  // rad per iteration
 
 /// Answers closing demands with the least motion; redundant rows share it.
@@ -128,7 +127,7 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
   LeastMotion motion(model, metric.rigid(), constraints.rows);
   double residual = constraints.g.norm();
   double damping = 1e-10;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxAssemblyIterations; ++iteration) {
     if (constraints.g.cwiseAbs().maxCoeff() <= kClosed * model.length) break;
     motion.solve(constraints.rows, -constraints.g, damping);
     const std::vector<spatial::Pose> from = poses(state);
@@ -151,7 +150,7 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
     if (damping > 1.0) break;
   }
   const double gap = constraints.g.cwiseAbs().maxCoeff();
-  if (gap <= kAcceptedGap * model.length) return gap;
+  if (gap <= kDependentGap * model.length) return gap;
   const model::Joint* joint = worst_joint(model, constraints.g);
   throw ModelError(
       joint->where,
@@ -190,7 +189,7 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
                                      constraints);
     }
     const double left = constraints.g_dot.cwiseAbs().maxCoeff();
-    if (left <= kAcceptedGap * scale) return left;
+    if (left <= kDependentGap * scale) return left;
   }
   const model::Joint* joint = worst_joint(model, constraints.g_dot);
   throw ModelError(joint->where, "initial velocities contradict the joints; left over at " +

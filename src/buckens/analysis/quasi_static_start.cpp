@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kMostRounds = 100;
 // Of the largest displacement: joints are closed to 1e-12 of the model's length.
-constexpr double kSettled = 1e-10;
+constexpr double kShapeSettled = 1e-10;
 
 bool is_quasi_static(const body::Body& body) {
   return body.is_flexible() && body.flexible->is_quasi_static;
@@ -68,7 +68,7 @@ void settle_accelerations(const model::Model& model, const dynamics::MassMetric&
     assemble_positions(model, metric, state);
     project_velocities(model, metric, state);
     compute_accelerations(model, metric, rows_in_use, state);
-    if (change <= kSettled) return;
+    if (change <= kShapeSettled) return;
   }
   throw NumericalError(fmt::format(
       "the deformation of the quasi-static body \"{}\" at the start does not settle: its loads "

@@ -19,7 +19,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 namespace {
 
 // Of the model's length, or rad: balances rounding (1e-16/step) and curvature (step²).
-constexpr double kDifference = 1e-5;
+constexpr double kTangentDifference = 1e-5;
 
 class Linearisation {
  public:
@@ -224,7 +224,7 @@ void Linearisation::add_force_differences() {
       Vector step = Vector::Zero(out_.size);
       const auto step_of = [&](std::size_t b) {
         const RestBody& place = out_.bodies[b];
-        return k < place.rotations ? kDifference : kDifference * model_.length;
+        return k < place.rotations ? kTangentDifference : kTangentDifference * model_.length;
       };
       for (const std::size_t b : color) {
         const RestBody& place = out_.bodies[b];

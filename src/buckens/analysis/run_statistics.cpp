@@ -2,9 +2,10 @@
 #include "buckens/analysis/run_statistics.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
+
+#include "buckens/analysis/turn.h"
 
 namespace buckens::analysis {
 
@@ -13,7 +14,6 @@ constexpr double kLargeEnergyError = 0.05;
 // |ω|/ω₁: effects of the missing stiffening grow with its square.
 constexpr double kFastSpin = 0.1;
 constexpr double kTooFastSpin = 0.3;
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/static_state.h"
+#include "buckens/analysis/static_tolerances.h"
 #include "buckens/base/errors.h"
 
 namespace buckens::analysis {
@@ -19,9 +20,6 @@ using Share = StaticSystem::Share;
 namespace {
 
 constexpr int kMaxIterations = 15;
-constexpr double kForceTolerance = 1e-9;  // of the largest force
-constexpr double kClosed = 1e-12;         // of the model's length, about 1e4 roundings
-constexpr double kDependentGap = 1e-9;    // as in assembly: closed as far as anyone can tell
 // Farther from the prediction than this [rad, or of the model's length] lies another equilibrium.
 constexpr double kFarFromPrediction = 0.5;
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/static_state.h"
+#include "buckens/analysis/static_tolerances.h"
 #include "buckens/base/errors.h"
 #include "buckens/spatial/rotation.h"
 
@@ -20,10 +21,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 namespace {
 
-constexpr int kMaxIterations = 400;
-constexpr double kForceTolerance = 1e-9;  // of the largest force
-constexpr double kClosed = 1e-12;         // of the model's length, about 1e4 roundings
-constexpr double kDependentGap = 1e-9;    // as in assembly: closed as far as anyone can tell
+constexpr int kMaxDescentIterations = 400;
 constexpr double kLongestStep = 0.3;      // rad, or of the model's length
 constexpr double kLongStep = 0.2;         // leaves the path of damped motion: more inertia
 constexpr double kShortStep = 0.1;        // follows it well: less inertia
@@ -131,7 +129,7 @@ void StaticDescent::run() {
       check_dependent_rows();
       if (is_balanced()) return;
     }
-    if (++iterations_ > kMaxIterations) break;
+    if (++iterations_ > kMaxDescentIterations) break;
     const Vector step = find_step();
     advance(step);
     check_travel();
@@ -144,7 +142,7 @@ void StaticDescent::run() {
       "(largest force {:.3g} N), most of it where {}; start closer to the equilibrium, or let the "
       "motion settle by "
       "a simulation with dampers",
-      kMaxIterations, force_residual(), largest_force_,
+      kMaxDescentIterations, force_residual(), largest_force_,
       system_->share(static_cast<int>(worst)) == Share::frame
           ? describe_motion(model_, *system_, point_, where)
           : "joints do not close"));

@@ -2,10 +2,10 @@
 #include "buckens/analysis/step_advice.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/turn.h"
 #include "buckens/body/free_free_modes.h"
 #include "buckens/body/rigid_modes.h"
 
@@ -14,7 +14,6 @@ namespace buckens::analysis {
 namespace {
 constexpr double kExcitedShare = 0.01;
 constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
-constexpr double kTurn = 2.0 * std::numbers::pi;
 
 /// The lowest free vibrations of a mesh.
 body::FreeModes modes_of_mesh(const fem::FeModel& fe, int count) {

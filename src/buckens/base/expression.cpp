@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <muParser.h>
@@ -16,7 +17,6 @@ namespace buckens::base {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kE = 2.71828182845904523536;
 constexpr std::size_t kLongestFormula = 20000;
 
@@ -98,7 +98,7 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     for (std::size_t i = 0; i < variables.size(); ++i) {
       parsed->parser.DefineVar(variables[i], &parsed->slots[i]);
     }
-    parsed->parser.DefineConst("pi", kPi);
+    parsed->parser.DefineConst("pi", std::numbers::pi);
     parsed->parser.DefineConst("e", kE);
     for (const auto& [name, value] : parameters) parsed->parser.DefineConst(name, value);
     parsed->parser.SetExpr(text);

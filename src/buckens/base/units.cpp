@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ namespace buckens::base {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr double kPound = 0.45359237;
 constexpr double kGravity = 9.80665;
 constexpr double kInch = 0.0254;

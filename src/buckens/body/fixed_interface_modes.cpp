@@ -25,8 +25,8 @@ using linalg::Vector;
 namespace {
 
 // Rows that follow from others leave 1e-16, others hardly less than 1e-4.
-constexpr double kDependent = 1e-10;
-constexpr double kTolerance = 1e-9;
+constexpr double kDependentColumn = 1e-10;
+constexpr double kModeTolerance = 1e-9;
 
 Matrix interface_columns(const FlexiblePart& part) {
   const SparseMatrix N = part.rows.topRows(part.num_held_rows());
@@ -41,14 +41,14 @@ Matrix null_space(const Matrix& columns, const Vector& scale) {
     if (size > 0.0) weighted.col(k) /= size;
   }
   Eigen::ColPivHouseholderQR<Matrix> qr(weighted);
-  qr.setThreshold(kDependent);
+  qr.setThreshold(kDependentColumn);
   const Eigen::Index free = columns.rows() - qr.rank();
   Matrix Z = Matrix::Zero(columns.rows(), free);
   Z.bottomRows(free).setIdentity();
   return qr.householderQ().setLength(qr.rank()) * Z;
 }
 
-FreeModes solve_dense(const FlexiblePart& part, const Matrix& columns, Eigen::Index count) {
+FreeModes solve_fixed_dense(const FlexiblePart& part, const Matrix& columns, Eigen::Index count) {
   const Vector scale = variable_scale(part.fe.M, part.fe.K);
   const Matrix Z = scale.asDiagonal() * null_space(columns, scale);
   // Few variables without mass: with a shift, the roles of M and K can be exchanged.
@@ -71,7 +71,7 @@ FreeModes solve_dense(const FlexiblePart& part, const Matrix& columns, Eigen::In
   return out;
 }
 
-FreeModes iterate(const FlexiblePart& part, const Matrix& columns, int count) {
+FreeModes iterate_fixed(const FlexiblePart& part, const Matrix& columns, int count) {
   const SparseMatrix& M = part.fe.M;
   const double bound = lowest_square_estimate(part);
   const double shift = bound > 0.0 ? 0.3 * bound : cautious_shift(M, part.fe.K);
@@ -84,7 +84,7 @@ FreeModes iterate(const FlexiblePart& part, const Matrix& columns, int count) {
   };
   linalg::InverseIterationSettings settings;
   settings.count = count;
-  settings.tolerance = kTolerance;
+  settings.tolerance = kModeTolerance;
   const linalg::InversePairs pairs =
       linalg::largest_inverse_pairs(M, inverse, Matrix(M.rows(), 0), settings);
   if (!pairs.is_complete) {
@@ -103,8 +103,8 @@ FreeModes fixed_interface_modes(const FlexiblePart& part, int count) {
   const Eigen::Index most = part.num_dofs();
   const Eigen::Index wanted = std::clamp<Eigen::Index>(count, 0, most);
   if (wanted == 0) return {Vector(0), Matrix(part.num_dofs(), 0)};
-  if (is_dense_better(part.num_dofs(), wanted)) return solve_dense(part, columns, wanted);
-  return iterate(part, columns, static_cast<int>(wanted));
+  if (is_dense_better(part.num_dofs(), wanted)) return solve_fixed_dense(part, columns, wanted);
+  return iterate_fixed(part, columns, static_cast<int>(wanted));
 }
 
 }  // namespace buckens::body

@@ -16,7 +16,7 @@ using linalg::Vector;
 namespace {
 
 // Fields with less inertia than this share of the largest are taken as rigid or missing.
-constexpr double kNoInertia = 1e-10;
+constexpr double kNoRotaryInertia = 1e-10;
 
 /// A monomial of degree one or two and its gradient.
 struct Monomial {
@@ -70,7 +70,7 @@ double lowest_square_estimate(const FlexiblePart& part) {
   const double largest = mass.eigenvalues()[mass.eigenvalues().size() - 1];
   if (!(largest > 0.0)) return 0.0;
   Eigen::Index first = 0;
-  while (mass.eigenvalues()[first] < kNoInertia * largest) ++first;
+  while (mass.eigenvalues()[first] < kNoRotaryInertia * largest) ++first;
   const Eigen::Index kept = X.cols() - first;
   const Matrix Z = mass.eigenvectors().rightCols(kept) *
                    mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();

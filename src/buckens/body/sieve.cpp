@@ -13,7 +13,7 @@ using linalg::Vector;
 
 namespace {
 // Eigenvalues of the diagonally scaled S below this are motions without inertia.
-constexpr double kNoInertia = 1e-12;
+constexpr double kEmptyRow = 1e-12;
 // Of at most six motions: needs no memory of its own.
 using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 }  // namespace
@@ -26,13 +26,13 @@ Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
   const double rotation = S_.diagonal().tail<3>().maxCoeff();
   for (int k = 0; k < 6; ++k) {
     const double reference = k < 3 ? translation : rotation;
-    if (S_(k, k) > kNoInertia * reference) scale[k] = 1.0 / std::sqrt(S_(k, k));
+    if (S_(k, k) > kEmptyRow * reference) scale[k] = 1.0 / std::sqrt(S_(k, k));
   }
   const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * S_ * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scaled);
   to_axes_.resize(6, 0);
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] < kNoInertia) continue;
+    if (eigen.eigenvalues()[k] < kEmptyRow) continue;
     to_axes_.conservativeResize(6, to_axes_.cols() + 1);
     to_axes_.rightCols<1>() =
         scale.cwiseProduct(eigen.eigenvectors().col(k)) / std::sqrt(eigen.eigenvalues()[k]);

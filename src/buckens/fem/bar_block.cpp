@@ -5,6 +5,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/elasticity.h"
+#include "buckens/fem/element_dofs.h"
 #include "buckens/fem/line_frame.h"
 #include "buckens/fem/node_label.h"
 #include "buckens/fem/scatter.h"
@@ -16,15 +17,6 @@ using Eigen::Vector3d;
 namespace {
 
 using Dofs = std::array<int, 6>;
-
-Dofs element_dofs(const DofMap& dofs, const std::array<int, 2>& ends) {
-  Dofs out{};
-  for (std::size_t end = 0; end < 2; ++end) {
-    const auto& node = dofs.node_dofs[static_cast<std::size_t>(ends[end])];
-    for (std::size_t k = 0; k < 3; ++k) out[3 * end + k] = node[k];
-  }
-  return out;
-}
 
 ShapePolynomial<6> linear_shape() {
   ShapePolynomial<6> shape;
@@ -104,7 +96,7 @@ void BarBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaSum
     ElementInertia<6> inertia;
     inertia.add(mass, shape, {at.start - com, at.along});
     inertia.symmetrise();
-    scatter<6>(inertia, element_dofs(mesh.dofs, element.ends), sum);
+    scatter<6>(inertia, element_dofs<3>(mesh.dofs, element.ends), sum);
   }
 }
 
@@ -116,7 +108,7 @@ void BarBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
     const double stiffness = element.material.E * element.section.A / at.length;
     Eigen::Matrix<double, 6, 6> K = strain * strain.transpose();
     K *= stiffness;  // after the product, so that rounding stays symmetric
-    const Dofs dofs = element_dofs(mesh.dofs, element.ends);
+    const Dofs dofs = element_dofs<3>(mesh.dofs, element.ends);
     scatter<6>(K, dofs, 1.0, sum.K);
     if (element.material.damping_stiffness != 0.0) {
       scatter<6>(K, dofs, element.material.damping_stiffness, sum.K_damping);
@@ -130,7 +122,7 @@ void BarBlock::add_force_rows(const MeshView& mesh, int first_element,
   for (const Element& element : elements_) {
     const Line at = line(mesh.nodes, element.ends);
     const double stiffness = element.material.E * element.section.A / at.length;
-    const Dofs dofs = element_dofs(mesh.dofs, element.ends);
+    const Dofs dofs = element_dofs<3>(mesh.dofs, element.ends);
     for (int j = 0; j < 6; ++j) {
       const int column = dofs[static_cast<std::size_t>(j)];
       const double value = (j < 3 ? -stiffness : stiffness) * at.direction[j % 3];
@@ -147,7 +139,7 @@ PointRows BarBlock::point_rows(const MeshView& mesh, int element, double xi) con
   const Line place = line(mesh.nodes, bar.ends);
   PointRows rows;
   rows.position = place.start + xi * place.along;
-  scatter<6>(linear_shape().at(xi), element_dofs(mesh.dofs, bar.ends), rows.translation);
+  scatter<6>(linear_shape().at(xi), element_dofs<3>(mesh.dofs, bar.ends), rows.translation);
   return rows;
 }
 

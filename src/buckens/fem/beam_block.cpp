@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/elasticity.h"
+#include "buckens/fem/element_dofs.h"
 #include "buckens/fem/node_label.h"
 #include "buckens/fem/scatter.h"
 
@@ -19,15 +20,6 @@ namespace {
 
 using Inertia = ElementInertia<12>;
 using Dofs = std::array<int, 12>;
-
-Dofs element_dofs(const DofMap& dofs, const std::array<int, 2>& ends) {
-  Dofs out{};
-  for (std::size_t end = 0; end < 2; ++end) {
-    const auto& node = dofs.node_dofs[static_cast<std::size_t>(ends[end])];
-    for (std::size_t k = 0; k < 6; ++k) out[6 * end + k] = node[k];
-  }
-  return out;
-}
 
 /// The displacement θ × e of section points per unit distance along e.
 ShapePolynomial<12> section_field(const ShapePolynomial<12>& rotation, const Vector3d& e) {
@@ -131,7 +123,7 @@ void BeamBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaSu
     const LineFrame axes = frame(mesh.nodes, element);
     const BeamShape shape =
         beam_shape(axes, shear_parameters(theory, material, section, axes.length));
-    const Dofs dofs = element_dofs(mesh.dofs, element.ends);
+    const Dofs dofs = element_dofs<6>(mesh.dofs, element.ends);
     const double rho_l = material.rho * axes.length;
     const Vector3d t = axes.axes.col(0);
     const Vector3d start = mesh.nodes[static_cast<std::size_t>(element.ends[0])].position - com;
@@ -161,7 +153,7 @@ void BeamBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
         beam_stiffness_local(material, section, axes.length, shear);
     Eigen::Matrix<double, 12, 12> K = T * local * T.transpose();
     K = (0.5 * (K + K.transpose())).eval();
-    const Dofs dofs = element_dofs(mesh.dofs, element.ends);
+    const Dofs dofs = element_dofs<6>(mesh.dofs, element.ends);
     scatter<12>(K, dofs, 1.0, sum.K);
     if (material.damping_stiffness != 0.0) {
       scatter<12>(K, dofs, material.damping_stiffness, sum.K_damping);
@@ -181,7 +173,7 @@ void BeamBlock::add_force_rows(const MeshView& mesh, int first_element,
         beam_rotation(axes.axes).transpose();
     // The nodal force at the first end acts on the face that looks along −x.
     forces.topRows<6>() *= -1.0;
-    const Dofs dofs = element_dofs(mesh.dofs, element.ends);
+    const Dofs dofs = element_dofs<6>(mesh.dofs, element.ends);
     for (int j = 0; j < 12; ++j) {
       const int column = dofs[static_cast<std::size_t>(j)];
       for (int i = 0; i < 12 && column >= 0; ++i) {
@@ -198,7 +190,7 @@ PointRows BeamBlock::point_rows(const MeshView& mesh, int element, double xi) co
   const LineFrame axes = frame(mesh.nodes, beam);
   const BeamShape shape =
       beam_shape(axes, shear_parameters(theory, material, section, axes.length));
-  const Dofs dofs = element_dofs(mesh.dofs, beam.ends);
+  const Dofs dofs = element_dofs<6>(mesh.dofs, beam.ends);
   PointRows rows;
   rows.has_rotation = true;
   rows.position = mesh.nodes[static_cast<std::size_t>(beam.ends[0])].position +

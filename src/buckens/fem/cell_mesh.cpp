@@ -14,7 +14,7 @@ int at(const Cell& cell, const Place& p) {
   return cell[static_cast<std::size_t>(p.x() + 3 * p.y() + 9 * p.z())];
 }
 
-/// Where the nodes of a hexahedron are in its cell.
+/// Where the nodes of a hexahedron_parts are in its cell.
 Place hexahedron_place(const SolidTopology& topology, int node) {
   const Eigen::Vector3d natural = topology.natural.col(node);
   return (natural + Eigen::Vector3d::Ones()).cast<int>();
@@ -48,7 +48,7 @@ Part make_part(const Cell& cell, SolidKind kind, const std::vector<Place>& corne
   return out;
 }
 
-std::vector<Part> hexahedron(const Cell& cell, SolidKind kind) {
+std::vector<Part> hexahedron_parts(const Cell& cell, SolidKind kind) {
   const SolidTopology& hex = solid_topology(SolidKind::hex8);
   std::vector<Place> corners;
   for (int corner = 0; corner < 8; ++corner) corners.push_back(hexahedron_place(hex, corner));
@@ -82,7 +82,7 @@ std::vector<Part> pyramids(const Cell& cell, SolidKind kind) {
   return out;
 }
 
-/// Corners of the six tetrahedra as corners of the hexahedron.
+/// Corners of the six tetrahedra as corners of the hexahedron_parts.
 std::vector<std::array<int, 4>> split(const Cell& cell, const SolidTopology& hex) {
   const auto number = [&](int corner) { return at(cell, hexahedron_place(hex, corner)); };
   const auto lower = [&](int a, int b) { return number(a) < number(b); };
@@ -116,7 +116,7 @@ std::vector<Part> tetrahedra(const Cell& cell, SolidKind kind) {
 std::vector<Part> parts_of(const Cell& cell, SolidKind kind) {
   switch (solid_topology(kind).num_corners) {
     case 8:
-      return hexahedron(cell, kind);
+      return hexahedron_parts(cell, kind);
     case 6:
       return wedges(cell, kind);
     case 5:

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/element_dofs.h"
 #include "buckens/fem/node_label.h"
 #include "buckens/fem/scatter.h"
 #include "buckens/fem/shell_element.h"
@@ -41,15 +42,6 @@ double corner_angle(const ShellVectors& x, Eigen::Index corner) {
 ShellVectors own_normals(const ShellVectors& x) {
   ShellVectors out(3, x.cols());
   for (Eigen::Index k = 0; k < x.cols(); ++k) out.col(k) = corner_normal(x, k).normalized();
-  return out;
-}
-
-std::vector<int> element_dofs(const DofMap& map, std::span<const int> nodes) {
-  std::vector<int> out;
-  for (const int node : nodes) {
-    const auto& dofs = map.node_dofs[static_cast<std::size_t>(node)];
-    out.insert(out.end(), dofs.begin(), dofs.end());
-  }
   return out;
 }
 
@@ -190,7 +182,7 @@ void ShellBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaS
     const ShellElement element = shell_element(*this, mesh.nodes, e);
     const ShellMoments moments(element, com);
     const Eigen::Index n = element.nodes.cols();
-    const std::vector<int> dofs = element_dofs(mesh.dofs, nodes(e));
+    const std::vector<int> dofs = element_dofs<6>(mesh.dofs, nodes(e));
     scatter_square(moments.products[0].topLeftCorner(n, n), nodes(e), 1.0, sum.nodal);
     for (std::size_t k = 0; k < sum.W.size(); ++k) {
       scatter_square(moments.second_moment(element.directors, k), dofs, 1.0, sum.W[k]);
@@ -216,7 +208,7 @@ void ShellBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaS
 void ShellBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
   for (int e = 0; e < num_elements(); ++e) {
     const ShellMatrix K = shell_stiffness_matrix(shell_element(*this, mesh.nodes, e));
-    const std::vector<int> dofs = element_dofs(mesh.dofs, nodes(e));
+    const std::vector<int> dofs = element_dofs<6>(mesh.dofs, nodes(e));
     scatter_square(K, dofs, 1.0, sum.K);
     const double beta = material(e)->damping_stiffness;
     if (beta != 0.0) scatter_square(K, dofs, beta, sum.K_damping);
@@ -235,7 +227,7 @@ void ShellBlock::add_stress_rows(const MeshView& mesh, int first_element,
   for (int e = 0; e < num_elements(); ++e) {
     const ShellStrainRows strain = shell_centre_strain(shell_element(*this, mesh.nodes, e));
     const ShellSection& section = shell_section(e);
-    const std::vector<int> dofs = element_dofs(mesh.dofs, nodes(e));
+    const std::vector<int> dofs = element_dofs<6>(mesh.dofs, nodes(e));
     for (int side = 0; side < 2; ++side) {
       const double z = (side == 0 ? 0.5 : -0.5) * section.thickness();
       const ShellLayer& layer = side == 0 ? section.layers.back() : section.layers.front();

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::array<std::array<int, 2>, 6> kPairs = {
+constexpr std::array<std::array<int, 2>, 6> kMomentPairs = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 }  // namespace
@@ -39,7 +39,7 @@ ShellMoments::ShellMoments(const ShellElement& element, const Vector3d& origin) 
 }
 
 ShellMatrix ShellMoments::second_moment(const ShellVectors& directors, std::size_t pair) const {
-  const auto [a, b] = kPairs[pair];
+  const auto [a, b] = kMomentPairs[pair];
   const Eigen::Index n = directors.cols();
   ShellMatrix W = ShellMatrix::Zero(6 * n, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/elasticity.h"
+#include "buckens/fem/element_dofs.h"
 #include "buckens/fem/node_label.h"
 #include "buckens/fem/scatter.h"
 #include "buckens/fem/solid_element.h"
@@ -16,15 +17,6 @@ namespace buckens::fem {
 using Eigen::Vector3d;
 
 namespace {
-
-std::vector<int> element_dofs(const DofMap& map, std::span<const int> nodes) {
-  std::vector<int> out;
-  for (const int node : nodes) {
-    const auto& dofs = map.node_dofs[static_cast<std::size_t>(node)];
-    out.insert(out.end(), dofs.begin(), dofs.begin() + 3);
-  }
-  return out;
-}
 
 const char* order_of_nodes(const SolidTopology& topology) {
   if (topology.is_tetrahedron()) {
@@ -154,7 +146,7 @@ void SolidBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaS
     scatter_square(Ms, nodes(e), 1.0, sum.nodal);
     const NodeVectors x0 = x.colwise() - com;
     const NodeVectors moment = x0 * Ms;  // Σ_J Ms_IJ x0_J
-    const std::vector<int> dofs = element_dofs(mesh.dofs, nodes(e));
+    const std::vector<int> dofs = element_dofs<3>(mesh.dofs, nodes(e));
     for (std::size_t k = 0; k < dofs.size(); ++k) {
       if (dofs[k] < 0) continue;
       const auto node = static_cast<Eigen::Index>(k / 3);
@@ -175,7 +167,7 @@ void SolidBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
   for (int e = 0; e < num_elements(); ++e) {
     const Elasticity& D = elasticity[static_cast<std::size_t>(at(e).material)];
     const SolidStiffness K = solid_stiffness(form(e), positions(mesh.nodes, e), D);
-    const std::vector<int> dofs = element_dofs(mesh.dofs, nodes(e));
+    const std::vector<int> dofs = element_dofs<3>(mesh.dofs, nodes(e));
     scatter_square(K, dofs, 1.0, sum.K);
     const double beta = material(e)->damping_stiffness;
     if (beta != 0.0) scatter_square(K, dofs, beta, sum.K_damping);
@@ -198,7 +190,7 @@ void SolidBlock::add_stress_rows(const MeshView& mesh, int first_element,
     const SolidPoint centre =
         solid_point(kind, positions(mesh.nodes, e), solid_topology(kind).centre);
     const StrainRows stress = solid_elasticity(*material(e)) * solid_strain(centre.gradient);
-    const std::vector<int> dofs = element_dofs(mesh.dofs, nodes(e));
+    const std::vector<int> dofs = element_dofs<3>(mesh.dofs, nodes(e));
     for (Eigen::Index j = 0; j < stress.cols(); ++j) {
       const int column = dofs[static_cast<std::size_t>(j)];
       for (int i = 0; i < 6 && column >= 0; ++i) {

@@ -40,7 +40,7 @@ Matrix3d inner_gradients(const Vector3d& natural, const Matrix3d& centre_inverse
   return centre_inverse.transpose() * (-2.0 * volume_ratio * natural).asDiagonal();
 }
 
-Matrix3d jacobian(const NodeVectors& x, const SolidShape& shape) {
+Matrix3d jacobian_at(const NodeVectors& x, const SolidShape& shape) {
   return x.lazyProduct(shape.slope.transpose());
 }
 
@@ -160,11 +160,11 @@ SolidStrains::InnerProducts SolidStrains::inner_inverse(const Element& element) 
   const NodeVectors x = element.block->positions(fe_.nodes, element.index);
   const Elasticity& D = elasticities_[static_cast<std::size_t>(element.material)];
   const SolidSampling& sampling = solid_sampling(element.block->form(element.index).kind);
-  const Matrix3d centre = jacobian(x, sampling.centre);
+  const Matrix3d centre = jacobian_at(x, sampling.centre);
   const Matrix3d centre_inverse = centre.inverse();
   InnerProducts sum = InnerProducts::Zero();
   for (const SolidSampling::Point& point : sampling.points) {
-    const double volume = jacobian(x, point.shape).determinant();
+    const double volume = jacobian_at(x, point.shape).determinant();
     const Matrix3d g =
         inner_gradients(point.natural, centre_inverse, centre.determinant() / volume);
     Eigen::Matrix<double, 6, 9> G;
@@ -216,7 +216,7 @@ void SolidStrains::evaluate_element(const Element& element, const linalg::Vector
     H[p] = gradient_at(sampling.points[p].shape, &volume[p]);
   }
   if (element.inner >= 0) {
-    add_inner_modes(sampling, jacobian(x, sampling.centre), volume,
+    add_inner_modes(sampling, jacobian_at(x, sampling.centre), volume,
                     elasticities_[static_cast<std::size_t>(element.material)],
                     inner_[static_cast<std::size_t>(element.inner)], H);
   }

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 namespace {
 
 // Entries below this share of the largest are rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kAsymmetry = 1e-12;
 
 using Lever = Eigen::Matrix<double, 6, 12>;  // Δ from the twelve variables of both nodes
 
@@ -78,7 +78,7 @@ void SpringBlock::check(const MeshView& mesh) const {
         mesh.dofs.node_dofs.empty() ? false : dofs[0] < 0 || dofs[1] < 0 || dofs[2] < 0;
     for (Eigen::Index k = 0; k < 12 && !is_planar; ++k) {
       if (dofs[static_cast<std::size_t>(k)] >= 0) continue;
-      if (K.col(k).cwiseAbs().maxCoeff() <= kRounding * K.cwiseAbs().maxCoeff()) continue;
+      if (K.col(k).cwiseAbs().maxCoeff() <= kAsymmetry * K.cwiseAbs().maxCoeff()) continue;
       throw ModelError(fmt::format(
           "{}: it turns {}, which has no rotations since only solids or bars are there; use nodes "
           "at one place and translations only, or give the node a beam, shell or rigid link",

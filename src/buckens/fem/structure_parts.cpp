@@ -109,7 +109,7 @@ using Pair = std::pair<int, int>;  // of elements, the lower number first
 /// Pairs of elements that share nodes, and how many.
 using Pairs = std::map<Pair, int>;
 
-Pairs neighbours(const std::vector<std::vector<int>>& at_node) {
+Pairs node_pairs(const std::vector<std::vector<int>>& at_node) {
   Pairs out;
   for (const auto& list : at_node) {
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -293,7 +293,7 @@ std::vector<int> choose_parts(const Structure& structure, int count) {
   }
   const auto at_node = holders_at_nodes(structure.nodes.size(), holders);
   if (const auto chain = as_chain(holders, at_node)) return divide_chain(holders, *chain, count);
-  const Pairs pairs = neighbours(at_node);
+  const Pairs pairs = node_pairs(at_node);
   // Solids that share an edge or a node only could turn about it: such pairs count only where the
   // mesh falls to pieces without them.
   const std::set<Pair> faces = face_neighbours(structure);

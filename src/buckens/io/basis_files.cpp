@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char kFormat[] = "buckens reduced basis 1";
+constexpr char kBasisFormat[] = "buckens reduced basis 1";
 
 std::string text_of(std::uint64_t key) { return fmt::format("{:016x}", key); }
 
@@ -28,7 +28,7 @@ std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std:
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
   const Hdf5File in = Hdf5File::open_for_reading(path);
-  if (read_string(in, "/", "format") != kFormat) {
+  if (read_string(in, "/", "format") != kBasisFormat) {
     throw InputError(
         fmt::format("{}: is no reduced basis of this version of Buckens; name another "
                     "file (`reduction.file`) or remove it",
@@ -67,7 +67,7 @@ void BasisFiles::keep(const std::string& file, std::uint64_t key, const body::Re
   part += ".part";
   WriteProcess writer;
   Hdf5File out = Hdf5File::create(part, writer);
-  write_attribute(out, "/", "format", std::string(kFormat));
+  write_attribute(out, "/", "format", std::string(kBasisFormat));
   write_attribute(out, "/", "key", text_of(key));
   const std::array<int, 3> counts = {basis.num_modes, basis.num_residuals,
                                      static_cast<int>(basis.Z.rows())};

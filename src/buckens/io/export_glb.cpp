@@ -117,9 +117,9 @@ std::vector<double> nodal_stress(const RunReader& run, const results::GeometryBo
   return sum;
 }
 
-class Exporter {
+class GlbExporter {
  public:
-  Exporter(const RunReader& run, const GlbOptions& options) : run_(run), options_(options) {
+  GlbExporter(const RunReader& run, const GlbOptions& options) : run_(run), options_(options) {
     instants_ = choose_instants(run, options.animation);
     InstantChoice still;
     still.count = 1;  // the end
@@ -299,7 +299,7 @@ class Exporter {
 
 GlbReport export_glb(const RunReader& run, const GlbOptions& options,
                      const std::filesystem::path& path) {
-  return Exporter(run, options).write(path);
+  return GlbExporter(run, options).write(path);
 }
 
 }  // namespace buckens::io

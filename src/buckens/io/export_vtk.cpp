@@ -115,9 +115,9 @@ class Arrays {
 const results::Channel kDisplacement{"", "m", {1, 3}, "", {"x", "y", "z"}};
 const results::Channel kMises{"", "Pa", {1}, "", {}};
 
-class Exporter {
+class VtkExporter {
  public:
-  explicit Exporter(const RunReader& run) : run_(run) {
+  explicit VtkExporter(const RunReader& run) : run_(run) {
     for (const results::GeometryBody& body : run.geometry().bodies) {
       grids_.push_back(make_grid(body));
     }
@@ -257,7 +257,7 @@ std::size_t export_vtk(const RunReader& run, const InstantChoice& choice,
     throw IoError(
         fmt::format("{}: cannot create the directory: {}.", directory.string(), error.message()));
   }
-  const Exporter exporter(run);
+  const VtkExporter exporter(run);
   std::vector<PvdEntry> entries;
   for (const Instant& now : instants) {
     const std::string file = fmt::format("{}_{:04}.vtu", name, entries.size());

@@ -11,7 +11,7 @@ namespace buckens::io {
 
 namespace {
 
-constexpr int kFormat = 1;
+constexpr int kResultsFormat = 1;
 
 std::filesystem::path unfinished(std::filesystem::path path) {
   path += ".part";
@@ -27,7 +27,7 @@ Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, WriteProcess& writ
     : rule_(rule), file_(Hdf5File::create(unfinished(path), writer)) {
   try {
     write_attribute(file_, "/", "program", std::string("buckens"));
-    write_attribute(file_, "/", "format", kFormat);
+    write_attribute(file_, "/", "format", kResultsFormat);
     write_attribute(file_, "/", "version", version);
     write_attribute(file_, "/", "title", title);
     write_geometry(file_, geometry);

@@ -18,7 +18,7 @@ hsize_t chunk_rows(std::size_t values_per_row) {
 }
 
 /// A small chunk cache: only the last chunk is ever needed again.
-Hdf5Handle access_settings(hsize_t chunk_values) {
+Hdf5Handle table_settings(hsize_t chunk_values) {
   Hdf5Handle settings(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(settings.get(), 7, 2 * sizeof(double) * chunk_values, 1.0);
   return settings;
@@ -61,7 +61,7 @@ Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::
   const Hdf5Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.get(), 1);
   const hid_t id = H5Dcreate2(file.id(), column.path.c_str(), type, space.get(), link.get(),
-                              creation.get(), access_settings(chunk[0] * column.size).get());
+                              creation.get(), table_settings(chunk[0] * column.size).get());
   column.dataset = Hdf5Handle(file.check(id, "create " + column.path), H5Dclose);
 
   write_attribute(file, column.path, "unit", channel.unit);

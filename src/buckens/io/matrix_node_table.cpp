@@ -19,7 +19,7 @@ namespace {
 
 const std::vector<std::string> kColumns = {"node", "x",  "y",  "z",  "ux",
                                            "uy",   "uz", "rx", "ry", "rz"};
-constexpr std::int64_t kMostRows = 100'000'000;
+constexpr std::int64_t kMostNodeRows = 100'000'000;
 constexpr std::int64_t kLargestNode = 999'999'999;
 
 std::vector<std::string_view> cells_of(std::string_view line) {
@@ -99,7 +99,7 @@ class TableReader {
         if (!value) fail(fmt::format("\"{}\" is not a finite number", short_text(cells[i])));
         node.position[column - 1] = *value;
       } else if (!cells[i].empty() && cells[i] != "0") {
-        node.rows[static_cast<std::size_t>(column - 4)] = whole(cells[i], kMostRows);
+        node.rows[static_cast<std::size_t>(column - 4)] = whole(cells[i], kMostNodeRows);
       }
     }
     if (seen_.add(node.number, 1) >= 0) {

@@ -8,7 +8,7 @@ namespace buckens::io {
 
 namespace {
 
-constexpr std::size_t kLongestNumber = 48;
+constexpr std::size_t kLongestReal = 48;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -32,7 +32,7 @@ std::optional<std::int64_t> nastran_integer(std::string_view text) {
 
 std::optional<double> nastran_real(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  if (text.empty() || text.size() > kLongestNumber) return std::nullopt;
+  if (text.empty() || text.size() > kLongestReal) return std::nullopt;
   // The mantissa up to an exponent letter or to a sign that is not the first character.
   std::size_t split = 0;
   while (split < text.size() &&

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 1000;
+constexpr std::size_t kMostIncludes = 1000;
 constexpr std::size_t kMostText = std::size_t{1} << 30;
 /// Lines over which the name of an included file may run.
 constexpr int kMostNameLines = 20;
@@ -143,8 +143,8 @@ void NastranSource::include(const NastranLine& line) {
                                  "be there twice",
                                  quoted_excerpt(argument)));
   }
-  if (files_.size() >= kMostFiles) {
-    throw InputError(where, fmt::format("INCLUDE: more than {} files", kMostFiles));
+  if (files_.size() >= kMostIncludes) {
+    throw InputError(where, fmt::format("INCLUDE: more than {} files", kMostIncludes));
   }
   std::string text;
   try {

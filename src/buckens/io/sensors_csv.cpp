@@ -12,13 +12,14 @@ namespace buckens::io {
 
 namespace {
 
-constexpr std::string_view kSensors = "sensors/";
+constexpr std::string_view kSensorGroup = "sensors/";
 
 }  // namespace
 
 std::vector<std::string> csv_column_names(const results::Channel& channel) {
   const std::string_view path = channel.path;
-  const std::string_view name = path.starts_with(kSensors) ? path.substr(kSensors.size()) : path;
+  const std::string_view name =
+      path.starts_with(kSensorGroup) ? path.substr(kSensorGroup.size()) : path;
   const std::string unit = channel.unit.empty() ? "1" : channel.unit;
   if (channel.shape.empty()) return {fmt::format("{} [{}]", name, unit)};
   std::vector<std::string> names;
@@ -36,7 +37,7 @@ SensorsCsv::SensorsCsv(const std::filesystem::path& path, const results::RecordL
   line_ = "t [s]";
   for (std::size_t index = 0; index < layout.channels().size(); ++index) {
     const results::Channel& channel = layout.channel(index);
-    if (!channel.path.starts_with(kSensors)) continue;
+    if (!channel.path.starts_with(kSensorGroup)) continue;
     std::size_t position = layout.offset(index);
     for (const std::string& name : csv_column_names(channel)) {
       line_ += ',' + csv_cell(name);

@@ -15,12 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kSummaryFormat = 1;
 
 Json head(RunStatus status, const std::string& title, const std::string& version,
           const std::string& started) {
-  return {{"program", "buckens"}, {"format", kFormat},  {"status", to_string(status)},
-          {"title", title},       {"version", version}, {"started", started}};
+  return {{"program", "buckens"}, {"format", kSummaryFormat}, {"status", to_string(status)},
+          {"title", title},       {"version", version},       {"started", started}};
 }
 
 Json by_name(const std::vector<std::pair<std::string, double>>& values) {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kSides = 8;  // of a tube
 
-class Builder {
+class SurfaceBuilder {
  public:
-  explicit Builder(const results::GeometryBody& body) : body_(body) {}
+  explicit SurfaceBuilder(const results::GeometryBody& body) : body_(body) {}
 
   SurfaceMesh run() {
     if (body_.nodes.rows() == 0) {
@@ -92,6 +92,6 @@ class Builder {
 
 }  // namespace
 
-SurfaceMesh surface_mesh(const results::GeometryBody& body) { return Builder(body).run(); }
+SurfaceMesh surface_mesh(const results::GeometryBody& body) { return SurfaceBuilder(body).run(); }
 
 }  // namespace buckens::io

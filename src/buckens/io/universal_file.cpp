@@ -20,7 +20,7 @@ struct UniversalElement {
   std::vector<int> places;  ///< in the file, of each of our nodes; empty: the same order
 };
 
-const std::vector<UniversalElement>& elements() {
+const std::vector<UniversalElement>& universal_elements() {
   static const std::vector<UniversalElement> all = {
       {{11, 21, 22, 23}, "linear beam", CellKind::line2, {}},
       {{24}, "parabolic beam", CellKind::line3, {0, 2, 1}},
@@ -46,7 +46,7 @@ const std::vector<UniversalElement>& elements() {
 }
 
 const UniversalElement* element_of(std::int64_t descriptor) {
-  for (const UniversalElement& element : elements()) {
+  for (const UniversalElement& element : universal_elements()) {
     const auto& own = element.descriptors;
     if (std::find(own.begin(), own.end(), descriptor) != own.end()) return &element;
   }

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kMarker = "/*BUCKENS_DATA*/null";
-constexpr int kFormat = 2;
+constexpr int kPageFormat = 2;
 
 /// JSON that may stand inside a <script> element: a name like "</script>" must not end it. These
 /// characters occur in JSON only within strings, where escapes mean the same.
@@ -70,7 +70,8 @@ std::vector<ViewPageReport> write_view_page(
         run_directories.front().string(), runs.front()["modes"].is_null() ? "a run" : "vibrations",
         run_directories.back().string()));
   }
-  page.replace(at, kMarker.size(), script_text({{"format", kFormat}, {"runs", std::move(runs)}}));
+  page.replace(at, kMarker.size(),
+               script_text({{"format", kPageFormat}, {"runs", std::move(runs)}}));
   replace_text_file(output_html, page);
   return reports;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/io/base64.h"
+#include "buckens/io/vector_json.h"
 
 namespace buckens::io {
 
@@ -16,10 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kPoseSize = 7;
-constexpr std::size_t kNodeSize = 6;
-constexpr std::array<const char*, 3> kKinds = {"rigid", "beam", "solid"};
-
-Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+constexpr std::size_t kPageNodeSize = 6;
+constexpr std::array<const char*, 3> kPageKinds = {"rigid", "beam", "solid"};
 
 /// Where a number stands in an increasing list that holds it.
 int index_in(const std::vector<std::size_t>& list, int number) {
@@ -62,7 +61,7 @@ PageBody::PageBody(const results::GeometryBody& body) : body_(body), visible_(bo
 
 /// Rotations of the nodes of solids mean nothing.
 std::size_t PageBody::values_per_node() const {
-  return !body_.faces.empty() && body_.elements.empty() ? 3 : kNodeSize;
+  return !body_.faces.empty() && body_.elements.empty() ? 3 : kPageNodeSize;
 }
 
 std::size_t PageBody::displacements_per_frame(const RunReader& run) const {
@@ -85,7 +84,7 @@ Json PageBody::json(const FrameReader& reader) const {
   for (const auto& [a, b] : body_.elements) elements.push_back({number(a), number(b)});
   const bool all = numbers.size() == visible_.number.size();
   Json out = {{"name", body_.name},
-              {"kind", kKinds[static_cast<std::size_t>(body_.kind)]},
+              {"kind", kPageKinds[static_cast<std::size_t>(body_.kind)]},
               {"nodes", base64_float32(nodes)},
               {"nodeNumbers", all ? Json(nullptr) : Json(base64_int32(numbers))},
               {"elements", std::move(elements)},
@@ -142,11 +141,11 @@ Json PageBody::pose(const FrameReader& reader) const {
 /// Nodal displacements, null if not recorded.
 Json PageBody::displacement(const FrameReader& reader) const {
   const std::string path = fmt::format("bodies/{}/displacement", body_.name);
-  const auto size = static_cast<std::size_t>(body_.nodes.rows()) * kNodeSize;
+  const auto size = static_cast<std::size_t>(body_.nodes.rows()) * kPageNodeSize;
   if (size == 0 || reader.size_of(path) != size) return nullptr;
   std::vector<std::size_t> places;
   for (const std::size_t n : visible_.nodes) {
-    for (std::size_t k = 0; k < values_per_node(); ++k) places.push_back(kNodeSize * n + k);
+    for (std::size_t k = 0; k < values_per_node(); ++k) places.push_back(kPageNodeSize * n + k);
   }
   return reader.rows(path, [&](const auto& all) { return values_at(all, places); });
 }
@@ -154,7 +153,7 @@ Json PageBody::displacement(const FrameReader& reader) const {
 /// Motion of the body's frame in a vibration, null in runs.
 Json PageBody::motion(const FrameReader& reader) const {
   const std::string path = fmt::format("bodies/{}/motion", body_.name);
-  if (reader.size_of(path) != kNodeSize) return nullptr;
+  if (reader.size_of(path) != kPageNodeSize) return nullptr;
   return reader.values(path);
 }
 

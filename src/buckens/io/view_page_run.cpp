@@ -17,6 +17,7 @@
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
 #include "buckens/io/run_reader.h"
+#include "buckens/io/vector_json.h"
 #include "buckens/io/view_page_body.h"
 #include "buckens/io/view_page_fields.h"
 #include "buckens/io/view_page_frames.h"
@@ -39,8 +40,6 @@ nlohmann::json parse_summary(const std::string& text) {
   nlohmann::json summary = nlohmann::json::parse(text, nullptr, false);
   return summary.is_discarded() ? nlohmann::json() : summary;
 }
-
-Json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json joint_json(const results::GeometryJoint& joint) {
   Json between = Json::array();

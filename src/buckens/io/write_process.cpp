@@ -19,7 +19,7 @@ namespace buckens::io {
 namespace {
 
 /// Head of a message; `size` bytes follow. A descriptor travels beside a head of size 0.
-struct Order {
+struct WriteOrder {
   std::uint64_t address;
   std::uint64_t size;
 };
@@ -90,7 +90,7 @@ class Room {
 };
 
 /// Receives a head and, where one comes along, a descriptor. @return false at the end of orders
-bool receive_order(Order& order, int& file) {
+bool receive_order(WriteOrder& order, int& file) {
   DescriptorParcel parcel;
   iovec part{&order, sizeof order};
   msghdr message{};
@@ -112,7 +112,7 @@ bool receive_order(Order& order, int& file) {
   return receive_all(kSocket, reinterpret_cast<char*>(&order) + got, sizeof order - got);
 }
 
-int write_all(int file, const Order& order, const char* bytes) {
+int write_all(int file, const WriteOrder& order, const char* bytes) {
   std::uint64_t done = 0;
   while (done < order.size) {
     const ssize_t count =
@@ -129,7 +129,7 @@ int write_all(int file, const Order& order, const char* bytes) {
   leave_everything(socket);
   int file = -1;
   Room room;
-  Order order{};
+  WriteOrder order{};
   while (receive_order(order, file)) {
     char* bytes = order.size > 0 ? room.of_size(order.size) : nullptr;
     int error = 0;
@@ -174,7 +174,7 @@ int WriteProcess::answer() const {
 
 int WriteProcess::take_file(int descriptor) {
   DescriptorParcel parcel;
-  Order order{0, 0};
+  WriteOrder order{0, 0};
   iovec part{&order, sizeof order};
   msghdr message{};
   message.msg_iov = &part;
@@ -199,7 +199,7 @@ int WriteProcess::take_file(int descriptor) {
 }
 
 int WriteProcess::write(std::uint64_t address, const void* bytes, std::size_t size) {
-  const Order order{address, size};
+  const WriteOrder order{address, size};
   if (size == 0) return 0;
   if (!send_all(socket_, &order, sizeof order) || !send_all(socket_, bytes, size)) return EPIPE;
   return answer();

@@ -19,7 +19,7 @@ namespace {
 // Far above any model written by hand or script; tables of numbers belong into CSV files.
 constexpr std::size_t kLargestText = 8u << 20;
 constexpr std::size_t kMostNodes = 500000;
-constexpr std::size_t kDeepest = 60;
+constexpr std::size_t kDeepestTree = 60;
 
 /// Length of the UTF-8 character at `i`, 0 if it is none.
 std::size_t character_length(const std::string& text, std::size_t i) {
@@ -160,8 +160,8 @@ class TreeBuilder final : public YAML::EventHandler {
     if (wants_key())
       throw InputError(node.where,
                        "a key must be a word, not a list or map (is a bracket not closed?)");
-    if (stack_.size() >= kDeepest) {
-      throw InputError(node.where, fmt::format("nested more than {} levels deep", kDeepest));
+    if (stack_.size() >= kDeepestTree) {
+      throw InputError(node.where, fmt::format("nested more than {} levels deep", kDeepestTree));
     }
     stack_.push_back({std::move(node), false, {}});
   }

@@ -20,9 +20,9 @@ namespace buckens::model {
 
 namespace {
 
-class Builder {
+class StructureBuilder {
  public:
-  explicit Builder(const body::BodySpec& spec) : spec_(spec) {}
+  explicit StructureBuilder(const body::BodySpec& spec) : spec_(spec) {}
 
   NamedStructure run() {
     if (const auto* beam = std::get_if<fem::BeamSpec>(&spec_.kind)) {
@@ -76,7 +76,7 @@ class Builder {
   NamedStructure out_;
 };
 
-void Builder::add_single_beam(const fem::BeamSpec& beam) {
+void StructureBuilder::add_single_beam(const fem::BeamSpec& beam) {
   fem::Structure& structure = out_.structure;
   const int start = fem::add_node(structure, "start", beam.from);
   const int end = fem::add_node(structure, "end", beam.to);
@@ -93,7 +93,7 @@ void Builder::add_single_beam(const fem::BeamSpec& beam) {
   for (const fem::PointMassSpec& mass : beam.masses) add_mass(mass);
 }
 
-void Builder::add_structure(const fem::StructureSpec& spec) {
+void StructureBuilder::add_structure(const fem::StructureSpec& spec) {
   fem::Structure& structure = out_.structure;
   for (const fem::NodeSpec& node : spec.nodes) {
     name_place(node.name, {fem::add_node(structure, node.name, node.position), -1, 0});
@@ -122,21 +122,21 @@ void Builder::add_structure(const fem::StructureSpec& spec) {
       structure);
 }
 
-void Builder::add_shell(const fem::ShellMemberSpec& shell) {
+void StructureBuilder::add_shell(const fem::ShellMemberSpec& shell) {
   std::vector<int> nodes;
   for (const std::string& name : shell.nodes) nodes.push_back(node_called(name, shell.where));
   fem::ShellBlock& block = out_.structure.shells;
   block.add(nodes, block.add_section(make_shell_section(shell, *shell.material, spec_.damping)));
 }
 
-void Builder::add_solid(const fem::SolidMemberSpec& solid) {
+void StructureBuilder::add_solid(const fem::SolidMemberSpec& solid) {
   std::vector<int> nodes;
   for (const std::string& name : solid.nodes) nodes.push_back(node_called(name, solid.where));
   fem::SolidBlock& block = out_.structure.solids;
   block.add(solid.form(), nodes, block.add_material(make_material(*solid.material, spec_.damping)));
 }
 
-void Builder::add_generated(const fem::MeshSpec& spec) {
+void StructureBuilder::add_generated(const fem::MeshSpec& spec) {
   const auto* plate = std::get_if<fem::PlateMeshSpec>(&spec.shape);
   const fem::GeneratedMesh mesh =
       plate != nullptr
@@ -147,9 +147,9 @@ void Builder::add_generated(const fem::MeshSpec& spec) {
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
 }
 
-void Builder::add_imported(const fem::GroupMaterials& source,
-                           const std::vector<fem::PointMassSpec>& masses,
-                           const SourceLocation& where) {
+void StructureBuilder::add_imported(const fem::GroupMaterials& source,
+                                    const std::vector<fem::PointMassSpec>& masses,
+                                    const SourceLocation& where) {
   if (!source.imported) throw InputError(where, "the file of the mesh has not been read");
   ImportedStructure imported = imported_structure(*source.imported, source, spec_.damping, where);
   out_.structure = std::move(imported.structure);
@@ -157,7 +157,7 @@ void Builder::add_imported(const fem::GroupMaterials& source,
   for (const fem::PointMassSpec& mass : masses) add_mass(mass);
 }
 
-void Builder::add_matrices(const fem::MatricesSpec& matrices) {
+void StructureBuilder::add_matrices(const fem::MatricesSpec& matrices) {
   if (!matrices.imported) throw InputError(matrices.where, "the matrices have not been read");
   out_.matrices = matrices.imported;
   out_.structure.nodes = matrices.imported->nodes;
@@ -167,7 +167,7 @@ void Builder::add_matrices(const fem::MatricesSpec& matrices) {
   if (spec_.damping) out_.rayleigh = {spec_.damping->alpha(), spec_.damping->beta()};
 }
 
-int Builder::node_called(const std::string& name, const SourceLocation& where) const {
+int StructureBuilder::node_called(const std::string& name, const SourceLocation& where) const {
   const auto place = out_.find(name);
   if (!place) {
     throw InputError(where, fmt::format("body \"{}\" has no node \"{}\"; nodes there: {}",
@@ -205,7 +205,7 @@ fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> 
 }
 
 NamedStructure structure_from_spec(const body::BodySpec& spec) {
-  NamedStructure out = Builder(spec).run();
+  NamedStructure out = StructureBuilder(spec).run();
   out.interfaces = find_interfaces(spec, out);
   return out;
 }

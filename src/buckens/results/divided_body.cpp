@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-void push(const Vector3d& v, std::vector<double>& values) {
+void push_vector(const Vector3d& v, std::vector<double>& values) {
   values.insert(values.end(), {v.x(), v.y(), v.z()});
 }
 
@@ -51,10 +51,10 @@ void DividedBody::append_displacements(const Observation& now, std::vector<doubl
     }
     const Vector3d& at = whole_.mesh->nodes[n].position;
     const Vector3d p = s.frame.X_WB * Vector3d(at - part.com + own.head<3>());
-    push(to_whole * (p - X.p) - (at - whole_.com), values);
+    push_vector(to_whole * (p - X.p) - (at - whole_.com), values);
     const Quaterniond turned =
         to_whole * s.frame.X_WB.q * spatial::exp_rotation(Vector3d(own.tail<3>()));
-    push(turns ? spatial::log_rotation(turned) : Vector3d(Vector3d::Zero()), values);
+    push_vector(turns ? spatial::log_rotation(turned) : Vector3d(Vector3d::Zero()), values);
   }
 }
 
@@ -87,8 +87,8 @@ void DividedBody::append_cut_forces(const Observation& now, std::vector<double>&
   for (const std::size_t j : ties()) {
     const auto lower = static_cast<std::size_t>(model_.joints[j].first.body);
     const Quaterniond to_part = now.state.bodies[lower].frame.X_WB.q.conjugate();
-    push(to_part * now.joint_wrenches[j].force, values);
-    push(to_part * now.joint_wrenches[j].torque, values);
+    push_vector(to_part * now.joint_wrenches[j].force, values);
+    push_vector(to_part * now.joint_wrenches[j].torque, values);
   }
 }
 

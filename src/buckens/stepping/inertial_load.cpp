@@ -12,7 +12,7 @@ using linalg::Vector;
 namespace {
 
 // Entries of C and of M are sums of a few numbers each.
-constexpr double kRounding = 1e-14;
+constexpr double kProportional = 1e-14;
 
 /// Whether M is the scalar mass matrix, node by node.
 bool acts_by_node(const body::FlexiblePart& part) {
@@ -22,7 +22,7 @@ bool acts_by_node(const body::FlexiblePart& part) {
   Vector y(x.size());
   nodal.multiply(x, y);
   const Vector expected = part.fe.M * x;
-  return (y - expected).norm() <= kRounding * expected.norm();
+  return (y - expected).norm() <= kProportional * expected.norm();
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
     beta += rest.cwiseProduct(part.fe.K).sum() / size;
     rest = elastic - beta * part.fe.K;
   }
-  if (rest.norm() > kRounding * part.C.norm()) return std::nullopt;
+  if (rest.norm() > kProportional * part.C.norm()) return std::nullopt;
   return beta;
 }
 

@@ -22,7 +22,7 @@ constexpr double kSettled = 0.01;
 // Vectors whose share of mass beyond the others is below this add nothing.
 constexpr double kNothingNew = 1e-10;
 
-constexpr double kRounding = 1e-10;
+constexpr double kDependentVector = 1e-10;
 
 /// Exponents of the monomials of degree 1 to 3.
 std::vector<std::array<int, 3>> monomials() {
@@ -93,7 +93,7 @@ Vector smooth_shape(const body::FlexiblePart& part) {
       const double before = x.norm();
       part.sieve.apply(x);
       // Of rigid motion only rounding is left.
-      if (x.norm() > kRounding * before) basis.col(count++) = x;
+      if (x.norm() > kDependentVector * before) basis.col(count++) = x;
     }
   }
   const auto kept = basis.leftCols(count);
