@@ -308,7 +308,7 @@ class Simulation {
     if (fields_->is_empty()) return;
     const bool is_end = state.t >= (1.0 - 1e-9) * spec_.duration;
     if (is_first_ || is_end || records_ % plan_.fields_stride == 0) {
-      sink_.write_fields(fields_->record(state));
+      sink_.write_fields(fields_->record(state, {{}, &recorder_->last_multipliers(), 1.0}));
     } else if (fields_->has_extremes()) {
       fields_->watch(state);
     }

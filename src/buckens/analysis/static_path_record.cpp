@@ -142,6 +142,7 @@ results::WorkBalance StaticPathRecord::add_work(const PathPoint& at) {
 
 void StaticPathRecord::write(const PathPoint& at) {
   set_static_state(at.point, at.balance.forces, compliances_, state_);
+  recorder_->set_load_factor(at.point.load_factor);
   results::Record record = recorder_->record(state_, add_work(at));
   const double unstable =
       at.stiffness ? static_cast<double>((at.stiffness->array() < 0.0).count()) : -1.0;
@@ -168,7 +169,8 @@ void StaticPathRecord::write(const PathPoint& at) {
   if (stop_) watch_stop(record.values[*stop_]);
   sink_.write(record);
   if (!fields_.is_empty()) {
-    sink_.write_fields(fields_.record(state_, record.t));
+    sink_.write_fields(
+        fields_.record(state_, {record.t, &recorder_->last_multipliers(), at.point.load_factor}));
   }
   last_ = std::move(record);
   has_last_ = true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -90,46 +91,105 @@ class PlaceFinder {
                                            base::suggestion(name, known)));
 }
 
+/// Names of the places of a body where joints and loads act.
+std::vector<std::string> loaded_places(const Model& model, int whole) {
+  std::set<std::string> out;
+  const auto add = [&](const MarkerId& id) {
+    if (id.body == kGround || model.whole_of(id.body) != whole) return;
+    out.insert(model.bodies[static_cast<std::size_t>(id.body)]
+                   .markers[static_cast<std::size_t>(id.marker)]
+                   .name);
+  };
+  for (const Joint& joint : model.joints) {
+    if (joint.is_tie) continue;
+    add(joint.first);
+    add(joint.second);
+  }
+  for (const Load& load : model.loads) {
+    if (!load.region) {
+      add(load.first);
+      add(load.second);
+    } else if (model.whole_of(load.first.body) == whole) {
+      out.insert(part_of_place(load.region->place));
+    }
+  }
+  out.erase("");  // of loads on the whole body
+  return {out.begin(), out.end()};
+}
+
+template <class Value>
+bool contains(const std::vector<Value>& list, const Value& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+/// @param mesh null if the body is rigid
+void add_place(const FieldOutputSpec& spec, const Model& model, const NamedStructure* mesh,
+               const std::string& place, FieldPlaces& places) {
+  places.names.push_back(place);
+  const bool has_loads = contains(spec.record, FieldQuantity::interface_load);
+  std::vector<std::string> known;
+  if (has_loads) known = loaded_places(model, places.whole);
+  bool is_known = contains(known, place);
+  if (mesh != nullptr) {
+    const PlaceFinder finder(*mesh);
+    is_known = finder.add(place, places) || is_known;
+    const std::vector<std::string> names = finder.names();
+    known.insert(known.end(), names.begin(), names.end());
+  }
+  if (is_known) return;
+  throw InputError(
+      spec.where,
+      fmt::format("output.fields.on: body \"{}\" has no {} \"{}\".{}",
+                  model.wholes[static_cast<std::size_t>(places.whole)].name,
+                  has_loads ? "interface, face, set, node or marker with a joint or load"
+                            : "interface, face, set or node",
+                  place, base::suggestion(place, known)));
+}
+
 }  // namespace
+
+std::string part_of_place(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  return slash == text.npos ? std::string() : text.substr(slash + 1);
+}
 
 std::vector<FieldPlaces> find_field_places(
     const FieldOutputSpec& spec, const Model& model,
     const std::vector<std::unique_ptr<NamedStructure>>& meshes) {
+  const bool has_loads = contains(spec.record, FieldQuantity::interface_load);
   std::map<int, FieldPlaces> found;
   if (spec.on.empty()) {
     for (std::size_t w = 0; w < meshes.size(); ++w) {
-      if (meshes[w]) found[static_cast<int>(w)] = {static_cast<int>(w), true, {}, {}};
+      const int whole = static_cast<int>(w);
+      if (meshes[w] || has_loads) found[whole] = {whole, true, {}, {}, {}};
     }
   }
   for (const std::string& text : spec.on) {
-    const std::size_t slash = text.find('/');
-    const std::string body = text.substr(0, slash);
+    const std::string body = text.substr(0, text.find('/'));
     const int whole = model.find_whole(body);
     if (whole < 0) fail_unknown_body(spec, model, body);
     const NamedStructure* mesh = meshes[static_cast<std::size_t>(whole)].get();
-    if (mesh == nullptr) {
+    if (mesh == nullptr && !has_loads) {
       throw InputError(spec.where, fmt::format("output.fields.on: body \"{}\" is rigid and has no "
-                                               "mesh; remove it from the list",
+                                               "mesh; remove it from the list, or record its "
+                                               "`interface-load`",
                                                body));
     }
-    FieldPlaces& places = found.try_emplace(whole, FieldPlaces{whole, false, {}, {}}).first->second;
-    if (slash == text.npos) {
+    FieldPlaces& places =
+        found.try_emplace(whole, FieldPlaces{whole, false, {}, {}, {}}).first->second;
+    const std::string place = part_of_place(text);
+    if (text == body) {
       places.is_everywhere = true;
       continue;
     }
-    const std::string place = text.substr(slash + 1);
-    const PlaceFinder finder(*mesh);
-    if (finder.add(place, places)) continue;
-    throw InputError(
-        spec.where,
-        fmt::format("output.fields.on: body \"{}\" has no interface, face, set or node \"{}\".{}",
-                    body, place, base::suggestion(place, finder.names())));
+    add_place(spec, model, mesh, place, places);
   }
   std::vector<FieldPlaces> out;
   for (auto& [whole, places] : found) {
     if (places.is_everywhere) {
       places.nodes.clear();
       places.solids.clear();
+      places.names.clear();
     }
     sort_unique(places.nodes);
     sort_unique(places.solids);

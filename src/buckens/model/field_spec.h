@@ -11,7 +11,7 @@
 
 namespace buckens::model {
 
-/// What can be recorded all over a mesh.
+/// What can be recorded all over a mesh, and of the loads on a body.
 enum class FieldQuantity {
   displacement,           ///< of the nodes from their undeformed places, body axes
   velocity,               ///< of the nodes, world axes
@@ -21,11 +21,12 @@ enum class FieldQuantity {
   von_mises,              ///< equivalent stress
   principal_stress,       ///< falling
   strain_energy_density,  ///< ½ σ:ε
+  interface_load,         ///< force and torque on the body at every place where something acts
 };
 
-constexpr std::array<const char*, 8> choice_names(FieldQuantity) {
-  return {"displacement", "velocity",  "acceleration",     "stress",
-          "strain",       "von-mises", "principal-stress", "strain-energy-density"};
+constexpr std::array<const char*, 9> choice_names(FieldQuantity) {
+  return {"displacement", "velocity",         "acceleration",          "stress",        "strain",
+          "von-mises",    "principal-stress", "strain-energy-density", "interface-load"};
 }
 
 enum class FieldLocation { nodes, elements, both };
@@ -45,25 +46,27 @@ constexpr std::array<const char*, 3> choice_names(ExtremeRate) {
 struct FieldOutputSpec {
   SourceLocation where;
   std::vector<FieldQuantity> record;
-  std::vector<std::string> on;  ///< "body" or "body/place"; empty: every flexible body
+  std::vector<std::string> on;  ///< "body" or "body/place"; empty: every body that has the fields
   std::optional<double> every;  ///< [s]; default: with every record
   FieldLocation at = FieldLocation::nodes;
   ExtremeRate extremes = ExtremeRate::records;
 
   template <class Visitor>
   void fields(Visitor& visit) {
+    visit(base::field(
+              "record", record,
+              "fields to be recorded: displacement, velocity, acceleration, stress, strain, "
+              "von-mises, principal-stress, strain-energy-density; interface-load: forces and "
+              "torques of joints and loads on a body, place by place")
+              .required()
+              .shorthand()
+              .like("[von-mises, stress]"));
     visit(
-        base::field("record", record,
-                    "fields to be recorded: displacement, velocity, acceleration, stress, strain, "
-                    "von-mises, principal-stress, strain-energy-density")
-            .required()
-            .shorthand()
-            .like("[von-mises, stress]"));
-    visit(base::field("on", on,
-                      "where: bodies, or body/place with the name of an interface, a face or a set "
-                      "of the mesh")
-              .like("[rod, housing/bore]")
-              .otherwise("all flexible bodies"));
+        base::field("on", on,
+                    "where: bodies, or body/place with the name of an interface, a face, a set of "
+                    "the mesh or a marker")
+            .like("[rod, housing/bore]")
+            .otherwise("all flexible bodies; interface-load: all bodies"));
     visit(base::field("every", every,
                       "time between two records of fields, a multiple of that of `output`")
               .in(base::kTime)

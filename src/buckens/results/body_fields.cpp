@@ -56,6 +56,7 @@ QuantityNote note_of(FieldQuantity quantity) {
     case FieldQuantity::principal_stress:
       return {"principal_stress", "Pa", "falling", {"1", "2", "3"}};
     case FieldQuantity::strain_energy_density:
+    case FieldQuantity::interface_load:  // none of a mesh
       break;
   }
   return {"strain_energy_density", "J/m^3", "half of stress times strain", {}};
@@ -117,6 +118,7 @@ void BodyFields::choose_quantities(const model::FieldOutputSpec& spec, bool has_
     const auto add = [quantity](std::vector<FieldQuantity>& list) {
       if (std::find(list.begin(), list.end(), quantity) == list.end()) list.push_back(quantity);
     };
+    if (quantity == FieldQuantity::interface_load) continue;
     if (is_motion(quantity)) {
       add(at_nodes_);
     } else if (has_solids) {

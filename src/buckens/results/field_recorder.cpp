@@ -1,35 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/field_recorder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "buckens/base/errors.h"
 #include "buckens/model/state.h"
+#include "buckens/results/model_geometry.h"
 
 namespace buckens::results {
+
+namespace {
+
+bool has_mesh(const model::Model& model, const model::FieldPlaces& places) {
+  return mesh_of(model, model.wholes[static_cast<std::size_t>(places.whole)]) != nullptr;
+}
+
+[[noreturn]] void refuse_nothing(const model::FieldOutputSpec& spec, bool has_loads) {
+  if (has_loads) {
+    throw InputError(spec.where,
+                     "output.fields: no joint and no load acts at the places there, so that there "
+                     "are no interface loads; leave `on` out, or name a body or marker with a "
+                     "joint or load");
+  }
+  throw InputError(
+      spec.where,
+      "output.fields: no body there has solids or shells, so there are no such fields; "
+      "beams and bars have `stress` and `section_force` in every run, and motion "
+      "(displacement, velocity, acceleration) exists on every mesh");
+}
+
+}  // namespace
 
 FieldRecorder::FieldRecorder(const model::BuiltModel& built) : built_(built) {
   const auto& spec = built.description.output.field_output;
   if (!spec) return;
   for (const model::FieldPlaces& places : built.fields) {
+    if (!has_mesh(built.model, places)) continue;
     BodyFields body(built.model, places, *spec);
-    if (!body.is_empty()) {
-      body.add_channels(layout_);
-      bodies_.push_back(std::move(body));
-    }
+    if (body.is_empty()) continue;
+    body.add_channels(layout_);
+    bodies_.push_back(std::move(body));
   }
   for (const model::FieldPlaces& places : built.fields) {
+    if (!has_mesh(built.model, places)) continue;
     ShellFields shells(built.model, places, *spec);
     if (shells.is_empty()) continue;
     shells.add_channels(layout_);
     shells_.push_back(std::move(shells));
   }
-  if (!is_empty()) return;
-  throw InputError(
-      spec->where,
-      "output.fields: no body there has solids or shells, so there are no such fields; "
-      "beams and bars have `stress` and `section_force` in every run, and motion "
-      "(displacement, velocity, acceleration) exists on every mesh");
+  const bool has_loads = std::find(spec->record.begin(), spec->record.end(),
+                                   model::FieldQuantity::interface_load) != spec->record.end();
+  for (const model::FieldPlaces& places : built.fields) {
+    if (!has_loads) break;
+    InterfaceLoads loads(built.model, places);
+    if (loads.is_empty()) continue;
+    loads.add_channels(layout_);
+    loads_.push_back(std::move(loads));
+  }
+  if (is_empty()) refuse_nothing(*spec, has_loads);
 }
 
 bool FieldRecorder::watches_steps() const {
@@ -56,8 +85,8 @@ void FieldRecorder::watch(const model::State& state) {
   }
 }
 
-Record FieldRecorder::record(const model::State& state, const std::optional<double>& stamp) {
-  Record out{stamp.value_or(state.t), {}};
+Record FieldRecorder::record(const model::State& state, const FieldInstant& at) {
+  Record out{at.stamp.value_or(state.t), {}};
   out.values.reserve(layout_.fields.num_values());
   for (BodyFields& body : bodies_) {
     body.evaluate_stresses(state);
@@ -68,6 +97,12 @@ Record FieldRecorder::record(const model::State& state, const std::optional<doub
     body.evaluate(state);
     body.update_extremes(out.t);
     body.append(out.values);
+  }
+  if (loads_.empty()) return out;
+  const std::vector<dynamics::BodyMotion> motions = dynamics::motions_of(built_.model, state);
+  const linalg::Vector& lambda = at.lambda != nullptr ? *at.lambda : state.lambda;
+  for (const InterfaceLoads& body : loads_) {
+    body.append(state, motions, lambda, at.load_factor, out.values);
   }
   return out;
 }

@@ -6,21 +6,30 @@
 
 #include "buckens/model/model_builder.h"
 #include "buckens/results/body_fields.h"
+#include "buckens/results/interface_loads.h"
 #include "buckens/results/record_sink.h"
 #include "buckens/results/shell_fields.h"
 
 namespace buckens::results {
+
+/// What a record of fields needs to know beyond the state.
+struct FieldInstant {
+  std::optional<double> stamp;             ///< time stamp of the record; default: the state's time
+  const linalg::Vector* lambda = nullptr;  ///< multipliers of the joints; null: those of the state
+  double load_factor = 1.0;                ///< of applied loads
+};
 
 /// Turns states into records of the fields that the model file asks for, and keeps the largest von
 /// Mises stress of every place.
 class FieldRecorder {
  public:
   /// @param built outlives the object
-  /// @throws InputError if nothing of what is asked for exists: stresses need solids or shells
+  /// @throws InputError if nothing of what is asked for exists: stresses need solids or shells,
+  ///         loads a place where something acts
   explicit FieldRecorder(const model::BuiltModel& built);
 
   /// Nothing is asked for.
-  bool is_empty() const { return bodies_.empty() && shells_.empty(); }
+  bool is_empty() const { return bodies_.empty() && shells_.empty() && loads_.empty(); }
   /// Whether the largest stresses are to be brought up to date at every step.
   bool watches_steps() const;
   bool has_extremes() const { return !layout_.extremes.channels().empty(); }
@@ -29,8 +38,7 @@ class FieldRecorder {
   void add_places(Geometry& geometry) const;
 
   /// Fields of a state; its stresses count among the largest.
-  /// @param stamp time stamp of the record; default: the state's time
-  Record record(const model::State& state, const std::optional<double>& stamp = {});
+  Record record(const model::State& state, const FieldInstant& at = {});
   /// Takes note of the largest stresses of a state. Cost: as for record().
   void watch(const model::State& state);
   /// The largest so far, values of FieldLayout::extremes. @pre a state was seen
@@ -40,6 +48,7 @@ class FieldRecorder {
   const model::BuiltModel& built_;
   std::vector<BodyFields> bodies_;
   std::vector<ShellFields> shells_;
+  std::vector<InterfaceLoads> loads_;
   FieldLayout layout_;
 };
 

@@ -39,6 +39,7 @@ class LoadSensor final : public Sensor {
       sum +=
           about_ ? Vector3d(wrench.torque + (first.p - point).cross(wrench.force)) : wrench.force;
     }
+    sum *= now.load_factor;  // only applied loads have this sensor
     if (in_) sum = motion(*in_).R.transpose() * sum;
     values.insert(values.end(), {sum.x(), sum.y(), sum.z()});
   }

@@ -30,6 +30,7 @@ struct Observation {
   dynamics::Energy energy;
   WorkBalance work;
   std::vector<body::FrameMotion> wholes;  ///< frame of each whole body, see model::whole_motion
+  double load_factor = 1;                 ///< of applied loads
 };
 
 /// Force and torque of each joint on its second marker at the marker's origin.

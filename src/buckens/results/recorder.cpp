@@ -160,8 +160,9 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
 Record Recorder::record(const model::State& state, WorkBalance work,
                         const std::optional<dynamics::Energy>& energy) {
   const model::Model& model = built_.model;
-  Observation now{model, state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {},
-                  work,  {}};
+  Observation now{
+      model, state,       dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {}, work,
+      {},    load_factor_};
   for (const model::WholeBody& whole : model.wholes) {
     now.wholes.push_back(model::whole_motion(model, whole, state));
   }
@@ -172,6 +173,7 @@ Record Recorder::record(const model::State& state, WorkBalance work,
     lambda = dynamics::least_multipliers(model, metric_, constraints.rows, lambda);
   }
   now.joint_wrenches = joint_wrenches(model, now.motions, state.t, lambda);
+  multipliers_ = std::move(lambda);
   now.nodal.resize(model.bodies.size());
   now.section_forces.resize(model.bodies.size());
   now.stresses.resize(model.bodies.size());
@@ -199,7 +201,8 @@ Record Recorder::record(const model::State& state, WorkBalance work,
   }
   for (const std::size_t k : recorded_loads_) {
     const loads::ForceElement& load = *model.loads[k].element;
-    const Vector3d given = load.values(state.t);
+    const double factor = load.is_applied() ? load_factor_ : 1.0;
+    const Vector3d given = factor * load.values(state.t);
     record.values.insert(record.values.end(), given.data(), given.data() + load.num_values());
   }
   const dynamics::Energy& e = now.energy;

@@ -34,6 +34,11 @@ class Recorder {
   Record record(const model::State& state, WorkBalance work,
                 const std::optional<dynamics::Energy>& energy = {});
 
+  /// Factor of applied loads in the records that follow; one at first.
+  void set_load_factor(double factor) { load_factor_ = factor; }
+
+  /// Multipliers of the last record, shared out where joints are redundant.
+  const linalg::Vector& last_multipliers() const { return multipliers_; }
   /// Energies of the last record.
   const dynamics::Energy& last_energy() const { return energy_; }
   double last_balance() const { return balance_; }
@@ -52,6 +57,8 @@ class Recorder {
   std::vector<std::size_t> recorded_loads_;  // first of each name, indices into Model::loads
   std::vector<std::unique_ptr<Sensor>> sensors_;
   bool started_ = false;
+  double load_factor_ = 1;
+  linalg::Vector multipliers_;
   double first_energy_ = 0;
   dynamics::Energy energy_;
   double balance_ = 0;

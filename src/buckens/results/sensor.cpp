@@ -220,7 +220,12 @@ class JointSensor final : public Sensor {
     const model::Load& load = now.model.loads[static_cast<std::size_t>(load_)];
     const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
     const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    return load.element->evaluate(now.state.t, first, second).on_second;
+    spatial::Wrench out = load.element->evaluate(now.state.t, first, second).on_second;
+    if (load.element->is_applied()) {
+      out.force *= now.load_factor;
+      out.torque *= now.load_factor;
+    }
+    return out;
   }
 
   Channel channel_;

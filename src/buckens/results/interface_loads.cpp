@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/results/interface_loads.h"
+
+#include <algorithm>
+
+namespace buckens::results {
+
+using Eigen::Vector3d;
+using model::MarkerId;
+using spatial::Wrench;
+
+namespace {
+
+/// What the rows of a joint do to one of its markers. @param at first column of that marker
+Wrench joint_wrench(const model::Joint& joint, double t, const spatial::MarkerMotion& first,
+                    const spatial::MarkerMotion& second, const linalg::Vector& lambda, int at) {
+  Wrench out;
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    const double multiplier = lambda[joint.first_row + static_cast<int>(k)];
+    const spatial::PairRow J = joint.rows[k].evaluate(first, second, t).J;
+    out.torque += multiplier * J.segment<3>(at).transpose();
+    out.force += multiplier * J.segment<3>(at + 3).transpose();
+  }
+  return out;
+}
+
+const std::string& marker_name(const model::Model& model, const MarkerId& id) {
+  return model.bodies[static_cast<std::size_t>(id.body)]
+      .markers[static_cast<std::size_t>(id.marker)]
+      .name;
+}
+
+}  // namespace
+
+InterfaceLoads::InterfaceLoads(const model::Model& model, const model::FieldPlaces& places)
+    : model_(model), whole_(places.whole) {
+  const auto is_wanted = [&places](const std::string& name) {
+    return places.is_everywhere ||
+           std::find(places.names.begin(), places.names.end(), name) != places.names.end();
+  };
+  const auto add_side = [&](const MarkerId& id, const Share& share) {
+    if (!is_of_body(id)) return;
+    const std::string& name = marker_name(model, id);
+    if (is_wanted(name)) add("interfaces/" + name, false, share);
+  };
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    const model::Joint& joint = model.joints[k];
+    if (joint.is_tie) continue;
+    add_side(joint.first, {k, true, Side::first});
+    add_side(joint.second, {k, true, Side::second});
+  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    if (!load.region) {
+      add_side(load.first, {k, false, Side::first});
+      add_side(load.second, {k, false, Side::second});
+    } else if (is_of_body(load.first) && is_wanted(model::part_of_place(load.region->place))) {
+      add("loads/" + load.name, true, {k, false, Side::first});
+    }
+  }
+}
+
+bool InterfaceLoads::is_of_body(const MarkerId& id) const {
+  return id.body != model::kGround && model_.whole_of(id.body) == whole_;
+}
+
+void InterfaceLoads::add(const std::string& path, bool is_distributed, const Share& share) {
+  auto known = std::find_if(places_.begin(), places_.end(),
+                            [&path](const Place& place) { return place.path == path; });
+  if (known == places_.end()) known = places_.insert(known, {path, is_distributed, {}});
+  known->shares.push_back(share);
+}
+
+const MarkerId& InterfaceLoads::marker_of(const Share& share) const {
+  const bool is_first = share.side == Side::first;
+  if (share.is_joint) {
+    const model::Joint& joint = model_.joints[share.index];
+    return is_first ? joint.first : joint.second;
+  }
+  const model::Load& load = model_.loads[share.index];
+  return is_first ? load.first : load.second;
+}
+
+void InterfaceLoads::add_channels(FieldLayout& layout) const {
+  const std::string& body = model_.wholes[static_cast<std::size_t>(whole_)].name;
+  for (const Place& place : places_) {
+    layout.fields.add({"fields/bodies/" + body + "/" + place.path,
+                       "N, N m",
+                       {6},
+                       place.is_distributed
+                           ? "on the body, torque about the origin of its frame, world axes"
+                           : "on the body, torque about the marker's origin, world axes",
+                       {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}});
+  }
+}
+
+Wrench InterfaceLoads::wrench_of(const Share& share, double t,
+                                 const std::vector<dynamics::BodyMotion>& motions,
+                                 const linalg::Vector& lambda, double load_factor) const {
+  const auto motion = [&](const MarkerId& id) {
+    return dynamics::evaluate_marker(model_, id, motions).motion;
+  };
+  const bool is_first = share.side == Side::first;
+  if (share.is_joint) {
+    const model::Joint& joint = model_.joints[share.index];
+    return joint_wrench(joint, t, motion(joint.first), motion(joint.second), lambda,
+                        is_first ? 0 : 6);
+  }
+  const model::Load& load = model_.loads[share.index];
+  const loads::Action action = load.element->evaluate(t, motion(load.first), motion(load.second));
+  Wrench out = is_first ? action.on_first : action.on_second;
+  if (load.element->is_applied()) {
+    out.force *= load_factor;
+    out.torque *= load_factor;
+  }
+  return out;
+}
+
+void InterfaceLoads::append(const model::State& state,
+                            const std::vector<dynamics::BodyMotion>& motions,
+                            const linalg::Vector& lambda, double load_factor,
+                            std::vector<double>& values) const {
+  const model::WholeBody& whole = model_.wholes[static_cast<std::size_t>(whole_)];
+  const Vector3d origin = model::whole_motion(model_, whole, state).X_WB.p;
+  for (const Place& place : places_) {
+    Wrench sum;
+    for (const Share& share : place.shares) {
+      Wrench one = wrench_of(share, state.t, motions, lambda, load_factor);
+      if (place.is_distributed) {
+        const Vector3d at = dynamics::evaluate_marker(model_, marker_of(share), motions).motion.p;
+        one.torque += (at - origin).cross(one.force);
+      }
+      sum += one;
+    }
+    for (const Vector3d& v : {sum.force, sum.torque}) {
+      values.insert(values.end(), v.data(), v.data() + 3);
+    }
+  }
+}
+
+}  // namespace buckens::results
