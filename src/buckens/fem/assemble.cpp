@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/average_rows.h"
 #include "buckens/fem/node_label.h"
-#include "buckens/fem/node_region.h"
 
 namespace buckens::fem {
 
@@ -140,8 +140,9 @@ DofMap number_dofs(const Structure& structure, const Blocks& blocks,
   const std::size_t num_nodes = structure.nodes.size();
   std::vector<bool> turns(num_nodes, false), held(num_nodes, false);
   for (const AverageLink& link : structure.links.averages) {
-    if (!weighted_region(structure.nodes, link.nodes, link.weights).turns()) continue;
-    turns[static_cast<std::size_t>(link.reference)] = true;
+    if (gives_rotation(structure.nodes, link)) {
+      turns[static_cast<std::size_t>(link.reference)] = true;
+    }
   }
   for (const auto& block : blocks) {
     const bool has_shape = block->is_line() || block->is_solid() || block->is_shell();

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/average_rows.h"
 #include "buckens/fem/node_label.h"
-#include "buckens/fem/node_region.h"
 
 namespace buckens::fem {
 
@@ -179,19 +179,7 @@ void Eliminator::add(const RigidLink& link) {
 }
 
 void Eliminator::add(const AverageLink& link) {
-  const NodeRegion region = weighted_region(nodes_, link.nodes, link.weights);
-  const bool is_beside =
-      (place(link.reference) - region.centre).norm() > 1e-6 / rigid_.size.minCoeff();
-  const bool needs_turning = is_beside || dof(link.reference, 3) >= 0 ||
-                             dof(link.reference, 4) >= 0 || dof(link.reference, 5) >= 0;
-  if (!region.turns() && needs_turning) {
-    throw ModelError(fmt::format(
-        "{}: its {} nodes lie on one line or in one point and tell no rotation, which {} {}; take "
-        "nodes that span a surface",
-        link.label, region.nodes.size(), node_label(nodes_, link.reference),
-        is_beside ? "beside them needs" : "has"));
-  }
-  const PointRows rows = region_rows(nodes_, dofs_, region, place(link.reference));
+  const PointRows rows = average_rows(nodes_, dofs_, link, 1.0 / rigid_.size.minCoeff());
   std::array<Row, 6> mean;
   for (const Triplet& entry : rows.translation) {
     mean[static_cast<std::size_t>(entry.row())][entry.col()] -= entry.value();
@@ -201,7 +189,7 @@ void Eliminator::add(const AverageLink& link) {
   }
   for (int k = 0; k < 6; ++k) {
     const int own = dof(link.reference, k);
-    if (own < 0) continue;
+    if (own < 0 || !link.variables[static_cast<std::size_t>(k)]) continue;
     Row& row = mean[static_cast<std::size_t>(k)];
     row[own] += 1.0;
     eliminate(row, own);

@@ -96,13 +96,16 @@ struct ImportedRigidLink {
   int line = 0;
 };
 
-/// A reference node that follows the weighted mean motion of others (RBE3, *DISTRIBUTING COUPLING).
+/// A reference node that follows the weighted mean motion of others (RBE3, *COUPLING with
+/// *DISTRIBUTING), see fem::AverageLink.
 struct ImportedAverage {
   std::string name;
   int reference = 0;
   std::vector<int> nodes;
   std::vector<double> weights;  ///< as many as nodes, or empty: all alike
   int line = 0;
+  std::array<bool, 6> variables = {true, true, true, true, true, true};  ///< of the reference
+  std::vector<std::array<bool, 3>> components;  ///< that count of each node; empty: all
 };
 
 /// Σ coefficient × variable = 0. The first term is the one to eliminate.

@@ -45,6 +45,7 @@ struct AverageLinkSpec {
   std::string reference;
   std::vector<std::string> nodes;
   std::vector<double> weights;
+  std::vector<NodeVariable> variables;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -56,6 +57,10 @@ struct AverageLinkSpec {
               .positive()
               .like("[1, 2, 1]")
               .otherwise("all alike"));
+    visit(base::field("variables", variables,
+                      "what of the reference follows, in model axes; the rest is free")
+              .like("[x, y, z]")
+              .otherwise("all"));
   }
 };
 

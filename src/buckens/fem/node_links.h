@@ -16,12 +16,16 @@ struct RigidLink {
   std::array<bool, 6> variables = {true, true, true, true, true, true};
 };
 
-/// A node that follows the weighted mean motion of others, see region_rows().
+/// A node that follows the weighted mean motion of others, see average_rows().
 struct AverageLink {
   std::string label;
   int reference = 0;
   std::vector<int> nodes;
   std::vector<double> weights;  ///< as many as nodes, positive
+  /// What of the reference follows. The rest stays free.
+  std::array<bool, 6> variables = {true, true, true, true, true, true};
+  /// Per node which of its displacements count, model axes; empty: all.
+  std::vector<std::array<bool, 3>> components;
 };
 
 /// Σ coefficient × variable = 0. The first term is the one to eliminate, if it can be.

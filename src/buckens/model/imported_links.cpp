@@ -56,8 +56,8 @@ class LinkImport {
       throw InputError(where_,
                        fmt::format("{}: it needs nodes, and a positive weight for each", name));
     }
-    out_.links.averages.push_back(
-        {name, node(average.reference), nodes(average.nodes), std::move(weights)});
+    out_.links.averages.push_back({name, node(average.reference), nodes(average.nodes),
+                                   std::move(weights), average.variables, average.components});
   }
   void add(const fem::ImportedEquation& equation) {
     fem::LinearEquation& own = out_.links.equations.emplace_back();

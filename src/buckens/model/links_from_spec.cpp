@@ -11,6 +11,14 @@ std::string label(const char* what, const SourceLocation& where) {
   return where.line > 0 ? fmt::format("{} of line {}", what, where.line) : std::string(what);
 }
 
+/// No variables stand for all.
+std::array<bool, 6> chosen_variables(const std::vector<fem::NodeVariable>& variables) {
+  std::array<bool, 6> out;
+  out.fill(variables.empty());
+  for (const fem::NodeVariable variable : variables) out[static_cast<std::size_t>(variable)] = true;
+  return out;
+}
+
 }  // namespace
 
 void add_links(const fem::StructureLinksSpec& spec, const NodeFinder& node,
@@ -25,17 +33,17 @@ void add_links(const fem::StructureLinksSpec& spec, const NodeFinder& node,
     own.label = label("the rigid link", link.where);
     own.reference = node(link.reference, link.where);
     own.nodes = all(link.nodes, link.where);
-    if (!link.variables.empty()) own.variables.fill(false);
-    for (const fem::NodeVariable variable : link.variables) {
-      own.variables[static_cast<std::size_t>(variable)] = true;
-    }
+    own.variables = chosen_variables(link.variables);
   }
   for (const fem::AverageLinkSpec& link : spec.averages) {
     std::vector<double> weights = link.weights;
     if (weights.empty()) weights.assign(link.nodes.size(), 1.0);
     structure.links.averages.push_back({label("the average", link.where),
                                         node(link.reference, link.where),
-                                        all(link.nodes, link.where), std::move(weights)});
+                                        all(link.nodes, link.where),
+                                        std::move(weights),
+                                        chosen_variables(link.variables),
+                                        {}});
   }
   for (const fem::EquationSpec& equation : spec.equations) {
     fem::LinearEquation& own = structure.links.equations.emplace_back();

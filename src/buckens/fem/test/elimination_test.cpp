@@ -135,6 +135,70 @@ TEST(Elimination, AveragesAsInterfacesDo) {
   EXPECT_LE((moved(fe, e, p.near) - expected).norm(), 1e-12);
 }
 
+TEST(Elimination, AveragesMoveTheChosenVariablesOnly) {
+  Parts p;
+  p.s.links.averages = {
+      {"mean", p.near, p.face_x1(), {1, 1, 1, 1}, {true, true, false, true, false, false}, {}}};
+  p.s.links.rigid = {Parts::rigid(p.near, {p.hub})};
+  const FeModel fe = assemble(p.s);
+  const Elimination e = eliminate(fe.nodes, fe.dofs, p.s.links);
+  expect_rigid_motion(fe, e);
+  EXPECT_THAT(e.dofs.node_dofs[static_cast<std::size_t>(p.near)],
+              testing::ElementsAre(-1, -1, testing::Ge(0), -1, testing::Ge(0), testing::Ge(0)));
+  // A node that nothing else turns gets rotations only if the average tells all three.
+  Parts q;
+  q.s.links.averages = {
+      {"mean", q.hub, q.face_x1(), {1, 1, 1, 1}, {true, true, true, false, false, false}, {}}};
+  const FeModel without = assemble(q.s);
+  EXPECT_EQ(without.dofs.node_dofs[static_cast<std::size_t>(q.hub)][3], -1);
+  q.s.links.averages[0].variables.fill(true);
+  EXPECT_GE(assemble(q.s).dofs.node_dofs[static_cast<std::size_t>(q.hub)][3], 0);
+}
+
+TEST(Elimination, AveragesOfAllComponentsAreThoseWithoutChoice) {
+  Parts p;
+  p.s.links.averages = {{"mean", p.near, p.face_x1(), {1, 2, 1, 3}}};
+  p.s.links.rigid = {Parts::rigid(p.near, {p.hub})};
+  const FeModel fe = assemble(p.s);
+  const Elimination plain = eliminate(fe.nodes, fe.dofs, p.s.links);
+  p.s.links.averages[0].components.assign(4, {true, true, true});
+  const Elimination fitted = eliminate(fe.nodes, fe.dofs, p.s.links);
+  // Two ways to solve the same least squares, both well conditioned.
+  EXPECT_LE((Matrix(plain.T) - Matrix(fitted.T)).norm(), 1e-12 * Matrix(plain.T).norm());
+}
+
+TEST(Elimination, AveragesFitTheComponentsThatCount) {
+  // Of a face across x the displacements along x tell u_x and the rotations about y and z.
+  Parts p;
+  const auto face = p.face_x1();
+  p.s.links.averages = {
+      {"mean", p.near, face, {1, 1, 1, 1}, {true, false, false, false, true, true}, {}}};
+  p.s.links.averages[0].components.assign(4, {true, false, false});
+  p.s.links.rigid = {Parts::rigid(p.near, {p.hub})};
+  const FeModel fe = assemble(p.s);
+  const Elimination e = eliminate(fe.nodes, fe.dofs, p.s.links);
+  expect_rigid_motion(fe, e);
+  // The plane through the displacements that leaves the least squares, on a face of 0.3 by 0.2.
+  const Vector near = moved(fe, e, p.near);
+  const Vector3d at = fe.nodes[static_cast<std::size_t>(p.near)].position;
+  double mean = 0, about_y = 0, about_z = 0;
+  for (const int node : face) {
+    const Vector3d r = fe.nodes[static_cast<std::size_t>(node)].position - Vector3d(0.4, 0.15, 0.1);
+    const double u = moved(fe, e, node)[0];
+    mean += u / 4;
+    about_y += u * r.z() / (4 * 0.1 * 0.1);
+    about_z -= u * r.y() / (4 * 0.15 * 0.15);
+  }
+  EXPECT_NEAR(near[4], about_y, 1e-10);
+  EXPECT_NEAR(near[5], about_z, 1e-10);
+  EXPECT_NEAR(near[0], mean + about_y * (at.z() - 0.1) - about_z * (at.y() - 0.15), 1e-10);
+
+  p.s.links.averages[0].variables.fill(true);
+  const auto all = [&] { eliminate(fe.nodes, fe.dofs, p.s.links); };
+  EXPECT_THAT(all, ThrowsMessage<ModelError>(AllOf(HasSubstr("mean: the chosen displacements"),
+                                                   HasSubstr("displacement along y of node \"near\""))));
+}
+
 TEST(Elimination, SolvesEquationsThatLetRigidMotionBe) {
   Parts p;
   // far moves along x as near does plus the lever of its rotations: 0.2 along y, −0.05 along z.
