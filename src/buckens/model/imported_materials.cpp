@@ -61,10 +61,28 @@ void ImportedMaterials::refuse(const fem::ImportedBlock& block, const std::strin
                                        mesh_.file, block.source, of, what));
 }
 
-int ImportedMaterials::number_of(const fem::MaterialSpec& spec) {
-  const auto [entry, is_new] = numbers_.emplace(&spec, static_cast<int>(materials_.size()));
-  if (is_new) materials_.push_back(make_material(spec, damping_));
+int ImportedMaterials::number_of(const fem::MaterialSpec& spec, int property) {
+  const auto [entry, is_new] =
+      numbers_.emplace(std::pair(&spec, property), static_cast<int>(materials_.size()));
+  if (!is_new) return entry->second;
+  fem::MaterialSpec own = spec;
+  if (property >= 0) {
+    const Eigen::Matrix3d& axes = *mesh_.properties[static_cast<std::size_t>(property)].axes;
+    own.orthotropic->axis_1 = axes.col(0);
+    own.orthotropic->axis_2 = axes.col(1);
+  }
+  materials_.push_back(make_material(own, damping_));
   return entry->second;
+}
+
+int ImportedMaterials::turning_property(const fem::ImportedBlock& block,
+                                        const fem::MaterialSpec& spec) const {
+  if (block.property < 0 || !spec.orthotropic) return -1;
+  const auto& property = mesh_.properties[static_cast<std::size_t>(block.property)];
+  const bool has_own = spec.orthotropic->axis_1 != Eigen::Vector3d::UnitX() ||
+                       spec.orthotropic->axis_2 != Eigen::Vector3d::UnitY();
+  const bool turns = property.kind == fem::PropertyKind::solid && property.axes && !has_own;
+  return turns ? block.property : -1;
 }
 
 int ImportedMaterials::number(const fem::ImportedBlock& block, int element) {
@@ -73,7 +91,7 @@ int ImportedMaterials::number(const fem::ImportedBlock& block, int element) {
   if (!(spec->E > 0.0) && !spec->orthotropic) {
     refuse(block, fmt::format("have the material \"{}\" without elastic constants", spec->name));
   }
-  return number_of(*spec);
+  return number_of(*spec, turning_property(block, *spec));
 }
 
 int ImportedMaterials::number(const std::string& name) {
@@ -84,7 +102,7 @@ int ImportedMaterials::number(const std::string& name) {
     throw InputError(
         where_, fmt::format("{} has no material \"{}\"; give it in `materials`", mesh_.file, name));
   }
-  return number_of(*spec);
+  return number_of(*spec, -1);
 }
 
 }  // namespace buckens::model

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "buckens/fem/material.h"
@@ -13,6 +14,9 @@ namespace buckens::model {
 
 /// Which material each element of a mesh file has. In the order of precedence: `materials` by the
 /// name of an element set, then by that of the property, the file's own material, `material`.
+///
+/// Orthotropic materials of solids lie in the axes that the file gives the property; those of the
+/// model file, too, unless they have axes of their own. (Shells have a direction per section.)
 class ImportedMaterials {
  public:
   /// @throws InputError if a name in `materials` is neither a property nor an element set
@@ -33,14 +37,17 @@ class ImportedMaterials {
  private:
   const fem::MaterialSpec* chosen(const fem::ImportedBlock& block, int element) const;
   [[noreturn]] void refuse(const fem::ImportedBlock& block, const std::string& what) const;
-  int number_of(const fem::MaterialSpec& spec);
+  /// Property whose axes turn the material, −1: none.
+  int turning_property(const fem::ImportedBlock& block, const fem::MaterialSpec& spec) const;
+  int number_of(const fem::MaterialSpec& spec, int property);
 
   const fem::ImportedMesh& mesh_;
   const fem::GroupMaterials& given_;
   const std::optional<fem::DampingSpec>& damping_;
   SourceLocation where_;
   std::vector<const fem::MaterialSpec*> by_set_;  // per element, null where no set names one
-  std::map<const fem::MaterialSpec*, int> numbers_;
+  /// By material and the property that turns it.
+  std::map<std::pair<const fem::MaterialSpec*, int>, int> numbers_;
   std::vector<fem::Material> materials_;
 };
 

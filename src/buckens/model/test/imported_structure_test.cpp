@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/imported_structure.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
@@ -101,6 +102,31 @@ TEST(ImportedStructure, MaterialsOfTheModelStandAboveThoseOfTheFile) {
   EXPECT_EQ(by_set.solids.material(1)->E, 70e9);
   given.materials = {group("HOUSING", material("al", 70e9, 2700))};
   EXPECT_EQ(imported(two_cubes(), given).structure.solids.material(0)->E, 70e9);
+}
+
+TEST(ImportedStructure, OrthotropicSolidsLieInTheAxesOfTheirProperty) {
+  fem::ImportedMesh mesh = two_cubes();
+  fem::OrthotropicSpec wood;
+  wood.E1 = 10e9;
+  wood.E2 = wood.E3 = 1e9;
+  wood.G12 = wood.G13 = wood.G23 = 0.5e9;
+  mesh.materials[0].orthotropic = wood;
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  EXPECT_EQ(imported(mesh, {}).structure.solids.material(0)->orthotropy->axes.col(0), x);
+  mesh.properties[0].axes = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto turned = imported(mesh, {}).structure.solids.material(0)->orthotropy;
+  EXPECT_LT((turned->axes - *mesh.properties[0].axes).norm(), 1e-15);
+  // Materials of the model take the place of that of the file, in the same axes or in their own.
+  fem::MaterialSpec spruce = material("spruce", 0, 450);
+  spruce.orthotropic = wood;
+  fem::GroupMaterials given;
+  given.materials = {group("HOUSING", spruce)};
+  const auto same = imported(mesh, given).structure.solids.material(0)->orthotropy;
+  EXPECT_LT((same->axes - *mesh.properties[0].axes).norm(), 1e-15);
+  spruce.orthotropic->axis_1 = Eigen::Vector3d::UnitZ();
+  given.materials = {group("HOUSING", spruce)};
+  const auto own = imported(mesh, given).structure.solids.material(0)->orthotropy;
+  EXPECT_EQ(own->axes.col(0), Eigen::Vector3d::UnitZ());
 }
 
 TEST(ImportedStructure, SaysWhatIsMissing) {
