@@ -70,9 +70,10 @@ fem::OrthotropicSpec from_stiffness(AbaqusReading& in, const DeckKeyword& keywor
                       -S(0, 2) / S(0, 0), -S(1, 2) / S(1, 1), v[6], v[7], v[8]});
 }
 
-/// E1, E2, ν12, G12, G13, G23 of a plane state of stress; what acts across is that of direction 2.
+/// E1, E2, ν12, G12, G13, G23 of a plane state of stress. Shells do not ask for what is across: it
+/// has the modulus of direction 2 and does not contract.
 fem::OrthotropicSpec lamina(const std::vector<double>& v) {
-  return engineering({v[0], v[1], v[1], v[2], v[2], v[2], v[3], v[4], v[5]});
+  return engineering({v[0], v[1], v[1], v[2], 0.0, 0.0, v[3], v[4], v[5]});
 }
 
 }  // namespace
@@ -91,7 +92,8 @@ void read_material(AbaqusReading& in, const DeckKeyword& keyword) {
 
 void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
   fem::MaterialSpec& material = current(in, keyword);
-  const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  std::erase(type, ' ');
   if (type.empty() || type == "ISOTROPIC" || type == "ISO") {
     const auto v = first_constants(in, keyword, 2);
     material.E = v[0];
@@ -103,15 +105,13 @@ void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
                     "lie between -1 and 0.5",
                     material.name, material.E, material.nu));
   }
-  if (type == "ENGINEERING CONSTANTS" || type == "ENGINEERINGCONSTANTS") {
+  if (type == "ENGINEERINGCONSTANTS") {
     material.orthotropic = engineering(first_constants(in, keyword, 9));
   } else if (type == "ORTHOTROPIC" || type == "ORTHO") {
     material.orthotropic = from_stiffness(in, keyword, first_constants(in, keyword, 9));
   } else if (type == "LAMINA") {
     material.orthotropic = lamina(first_constants(in, keyword, 6));
-    in.note(keyword.place, fmt::format("*ELASTIC, TYPE=LAMINA of material \"{}\": for shells; "
-                                       "across the layer the values of direction 2 are taken",
-                                       material.name));
+    in.deck.laminae.insert(upper(material.name));
   } else {
     in.lines.fail(keyword.place,
                   fmt::format("*ELASTIC of TYPE={} is not supported; ISOTROPIC, ENGINEERING "

@@ -208,6 +208,12 @@ int AbaqusMesh::property_for(int scope, const AbaqusSection& section,
 void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
                                fem::ImportedProperty& property) {
   property.material = material_called(section.material, section.place);
+  if (property.kind != PropertyKind::shell && deck_.laminae.contains(upper(section.material))) {
+    lines_.fail(section.place,
+                fmt::format("material \"{}\" is of TYPE=LAMINA, which is for shells; give all nine "
+                            "ENGINEERING CONSTANTS",
+                            section.material));
+  }
   property.thickness = section.thickness;
   double thickness = section.thickness.value_or(0.0);
   for (const AbaqusSection::Layer& layer : section.layers) {
@@ -231,13 +237,29 @@ void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
   }
   const AbaqusOrientation* axes = orientation_called(scope, section.orientation, section.place);
   if (axes == nullptr) return;
+  const auto material = deck_.materials.find(upper(section.material));
+  const bool is_isotropic =
+      material != deck_.materials.end() && !material->second.orthotropic && section.layers.empty();
   if (axes->system == "RECTANGULAR") {
-    property.axes = names_.scopes()[static_cast<std::size_t>(scope)].rotation * axes->axes;
+    Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation * axes->axes;
+    if (section.kind == PropertyKind::shell) {
+      if (!axes->normal && is_isotropic) return;
+      if (!axes->normal) {
+        lines_.fail(
+            axes->place,
+            fmt::format("orientation \"{}\" is used for shells, so its second line must say "
+                        "which of its axes, 1, 2 or 3, is near their normal, and the angle "
+                        "about it: \"3, 0.\" takes its axis 1 as direction 1",
+                        axes->name));
+      }
+      // The axis after the one near the normal is projected onto the shell as direction 1.
+      const Matrix3d given = own;
+      for (int k = 0; k < 3; ++k) own.col(k) = given.col((*axes->normal + 1 + k) % 3);
+    }
+    property.axes = own;
     return;
   }
-  const auto material = deck_.materials.find(upper(section.material));
-  const bool is_isotropic = material != deck_.materials.end() && !material->second.orthotropic;
-  if (is_isotropic && section.layers.empty()) return;
+  if (is_isotropic) return;
   lines_.fail(section.place,
               fmt::format("orientation \"{}\" is of {}, which is supported for isotropic materials "
                           "only; give SYSTEM=RECTANGULAR, one section for each direction",
@@ -329,7 +351,6 @@ void AbaqusMesh::add_masses(int scope) {
   const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
   std::set<int> used;
   for (const AbaqusMass& mass : placed.scope->masses) {
-    const bool is_rotary = !mass.inertia.isZero(0.0);
     Matrix3d axes = placed.rotation;
     if (const auto* own = orientation_called(scope, mass.orientation, mass.place)) {
       if (own->system != "RECTANGULAR") {
@@ -340,9 +361,9 @@ void AbaqusMesh::add_masses(int scope) {
     for (const auto& at : names_.elements(scope, mass.element_set, mass.place)) {
       const AbaqusRole role =
           names_.scopes()[static_cast<std::size_t>(at.scope)].at(at.element).first->type->role;
-      if (role != (is_rotary ? AbaqusRole::rotary_inertia : AbaqusRole::mass)) {
+      if (role != (mass.is_rotary ? AbaqusRole::rotary_inertia : AbaqusRole::mass)) {
         lines_.fail(mass.place, fmt::format("set \"{}\" must hold elements of type {} only",
-                                            mass.element_set, is_rotary ? "ROTARYI" : "MASS"));
+                                            mass.element_set, mass.is_rotary ? "ROTARYI" : "MASS"));
       }
       fem::ImportedMass& point = out_.masses.emplace_back();
       point.node = names_.element_nodes(at).front();

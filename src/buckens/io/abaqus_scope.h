@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -94,13 +95,17 @@ struct AbaqusSection {
 struct AbaqusOrientation {
   std::string name;
   std::string system;  ///< "RECTANGULAR" or one that is not supported
+  /// Columns 1, 2, 3, after the additional rotation.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// Axis of the additional rotation, 0…2, which is near the normal of shells; none: not given.
+  std::optional<int> normal;
   DeckPlace place;
 };
 
 /// A *MASS or *ROTARY INERTIA.
 struct AbaqusMass {
   std::string element_set;
+  bool is_rotary = false;
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   std::string orientation;
@@ -170,6 +175,7 @@ struct AbaqusDeck {
   std::map<std::string, AbaqusScope> parts;
   std::vector<AbaqusInstance> instances;
   std::map<std::string, fem::MaterialSpec> materials;  ///< by name in capitals
+  std::set<std::string> laminae;  ///< those by their constants in a plane, in capitals
   std::vector<fem::ImportNote> notes;
 };
 

@@ -3,10 +3,12 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/io/abaqus_cards.h"
+#include "buckens/io/box_section.h"
 #include "buckens/io/deck_number.h"
 
 namespace buckens::io {
@@ -15,8 +17,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 AbaqusSection& add_section(AbaqusReading& in, const DeckKeyword& keyword, fem::PropertyKind kind) {
   AbaqusSection& section = in.scope->sections.emplace_back();
@@ -46,7 +46,7 @@ double positive(AbaqusReading& in, const DeckRow& row, std::size_t i, const char
   in.lines.fail(row.place, fmt::format("{} is {:g}; it must be positive", what, value));
 }
 
-void read_layers(AbaqusReading& in, AbaqusSection& section) {
+void read_layers(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSection& section) {
   DeckRow row;
   while (in.lines.next_row(row)) {
     AbaqusSection::Layer& layer = section.layers.emplace_back();
@@ -55,27 +55,33 @@ void read_layers(AbaqusReading& in, AbaqusSection& section) {
     layer.place = row.place;
     if (layer.material.empty()) in.lines.fail(row.place, "the layer has no material (third value)");
     if (const auto angle = deck_number(row.cell(3))) {
-      layer.angle = *angle * kDegree;
+      layer.angle = *angle * std::numbers::pi / 180.0;
     } else {
       layer.orientation = row.cell(3);
     }
   }
   if (section.layers.empty()) in.lines.fail(section.place, "the laminate has no layers");
+  if (!keyword.has("SYMMETRIC")) return;
+  // The lower half is written, from the bottom to the middle.
+  const std::size_t half = section.layers.size();
+  section.layers.reserve(2 * half);
+  for (std::size_t k = half; k-- > 0;) section.layers.push_back(section.layers[k]);
 }
 
-/// A hollow rectangle whose opposite walls are alike, by its constants.
-fem::GeneralSectionSpec box_constants(double a, double b, double t_side, double t_flat) {
-  const double inner_a = a - 2.0 * t_side;
-  const double inner_b = b - 2.0 * t_flat;
-  fem::GeneralSectionSpec out;
-  out.A = a * b - inner_a * inner_b;
-  out.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
-  out.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
-  const double mid_a = a - t_side;
-  const double mid_b = b - t_flat;
-  out.J = 2.0 * mid_a * mid_a * mid_b * mid_b / (mid_b / t_side + mid_a / t_flat);  // Bredt
-  out.stress_points = {{a / 2, b / 2}, {-a / 2, b / 2}, {-a / 2, -b / 2}, {a / 2, -b / 2}};
-  return out;
+/// Thicknesses and stiffnesses that are not those of the data lines.
+void refuse_other_thickness(AbaqusReading& in, const DeckKeyword& keyword) {
+  for (const char* key : {"NODALTHICKNESS", "SHELLTHICKNESS"}) {
+    if (!keyword.has(key)) continue;
+    in.lines.fail(keyword.place, fmt::format("{} with {}: thicknesses that vary over a section are "
+                                             "not supported; give each thickness a section",
+                                             keyword.written, key));
+  }
+  const bool is_general = keyword.name == "SHELLGENERALSECTION";
+  if (is_general && !keyword.has("COMPOSITE") && !keyword.has("MATERIAL")) {
+    in.lines.fail(keyword.place,
+                  "a shell by its stiffnesses is not supported; give MATERIAL and a thickness, or "
+                  "layers with COMPOSITE");
+  }
 }
 
 fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
@@ -91,13 +97,7 @@ fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
   if (2.0 * t[0] >= a || 2.0 * t[1] >= b) {
     in.lines.fail(row.place, "the walls are thicker than half of the box; use SECTION=RECT");
   }
-  fem::SectionSpec out;
-  if (t[0] == t[1]) {
-    out.shape = fem::BoxSpec{a, b, t[0]};
-  } else {
-    out.shape = box_constants(a, b, t[0], t[1]);
-  }
-  return out;
+  return box_section({a, b, t[0], t[1]});
 }
 
 /// A, I11, I12, I22, J.
@@ -162,17 +162,6 @@ void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& 
   if (section.n1.norm() == 0.0) in.lines.fail(row.place, "direction n1 cannot be zero");
 }
 
-/// Orthonormal axes from a point on axis 1 and one in the plane of axes 1 and 2.
-std::optional<Matrix3d> axes_from(const Vector3d& a, const Vector3d& b) {
-  const Vector3d normal = a.cross(b);
-  if (!(normal.norm() > 1e-10 * a.norm() * b.norm()) || a.norm() == 0.0) return std::nullopt;
-  Matrix3d out;
-  out.col(0) = a.normalized();
-  out.col(2) = normal.normalized();
-  out.col(1) = out.col(2).cross(out.col(0));
-  return out;
-}
-
 }  // namespace
 
 void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword) {
@@ -190,7 +179,8 @@ void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword) {
 void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::shell);
   section.offset = read_offset(in, keyword);
-  if (keyword.has("COMPOSITE")) return read_layers(in, section);
+  refuse_other_thickness(in, keyword);
+  if (keyword.has("COMPOSITE")) return read_layers(in, keyword, section);
   DeckRow row;
   if (!in.lines.next_row(row)) {
     in.lines.fail(keyword.place, "the thickness of the shell is missing on the next line");
@@ -214,6 +204,10 @@ void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword) {
   }
   fem::MaterialSpec material;
   material.name = "*BEAM GENERAL SECTION " + section.element_set;
+  // Sets of two parts may have one name.
+  for (int k = 2; in.deck.materials.contains(upper(material.name)); ++k) {
+    material.name = fmt::format("*BEAM GENERAL SECTION {} ({})", section.element_set, k);
+  }
   material.where = in.lines.where(row.place);
   material.E = positive(in, row, 0, "Young's modulus");
   material.G = positive(in, row, 1, "shear modulus");
@@ -252,12 +246,14 @@ void read_mass(AbaqusReading& in, const DeckKeyword& keyword) {
 void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusMass& mass = in.scope->masses.emplace_back();
   mass.element_set = in.parameter(keyword, "ELSET");
+  mass.is_rotary = true;
   mass.orientation = in.optional_parameter(keyword, "ORIENTATION");
   mass.place = keyword.place;
   DeckRow row;
   if (!in.lines.next_row(row)) {
     in.lines.fail(keyword.place, "the moments of inertia are missing on the next line");
   }
+  // The products stand as they do in the tensor, I12 = −∫ρ x1 x2 dV.
   Matrix3d& I = mass.inertia;
   for (int k = 0; k < 3; ++k) {
     I(k, k) = in.lines.number(row, static_cast<std::size_t>(k), "moment of inertia");
@@ -265,62 +261,13 @@ void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword) {
   I(0, 1) = I(1, 0) = in.lines.number_or(row, 3, 0.0, "product of inertia");
   I(0, 2) = I(2, 0) = in.lines.number_or(row, 4, 0.0, "product of inertia");
   I(1, 2) = I(2, 1) = in.lines.number_or(row, 5, 0.0, "product of inertia");
-}
-
-void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
-  AbaqusOrientation out;
-  out.name = in.parameter(keyword, "NAME");
-  out.place = keyword.place;
-  out.system = upper(in.optional_parameter(keyword, "SYSTEM"));
-  const std::string definition = upper(in.optional_parameter(keyword, "DEFINITION"));
-  if (out.system.empty() || out.system == "R") out.system = "RECTANGULAR";
-  if (!definition.empty() && definition != "COORDINATES") out.system = "DEFINITION=" + definition;
-  DeckRow row;
-  if (out.system == "RECTANGULAR") {
-    if (!in.lines.next_row(row)) {
-      in.lines.fail(keyword.place, "the points a and b are missing on the next line");
-    }
-    const Vector3d origin = read_vector(in.lines, row, 6, "coordinate of point c");
-    const auto axes = axes_from(read_vector(in.lines, row, 0, "coordinate of point a") - origin,
-                                read_vector(in.lines, row, 3, "coordinate of point b") - origin);
-    if (!axes) {
-      in.lines.fail(row.place, "the points a, b and c lie on one line and give no axes");
-    }
-    out.axes = *axes;
-    if (in.lines.next_row(row)) {
-      const double axis = in.lines.number_or(row, 0, 1.0, "axis of the additional rotation");
-      const double angle = in.lines.number_or(row, 1, 0.0, "angle of the additional rotation");
-      if (axis != 1.0 && axis != 2.0 && axis != 3.0) {
-        in.lines.fail(row.place, fmt::format("{:g} is no axis; it is 1, 2 or 3", axis));
-      }
-      const Vector3d about = out.axes.col(static_cast<Eigen::Index>(axis) - 1);
-      out.axes = Eigen::AngleAxisd(angle * kDegree, about).toRotationMatrix() * out.axes;
-    }
-  } else {
-    in.note(keyword.place, fmt::format("*ORIENTATION of {}: used for isotropic materials only, "
-                                       "where it changes nothing",
-                                       out.system));
-  }
-  in.scope->orientations[upper(out.name)] = out;
-}
-
-void read_transform(AbaqusReading& in, const DeckKeyword& keyword) {
-  AbaqusTransform out;
-  out.node_set = in.parameter(keyword, "NSET");
-  out.place = keyword.place;
-  const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
-  out.is_cylindrical = type == "C";
-  out.is_supported = type.empty() || type == "R" || out.is_cylindrical;
-  DeckRow row;
-  if (!in.lines.next_row(row)) {
-    in.lines.fail(keyword.place, "the points a and b are missing on the next line");
-  }
-  out.a = read_vector(in.lines, row, 0, "coordinate of point a");
-  out.b = read_vector(in.lines, row, 3, "coordinate of point b");
-  const bool is_bad =
-      out.is_cylindrical ? (out.a - out.b).norm() == 0.0 : !axes_from(out.a, out.b).has_value();
-  if (is_bad) in.lines.fail(row.place, "the points a and b give no axes");
-  in.scope->transforms.push_back(out);
+  const Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(I, Eigen::EigenvaluesOnly).eigenvalues();
+  // Numbers of seven digits.
+  if (principal[0] >= -1e-6 * principal.cwiseAbs().maxCoeff()) return;
+  in.lines.fail(row.place, fmt::format("a principal moment of inertia, {:g}, is negative; products "
+                                       "of inertia are I12, I13, I23 in this order",
+                                       principal[0]));
 }
 
 }  // namespace buckens::io

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "buckens/io/box_section.h"
+
 namespace buckens::io {
 
 namespace {
@@ -178,26 +180,14 @@ void read_pbeam(const NastranCard& card, NastranNotes& notes, NastranSection& ou
   set_general(card, mean, card.real(field, 1.0), card.real(field + 1, 1.0), std::move(points), out);
 }
 
-/// DIM1 lies along z, DIM2 along y of Nastran's element axes.
+/// DIM1 lies along z, DIM2 along y of Nastran's element axes; DIM3 are the walls along z, DIM4
+/// those along y.
 void set_box(const NastranCard& card, const std::array<double, 4>& dim, NastranSection& out) {
-  const double wide = dim[0], high = dim[1], flange = dim[2], web = dim[3];
-  if (!(2 * flange < high && 2 * web < wide)) card.fail("the walls of the BOX fill it");
-  if (std::abs(flange - web) <= 1e-9 * flange) {
-    out.section.shape = fem::BoxSpec{high, wide, flange};
-    return;
+  const BoxWalls box{dim[1], dim[0], dim[2], dim[3]};
+  if (!(2 * box.side < box.width && 2 * box.flat < box.height)) {
+    card.fail("the walls of the BOX fill it");
   }
-  const double w = wide - 2 * web, h = high - 2 * flange;
-  const double w_mean = wide - web, h_mean = high - flange;
-  Constants c;
-  c.A = wide * high - w * h;
-  c.I1 = (wide * std::pow(high, 3) - w * std::pow(h, 3)) / 12.0;
-  c.I2 = (high * std::pow(wide, 3) - h * std::pow(w, 3)) / 12.0;
-  // Bredt.
-  c.J = 4.0 * std::pow(w_mean * h_mean, 2) / (2.0 * w_mean / flange + 2.0 * h_mean / web);
-  set_general(
-      card, c, 2.0 * web * high / c.A, 2.0 * flange * wide / c.A,
-      {{high / 2, wide / 2}, {-high / 2, wide / 2}, {high / 2, -wide / 2}, {-high / 2, -wide / 2}},
-      out);
+  out.section.shape = box_section(box).shape;
 }
 
 void set_shape(const NastranCard& card, const std::string& type, const std::array<double, 4>& dim,
