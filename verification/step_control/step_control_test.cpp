@@ -159,7 +159,7 @@ model::Model pushed_mass() {
              test::Mechanism::ground({0, 0, 0}), marker);
   const auto push = base::TimeLaw::expression(base::Expression("t >= 0.5 ? 10 : 0", {"t"}, {}, {}));
   m.add_load(std::make_unique<loads::AppliedLoad>(
-                 loads::AppliedLoad::Kind::force, loads::AppliedLoad::Axes::fixed,
+                 loads::AppliedLoad::Kind::force, loads::LoadAxes::fixed,
                  std::array<base::TimeLaw, 3>{push, base::TimeLaw{}, base::TimeLaw{}}),
              marker, test::Mechanism::ground({0, 0, 0}));
   return m.take();

@@ -6,13 +6,13 @@
 
 namespace buckens::loads {
 
-AppliedLoad::AppliedLoad(Kind kind, Axes axes, std::array<base::TimeLaw, 3> value)
+AppliedLoad::AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value)
     : kind_(kind), axes_(axes), value_(std::move(value)) {}
 
 Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
                              const spatial::MarkerMotion& /*second*/) const {
   Eigen::Vector3d load = values(t);
-  if (axes_ == Axes::following) load = first.R * load;
+  if (axes_ == LoadAxes::following) load = first.R * load;
   Action action;
   if (kind_ == Kind::force) {
     action.on_first.force = load;

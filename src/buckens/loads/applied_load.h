@@ -5,6 +5,7 @@
 
 #include "buckens/base/time_law.h"
 #include "buckens/loads/force_element.h"
+#include "buckens/loads/load_axes.h"
 
 namespace buckens::loads {
 
@@ -13,10 +14,9 @@ namespace buckens::loads {
 class AppliedLoad final : public ForceElement {
  public:
   enum class Kind { force, torque };
-  enum class Axes { fixed, following };
 
   /// @param value three laws of time [N] or [N m]
-  AppliedLoad(Kind kind, Axes axes, std::array<base::TimeLaw, 3> value);
+  AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value);
 
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
@@ -26,11 +26,11 @@ class AppliedLoad final : public ForceElement {
   Eigen::Vector3d values(double t) const override {
     return {value_[0].value(t), value_[1].value(t), value_[2].value(t)};
   }
-  bool follows() const override { return axes_ == Axes::following; }
+  bool follows() const override { return axes_ == LoadAxes::following; }
 
  private:
   Kind kind_;
-  Axes axes_;
+  LoadAxes axes_;
   std::array<base::TimeLaw, 3> value_;
 };
 

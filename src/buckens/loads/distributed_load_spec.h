@@ -9,6 +9,7 @@
 #include "buckens/base/source_location.h"
 #include "buckens/base/time_law.h"
 #include "buckens/loads/load_axes.h"
+#include "buckens/loads/load_fields.h"
 
 namespace buckens::loads {
 
@@ -45,9 +46,8 @@ struct PressureSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("on", on, "body and one of its named faces, face sets or interfaces")
-              .required()
-              .like("piston/crown"));
+    visit(
+        part_field(on, "body and one of its named faces, face sets or interfaces", "piston/crown"));
     visit(base::field("value", value, "pressure, a number or a law of time")
               .in(base::kStress)
               .required()
@@ -65,14 +65,9 @@ struct TractionSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("on", on, "body and one of its named faces, face sets or interfaces")
-              .required()
-              .like("plate/z1"));
-    visit(base::field("value", value, "three components, each a number or a law of time")
-              .in(base::kStress)
-              .required()
-              .like("[2 kPa, 0, 0]"));
-    visit(base::field("axes", axes, "world axes (`fixed`) or those of the body (`following`)"));
+    visit(part_field(on, "body and one of its named faces, face sets or interfaces", "plate/z1"));
+    visit(components_field("value", value, base::kStress, "[2 kPa, 0, 0]").required());
+    visit(axes_field(axes, "body"));
   }
 };
 
@@ -86,16 +81,12 @@ struct LineLoadSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("on", on,
-                      "body of beams; after a slash an element set or the number of a beam in "
-                      "`beams`, counted from 1")
-              .required()
-              .like("girder"));
-    visit(base::field("value", value, "three components, each a number or a law of time")
-              .in(kForcePerLength)
-              .required()
-              .like("[0, 0, -500 N/m]"));
-    visit(base::field("axes", axes, "world axes (`fixed`) or those of the body (`following`)"));
+    visit(part_field(on,
+                     "body of beams; after a slash an element set or the number of a beam in "
+                     "`beams`, counted from 1",
+                     "girder"));
+    visit(components_field("value", value, kForcePerLength, "[0, 0, -500 N/m]").required());
+    visit(axes_field(axes, "body"));
   }
 };
 
@@ -110,18 +101,12 @@ struct BodyForceSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("on", on, "body; after a slash an element set or the number of a beam")
-              .required()
-              .like("rotor"));
-    visit(base::field("per-mass", per_mass, "three components, each a number or a law of time")
-              .in(base::kAcceleration)
-              .like("[0, 2 m/s^2, 0]")
+    visit(part_field(on, "body; after a slash an element set or the number of a beam", "rotor"));
+    visit(components_field("per-mass", per_mass, base::kAcceleration, "[0, 2 m/s^2, 0]")
               .otherwise("give this or `per-volume`"));
-    visit(base::field("per-volume", per_volume, "three components, each a number or a law of time")
-              .in(kForcePerVolume)
-              .like("[0, 5 kN/m^3, 0]")
+    visit(components_field("per-volume", per_volume, kForcePerVolume, "[0, 5 kN/m^3, 0]")
               .otherwise("give this or `per-mass`"));
-    visit(base::field("axes", axes, "world axes (`fixed`) or those of the body (`following`)"));
+    visit(axes_field(axes, "body"));
   }
 };
 
@@ -135,10 +120,8 @@ struct BaseAccelerationSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("value", value, "three components, each a number or a law of time")
-              .in(base::kAcceleration)
-              .required()
-              .like("[\"5*sin(30*t) m/s^2\", 0, 0]"));
+    visit(components_field("value", value, base::kAcceleration, "[\"5*sin(30*t) m/s^2\", 0, 0]")
+              .required());
   }
 };
 

@@ -13,6 +13,7 @@
 #include "buckens/base/time_law.h"
 #include "buckens/loads/distributed_load_spec.h"
 #include "buckens/loads/load_axes.h"
+#include "buckens/loads/load_fields.h"
 
 namespace buckens::loads {
 
@@ -26,11 +27,8 @@ struct ForceSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("on", on, "marker that takes the force").required().like("rod/end"));
-    visit(base::field("value", value, "three components, each a number or a law of time")
-              .in(base::kForce)
-              .required()
-              .like("[0, \"10*sin(20*t) N\", 0]"));
-    visit(base::field("axes", axes, "world axes (`fixed`) or those of the marker (`following`)"));
+    visit(components_field("value", value, base::kForce, "[0, \"10*sin(20*t) N\", 0]").required());
+    visit(axes_field(axes, "marker"));
   }
 };
 
@@ -44,11 +42,8 @@ struct TorqueSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("on", on, "marker that takes the torque").required().like("crank"));
-    visit(base::field("value", value, "three components, each a number or a law of time")
-              .in(base::kTorque)
-              .required()
-              .like("[0, 0, 2 N m]"));
-    visit(base::field("axes", axes, "world axes (`fixed`) or those of the marker (`following`)"));
+    visit(components_field("value", value, base::kTorque, "[0, 0, 2 N m]").required());
+    visit(axes_field(axes, "marker"));
   }
 };
 

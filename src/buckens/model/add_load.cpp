@@ -72,11 +72,7 @@ class LoadBuilder {
     if (find_.model().planar && kind.axes == loads::LoadAxes::fixed) {
       require_in_plane(kind.value, moment, load, where);
     }
-    load.element = std::make_unique<loads::AppliedLoad>(what,
-                                                        kind.axes == loads::LoadAxes::following
-                                                            ? loads::AppliedLoad::Axes::following
-                                                            : loads::AppliedLoad::Axes::fixed,
-                                                        kind.value);
+    load.element = std::make_unique<loads::AppliedLoad>(what, kind.axes, kind.value);
   }
 
   void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {

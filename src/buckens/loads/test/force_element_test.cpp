@@ -173,10 +173,10 @@ TEST(ForceElement, AppliedLoadsStandInTheWorldOrFollow) {
                                               base::TimeLaw::constant(-2.0)};
   const Vector3d at_time(1.0, kTime, -2.0);
   const MarkerMotion m = kFirst.at(0);
-  const AppliedLoad fixed(AppliedLoad::Kind::force, AppliedLoad::Axes::fixed, value);
+  const AppliedLoad fixed(AppliedLoad::Kind::force, LoadAxes::fixed, value);
   EXPECT_LE((fixed.evaluate(kTime, m, {}).on_first.force - at_time).norm(), 1e-15);
   EXPECT_NEAR(fixed.evaluate(kTime, m, {}).active_power, at_time.dot(m.v), 1e-14);
-  const AppliedLoad following(AppliedLoad::Kind::torque, AppliedLoad::Axes::following, value);
+  const AppliedLoad following(AppliedLoad::Kind::torque, LoadAxes::following, value);
   EXPECT_LE((following.evaluate(kTime, m, {}).on_first.torque - m.R * at_time).norm(), 1e-15);
   EXPECT_NEAR(following.evaluate(kTime, m, {}).active_power, (m.R * at_time).dot(m.w), 1e-14);
   EXPECT_FALSE(fixed.is_constant());

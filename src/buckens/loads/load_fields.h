@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "buckens/base/field.h"
+#include "buckens/loads/load_axes.h"
+
+namespace buckens::loads {
+
+// Fields that several kinds of load have.
+
+/// Part of a body on which the load acts.
+template <class Part>
+base::Field<Part> part_field(Part& on, std::string doc, std::string example) {
+  return base::field("on", on, std::move(doc)).required().like(std::move(example));
+}
+
+/// Three laws of time, or an optional triple of them.
+template <class Laws>
+base::Field<Laws> components_field(std::string name, Laws& laws, base::Dimension dimension,
+                                   std::string example) {
+  return base::field(std::move(name), laws, "three components, each a number or a law of time")
+      .in(dimension)
+      .like(std::move(example));
+}
+
+/// @param owner whose axes the load may follow: "body" or "marker"
+inline base::Field<LoadAxes> axes_field(LoadAxes& axes, const std::string& owner) {
+  return base::field("axes", axes,
+                     "world axes (`fixed`) or those of the " + owner + " (`following`)");
+}
+
+}  // namespace buckens::loads
