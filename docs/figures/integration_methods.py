@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the figures of docs/theory/integration-methods.md from runs of the program.
+"""Draws the figures of docs/theory/09-integration-methods.md from runs of the program.
 
     python3 docs/figures/integration_methods.py [--program build/release/bin/buckens]
 

@@ -143,6 +143,42 @@ class Sizes(Checks):
         self.assertEqual([(f[0], f[2]) for f in check_sizes.cpp_functions(text)], [("f", 6)])
 
 
+class Pages(Checks):
+    INDEX = {"docs/README.md": "[a](a.md) [examples](tutorials/README.md)\n",
+             "docs/a.md": "# A b, c\n\n## D `e`\n\n[itself](#a-b-c) [out](https://example.org/x)\n",
+             "docs/tutorials/README.md": "[fork](../../examples/fork/README.md)\n",
+             "examples/fork/README.md": "[d](../../docs/a.md#d-e), `docs/a.md`, `tests/NAME_fuzz.cpp`\n"}
+
+    def expect_pages(self, changes, *words):
+        self.expect("check_pages.py", {**self.INDEX, **changes}, *words)
+
+    def test_sound_pages_pass(self):
+        self.expect_pages({})
+        self.expect_pages({"docs/a.md": "# A b, c\n\n```\n[no](link.md) `docs/no.md`\n```\n## D e\n"})
+
+    def test_link_heading_picture_and_path_that_do_not_exist(self):
+        self.expect_pages({"examples/fork/README.md": "\n[d](../../docs/b.md)\n"},
+                          "examples/fork/README.md:2: the link to ../../docs/b.md leads nowhere")
+        self.expect_pages({"examples/fork/README.md": "[d](../../docs/a.md#f)\n"},
+                          "docs/a.md has no heading #f")
+        self.expect_pages({"examples/fork/README.md": "![p](p.png)\n"}, "p.png leads nowhere")
+        self.expect_pages({"examples/fork/README.md": "see `docs/b.md`\n"}, "there is no docs/b.md")
+
+    def test_page_and_example_that_nothing_lists(self):
+        self.expect_pages({"docs/b.md": ""}, "docs/README.md: does not lead to docs/b.md")
+        self.expect_pages({"examples/door/door.yaml": ""}, "does not lead to examples/door/README.md")
+
+    def test_torn_table(self):
+        table = "| a |\n|---|\n| 1 |\n\n| 2 |\n"
+        self.expect_pages({"examples/fork/README.md": table}, "README.md:5: an empty line tears")
+        self.expect_pages({"examples/fork/README.md": table.replace("| 2 |", "| b |\n|---|\n| 2 |")})
+
+    def test_machine_paths_and_unfinished_marks(self):
+        for text, words in (("# see /ho" "me/me/x", "one machine"), ("# TO" "DO later", "unfinished")):
+            self.expect_pages({"tools/a.py": text + "\n"}, "tools/a.py:1:", words)
+        self.expect_pages({"tools/a.py": "# a home/me, TODOS, mkdtemp('aXXXXXX')\n"})
+
+
 class Format(Checks):
     def test_format(self):
         style = {".clang-format": "BasedOnStyle: Google\n"}
