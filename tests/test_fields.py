@@ -168,6 +168,17 @@ def test_check_tells_the_size_of_the_results(buckens, tmp_path):
     assert any("results.h5 will take about" in text for text in warnings), out
 
 
+def test_a_face_of_shells_is_a_place(run):
+    plate = BAR.replace("box: {size: [1 m, 0.1 m, 0.1 m], divisions: [10, 2, 2], element: hex20}",
+                        "plate: {size: [1 m, 0.1 m], divisions: [10, 2], thickness: 1 mm}")
+    plate = plate.replace("[0, 0.05 m, 0.05 m]", "[0, 0.05 m, 0]").replace("face: x0", "plane: {point: [0, 0, 0], normal: [1, 0, 0]}")
+    file = run("{record: [displacement], on: [bar/top]}", text=plate)
+    moved = file["fields/bodies/bar/nodes/displacement"][:]
+    assert moved.shape == (11, 33, 3)
+    # The free end sinks by rho g L^2 / 2 E = 1.8e-7 m more than the held one.
+    assert numpy.ptp(moved[0, :, 0]) == pytest.approx(RHO * G * L**2 / (2 * E), rel=0.05)
+
+
 @pytest.mark.parametrize("fields, words", [
     ("[von-mises, stres]", ["output.fields", "stres", "stress"]),
     ("{record: [von-mises], every: 1.5 ms}", ["no multiple", "0.0015"]),

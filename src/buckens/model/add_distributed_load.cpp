@@ -22,6 +22,9 @@ using loads::LoadSpec;
 
 namespace {
 
+// Share of the area by which faces across the plane may be off it by rounding.
+constexpr double kAcross = 1e-9;
+
 constexpr const char* kArea = "m^2";
 constexpr const char* kLength = "m";
 constexpr const char* kMass = "kg";
@@ -97,9 +100,39 @@ void DistributedLoads::require_in_plane(const LoadSpec& spec,
                                            spec.name, "xyz"[normal]));
 }
 
+void DistributedLoads::require_in_plane(const LoadSpec& spec, const LoadShares& shares) const {
+  if (!model_.planar) return;
+  const int normal = spatial::normal_index(*model_.planar);
+  double across = 0, area = 0;
+  for (const auto& [b, share] : shares.shares()) {
+    across += share.normals[normal];
+    area += share.extent;
+  }
+  if (std::abs(across) <= kAcross * area) return;
+  throw InputError(
+      spec.where, fmt::format("load \"{}\": in a planar model loads act in the plane, and this "
+                              "pressure has a resultant along {}; press on faces across the plane, "
+                              "or leave `planar` out",
+                              spec.name, "xyz"[normal]));
+}
+
+void DistributedLoads::require_extent(const LoadSpec& spec, const Place& place,
+                                      const LoadShares& shares, const char* what) const {
+  for (const auto& [b, share] : shares.shares()) {
+    if (share.extent > 0.0) return;
+  }
+  throw InputError(
+      place.on->where,
+      fmt::format("load \"{}\" on \"{}\": there is no {} to take it; name elements that have "
+                  "some, or give a `force` on a marker or a `body-force` `per-mass` on the whole "
+                  "body",
+                  spec.name, place.on->text, what));
+}
+
 void DistributedLoads::add_uniform(const LoadSpec& spec, const Place& place,
                                    const LoadShares& shares, const Uniform& load) {
   require_in_plane(spec, *load.value);
+  require_extent(spec, place, shares, load.extent);
   for (const auto& [b, share] : shares.shares()) {
     if (!(share.extent > 0.0)) continue;
     Load out;
@@ -138,6 +171,7 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::PressureSpec&
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
   add_faces(find.faces(), shares);
+  require_in_plane(spec, shares);
   for (const auto& [b, share] : shares.shares()) {
     MarkerTable& table = *tables_[static_cast<std::size_t>(b)];
     const Vector3d& com = model_.bodies[static_cast<std::size_t>(b)].com;
@@ -161,7 +195,7 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::TractionSpec&
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
   add_faces(find.faces(), shares);
-  add_uniform(spec, on, shares, {kind.axes, &kind.value, kArea, "Pa"});
+  add_uniform(spec, on, shares, {kind.axes, &kind.value, "area", kArea, "Pa"});
 }
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::LineLoadSpec& kind) {
@@ -169,13 +203,14 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::LineLoadSpec&
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
   for (const int line : find.lines().lines) shares.add_line(line, 1.0);
-  add_uniform(spec, on, shares, {kind.axes, &kind.value, kLength, "N/m"});
+  add_uniform(spec, on, shares, {kind.axes, &kind.value, "length", kLength, "N/m"});
 }
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BodyForceSpec& kind) {
   const bool is_per_mass = kind.per_mass.has_value();
   const Uniform load{kind.axes, is_per_mass ? &*kind.per_mass : &*kind.per_volume,
-                     is_per_mass ? kMass : kVolume, is_per_mass ? "m/s^2" : "N/m^3"};
+                     is_per_mass ? "mass" : "volume", is_per_mass ? kMass : kVolume,
+                     is_per_mass ? "m/s^2" : "N/m^3"};
   if (is_per_mass && kind.on.part().empty()) {
     require_in_plane(spec, *load.value);
     const WholeBody& whole = model_.wholes[place(spec, kind.on).whole];
@@ -202,7 +237,7 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BodyForceSpec
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BaseAccelerationSpec& kind) {
   require_in_plane(spec, kind.value);
-  const Uniform load{loads::LoadAxes::fixed, &kind.value, kMass, "m/s^2"};
+  const Uniform load{loads::LoadAxes::fixed, &kind.value, "mass", kMass, "m/s^2"};
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const int body = static_cast<int>(b);
     const WholeBody& whole = model_.wholes[static_cast<std::size_t>(model_.whole_of(body))];

@@ -55,6 +55,7 @@ class DistributedLoads {
   struct Uniform {
     loads::LoadAxes axes = loads::LoadAxes::fixed;
     const std::array<base::TimeLaw, 3>* value = nullptr;
+    const char* extent = "";  ///< what it is: "area"
     const char* extent_unit = "";
     const char* unit = "";  ///< of the value
   };
@@ -65,6 +66,11 @@ class DistributedLoads {
   LoadShares shares_of(const Place& place) const;
   void require_in_plane(const loads::LoadSpec& spec,
                         const std::array<base::TimeLaw, 3>& value) const;
+  /// @throws InputError if a pressure has a resultant out of the plane of the model
+  void require_in_plane(const loads::LoadSpec& spec, const LoadShares& shares) const;
+  /// @throws InputError if nothing on the place has area, length, mass or volume
+  void require_extent(const loads::LoadSpec& spec, const Place& place, const LoadShares& shares,
+                      const char* what) const;
   void add_uniform(const loads::LoadSpec& spec, const Place& place, const LoadShares& shares,
                    const Uniform& load);
   /// The same field of acceleration for all mass of a body.

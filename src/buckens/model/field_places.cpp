@@ -33,7 +33,7 @@ class PlaceFinder {
       return true;
     }
     if (const fem::FaceSet* faces = fem::find_face_set(mesh_.structure, name)) {
-      const std::vector<int> nodes = fem::face_set_nodes(mesh_.structure.solids, faces->faces);
+      const std::vector<int> nodes = fem::face_set_nodes(mesh_.structure, *faces);
       out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
       for (const fem::ElementFace& face : faces->faces) out.solids.push_back(face.element);
       return true;
@@ -45,6 +45,10 @@ class PlaceFinder {
     if (const auto* elements = base::find_named(mesh_.structure.element_sets, name)) {
       for (const int e : elements->solids) {
         const auto own = mesh_.structure.solids.nodes(e);
+        out.nodes.insert(out.nodes.end(), own.begin(), own.end());
+      }
+      for (const int e : elements->shells) {
+        const auto own = mesh_.structure.shells.nodes(e);
         out.nodes.insert(out.nodes.end(), own.begin(), own.end());
       }
       out.solids.insert(out.solids.end(), elements->solids.begin(), elements->solids.end());

@@ -105,10 +105,10 @@ LoadedElements LoadPlaceFinder::elements() const {
     return out;
   }
   if (!mesh_.beams.empty()) {
-    fail(
-        fmt::format("body \"{}\" has no element set and no beam \"{}\"; its beams are numbered "
-                    "from 1 to {}",
-                    body_.name, part, mesh_.beams.size()));
+    fail(fmt::format(
+        "body \"{}\" has no element set and no beam \"{}\".{} Its beams are numbered "
+        "from 1 to {}",
+        body_.name, part, known.empty() ? "" : base::suggestion(part, known), mesh_.beams.size()));
   }
   fail_unknown("element set", known);
 }
