@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/body/rigid_regions.h"
 #include "buckens/model/add_distributed_load.h"
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
 #include "buckens/model/add_ties.h"
+#include "buckens/model/eliminate_links.h"
 #include "buckens/model/find_section.h"
 #include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_division.h"
@@ -207,7 +207,7 @@ class Builder {
       const bool has_links = !mesh->structure.links.empty();
       if (!has_links) refuse_mechanisms(body);
       if (spec.geometric_stiffness) body.flexible->stiffen();
-      eliminate_links(whole, *mesh, body);
+      eliminate_links(*mesh, whole.is_divided(), body);
       if (has_links) refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {
@@ -221,32 +221,6 @@ class Builder {
                             spatial::Pose{body.com, Eigen::Quaterniond::Identity()});
     tables_.push_back(std::make_unique<MarkerTable>(
         spec, body, mesh, whole.is_divided() ? std::optional(whole.com) : std::nullopt));
-  }
-
-  void eliminate_links(const WholeBody& whole, const NamedStructure& mesh, body::Body& body) const {
-    std::vector<body::RigidRegion> regions;
-    for (const InterfaceRegion& interface : mesh.interfaces) {
-      if (!interface.is_rigid) continue;
-      regions.push_back({interface.name, interface.region.nodes, interface.region.centre});
-    }
-    const fem::NodeLinks& links = mesh.structure.links;
-    if (regions.empty() && links.empty()) return;
-    const std::string what = regions.empty()
-                                 ? "links inside its mesh"
-                                 : fmt::format("rigid interface \"{}\"", regions.front().name);
-    if (whole.is_divided()) {
-      throw ModelError(fmt::format(
-          "{}: a body with several frames can have `average` interfaces only and no links; change "
-          "the interface's kind or remove `frames`",
-          what));
-    }
-    if (body.flexible->geometric) {
-      throw ModelError(fmt::format(
-          "geometric stiffness and {} exclude each other; make an interface `average`, or give the "
-          "body more `frames`",
-          what));
-    }
-    body.flexible = body::with_links(body.name, *body.flexible, regions, links);
   }
 
   /// Adds their rows behind those of joints and markers, and ends the interface.
