@@ -3,7 +3,9 @@
 
 #include <array>
 
+#include "buckens/body/nodal_inertia.h"
 #include "buckens/body/second_moments.h"
+#include "buckens/linalg/row_parts.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::body {
@@ -71,7 +73,60 @@ class Pass {
   }
 
   /// The share of the scalar mass matrix: Ms ⊗ E_ab for all pairs at once.
-  void add(const fem::NodalMass& mass) {
+  void add(const NodalInertia& nodal, TaskPool* pool) {
+    if (nodal.is_regular()) {
+      add_regular(nodal.mass().Ms, pool);
+    } else {
+      add_by_lookup(nodal.mass());
+    }
+  }
+
+  /// J₂, J̇₂, l and l̇.
+  DeformedMoments moments() const {
+    DeformedMoments out;
+    out.J = to_inertia(dd_);
+    out.J_dot = to_inertia(dv_ + dv_.transpose());
+    out.l = axial(dv_);
+    out.l_dot = axial(da_);
+    return out;
+  }
+
+ private:
+  /// Sums over the nodes of one part.
+  struct Products {
+    Matrix3d dd = Matrix3d::Zero(), dv = Matrix3d::Zero(), da = Matrix3d::Zero();
+  };
+
+  void add_regular(const SparseMatrix& Ms, TaskPool* pool) {
+    using Node = Eigen::Map<const Vector3d>;
+    const linalg::RowParts nodes(Ms.outerSize());
+    std::array<Products, linalg::RowParts::kMostParts> sums;
+    nodes.for_pieces(pool, [&](int part, Eigen::Index first, Eigen::Index count) {
+      Products sum;
+      for (Eigen::Index node = first; node < first + count; ++node) {
+        const Vector3d Md = nodal_product(Ms, static_cast<int>(node), d_.data());
+        sum.dd += Md * Node(d_.data() + 3 * node).transpose();
+        sum.dv += Md * Node(v_.data() + 3 * node).transpose();
+        sum.da += Md * Node(a_.data() + 3 * node).transpose();
+        if (!loads_) continue;
+        const Vector3d Mv = nodal_product(Ms, static_cast<int>(node), v_.data());
+        Eigen::Map<Vector3d>(load_.data() + 3 * node) +=
+            weights_.with_d * Md + weights_.with_rate * Mv;
+      }
+      Products& whole = sums[static_cast<std::size_t>(part)];
+      whole.dd += sum.dd;
+      whole.dv += sum.dv;
+      whole.da += sum.da;
+    });
+    for (int part = 0; part < nodes.count(); ++part) {
+      const Products& sum = sums[static_cast<std::size_t>(part)];
+      dd_ += sum.dd;
+      dv_ += sum.dv;
+      da_ += sum.da;
+    }
+  }
+
+  void add_by_lookup(const fem::NodalMass& mass) {
     const SparseMatrix& Ms = mass.Ms;
     for (int node = 0; node < Ms.outerSize(); ++node) {
       Vector3d Md = Vector3d::Zero(), Mv = Vector3d::Zero();
@@ -92,17 +147,6 @@ class Pass {
     }
   }
 
-  /// J₂, J̇₂, l and l̇.
-  DeformedMoments moments() const {
-    DeformedMoments out;
-    out.J = to_inertia(dd_);
-    out.J_dot = to_inertia(dv_ + dv_.transpose());
-    out.l = axial(dv_);
-    out.l_dot = axial(da_);
-    return out;
-  }
-
- private:
   /// Translations of a node, zero where it has no variable.
   static Vector3d at(const Vector& x, const std::array<int, 3>& dofs) {
     return {dofs[0] >= 0 ? x[dofs[0]] : 0.0, dofs[1] >= 0 ? x[dofs[1]] : 0.0,
@@ -134,7 +178,8 @@ DeformationWeights DeformationWeights::of_motion(const Vector3d& w, const Vector
 
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vector& d,
                                      const Vector& d_dot, const Vector& d_ddot,
-                                     const DeformationWeights& weights, Vector& load) {
+                                     const DeformationWeights& weights, Vector& load,
+                                     TaskPool* pool) {
   Pass pass(d, d_dot, d_ddot, weights, load);
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
     const SparseMatrix& W = shape.W[k];
@@ -145,7 +190,7 @@ DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vec
       pass.add(W, kPairs[k][0], kPairs[k][1]);
     }
   }
-  if (!shape.nodal.empty()) pass.add(shape.nodal);
+  if (!shape.nodal.empty()) pass.add(NodalInertia(shape.nodal), pool);
   return pass.moments();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/base/task_pool.h"
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/fem/shape_integrals.h"
 
@@ -20,8 +21,10 @@ struct DeformationWeights {
 /// The moments quadratic in d and the nodal loads of a deformation, from one pass over the inertia
 /// integrals. Allocates nothing.
 /// @param load n, what is there is added to; not touched where the weights are zero
+/// @param pool shares the nodes of solids; the result is the same
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const linalg::Vector& d,
                                      const linalg::Vector& d_dot, const linalg::Vector& d_ddot,
-                                     const DeformationWeights& weights, linalg::Vector& load);
+                                     const DeformationWeights& weights, linalg::Vector& load,
+                                     TaskPool* pool = nullptr);
 
 }  // namespace buckens::body

@@ -3,10 +3,28 @@
 
 #include <array>
 
+#include "buckens/linalg/row_parts.h"
+
 namespace buckens::body {
 
 using Eigen::Matrix3Xd;
 using linalg::Vector;
+
+namespace {
+
+bool is_numbered_by_node(const fem::NodalMass& mass) {
+  if (!mass.Ms.isCompressed()) return false;
+  for (std::size_t node = 0; node < mass.dofs.size(); ++node) {
+    const int first = 3 * static_cast<int>(node);
+    if (mass.dofs[node] != std::array<int, 3>{first, first + 1, first + 2}) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+NodalInertia::NodalInertia(const fem::NodalMass& mass)
+    : mass_(&mass), is_regular_(is_numbered_by_node(mass)) {}
 
 Matrix3Xd NodalInertia::by_node(const Vector& x) const {
   Matrix3Xd X(3, static_cast<Eigen::Index>(mass_->dofs.size()));
@@ -21,9 +39,19 @@ Matrix3Xd NodalInertia::by_node(const Vector& x) const {
 
 Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * mass_->Ms; }
 
-void NodalInertia::multiply(const Vector& x, Vector& y) const {
-  y.setZero();
+void NodalInertia::multiply(const Vector& x, Vector& y, TaskPool* pool) const {
   const linalg::SparseMatrix& Ms = mass_->Ms;
+  if (is_regular_ && y.size() == 3 * Ms.outerSize()) {
+    const linalg::RowParts nodes(Ms.outerSize());
+    nodes.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index count) {
+      for (Eigen::Index node = first; node < first + count; ++node) {
+        Eigen::Map<Eigen::Vector3d>(y.data() + 3 * node) =
+            nodal_product(Ms, static_cast<int>(node), x.data());
+      }
+    });
+    return;
+  }
+  y.setZero();
   for (int node = 0; node < Ms.outerSize(); ++node) {
     const auto& to = mass_->dofs[static_cast<std::size_t>(node)];
     std::array<double, 3> sum{};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
+#include "buckens/base/task_pool.h"
 #include "buckens/fem/shape_integrals.h"
 
 namespace buckens::body {
@@ -9,9 +12,12 @@ namespace buckens::body {
 ///
 /// Nodal vectors are looked at as 3×N arrays, so that xᵀW_ab y = (X Ms Yᵀ)_ab for all nine pairs at
 /// once and Σ A_ab W_ab x = A X Ms: one product with Ms in place of nine with W.
+///
+/// Where the variables are numbered node by node, three each, as in solids without constraints,
+/// products look nothing up but the entries of Ms.
 class NodalInertia {
  public:
-  explicit NodalInertia(const fem::NodalMass& mass) : mass_(&mass) {}
+  explicit NodalInertia(const fem::NodalMass& mass);
 
   bool empty() const { return mass_->empty(); }
   /// x as an array with one column of translations per node, zeros where there is no DOF.
@@ -21,10 +27,31 @@ class NodalInertia {
   /// y ← y + Y, node by node.
   void add(const Eigen::Matrix3Xd& by_node, linalg::Vector& y) const;
   /// y = (Ms ⊗ 1) x, zero where no node has the variable. Allocates nothing.
-  void multiply(const linalg::Vector& x, linalg::Vector& y) const;
+  /// @param pool shares the nodes; the result is the same
+  void multiply(const linalg::Vector& x, linalg::Vector& y, TaskPool* pool = nullptr) const;
+
+  /// Whether node k has the variables 3k, 3k + 1, 3k + 2.
+  bool is_regular() const { return is_regular_; }
+  const fem::NodalMass& mass() const { return *mass_; }
 
  private:
   const fem::NodalMass* mass_;
+  bool is_regular_;
 };
+
+/// Σ_k Ms(k, node) x_k over the nodes, by Ms stored by columns and x with three numbers per node.
+inline Eigen::Vector3d nodal_product(const linalg::SparseMatrix& Ms, int node, const double* x) {
+  const double* values = Ms.valuePtr();
+  const int* rows = Ms.innerIndexPtr();
+  const int end = Ms.outerIndexPtr()[node + 1];
+  double sum_1 = 0, sum_2 = 0, sum_3 = 0;
+  for (int k = Ms.outerIndexPtr()[node]; k < end; ++k) {
+    const double* at = x + 3 * static_cast<std::ptrdiff_t>(rows[k]);
+    sum_1 += values[k] * at[0];
+    sum_2 += values[k] * at[1];
+    sum_3 += values[k] * at[2];
+  }
+  return {sum_1, sum_2, sum_3};
+}
 
 }  // namespace buckens::body

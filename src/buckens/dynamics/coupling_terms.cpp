@@ -6,6 +6,7 @@
 
 #include "buckens/body/deformation_coupling.h"
 #include "buckens/dynamics/frame_equation.h"
+#include "buckens/linalg/row_parts.h"
 
 namespace buckens::dynamics {
 
@@ -26,7 +27,7 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
 
 void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms, const Vector& d,
                        const Vector& d_dot, const Vector& d_ddot, const Vector3d& w,
-                       const Vector3d& w_dot, model::Coupling& out) {
+                       const Vector3d& w_dot, model::Coupling& out, TaskPool* pool) {
   out.t = 0;
   out.moments = {};
   out.load.resize(terms.have_load() ? d.size() : 0);
@@ -37,7 +38,7 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
   if (terms.have_load()) weights = body::DeformationWeights::of_motion(w, w_dot, terms);
   if (terms.quad_ref || !weights.are_zero()) {
     const body::DeformedMoments moments =
-        body::evaluate_deformation(part.fe.shape, d, d_dot, d_ddot, weights, out.load);
+        body::evaluate_deformation(part.fe.shape, d, d_dot, d_ddot, weights, out.load, pool);
     if (terms.quad_ref) out.moments = moments;
   }
   if (!terms.jvar) out.moments.J.setZero();
@@ -62,7 +63,8 @@ Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms
   return body::InertiaInvariants::centrifugal_weights(w);
 }
 
-void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out) {
+void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out,
+                 TaskPool* pool) {
   const std::array<const model::Coupling*, 3> known = {&state.coupling, &state.coupling_before,
                                                        &state.coupling_earlier};
   auto count = static_cast<std::size_t>(std::clamp(history, 1, 3));
@@ -72,22 +74,27 @@ void extrapolate(const model::BodyState& state, int history, double t, model::Co
     if (known[k - 1]->t - known[k]->t < kLeastSpacing * ahead) count = k;
   }
   out.moments = {};
+  std::array<double, 3> weights{};
   for (std::size_t k = 0; k < count; ++k) {
-    double weight = 1.0;  // Lagrange's polynomial
+    weights[k] = 1.0;  // Lagrange's polynomial
     for (std::size_t j = 0; j < count; ++j) {
-      if (j != k) weight *= (t - known[j]->t) / (known[k]->t - known[j]->t);
+      if (j != k) weights[k] *= (t - known[j]->t) / (known[k]->t - known[j]->t);
     }
     const body::DeformedMoments& moments = known[k]->moments;
-    out.moments.J += weight * moments.J;
-    out.moments.J_dot += weight * moments.J_dot;
-    out.moments.l += weight * moments.l;
-    out.moments.l_dot += weight * moments.l_dot;
-    if (k == 0) {
-      out.load = weight * known[k]->load;
-    } else {
-      out.load += weight * known[k]->load;
-    }
+    out.moments.J += weights[k] * moments.J;
+    out.moments.J_dot += weights[k] * moments.J_dot;
+    out.moments.l += weights[k] * moments.l;
+    out.moments.l_dot += weights[k] * moments.l_dot;
   }
+  out.load.resize(known[0]->load.size());
+  const linalg::RowParts rows(out.load.size());
+  rows.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index size) {
+    auto load = out.load.segment(first, size);
+    load = weights[0] * known[0]->load.segment(first, size);
+    for (std::size_t k = 1; k < count; ++k) {
+      load += weights[k] * known[k]->load.segment(first, size);
+    }
+  });
   out.t = t;
 }
 

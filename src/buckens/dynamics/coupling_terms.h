@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/base/task_pool.h"
 #include "buckens/model/state.h"
 
 namespace buckens::dynamics {
@@ -13,10 +14,12 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
                                   const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
                                   const Eigen::Vector3d& w_dot);
 /// The same into `out`, whose memory serves again.
+/// @param pool shares the nodes of solids; the result is the same
 void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
                        const linalg::Vector& d, const linalg::Vector& d_dot,
                        const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
-                       const Eigen::Vector3d& w_dot, model::Coupling& out);
+                       const Eigen::Vector3d& w_dot, model::Coupling& out,
+                       TaskPool* pool = nullptr);
 
 /// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and what is
 /// quadratic.
@@ -32,6 +35,8 @@ Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms
 
 /// Coupling at t from the instants of the state, by the parabola, the line or the value through
 /// `history` of them. Steps may differ in length.
-void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out);
+/// @param pool shares the variables; the result is the same
+void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out,
+                 TaskPool* pool = nullptr);
 
 }  // namespace buckens::dynamics

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "buckens/body/nodal_inertia.h"
+
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "buckens/body/deformation_coupling.h"
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/box_mesh.h"
@@ -62,6 +66,81 @@ TEST(NodalInertia, EqualsTheMatricesWrittenOut) {
   EXPECT_LE((a.l_dot - b.l_dot).norm(), 1e-12 * b.l_dot.norm());
   const Vector load = slow.deformation_load(d, d_dot, w, w_dot);
   EXPECT_LE((fast.deformation_load(d, d_dot, w, w_dot) - load).norm(), 1e-13 * load.norm());
+}
+
+/// A long string of nodes, each coupled to its neighbours by inertia.
+/// @param offset number of the first variable
+fem::ShapeIntegrals string_of_nodes(int count, int offset) {
+  fem::ShapeIntegrals out;
+  std::vector<linalg::Triplet> entries;
+  for (int node = 0; node < count; ++node) {
+    entries.emplace_back(node, node, 4.0 + std::sin(node));
+    if (node > 0) {
+      entries.emplace_back(node, node - 1, 1.0 / node);
+      entries.emplace_back(node - 1, node, 1.0 / node);
+    }
+    const int first = offset + 3 * node;
+    out.nodal.dofs.push_back({first, first + 1, first + 2});
+  }
+  out.nodal.Ms.resize(count, count);
+  out.nodal.Ms.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+struct Deformation {
+  Vector image, load;
+  DeformedMoments moments;
+};
+
+/// M d, loads and moments of a deformation in general position.
+/// @param offset variables before those of the string, which belong to no node
+Deformation evaluate(const fem::ShapeIntegrals& shape, int offset, TaskPool* pool) {
+  const auto n = offset + 3 * shape.nodal.Ms.rows();
+  Vector d(n), d_dot(n), d_ddot(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto t = static_cast<double>(i - offset);
+    d[i] = 0.01 * std::sin(t);
+    d_dot[i] = std::cos(3 * t);
+    d_ddot[i] = 10 * std::sin(2 * t + 1);
+  }
+  const auto weights =
+      DeformationWeights::of_motion(Vector3d(1, -2, 3), Vector3d(-0.5, 0.7, 11), {});
+  Deformation out{Vector(n), Vector::Zero(n), {}};
+  NodalInertia(shape.nodal).multiply(d, out.image, pool);
+  out.moments = evaluate_deformation(shape, d, d_dot, d_ddot, weights, out.load, pool);
+  return out;
+}
+
+TEST(NodalInertia, GivesTheSameBitsWithAnyNumberOfThreads) {
+  const fem::ShapeIntegrals shape = string_of_nodes(5000, 0);
+  ASSERT_TRUE(NodalInertia(shape.nodal).is_regular());
+  const Deformation alone = evaluate(shape, 0, nullptr);
+  for (const int threads : {2, 3}) {
+    TaskPool pool(threads);
+    const Deformation shared = evaluate(shape, 0, &pool);
+    EXPECT_EQ(shared.image, alone.image);
+    EXPECT_EQ(shared.load, alone.load);
+    EXPECT_EQ(shared.moments.J, alone.moments.J);
+    EXPECT_EQ(shared.moments.J_dot, alone.moments.J_dot);
+    EXPECT_EQ(shared.moments.l, alone.moments.l);
+    EXPECT_EQ(shared.moments.l_dot, alone.moments.l_dot);
+  }
+}
+
+TEST(NodalInertia, LooksVariablesUpWhereTheyAreNumberedOtherwise) {
+  constexpr int kNodes = 200;
+  const Deformation regular = evaluate(string_of_nodes(kNodes, 0), 0, nullptr);
+  const fem::ShapeIntegrals shape = string_of_nodes(kNodes, 2);
+  EXPECT_FALSE(NodalInertia(shape.nodal).is_regular());
+  const Deformation found = evaluate(shape, 2, nullptr);
+  const auto n = regular.load.size();
+  EXPECT_EQ(found.image.head(2), Vector::Zero(2));
+  // The same sums, rounded elsewhere.
+  EXPECT_LE((found.image.tail(n) - regular.image).norm(), 1e-15 * regular.image.norm());
+  EXPECT_LE((found.load.tail(n) - regular.load).norm(), 1e-15 * regular.load.norm());
+  EXPECT_LE((found.moments.J - regular.moments.J).norm(), 1e-14 * regular.moments.J.norm());
+  EXPECT_LE((found.moments.J_dot - regular.moments.J_dot).norm(),
+            1e-13 * regular.moments.J_dot.norm());
 }
 
 }  // namespace
