@@ -25,7 +25,7 @@ void move(const spatial::Pose& X, const Vector6& u, spatial::Pose& out) {
 }  // namespace
 
 void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
-                     const Scheme& scheme) {
+                     const Scheme& scheme, TaskPool* pool) {
   before = state.frame;
   terms = state.terms;
   frame = scheme.history<Vector6>(stack(state.frame.w, state.frame.v),
@@ -33,7 +33,7 @@ void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
   u = frame.predicted;
   correction.setZero();
   if (op == nullptr) return;
-  op->row_values(state, y_before, y_dot_before, y_ddot_before, y_alg_before);
+  op->row_values(state, y_before, y_dot_before, y_ddot_before, y_alg_before, pool);
   scheme.history(y_dot_before, y_ddot_before, y_alg_before, y);
   y_end = y_before + y.predicted;
   load.setZero(y_before.size());

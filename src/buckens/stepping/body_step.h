@@ -35,7 +35,9 @@ struct BodyStep {
   Eigen::VectorXd y_correction;     ///< N G e
 
   /// Prepares everything but the free response.
-  void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme);
+  /// @param pool shares the rows of large bodies; the result is the same
+  void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme,
+             TaskPool* pool = nullptr);
 
   /// Motions are written to `out`, whose memory serves again.
   void motion_at_end(const Scheme& scheme, const BodyStepOperator* op,

@@ -2,7 +2,10 @@
 #include "buckens/stepping/body_step_operator.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
+
+#include "buckens/linalg/row_parts.h"
 
 namespace buckens::stepping {
 
@@ -101,14 +104,13 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
     Matrix inertia = scheme.mass * (part.fe.M * interface);
     if (part.is_damped()) inertia += scheme.damping * (part.C * interface);
     solve_columns(inertia);
-    D_ = Matrix::Zero(G_.rows(), G_.cols());
-    D_.leftCols(interface.cols()) = inertia;
-  } else {
-    D_ = G_;
+    D_less_G_ = inertia - interface;
   }
   NG_ = N_ * G_;
   interface_ = NG_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
-  answer_ = N_ * D_ - NG_;
+  answer_ = Matrix::Zero(NG_.rows(), NG_.cols());
+  if (scheme.weight == 1.0) answer_.leftCols(part.num_interface_rows) = N_ * D_less_G_;
+  rigid_row_values_ = N_ * part.sieve.Phi();
 }
 
 SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_); }
@@ -138,53 +140,15 @@ void BodyStepOperator::solve_columns(Matrix& X) {
   setup_solves_ += X.cols();
 }
 
-void BodyStepOperator::free_response(const model::BodyState& before, const History<Vector>& history,
-                                     const Vector& load, Vector& free) {
-  form_right_side(before, history, load, free);
-  solve_right_side(free);
-  finish_response(before, history, free);
-}
-
-void BodyStepOperator::form_right_side(const model::BodyState& before,
-                                       const History<Vector>& history, const Vector& load,
-                                       Vector& right) {
-  // With x₀ = x + offset:  K̂ x_e = c θ F + M (m x₀ − cθ ẍ₀) + C (d x₀ − cθ ẋ₀),
-  // x⁺ = x + (x_e − x₀)/θ.
-  const double c_theta = scheme_.force * scheme_.weight;
-  with_mass_ = scheme_.mass * before.d - c_theta * history.acceleration;
-  if (scheme_.has_offset()) with_mass_ += scheme_.mass * history.offset;
-  if (part_->is_damped()) {
-    with_damping_ = scheme_.damping * before.d - c_theta * history.mean_velocity;
-    if (scheme_.has_offset()) with_damping_ += scheme_.damping * history.offset;
-  }
-  inertial_.form(with_mass_, with_damping_, right);
-  if (load.size() > 0) right += c_theta * load;
-}
-
 void BodyStepOperator::solve_right_side(Vector& x, TaskPool* pool) {
   if (is_diagonal()) {
     x = x.cwiseProduct(diagonal_inverse_);
   } else if (inverse_.size() > 0) {
-    with_mass_ = x;
-    x.noalias() = inverse_ * with_mass_;
+    scratch_ = x;
+    x.noalias() = inverse_ * scratch_;
   } else {
     factor_->solve_in_place(x, pool);
   }
-}
-
-void BodyStepOperator::finish_response(const model::BodyState& before,
-                                       const History<Vector>& history, Vector& free) {
-  ++solves_;
-  if (inertial_.share() != 0.0) free += inertial_.share() * with_damping_;
-  if (scheme_.has_offset()) {
-    // Sieved where the equations hold: at the end of the step the rule of linear acceleration would
-    // let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
-    part_->sieve.apply(free);
-    free = before.d + (free - before.d - history.offset) / scheme_.weight;
-    return;
-  }
-  if (scheme_.weight != 1.0) free = before.d + (free - before.d) / scheme_.weight;
-  part_->sieve.apply(free);
 }
 
 void BodyStepOperator::solve(Vector& x) {
@@ -197,15 +161,32 @@ void BodyStepOperator::solve(Vector& x) {
   ++setup_solves_;
 }
 
-void BodyStepOperator::complete(const Vector& load, const Vector& correction, Vector& x) const {
-  x.noalias() += scheme_.force * (G_ * load);
-  if (!correction.isZero(0.0)) x.noalias() += D_ * correction;
+void BodyStepOperator::add_answer(const Eigen::VectorXd& load, Eigen::Index first,
+                                  Eigen::Ref<Vector> piece) const {
+  // Patterns carry no load without coupling.
+  const Eigen::Index interface = num_interface_rows();
+  const bool uses_patterns = !load.tail(load.size() - interface).isZero(0.0);
+  const Eigen::Index columns = uses_patterns ? load.size() : interface;
+  piece.noalias() +=
+      (scheme_.force * G_.block(first, 0, piece.size(), columns)) * load.head(columns);
+}
+
+void BodyStepOperator::add_correction(const Eigen::VectorXd& e, Eigen::Index first,
+                                      Eigen::Ref<Vector> piece) const {
+  const Eigen::Index columns = num_interface_rows();
+  piece.noalias() += G_.block(first, 0, piece.size(), columns) * e.head(columns);
+}
+
+void BodyStepOperator::add_correction_answer(const Eigen::VectorXd& e, Eigen::Index first,
+                                             Eigen::Ref<Vector> piece) const {
+  if (D_less_G_.cols() == 0) return;
+  piece.noalias() += D_less_G_.middleRows(first, piece.size()) * e.head(D_less_G_.cols());
 }
 
 void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vector& y_dot,
-                                  Vector& y_ddot, Vector& y_alg) const {
-  for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->resize(N_.rows());
-  for (int row = 0; row < N_.outerSize(); ++row) {
+                                  Vector& y_ddot, Vector& y_alg, TaskPool* pool) const {
+  for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(N_.rows());
+  for (int row = 0; row < num_interface_rows(); ++row) {
     double sum = 0, sum_dot = 0, sum_ddot = 0, sum_alg = 0;
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(N_, row); it; ++it) {
       sum += it.value() * state.d[it.col()];
@@ -218,6 +199,26 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     y_ddot[row] = sum_ddot;
     y_alg[row] = sum_alg;
   }
+  const Matrix* columns = patterns();
+  if (columns == nullptr) return;
+  using Values = Eigen::Matrix<double, 6, 4>;
+  const linalg::RowParts rows(num_dofs());
+  std::array<Values, linalg::RowParts::kMostParts> sums;
+  std::fill_n(sums.begin(), rows.count(), Values::Zero());
+  rows.for_pieces(pool, [&](int part, Eigen::Index first, Eigen::Index size) {
+    Values& sum = sums[static_cast<std::size_t>(part)];
+    const auto piece = columns->middleRows(first, size).transpose();
+    sum.col(0).noalias() += piece * state.d.segment(first, size);
+    sum.col(1).noalias() += piece * state.d_dot.segment(first, size);
+    sum.col(2).noalias() += piece * state.d_ddot.segment(first, size);
+    sum.col(3).noalias() += piece * state.d_alg.segment(first, size);
+  });
+  Values whole = sums[0];
+  for (int part = 1; part < rows.count(); ++part) whole += sums[static_cast<std::size_t>(part)];
+  y.tail<6>() = whole.col(0);
+  y_dot.tail<6>() = whole.col(1);
+  y_ddot.tail<6>() = whole.col(2);
+  y_alg.tail<6>() = whole.col(3);
 }
 
 }  // namespace buckens::stepping

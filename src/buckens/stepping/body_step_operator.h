@@ -19,10 +19,10 @@ namespace buckens::stepping {
 /// patterns c_ab: their values c_ab·d make up J₁, and loads along them are the centrifugal load of
 /// the undeformed body.
 ///
-/// Per step it performs one solve; interface forces cost a thin product only, FM (37)–(42).
-/// All columns are sieved. Bodies of at most 24 variables, such as the parts of a divided beam,
-/// multiply by a dense inverse in place of the sparse solve; reduced bodies, whose K̂ is diagonal,
-/// divide.
+/// A step is one solve; interface forces cost a thin product only, FM (37)–(42). LargeStep says
+/// what is solved. All columns are sieved. Bodies of at most 24 variables, such as the parts of a
+/// divided beam, multiply by a dense inverse in place of the sparse solve; reduced bodies, whose K̂
+/// is diagonal, divide.
 class BodyStepOperator {
  public:
   /// @param twin operator of a body that may have the same matrices to the last bit; then its
@@ -34,19 +34,8 @@ class BodyStepOperator {
   /// Whether a body has the step matrix of this one.
   bool fits(const body::FlexiblePart& part) const;
 
-  /// x⁺ without loads along N: Y K̂⁻¹ [ … ], one large solve.
-  /// @param load nodal load at the evaluation instant, n
-  void free_response(const model::BodyState& before, const History<linalg::Vector>& history,
-                     const linalg::Vector& load, linalg::Vector& free);
-
-  /// The three parts of free_response(), for bodies that solve together: the right-hand side,
-  void form_right_side(const model::BodyState& before, const History<linalg::Vector>& history,
-                       const linalg::Vector& load, linalg::Vector& right);
-  /// the solve in place,
+  /// x ← K̂⁻¹ x; small bodies sieve the result, others leave that to the caller.
   void solve_right_side(linalg::Vector& x, TaskPool* pool = nullptr);
-  /// and x⁺ from its solution. Counts the solve.
-  void finish_response(const model::BodyState& before, const History<linalg::Vector>& history,
-                       linalg::Vector& free);
   /// The factor that several bodies may share; empty where the solve needs none.
   const linalg::SparseCholesky* shared_factor() const {
     return inverse_.size() > 0 || is_diagonal() ? nullptr : factor_.get();
@@ -55,13 +44,17 @@ class BodyStepOperator {
   /// x ← Y K̂⁻¹ x, outside of steps: counts as set-up.
   void solve(linalg::Vector& x);
 
-  /// x⁺ ← free + c G f + D e. @param load along the rows of N, centrifugal weights included
-  void complete(const linalg::Vector& load, const linalg::Vector& correction,
-                linalg::Vector& x) const;
-  /// x ← x − G e: without the position correction itself, which carries no velocity.
-  void subtract_correction(const linalg::Vector& e, linalg::Vector& x) const {
-    x.noalias() -= G_ * e;
-  }
+  /// Adds c G f, the answer to loads along the rows of N, to a piece of a vector.
+  /// @param load f, weights of the patterns included
+  /// @param first row at which the piece begins
+  void add_answer(const Eigen::VectorXd& load, Eigen::Index first,
+                  Eigen::Ref<linalg::Vector> piece) const;
+  /// Adds G e, the position correction by the load e, which carries no velocity.
+  void add_correction(const Eigen::VectorXd& e, Eigen::Index first,
+                      Eigen::Ref<linalg::Vector> piece) const;
+  /// Adds (D − G) e, what the strain of the correction does to the motion of the step.
+  void add_correction_answer(const Eigen::VectorXd& e, Eigen::Index first,
+                             Eigen::Ref<linalg::Vector> piece) const;
 
   /// N G: values of all rows per load along each, before the factor c.
   const linalg::Matrix& compliance() const { return NG_; }
@@ -73,10 +66,21 @@ class BodyStepOperator {
   /// Whether the equations hold where the position correction does not appear: then D = G.
   bool corrects_outside() const { return scheme_.weight != 1.0; }
   /// N d, N ḋ, N d̈ and N times the algorithmic accelerations, in one pass over N.
+  /// @param pool shares the rows of large bodies; the result is the same
   void row_values(const model::BodyState& state, linalg::Vector& y, linalg::Vector& y_dot,
-                  linalg::Vector& y_ddot, linalg::Vector& y_alg) const;
+                  linalg::Vector& y_ddot, linalg::Vector& y_alg, TaskPool* pool = nullptr) const;
+  /// N Φ: values of the rigid motions that carry mass, orthonormal.
+  const linalg::Matrix& rigid_row_values() const { return rigid_row_values_; }
   /// Rows of the interface, then the six patterns.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
+
+  Eigen::Index num_interface_rows() const { return part_->num_interface_rows; }
+  /// The vectors c_ab as columns, null where N has no rows of them.
+  const linalg::Matrix* patterns() const {
+    return N_.rows() > num_interface_rows() ? &part_->invariants.centrifugal_patterns() : nullptr;
+  }
+  Eigen::Index num_dofs() const { return part_->num_dofs(); }
+  const body::Sieve& sieve() const { return part_->sieve; }
 
   /// Formed anew: a step needs its factor and its diagonal only.
   linalg::SparseMatrix K_hat() const;
@@ -91,7 +95,6 @@ class BodyStepOperator {
   double factor_bytes() const { return factor_ && !is_shared_ ? factor_->bytes() : 0.0; }
   /// 1, or 0 where the factor is that of a twin or of another simulation, or K̂ is diagonal.
   long factorisations() const { return is_shared_ || is_diagonal() ? 0 : 1; }
-  long solves() const { return solves_; }
   long setup_solves() const { return setup_solves_; }
 
  private:
@@ -108,12 +111,12 @@ class BodyStepOperator {
   std::shared_ptr<const linalg::SparseCholesky> factor_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
-  linalg::Matrix G_;  // Y K̂⁻¹ Nᵀ
-  linalg::Matrix D_;  // effect of a correction on x⁺; none by patterns
-  linalg::Matrix NG_, answer_, interface_;
+  linalg::Matrix G_;         // Y K̂⁻¹ Nᵀ
+  linalg::Matrix D_less_G_;  // for interface rows, D of a correction's effect on x⁺; empty: D = G
+  linalg::Matrix NG_, answer_, interface_, rigid_row_values_;
   InertialLoad inertial_;
-  linalg::Vector with_mass_, with_damping_;  // scratch of form_right_side()
-  long solves_ = 0, setup_solves_ = 0;
+  linalg::Vector scratch_;
+  long setup_solves_ = 0;
 };
 
 }  // namespace buckens::stepping

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/inertial_load.h"
 
-#include "buckens/body/nodal_inertia.h"
 #include "buckens/linalg/inverse_iteration.h"
 
 namespace buckens::stepping {
@@ -15,8 +14,7 @@ namespace {
 constexpr double kProportional = 1e-14;
 
 /// Whether M is the scalar mass matrix, node by node.
-bool acts_by_node(const body::FlexiblePart& part) {
-  const body::NodalInertia nodal(part.fe.shape.nodal);
+bool acts_by_node(const body::FlexiblePart& part, const body::NodalInertia& nodal) {
   if (nodal.empty()) return false;
   const Vector x = linalg::scattered_block(part.num_dofs(), 1, 5);
   Vector y(x.size());
@@ -43,7 +41,7 @@ std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
 }
 
 InertialLoad::InertialLoad(const body::FlexiblePart& part, const Scheme& scheme)
-    : part_(&part), is_by_node_(acts_by_node(part)) {
+    : part_(&part), nodal_(part.fe.shape.nodal), is_by_node_(acts_by_node(part, nodal_)) {
   if (!part.is_damped()) return;
   const std::optional<double> beta = stiffness_damping(part);
   if (!beta) return;
@@ -53,16 +51,10 @@ InertialLoad::InertialLoad(const body::FlexiblePart& part, const Scheme& scheme)
   zeta_ = alpha - share_ * (scheme.mass + scheme.damping * alpha);
 }
 
-void InertialLoad::form(Vector& a, const Vector& b, Vector& right) const {
-  if (is_proportional_) a += zeta_ * b;
-  multiply_mass(a, right);
-  if (is_damped() && !is_proportional_) right.noalias() += part_->C * b;
-}
-
-void InertialLoad::multiply_mass(const Vector& x, Vector& y) const {
+void InertialLoad::multiply_mass(const Vector& x, Vector& y, TaskPool* pool) const {
   y.resize(x.size());
   if (is_by_node_) {
-    body::NodalInertia(part_->fe.shape.nodal).multiply(x, y);
+    nodal_.multiply(x, y, pool);
   } else {
     y.noalias() = part_->fe.M * x;
   }

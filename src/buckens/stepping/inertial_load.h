@@ -3,7 +3,9 @@
 
 #include <optional>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/body/body.h"
+#include "buckens/body/nodal_inertia.h"
 #include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
@@ -22,11 +24,15 @@ class InertialLoad {
  public:
   InertialLoad(const body::FlexiblePart& part, const Scheme& scheme);
 
-  /// right = M a + C b − K̂ (share() b). Allocates nothing once `right` has its size.
-  /// @param a used as scratch
-  void form(linalg::Vector& a, const linalg::Vector& b, linalg::Vector& right) const;
   /// y = M x. Allocates nothing once `y` has its size.
-  void multiply_mass(const linalg::Vector& x, linalg::Vector& y) const;
+  /// @param pool shares the nodes of solids; the result is the same
+  void multiply_mass(const linalg::Vector& x, linalg::Vector& y, TaskPool* pool = nullptr) const;
+  /// y ← y + C x.
+  void add_damping(const linalg::Vector& x, linalg::Vector& y) const {
+    y.noalias() += part_->C * x;
+  }
+  /// What of b joins a: ζ, zero if undamped or damped otherwise.
+  double zeta() const { return zeta_; }
   /// What of b is to be added to the solution: β', zero if undamped or damped otherwise.
   double share() const { return share_; }
   /// Whether b matters at all.
@@ -36,6 +42,7 @@ class InertialLoad {
 
  private:
   const body::FlexiblePart* part_;
+  body::NodalInertia nodal_;
   bool is_proportional_ = false;
   bool is_by_node_ = false;
   double share_ = 0;

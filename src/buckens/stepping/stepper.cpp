@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/dynamics/coupling_terms.h"
-#include "buckens/dynamics/frame_equation.h"
 #include "buckens/stepping/change_of_step.h"
 #include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/step_failure.h"
@@ -34,9 +32,6 @@ constexpr double kSecondSolve = 1e-4;
 // Where the coupling load passes through zero, what matters is the motion that the rest would cause
 // in the step, relative to the model's length.
 constexpr double kSecondSolveMotion = 1e-9;
-// A coupling load this much smaller than the body's other inertia loads need not be known to the
-// outer tolerance of itself: what matters is its share in the motion.
-constexpr double kLeastShare = 1e-3;
 // Ends of steps are counted by others, not summed.
 constexpr double kSameInstant = 1e-6;
 // Fewer variables in all bodies together are not worth waking a thread for.
@@ -44,34 +39,12 @@ constexpr Eigen::Index kSharedDofs = 2000;
 constexpr int kPartsPerThread = 4;
 }  // namespace
 
-/// The n-sized share of one flexible body in a step.
+/// The n-sized share of one flexible body in a step, and its coupling.
 struct Stepper::Large {
-  explicit Large(const BodyStepOperator& op)
-      : inverse_diagonal(op.K_hat_diagonal().cwiseInverse()), has_rates(!op.is_quasi_static()) {}
+  Large(const body::Body& body, BodyStepOperator& op) : step(op), coupling(body, op) {}
 
-  History<Vector> history;
-  model::Coupling used;       // what the step was computed with
-  model::Coupling evaluated;  // what its result gives
-  Vector free;                // end value without interface loads
-  Vector d_end;               // end value
-  Vector increment;           // Δ: end value without correction, minus the start
-  Vector inverse_diagonal;    // of K̂: measures loads
-  bool has_rates;             // quasi-static bodies deform without
-  bool load_changed = true;
-  // Where the equations hold; `difference` of coupling loads and the load of the undeformed body.
-  Vector d_e, rate_e, acceleration_e, difference, undeformed;
-
-  void evaluate_acceleration(const Scheme& scheme) {
-    acceleration_e = scheme.acceleration_rate * increment + history.acceleration;
-    if (!has_rates) acceleration_e.setZero();
-  }
-  double norm(const Vector& load) const {
-    return std::sqrt(load.cwiseAbs2().dot(inverse_diagonal));
-  }
-  /// Largest displacement (before the factor c) by a load, estimated from the diagonal of K̂.
-  double moved_by(const Vector& load) const {
-    return load.cwiseProduct(inverse_diagonal).cwiseAbs().maxCoeff();
-  }
+  LargeStep step;
+  LaggedCoupling coupling;
 };
 
 /// Bodies whose solves read the same factor, so that they go together as right-hand sides.
@@ -85,7 +58,7 @@ struct Stepper::FactorGroup {
              linalg::SolveExchange* exchange) {
     if (active.empty()) return;
     if (active.size() == 1 && exchange == nullptr) {
-      factor->solve_in_place(large[active.front()]->free, pool);
+      factor->solve_in_place(large[active.front()]->step.side(), pool);
       return;
     }
     const auto count = static_cast<Eigen::Index>(active.size());
@@ -93,7 +66,7 @@ struct Stepper::FactorGroup {
     sides.resize(factor->size(),
                  exchange != nullptr ? count : static_cast<Eigen::Index>(bodies.size()));
     for (std::size_t k = 0; k < active.size(); ++k) {
-      sides.col(static_cast<Eigen::Index>(k)) = large[active[k]]->free;
+      sides.col(static_cast<Eigen::Index>(k)) = large[active[k]]->step.side();
     }
     if (exchange != nullptr) {
       exchange->solve(*factor, sides, pool);
@@ -101,16 +74,9 @@ struct Stepper::FactorGroup {
       factor->solve_first(sides, count, pool);
     }
     for (std::size_t k = 0; k < active.size(); ++k) {
-      large[active[k]]->free = sides.col(static_cast<Eigen::Index>(k));
+      large[active[k]]->step.side() = sides.col(static_cast<Eigen::Index>(k));
     }
   }
-};
-
-/// How far the coupling of one body is from what the step was computed with.
-struct Stepper::CouplingGap {
-  bool is_settled = true;
-  double change = 0;  // relative
-  double motion = 0;  // that it causes, relative to the model's length
 };
 
 namespace {
@@ -134,20 +100,18 @@ std::unique_ptr<BodyStepOperator> factorised(
   }
 }
 
-/// @throws NumericalError naming the body whose motion is no longer a number
-void refuse_infinite(const model::Model& model, const model::State& state) {
-  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
-    const model::BodyState& s = state.bodies[b];
-    const bool is_finite = s.frame.X_WB.p.allFinite() && s.frame.X_WB.q.coeffs().allFinite() &&
-                           s.frame.v.allFinite() && s.frame.w.allFinite() && s.v_dot.allFinite() &&
-                           s.w_dot.allFinite() && s.d.allFinite() && s.d_dot.allFinite() &&
-                           s.d_ddot.allFinite();
-    if (is_finite) continue;
-    throw StepFailure(fmt::format(
-        "the motion of body \"{}\" is no longer finite at t = {:.6g} s; a load, a velocity or a "
-        "deformation has grown beyond any sense: check their units, or use a smaller step",
-        model.bodies[b].name, state.t));
-  }
+/// @throws StepFailure naming the body whose motion is no longer a number
+[[noreturn]] void fail_infinite(const body::Body& body, double t) {
+  throw StepFailure(fmt::format(
+      "the motion of body \"{}\" is no longer finite at t = {:.6g} s; a load, a velocity or a "
+      "deformation has grown beyond any sense: check their units, or use a smaller step",
+      body.name, t));
+}
+
+bool is_frame_finite(const model::BodyState& s) {
+  return s.frame.X_WB.p.allFinite() && s.frame.X_WB.q.coeffs().allFinite() &&
+         s.frame.v.allFinite() && s.frame.w.allFinite() && s.v_dot.allFinite() &&
+         s.w_dot.allFinite();
 }
 
 }  // namespace
@@ -161,7 +125,8 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
   std::vector<const BodyStepOperator*> views;
   for (const body::Body& body : model.bodies) {
     operators_.push_back(factorised(body, scheme_, operators_, settings_.exchange));
-    large_.push_back(body.is_flexible() ? std::make_unique<Large>(*operators_.back()) : nullptr);
+    large_.push_back(body.is_flexible() ? std::make_unique<Large>(body, *operators_.back())
+                                        : nullptr);
     views.push_back(operators_.back().get());
   }
   newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
@@ -210,33 +175,27 @@ void Stepper::for_bodies(F&& f) {
 void Stepper::start_bodies(const model::State& state) {
   for_bodies([&](std::size_t b) {
     const model::BodyState& s = state.bodies[b];
-    bodies_[b].start(s, operators_[b].get(), scheme_);
+    bodies_[b].start(s, operators_[b].get(), scheme_, pool_.get());
     if (!large_[b]) return;
-    Large& large = *large_[b];
-    scheme_.history(s.d_dot, s.d_ddot, s.d_alg, large.history);
-    if (!s.terms.are_lagged()) {
-      large.used = large.evaluated = {};
-    } else if (state.history > 0) {
-      dynamics::extrapolate(s, state.history, scheme_.evaluation_time(state.t), large.used);
-    } else {
-      dynamics::evaluate_coupling(model_.bodies[b], s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w,
-                                  s.w_dot, large.used);
-    }
-    large.load_changed = true;
-    bodies_[b].quadratic = large.used.moments;
+    large_[b]->coupling.start(s, state.history, state.t, pool_.get());
+    bodies_[b].quadratic = large_[b]->coupling.used().moments;
   });
 }
 
 bool Stepper::free_responses(const model::State& state, bool first_round) {
   const auto is_active = [&](std::size_t b) {
-    return large_[b] && (first_round || large_[b]->load_changed);
+    return large_[b] && (first_round || large_[b]->coupling.load_changed());
   };
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
-    BodyStepOperator& op = *operators_[b];
     Large& large = *large_[b];
-    op.form_right_side(state.bodies[b], large.history, large.used.load, large.free);
-    if (op.shared_factor() == nullptr) op.solve_right_side(large.free);
+    if (first_round) {
+      large.step.form_right_side(state.bodies[b], large.coupling.used().load, pool_.get());
+    } else {
+      large.step.form_right_side_of_change(large.coupling.change(), pool_.get());
+    }
+    BodyStepOperator& op = *operators_[b];
+    if (op.shared_factor() == nullptr) op.solve_right_side(large.step.side());
   });
   for (FactorGroup& group : groups_) {
     group.active.clear();
@@ -251,9 +210,7 @@ bool Stepper::free_responses(const model::State& state, bool first_round) {
   });
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
-    Large& large = *large_[b];
-    operators_[b]->finish_response(state.bodies[b], large.history, large.free);
-    bodies_[b].y_free.noalias() = operators_[b]->N() * large.free;
+    large_[b]->step.take_solution(state.bodies[b], bodies_[b].y_free, pool_.get());
   });
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (is_active(b)) return true;
@@ -264,78 +221,26 @@ bool Stepper::free_responses(const model::State& state, bool first_round) {
 void Stepper::complete(const model::State& state) {
   for_bodies([&](std::size_t b) {
     if (!large_[b]) return;
-    Large& large = *large_[b];
-    const BodyStep& step = bodies_[b];
-    large.d_end = large.free;
-    operators_[b]->complete(step.load, step.correction_load, large.d_end);
-    large.increment = large.d_end - state.bodies[b].d;
-    if (!step.correction_load.isZero(0.0)) {
-      operators_[b]->subtract_correction(step.correction_load, large.increment);
-    }
+    large_[b]->step.complete(state.bodies[b], bodies_[b].load, bodies_[b].correction_load,
+                             next_.bodies[b], pool_.get());
   });
-}
-
-Stepper::CouplingGap Stepper::coupling_gap(const model::State& state, std::size_t b) {
-  const body::Body& body = model_.bodies[b];
-  const BodyStep& step = bodies_[b];
-  Large& large = *large_[b];
-  const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
-  const Vector6 acceleration = step.frame_acceleration(scheme_);
-  const Vector3d w = rate.head<3>();
-  const Vector3d w_dot = acceleration.head<3>();
-  // The correction belongs to the evaluated position where the method ends there.
-  if (scheme_.weight == 1.0) {
-    large.d_e = large.d_end;
-  } else {
-    large.d_e = state.bodies[b].d + scheme_.weight * large.increment;
-  }
-  if (scheme_.has_offset()) large.d_e += large.history.offset;
-  large.rate_e = scheme_.mean_rate * large.increment + large.history.mean_velocity;
-  if (!large.has_rates) large.rate_e.setZero();
-  large.evaluate_acceleration(scheme_);
-  dynamics::evaluate_coupling(body, step.terms, large.d_e, large.rate_e, large.acceleration_e, w,
-                              w_dot, large.evaluated);
-  large.evaluated.t = scheme_.evaluation_time(state.t);
-
-  CouplingGap gap;
-  double load_change = 0;
-  if (step.terms.have_load()) {
-    large.undeformed = large.evaluated.load;
-    large.undeformed.noalias() += body.flexible->invariants.centrifugal_patterns() *
-                                  dynamics::centrifugal_weights(step.terms, w);
-    large.difference = large.evaluated.load - large.used.load;
-    // In the norm of K̂ ≈ s M the inertia loads of a turn with the rotary inertia J are √(J/s).
-    const double turn = std::sqrt(body.J0.norm() / scheme_.mass) * (w_dot.norm() + w.squaredNorm());
-    const double load_size = std::max(large.norm(large.undeformed), kLeastShare * turn);
-    if (load_size != 0.0) load_change = large.norm(large.difference) / load_size;
-    gap.motion = scheme_.force * large.moved_by(large.difference) / model_.length;
-  }
-  const Vector3d frame_change =
-      (dynamics::frame_inertia(body, large.evaluated.moments, w, w_dot, Vector3d::Zero()) -
-       dynamics::frame_inertia(body, large.used.moments, w, w_dot, Vector3d::Zero()))
-          .head<3>();
-  const double frame_size = body.J0.norm() * (w_dot.norm() + w.squaredNorm());
-  const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
-  gap.motion = std::max(
-      gap.motion, scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm());
-  large.load_changed = load_change > settings_.outer_tolerance;
-  gap.is_settled = !large.load_changed && !(frame_relative > settings_.outer_tolerance);
-  gap.change = std::max(load_change, frame_relative);
-  return gap;
 }
 
 bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
   for_bodies([&](std::size_t b) {
     const bool matters = large_[b] && bodies_[b].terms.are_lagged();
-    gaps_[b] = matters ? coupling_gap(state, b) : CouplingGap{};
+    gaps_[b] = {};
+    if (!matters) return;
+    gaps_[b] = large_[b]->coupling.evaluate(bodies_[b], large_[b]->step, next_.bodies[b], state.t,
+                                            settings_.outer_tolerance, model_.length, pool_.get());
   });
   bool settled = true;
   report.coupling_change = 0;
   coupling_motion_ = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!large_[b] || !bodies_[b].terms.are_lagged()) continue;
-    const CouplingGap& gap = gaps_[b];
-    settled = settled && gap.is_settled;
+    const LaggedCoupling::Gap& gap = gaps_[b];
+    settled = settled && gap.is_settled();
     coupling_motion_ = std::max(coupling_motion_, gap.motion);
     if (!(gap.change <= report.coupling_change)) least_settled_ = b;
     report.coupling_change = std::max(report.coupling_change, gap.change);
@@ -350,7 +255,6 @@ void Stepper::form_next_state(const model::State& state) {
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
-  next.bodies.resize(bodies_.size());
   for_bodies([&](std::size_t b) {
     const model::BodyState& old = state.bodies[b];
     model::BodyState& s = next.bodies[b];
@@ -362,28 +266,23 @@ void Stepper::form_next_state(const model::State& state) {
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     s.terms = old.terms;
     if (!large_[b]) return;
-    Large& large = *large_[b];
-    large.evaluate_acceleration(scheme_);
-    s.d = large.d_end;
-    s.d_dot = scheme_.end_rate * large.increment + large.history.velocity;
-    if (!large.has_rates) s.d_dot.setZero();
-    scheme_.carried_acceleration(old.d_ddot, large.acceleration_e, s.d_ddot);
-    scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot, s.d_alg);
-    s.coupling = large.evaluated;
+    // What is nodal was formed by complete(); the old memory serves the next step.
+    std::swap(s.coupling, large_[b]->coupling.evaluated());
     s.coupling_before = old.coupling;
     s.coupling_earlier = old.coupling_before;
   });
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const bool is_finite =
+        is_frame_finite(next.bodies[b]) && (!large_[b] || large_[b]->step.is_finite());
+    if (!is_finite) fail_infinite(model_.bodies[b], next.t);
+  }
 }
 
 void Stepper::take_over_coupling() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!large_[b] || !bodies_[b].terms.are_lagged()) continue;
-    if (large_[b]->load_changed) {
-      large_[b]->used = large_[b]->evaluated;
-    } else {
-      large_[b]->used.moments = large_[b]->evaluated.moments;
-    }
-    bodies_[b].quadratic = large_[b]->used.moments;
+    large_[b]->coupling.take_over();
+    bodies_[b].quadratic = large_[b]->coupling.used().moments;
   }
 }
 
@@ -412,6 +311,7 @@ StepReport Stepper::step(const model::State& before, model::State& after) {
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   lambda_ = state.lambda;
+  next_.bodies.resize(bodies_.size());
   start_bodies(state);
   double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {
@@ -434,7 +334,6 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
     take_over_coupling();
   }
   form_next_state(state);
-  refuse_infinite(model_, next_);
   stepped_to_ = next_.t;
   has_stepped_ = true;
   std::swap(end, next_);  // what was `end` lends its memory to the next step
@@ -473,7 +372,7 @@ double Stepper::lowest_frequency(std::size_t body) {
 SolveCounts Stepper::counts(std::size_t body) const {
   if (!operators_[body]) return {};
   const BodyStepOperator& op = *operators_[body];
-  return {op.factorisations(), op.solves(), op.setup_solves()};
+  return {op.factorisations(), large_[body]->step.solves(), op.setup_solves()};
 }
 
 }  // namespace buckens::stepping

@@ -7,6 +7,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/lagged_coupling.h"
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
 #include "buckens/stepping/step_settings.h"
@@ -73,7 +74,6 @@ class Stepper {
  private:
   struct Large;        // n-sized vectors of one flexible body
   struct FactorGroup;  // bodies that share a factor
-  struct CouplingGap;
   StepReport take_step(const model::State& state, model::State& end);
   void start_bodies(const model::State& state);
   /// @return whether any large solve was needed
@@ -82,7 +82,6 @@ class Stepper {
   void take_over_coupling();
   void compute_round(const model::State& state, bool is_first, StepReport& report);
   bool coupling_settled(const model::State& state, StepReport& report);
-  CouplingGap coupling_gap(const model::State& state, std::size_t b);
   void form_next_state(const model::State& state);
   void group_factors();
   /// Calls f(b) for every body, in parallel where that pays; results must not depend on the order.
@@ -97,8 +96,8 @@ class Stepper {
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<Large>> large_;
   std::vector<FactorGroup> groups_;
-  std::vector<CouplingGap> gaps_;   // per body
-  std::unique_ptr<TaskPool> pool_;  // empty with one thread
+  std::vector<LaggedCoupling::Gap> gaps_;  // per body
+  std::unique_ptr<TaskPool> pool_;         // empty with one thread
   model::State next_;
   linalg::Vector lambda_;  // of the step that is being taken
   double stepped_to_ = 0;  // end of the last step [s]

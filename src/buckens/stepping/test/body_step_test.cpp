@@ -8,7 +8,7 @@
 #include "buckens/body/reduction.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/stepping/body_step_operator.h"
+#include "buckens/stepping/large_step.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::stepping {
@@ -59,6 +59,19 @@ Vector bordered(const body::FlexiblePart& part, const Matrix& K_hat, const Vecto
   return A.fullPivLu().solve(b).head(n);
 }
 
+/// Nodal variables at the end of a step with a nodal load and loads f along the rows of N.
+Vector end_of_step(BodyStepOperator& op, const model::BodyState& before, const Vector& load,
+                   const Vector& f) {
+  LargeStep step(op);
+  step.form_right_side(before, load, nullptr);
+  op.solve_right_side(step.side());
+  Vector y_free;
+  step.take_solution(before, y_free, nullptr);
+  model::BodyState after;
+  step.complete(before, f, Vector::Zero(f.size()), after, nullptr);
+  return after.d;
+}
+
 double energy_norm(const Matrix& K_hat, const Vector& x) { return std::sqrt(x.dot(K_hat * x)); }
 
 /// 18 variables use the dense inverse, 30 the sparse factor.
@@ -76,9 +89,7 @@ TEST_P(SmallAndLarge, SieveEqualsMultiplier) {
     BodyStepOperator op(part, scheme);
     const auto history = scheme.history(state.d_dot, state.d_ddot, state.d_alg);
     const Vector f = 30 * some(op.compliance().rows(), 5.0);
-    Vector fast;
-    op.free_response(state, history, load, fast);
-    op.complete(f, Vector::Zero(f.size()), fast);
+    const Vector fast = end_of_step(op, state, load, f);
 
     // The same step by its increment: K̂ Δ + PΛ = c (F − M ẍ₀ − C ẋ₀ − K d).
     const Matrix K_hat = op.K_hat();
@@ -136,17 +147,53 @@ TEST(BodyStepOperator, ReducedBodiesDivideAndAnswerAsTheFullOne) {
   // Rounding of modes: 1e-16 (ω_max/ω_1)².
   EXPECT_LE((op.compliance() - full_op.compliance()).norm(), 1e-9 * full_op.compliance().norm());
   const Vector f = 30 * some(op.compliance().rows(), 5.0);
-  Vector x, expected;
-  op.free_response(reduced_state,
-                   scheme.history(reduced_state.d_dot, reduced_state.d_ddot, reduced_state.d_alg),
-                   basis.Z.transpose() * load, x);
-  op.complete(f, Vector::Zero(f.size()), x);
-  full_op.free_response(state, scheme.history(state.d_dot, state.d_ddot, state.d_alg), load,
-                        expected);
-  full_op.complete(f, Vector::Zero(f.size()), expected);
+  const Vector x = end_of_step(op, reduced_state, basis.Z.transpose() * load, f);
+  const Vector expected = end_of_step(full_op, state, load, f);
   const Matrix K_hat = full_op.K_hat();
   EXPECT_LE(energy_norm(K_hat, part->nodal(x) - expected), 1e-9 * energy_norm(K_hat, expected));
 }
+
+/// Of three methods: equations at the end of the step, within it, and beyond it.
+class LargeStepBy : public testing::TestWithParam<Method> {};
+
+TEST_P(LargeStepBy, SecondSolveForTheChangeOfALoadGivesTheStepWithTheNewLoad) {
+  const model::Model model = test::spatial_beam_pendulum(damped_beam());
+  const body::FlexiblePart& part = *model.bodies[0].flexible;
+  const Scheme scheme(GetParam(), 1e-3, GetParam() == Method::wilson ? 1.4 : 0.9);
+  BodyStepOperator op(part, scheme);
+  const model::BodyState before = some_state(part);
+  const Vector first = 50 * some(part.num_dofs(), 4.0);
+  const Vector second = 40 * some(part.num_dofs(), 7.0);
+  const Vector f = 30 * some(op.compliance().rows(), 5.0);
+  const Vector e = Vector::Zero(f.size());
+  LargeStep twice(op), once(op);
+  Vector y_twice, y_once;
+  model::BodyState after, expected;
+  twice.form_right_side(before, first, nullptr);
+  op.solve_right_side(twice.side());
+  twice.take_solution(before, y_twice, nullptr);
+  twice.form_right_side_of_change(second - first, nullptr);
+  op.solve_right_side(twice.side());
+  twice.take_solution(before, y_twice, nullptr);
+  twice.complete(before, f, e, after, nullptr);
+  once.form_right_side(before, second, nullptr);
+  op.solve_right_side(once.side());
+  once.take_solution(before, y_once, nullptr);
+  once.complete(before, f, e, expected, nullptr);
+  EXPECT_EQ(twice.solves(), 2);
+  EXPECT_LE((y_twice - y_once).norm(), 1e-13 * y_once.norm());
+  EXPECT_LE((after.d - expected.d).norm(), 1e-13 * expected.d.norm());
+  // Rates and accelerations are increments over h and h²: their rounding is that of d so divided.
+  EXPECT_LE((after.d_dot - expected.d_dot).norm(), 1e-12 * expected.d_dot.norm());
+  EXPECT_LE((after.d_ddot - expected.d_ddot).norm(), 1e-11 * expected.d_ddot.norm());
+  // The motion without loads along N has the values that its rows say.
+  once.complete(before, Vector::Zero(f.size()), e, expected, nullptr);
+  EXPECT_LE((op.N() * expected.d - y_once).norm(), 1e-12 * y_once.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(BodyStepOperator, LargeStepBy,
+                         testing::Values(Method::generalized_alpha, Method::newmark,
+                                         Method::wilson));
 
 TEST(BodyStepOperator, CorrectionsMoveStrainButNotInertia) {
   const model::Model model = test::spatial_beam_pendulum(damped_beam());
@@ -157,11 +204,10 @@ TEST(BodyStepOperator, CorrectionsMoveStrainButNotInertia) {
   e.tail<6>().setZero();  // corrections act along interface rows only, not along patterns
   const Matrix K_hat = op.K_hat();
   const Vector eta = bordered(part, K_hat, op.N().transpose() * e);
-  Vector minus = Vector::Zero(part.num_dofs());
-  op.subtract_correction(e, minus);
-  EXPECT_LE(energy_norm(K_hat, -minus - eta), 1e-12 * energy_norm(K_hat, eta));
   Vector x = Vector::Zero(part.num_dofs());
-  op.complete(Vector::Zero(e.size()), e, x);
+  op.add_correction(e, 0, x);
+  EXPECT_LE(energy_norm(K_hat, x - eta), 1e-12 * energy_norm(K_hat, eta));
+  op.add_correction_answer(e, 0, x);
   // K̂ Δ + PΛ = −k K η, x = Δ + η.
   const Vector expected = eta + bordered(part, K_hat, -scheme.stiffness * (part.fe.K * eta));
   EXPECT_LE(energy_norm(K_hat, x - expected), 1e-12 * energy_norm(K_hat, eta));

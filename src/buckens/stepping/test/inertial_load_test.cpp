@@ -41,9 +41,9 @@ void expect_right_load(const fem::FeModel& fe, bool is_proportional, bool is_by_
       scheme.mass * part.fe.M + scheme.damping * part.C + scheme.stiffness * part.fe.K;
   const Eigen::LDLT<linalg::Matrix> factor(K_hat);
   const Vector expected = factor.solve(part.fe.M * a + part.C * b);
-  Vector scratch = a;
   Vector right;
-  inertial.form(scratch, b, right);
+  inertial.multiply_mass(a + inertial.zeta() * b, right);
+  if (!inertial.is_proportional()) inertial.add_damping(b, right);
   const Vector found = factor.solve(right) + inertial.share() * b;
   // Rounding times the condition of K̂, some 1e4.
   EXPECT_LE((found - expected).norm(), 1e-11 * expected.norm());

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/lagged_coupling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "buckens/dynamics/coupling_terms.h"
+#include "buckens/dynamics/frame_equation.h"
+
+namespace buckens::stepping {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& op)
+    : body_(&body),
+      scheme_(op.scheme()),
+      rows_(op.num_dofs()),
+      inverse_diagonal_(op.K_hat_diagonal().cwiseInverse()) {
+  const linalg::Matrix& patterns = body.flexible->invariants.centrifugal_patterns();
+  undeformed_ = patterns.transpose() * (inverse_diagonal_.asDiagonal() * patterns);
+}
+
+void LaggedCoupling::start(const model::BodyState& s, int history, double t, TaskPool* pool) {
+  load_changed_ = true;
+  if (!s.terms.are_lagged()) {
+    used_ = evaluated_ = {};
+  } else if (history > 0) {
+    dynamics::extrapolate(s, history, scheme_.evaluation_time(t), used_, pool);
+  } else {
+    dynamics::evaluate_coupling(*body_, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot, used_,
+                                pool);
+  }
+}
+
+LaggedCoupling::Sizes LaggedCoupling::compare_loads(TaskPool* pool) {
+  std::array<Sizes, linalg::RowParts::kMostParts> parts;
+  change_.resize(evaluated_.load.size());
+  rows_.for_pieces(pool, [&](int part, Index first, Index size) {
+    Sizes& sizes = parts[static_cast<std::size_t>(part)];
+    const auto weight = inverse_diagonal_.segment(first, size);
+    const auto load = evaluated_.load.segment(first, size);
+    auto change = change_.segment(first, size);
+    change = load - used_.load.segment(first, size);
+    sizes.change += change.cwiseAbs2().dot(weight);
+    sizes.load += load.cwiseAbs2().dot(weight);
+    sizes.moved = std::max(sizes.moved, change.cwiseProduct(weight).cwiseAbs().maxCoeff());
+  });
+  Sizes out;
+  for (int part = 0; part < rows_.count(); ++part) {
+    const Sizes& sizes = parts[static_cast<std::size_t>(part)];
+    out.change += sizes.change;
+    out.load += sizes.load;
+    out.moved = std::max(out.moved, sizes.moved);
+  }
+  return out;
+}
+
+LaggedCoupling::Gap LaggedCoupling::evaluate(const BodyStep& step, const LargeStep& large,
+                                             const model::BodyState& after, double t,
+                                             double tolerance, double L, TaskPool* pool) {
+  const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
+  const Vector6 acceleration = step.frame_acceleration(scheme_);
+  const Vector3d w = rate.head<3>();
+  const Vector3d w_dot = acceleration.head<3>();
+  dynamics::evaluate_coupling(*body_, step.terms, large.d_e(after), large.rate_e(after),
+                              large.acceleration_e(after), w, w_dot, evaluated_, pool);
+  evaluated_.t = scheme_.evaluation_time(t);
+
+  Gap gap;
+  double load_change = 0;
+  if (step.terms.have_load()) {
+    const Sizes sizes = compare_loads(pool);
+    const Vector6 weights = dynamics::centrifugal_weights(step.terms, w);
+    const double whole = std::sqrt(sizes.load + weights.dot(undeformed_ * weights));
+    if (whole != 0.0) load_change = std::sqrt(sizes.change) / whole;
+    gap.motion = scheme_.force * sizes.moved / L;
+  }
+  const Vector3d frame_change =
+      (dynamics::frame_inertia(*body_, evaluated_.moments, w, w_dot, Vector3d::Zero()) -
+       dynamics::frame_inertia(*body_, used_.moments, w, w_dot, Vector3d::Zero()))
+          .head<3>();
+  const double frame_size = body_->J0.norm() * (w_dot.norm() + w.squaredNorm());
+  const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
+  gap.motion = std::max(
+      gap.motion, scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm());
+  gap.load_changed = load_changed_ = load_change > tolerance;
+  gap.frame_changed = frame_relative > tolerance;
+  gap.change = std::max(load_change, frame_relative);
+  return gap;
+}
+
+void LaggedCoupling::take_over() {
+  if (load_changed_) {
+    std::swap(used_, evaluated_);
+  } else {
+    used_.moments = evaluated_.moments;
+  }
+}
+
+}  // namespace buckens::stepping

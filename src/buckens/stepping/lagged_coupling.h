@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/base/task_pool.h"
+#include "buckens/linalg/row_parts.h"
+#include "buckens/stepping/body_step.h"
+#include "buckens/stepping/large_step.h"
+
+namespace buckens::stepping {
+
+/// The inertial coupling that a large solve takes as given, and how far that is from what its
+/// result gives.
+///
+/// A change ΔF of the nodal load F is judged relative to the whole coupling load of the body,
+///
+///     ‖ΔF‖ / √(‖F‖² + ‖ĉ‖²),      ‖f‖² = Σ fᵢ²/K̂ᵢᵢ,
+///
+/// ĉ the centrifugal load of the undeformed body. The norm of K̂⁻¹ itself costs the very solve that
+/// is to be decided on. The diagonal stands in for it: both weigh smooth loads alike, and the rough
+/// share, which extrapolation misses most, weighs more by the diagonal, so that rather one solve
+/// too many follows (docs/theory/08-coupling.md).
+class LaggedCoupling {
+ public:
+  LaggedCoupling(const body::Body& body, const BodyStepOperator& op);
+
+  /// How far the coupling is from what the step was computed with.
+  struct Gap {
+    bool load_changed = false;   ///< by more than the tolerance
+    bool frame_changed = false;  ///< the same of moments of the frame
+    double change = 0;           ///< the larger of both, relative
+    double motion = 0;           ///< caused by it, relative to the model's length
+
+    bool is_settled() const { return !load_changed && !frame_changed; }
+  };
+
+  /// Takes as given what the last steps suggest for the step from `state`.
+  /// @param history number of valid coupling entries in the state
+  void start(const model::BodyState& state, int history, double t, TaskPool* pool);
+  /// Evaluates with the result of a solve and compares.
+  /// @param after nodal state at the end as LargeStep formed it
+  /// @param t start of the step [s]
+  /// @param L length of the model, for Gap::motion [m]
+  Gap evaluate(const BodyStep& step, const LargeStep& large, const model::BodyState& after,
+               double t, double tolerance, double L, TaskPool* pool);
+  /// Takes as given what was evaluated: the moments and, if it changed, the load.
+  void take_over();
+
+  const model::Coupling& used() const { return used_; }
+  model::Coupling& evaluated() { return evaluated_; }
+  /// Change of the load from what was used to what was evaluated.
+  const linalg::Vector& change() const { return change_; }
+  /// Whether take_over() brought another load, so that a further solve is due.
+  bool load_changed() const { return load_changed_; }
+
+ private:
+  struct Sizes {
+    double change = 0, load = 0;  // squares
+    double moved = 0;
+  };
+  Sizes compare_loads(TaskPool* pool);
+
+  const body::Body* body_;
+  Scheme scheme_;
+  linalg::RowParts rows_;
+  linalg::Vector inverse_diagonal_;         // of K̂; empty if there are no loads
+  Eigen::Matrix<double, 6, 6> undeformed_;  // cᵀ D⁻¹ c of the patterns c
+  model::Coupling used_, evaluated_;
+  linalg::Vector change_;
+  bool load_changed_ = true;
+};
+
+}  // namespace buckens::stepping

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/large_step.h"
+
+#include <cmath>
+
+namespace buckens::stepping {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using linalg::Vector;
+
+LargeStep::LargeStep(BodyStepOperator& op)
+    : op_(&op),
+      rows_(op.num_dofs()),
+      holds_at_end_(op.scheme().weight == 1.0),
+      sums_(static_cast<std::size_t>(rows_.count())) {
+  const Scheme& scheme = op.scheme();
+  const auto of_rate = scheme.history(1.0, 0.0, 0.0);
+  const auto of_acceleration = scheme.history(0.0, 1.0, 0.0);
+  const auto of_algorithmic = scheme.history(0.0, 0.0, 1.0);
+  const auto weights = [&](double History<double>::*member) -> Weights {
+    return {0.0, of_rate.*member, of_acceleration.*member, of_algorithmic.*member};
+  };
+  velocity_ = weights(&History<double>::velocity);
+  acceleration_ = weights(&History<double>::acceleration);
+  mean_velocity_ = weights(&History<double>::mean_velocity);
+  offset_ = weights(&History<double>::offset);
+  const double c_theta = scheme.force * scheme.weight;
+  const Weights start = Weights{1.0} + offset_;
+  with_damping_ = start * scheme.damping + mean_velocity_ * -c_theta;
+  with_mass_ = start * scheme.mass + acceleration_ * -c_theta;
+  const InertialLoad& inertial = op.inertial();
+  if (inertial.is_proportional()) with_mass_ = with_mass_ + with_damping_ * inertial.zeta();
+  beside_solution_ = with_damping_ * inertial.share();
+  from_start_ = Weights{1.0} + start * (-1.0 / scheme.weight);
+
+  carried_before_ = scheme.carried_acceleration(1.0, 0.0);
+  carried_new_ = scheme.carried_acceleration(0.0, 1.0);
+  algorithmic_before_ = scheme.algorithmic(1.0, 0.0, 0.0);
+  algorithmic_old_ = scheme.algorithmic(0.0, 1.0, 0.0);
+  algorithmic_new_ = scheme.algorithmic(0.0, 0.0, 1.0);
+}
+
+void LargeStep::form_right_side(const model::BodyState& before, const Vector& load,
+                                TaskPool* pool) {
+  is_first_ = true;
+  const InertialLoad& inertial = op_->inertial();
+  const bool is_damped_otherwise = inertial.is_damped() && !inertial.is_proportional();
+  scratch_.resize(rows_.rows());
+  if (is_damped_otherwise) damped_.resize(rows_.rows());
+  rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    scratch_.segment(first, size) = combination(with_mass_, before, first, size);
+    if (!is_damped_otherwise) return;
+    damped_.segment(first, size) = combination(with_damping_, before, first, size);
+  });
+  inertial.multiply_mass(scratch_, free_, pool);
+  if (is_damped_otherwise) inertial.add_damping(damped_, free_);
+  if (load.size() == 0) return;
+  const double c_theta = op_->scheme().force * op_->scheme().weight;
+  rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    free_.segment(first, size) += c_theta * load.segment(first, size);
+  });
+}
+
+void LargeStep::form_right_side_of_change(const Vector& change, TaskPool* pool) {
+  is_first_ = false;
+  change_.resize(rows_.rows());
+  rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    change_.segment(first, size) = op_->scheme().force * change.segment(first, size);
+  });
+}
+
+void LargeStep::clear_sums() {
+  for (PartSums& sums : sums_) {
+    sums.rigid.setZero(op_->sieve().rank());
+    sums.patterns.setZero();
+    sums.total = 0.0;
+  }
+}
+
+void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, TaskPool* pool) {
+  ++solves_;
+  const Scheme& scheme = op_->scheme();
+  const linalg::Matrix& P = op_->sieve().P();
+  const linalg::Matrix* patterns = op_->patterns();
+  const bool adds = op_->inertial().share() != 0.0;
+  // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
+  // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
+  const bool at_evaluation = scheme.has_offset();
+  clear_sums();
+  rows_.for_pieces(pool, [&](int part, Index first, Index size) {
+    PartSums& sums = sums_[static_cast<std::size_t>(part)];
+    auto x = free_.segment(first, size);
+    const auto P_rows = P.middleRows(first, size).transpose();
+    if (is_first_) {
+      if (adds) x += combination(beside_solution_, before, first, size);
+      if (at_evaluation) sums.rigid.noalias() += P_rows * x;
+      if (!holds_at_end_) x = x / scheme.weight + combination(from_start_, before, first, size);
+      if (!at_evaluation) sums.rigid.noalias() += P_rows * x;
+    } else {
+      sums.rigid.noalias() += P_rows * change_.segment(first, size);
+      x += change_.segment(first, size);
+    }
+    if (patterns != nullptr) {
+      sums.patterns.noalias() += patterns->middleRows(first, size).transpose() * x;
+    }
+  });
+  if (is_first_) rigid_.setZero(op_->sieve().rank());
+  const Index interface = op_->num_interface_rows();
+  y_free.resize(op_->N().rows());
+  y_free.setZero();
+  const double scale = is_first_ && at_evaluation ? 1.0 / scheme.weight : 1.0;
+  for (const PartSums& sums : sums_) {
+    rigid_ += scale * sums.rigid;
+    if (patterns != nullptr) y_free.tail<6>() += sums.patterns;
+  }
+  y_free.head(interface).noalias() += op_->N().topRows(interface) * free_;
+  y_free.noalias() -= op_->rigid_row_values() * rigid_;
+}
+
+void LargeStep::form_end(const model::BodyState& before, Index first, Index size,
+                         model::BodyState& after) {
+  const Scheme& scheme = op_->scheme();
+  const auto increment = after.d_alg.segment(first, size);
+  if (op_->is_quasi_static()) {
+    after.d_dot.segment(first, size).setZero();
+    after.d_ddot.segment(first, size).setZero();
+  } else {
+    after.d_dot.segment(first, size) =
+        scheme.end_rate * increment + combination(velocity_, before, first, size);
+    after.d_ddot.segment(first, size) =
+        scheme.acceleration_rate * increment + combination(acceleration_, before, first, size);
+  }
+  if (!holds_at_end_) {
+    d_e_.segment(first, size) =
+        scheme.weight * increment + combination(Weights{1.0} + offset_, before, first, size);
+    rate_e_.segment(first, size) =
+        scheme.mean_rate * increment + combination(mean_velocity_, before, first, size);
+    if (op_->is_quasi_static()) rate_e_.segment(first, size).setZero();
+    acceleration_e_.segment(first, size) = after.d_ddot.segment(first, size);
+    after.d_ddot.segment(first, size) = carried_new_ * acceleration_e_.segment(first, size) +
+                                        carried_before_ * before.d_ddot.segment(first, size);
+  }
+  after.d_alg.segment(first, size) = algorithmic_new_ * after.d_ddot.segment(first, size) +
+                                     algorithmic_before_ * before.d_ddot.segment(first, size) +
+                                     algorithmic_old_ * before.d_alg.segment(first, size);
+}
+
+void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
+                         const VectorXd& correction, model::BodyState& after, TaskPool* pool) {
+  const Index n = rows_.rows();
+  for (Vector* v : {&after.d, &after.d_dot, &after.d_ddot, &after.d_alg}) v->resize(n);
+  if (!holds_at_end_) {
+    for (Vector* v : {&d_e_, &rate_e_, &acceleration_e_}) v->resize(n);
+  }
+  const linalg::Matrix& Phi = op_->sieve().Phi();
+  const bool corrects = !correction.isZero(0.0);
+  clear_sums();
+  rows_.for_pieces(pool, [&](int part, Index first, Index size) {
+    auto increment = after.d_alg.segment(first, size);  // until it gets what belongs there
+    increment = free_.segment(first, size) - before.d.segment(first, size);
+    increment.noalias() -= Phi.middleRows(first, size) * rigid_;
+    op_->add_answer(load, first, increment);
+    if (corrects) op_->add_correction_answer(correction, first, increment);
+    auto d = after.d.segment(first, size);
+    d = before.d.segment(first, size) + increment;
+    if (corrects) op_->add_correction(correction, first, d);
+    form_end(before, first, size, after);
+    // Not finite as soon as one of them is not.
+    sums_[static_cast<std::size_t>(part)].total +=
+        d.sum() + after.d_dot.segment(first, size).sum() + after.d_ddot.segment(first, size).sum();
+  });
+  is_finite_ = true;
+  for (const PartSums& sums : sums_) is_finite_ = is_finite_ && std::isfinite(sums.total);
+}
+
+}  // namespace buckens::stepping

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/base/task_pool.h"
+#include "buckens/linalg/row_parts.h"
+#include "buckens/stepping/body_step_operator.h"
+
+namespace buckens::stepping {
+
+/// The n-sized share of one flexible body in a step: right-hand side, what follows from its
+/// solution, and the state at the end.
+///
+/// Vectors of a large mesh are read from memory each time, as the factor goes through the caches
+/// between. So each is read as rarely as can be: all that the past says is a combination of d, ḋ, d̈
+/// and the algorithmic accelerations a at the start (Scheme), and is formed where it is needed;
+/// a further solve of the step takes the change of the load only. With m interface rows and c
+/// columns of them and patterns, these numbers per variable pass through memory, besides the
+/// factor:
+///
+///     form_right_side    4 read, 1 written, a product with M;    the change of a load: none
+///     take_solution      5 + 6 (sieve) + 6 (patterns) read, 1 written
+///     complete           5 + 6 (sieve) + c + 2 m read, 4 written
+///
+/// The rows go in parts to the threads of a pool; results do not depend on their number. Once the
+/// vectors have their sizes nothing is allocated.
+class LargeStep {
+ public:
+  explicit LargeStep(BodyStepOperator& op);
+
+  /// Forms the right-hand side of  K̂ x_e = c θ F + M (m x₀ − cθ ẍ₀) + C (d x₀ − cθ ẋ₀),
+  /// x₀ = x + offset, x⁺ = x + (x_e − x₀)/θ.
+  /// @param load F, nodal load at the evaluation instant, n; empty for none
+  void form_right_side(const model::BodyState& before, const linalg::Vector& load, TaskPool* pool);
+  /// Forms that of the change of x⁺ by a change of F.
+  void form_right_side_of_change(const linalg::Vector& change, TaskPool* pool);
+  /// The right-hand side, to be solved in place.
+  linalg::Vector& side() { return is_first_ ? free_ : change_; }
+  /// Makes the motion without loads along N of the solution in side(), and its row values.
+  /// @param y_free N x⁺
+  void take_solution(const model::BodyState& before, Eigen::VectorXd& y_free, TaskPool* pool);
+
+  /// Adds the answers to loads along N and forms the nodal state at the end.
+  /// @param load along the rows of N, centrifugal weights included
+  /// @param correction load of the position correction e
+  void complete(const model::BodyState& before, const Eigen::VectorXd& load,
+                const Eigen::VectorXd& correction, model::BodyState& after, TaskPool* pool);
+
+  /// Where the equations of motion hold, after complete(): `after` itself if that is the end.
+  const linalg::Vector& d_e(const model::BodyState& after) const {
+    return holds_at_end_ ? after.d : d_e_;
+  }
+  const linalg::Vector& rate_e(const model::BodyState& after) const {
+    return holds_at_end_ ? after.d_dot : rate_e_;
+  }
+  const linalg::Vector& acceleration_e(const model::BodyState& after) const {
+    return holds_at_end_ ? after.d_ddot : acceleration_e_;
+  }
+  /// Whether all numbers at the end of the step are finite.
+  bool is_finite() const { return is_finite_; }
+
+  BodyStepOperator& op() { return *op_; }
+  const BodyStepOperator& op() const { return *op_; }
+  /// Solutions taken so far.
+  long solves() const { return solves_; }
+
+ private:
+  /// Weights of a combination of d, ḋ, d̈ and a at the start of the step.
+  struct Weights {
+    double d = 0, rate = 0, acceleration = 0, algorithmic = 0;
+    Weights operator+(const Weights& o) const {
+      return {d + o.d, rate + o.rate, acceleration + o.acceleration, algorithmic + o.algorithmic};
+    }
+    Weights operator*(double s) const {
+      return {s * d, s * rate, s * acceleration, s * algorithmic};
+    }
+  };
+  // Of at most six rigid motions: needs no memory of its own.
+  using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+  /// What is kept of the sums of a part.
+  struct PartSums {
+    Amplitudes rigid;
+    Eigen::Matrix<double, 6, 1> patterns;
+    double total = 0;
+  };
+  static auto combination(const Weights& w, const model::BodyState& s, Eigen::Index first,
+                          Eigen::Index size) {
+    return w.d * s.d.segment(first, size) + w.rate * s.d_dot.segment(first, size) +
+           w.acceleration * s.d_ddot.segment(first, size) +
+           w.algorithmic * s.d_alg.segment(first, size);
+  }
+  void clear_sums();
+  void form_end(const model::BodyState& before, Eigen::Index first, Eigen::Index size,
+                model::BodyState& after);
+
+  BodyStepOperator* op_;
+  linalg::RowParts rows_;
+  bool holds_at_end_;  // the equations of motion
+  // Of the past: with M and C on the right-hand side; added to the solution; rates and
+  // accelerations at the evaluation instant, rates at the end.
+  Weights with_mass_, with_damping_, beside_solution_, from_start_;
+  Weights mean_velocity_, acceleration_, velocity_, offset_;
+  // Carried and algorithmic acceleration at the end.
+  double carried_before_ = 0, carried_new_ = 1;
+  double algorithmic_before_ = 0, algorithmic_old_ = 0, algorithmic_new_ = 1;
+
+  bool is_first_ = true;
+  linalg::Vector free_;    // x⁺ without loads along N, Φ rigid_ still in it
+  linalg::Vector change_;  // of it by a later solve
+  linalg::Vector scratch_, damped_;
+  Amplitudes rigid_;
+  std::vector<PartSums> sums_;
+  linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty where the equations hold at the end
+  bool is_finite_ = true;
+  long solves_ = 0;
+};
+
+}  // namespace buckens::stepping
