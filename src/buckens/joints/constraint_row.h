@@ -51,6 +51,10 @@ class ConstraintRow {
   /// True for rows whose residual is a length, false for dimensionless ones.
   bool is_length() const { return kind_ != Kind::direction; }
   bool depends_on_time() const { return law_.has_value(); }
+  /// e of a point row; b of a direction row, at angle zero where it turns.
+  const Eigen::Vector3d& direction() const { return e_; }
+  /// c of a direction row, in M.
+  const Eigen::Vector3d& second_direction() const { return c_; }
 
  private:
   /// A vector b(t) fixed in F with its time derivatives there.
