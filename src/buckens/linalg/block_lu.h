@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// LU factors of a sparse matrix made of small dense blocks, as joints along chains and trees give
+/// it.
+///
+/// The pattern of blocks is symmetric and never changes; the values need not be symmetric. Blocks
+/// are eliminated in the order of least degree, found once: a chain or a tree of blocks fills
+/// nothing, so that a factorisation and a solve cost O(number of blocks). Pivots are taken from the
+/// diagonal: enough near a positive definite matrix. Elsewhere pivot_ratio() says that it was not,
+/// and whoever owns the values turns to a general factor (SparseLu).
+///
+/// Values lie in the order in which the elimination reads them. Blocks of unlike size are stored as
+/// large as the largest, filled up by the identity, unless that takes more than twice the memory.
+class BlockLu {
+ public:
+  static constexpr int kLargestBlock = 6;
+
+  /// @param sizes rows of each diagonal block, 1 … kLargestBlock
+  /// @param couples pairs of blocks with entries off the diagonal; any order, repetitions allowed
+  BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples);
+
+  /// Where a block of the pattern is kept. @param i,j equal, or a pair of the constructor
+  int place(int i, int j) const;
+  /// Begins a new matrix: all values become zero.
+  void clear();
+  /// Entries of a block by columns, stride() rows each, until factorise() is called.
+  double* block(int place) { return &values_[places_[static_cast<std::size_t>(place)].first]; }
+  int stride(int place) const { return places_[static_cast<std::size_t>(place)].stride; }
+  /// A diagonal entry of the matrix.
+  double& diagonal(int row);
+
+  /// Factorises what was entered. @return false if a pivot is not positive or not a number
+  bool factorise();
+  /// Smallest pivot relative to the diagonal entry that stood in its place, 0 … 1.
+  double pivot_ratio() const { return pivot_ratio_; }
+  /// x ← A⁻¹ x with the last factorisation. Allocates nothing.
+  void solve_in_place(Vector& x) const;
+
+  int size() const { return first_row_.back(); }
+  /// Numbers held, those that fill up blocks included.
+  std::size_t num_entries() const { return values_.size(); }
+
+ private:
+  struct Place {
+    int row, column;    // blocks
+    std::size_t first;  // of its values
+    int stride;         // rows as stored
+  };
+  /// One block's turn in the elimination.
+  struct Pivot {
+    int block;
+    int stored;                // rows as stored
+    std::size_t first_stored;  // of its rows in x_ and inverse_
+    std::size_t diagonal;      // first value of the diagonal block
+    std::size_t first_neighbour, end_neighbour;
+  };
+  /// A block that is still there and coupled with the pivot.
+  struct Neighbour {
+    int stored;
+    std::size_t first_stored;
+    std::size_t lower, upper;  // first values of (neighbour, pivot) and (pivot, neighbour)
+  };
+
+  void order(const std::vector<std::pair<int, int>>& couples);
+  void lay_out();
+  template <int R>
+  bool eliminate();
+  template <int R>
+  void substitute() const;
+
+  std::vector<int> sizes_, first_row_;
+  std::vector<std::size_t> first_stored_;
+  std::vector<Place> places_;
+  std::vector<std::vector<std::pair<int, int>>> by_row_;  // per block: (column, place), ascending
+  int uniform_ = 0;                        // rows of every block as stored, 0 if each has its own
+  std::vector<int> sequence_;              // blocks as they are eliminated
+  std::vector<std::vector<int>> coupled_;  // with each of them at that time
+  std::vector<Pivot> pivots_;
+  std::vector<Neighbour> neighbours_;
+  std::vector<std::size_t> updates_;  // first values of (neighbour, neighbour), pivot by pivot
+  std::vector<double> values_;
+  std::vector<double> inverse_;    // of pivots
+  mutable std::vector<double> x_;  // of a solve, as stored
+  double pivot_ratio_ = 1;
+};
+
+}  // namespace buckens::linalg
