@@ -122,7 +122,7 @@ class Accelerations {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       responses[b].interface_load = Vector::Zero(model_.bodies[b].num_interface_rows());
     }
-    condensation_->gather(rows_, X, responses);
+    condensation_->gather(X, responses);
     double change = 0.0;
     double size = 1e-300;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {

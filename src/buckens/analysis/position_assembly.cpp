@@ -57,7 +57,7 @@ class LeastMotion {
     for (double& value : diagonal) value = damping * std::max(value, 1e-6 * largest) + 1e-300;
     condensation_.factorise(rows, rows, compliance_, diagonal);
     condensation_.solve_in_place(demand);
-    condensation_.gather(rows, demand, responses_);
+    condensation_.gather(demand, responses_);
     return responses_;
   }
 

@@ -7,6 +7,7 @@ namespace buckens::analysis {
 
 WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
     : model_(model),
+      joints_(model),
       before_(powers(start)),
       t_(start.t),
       lambda_before_(start.lambda),
@@ -25,8 +26,8 @@ WorkAccount::Powers WorkAccount::powers(const model::State& state) {
   dynamics::evaluate_forces(model_, motions, state.t, forces_);
   out.active = forces_.active_power + forces_.dissipation;
   out.damping = forces_.dissipation;
-  dynamics::evaluate_joints(model_, motions, state.t, constraints_, &state.lambda, &forces_);
-  out.g_t = constraints_.g_t;
+  joints_.evaluate(motions, state.t, residuals_, &state.lambda, &forces_);
+  out.g_t = residuals_.g_t;
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "buckens/analysis/damping_work.h"
-#include "buckens/dynamics/joint_forces.h"
+#include "buckens/dynamics/joint_set.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/results/observation.h"
@@ -40,9 +40,10 @@ class WorkAccount {
   Powers powers(const model::State& state);
 
   const model::Model& model_;
+  dynamics::JointSet joints_;
   std::vector<DampingWork> meshes_;
   dynamics::Forces forces_;
-  dynamics::Constraints constraints_;
+  dynamics::JointResiduals residuals_;
   Powers before_;
   double t_ = 0;
   linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state

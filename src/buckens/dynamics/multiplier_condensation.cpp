@@ -2,122 +2,207 @@
 #include "buckens/dynamics/multiplier_condensation.h"
 
 #include <algorithm>
+#include <array>
 
 namespace buckens::dynamics {
 
 namespace {
 
-const BodyRow& share(const SystemRow& row, bool is_first) {
-  return is_first ? row.first : row.second;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Images = std::array<Vector6, RowBlocks::kMostRows>;
+
+// Where a pivot keeps less of its diagonal entry, about eight digits are lost without exchanges.
+constexpr double kPoorPivot = 1e-8;
+
+std::vector<int> sizes_of(const RowBlocks& rows) {
+  std::vector<int> sizes;
+  for (const RowBlock& block : rows.blocks()) sizes.push_back(block.count);
+  return sizes;
 }
 
-/// Position of entry (row, column) among the values of a compressed matrix with sorted columns.
-int value_position(const linalg::SparseMatrix& A, int row, int column) {
-  const int* begin = A.innerIndexPtr() + A.outerIndexPtr()[column];
-  const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-  return static_cast<int>(std::lower_bound(begin, end, row) - A.innerIndexPtr());
+/// Pairs of blocks that touch the same body, every one once.
+std::vector<std::pair<int, int>> couples_of(const RowBlocks& rows, int num_bodies) {
+  std::vector<std::vector<int>> on_body(static_cast<std::size_t>(num_bodies));
+  std::vector<std::pair<int, int>> out;
+  for (std::size_t k = 0; k < rows.blocks().size(); ++k) {
+    out.emplace_back(static_cast<int>(k), static_cast<int>(k));
+    for (const RowBlock::Side& side : rows.blocks()[k].sides) {
+      if (side.body == model::kGround) continue;
+      on_body[static_cast<std::size_t>(side.body)].push_back(static_cast<int>(k));
+    }
+  }
+  for (const auto& list : on_body) {
+    for (const int i : list) {
+      for (const int j : list) out.emplace_back(i, j);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+Eigen::Map<const Vector6> six(const double* values) { return Eigen::Map<const Vector6>(values); }
+
+/// Values at the interface rows of `at` by row forces along `force` of another block's side.
+Vector6 interface_image(const linalg::Matrix& compliance, const RowBlock::Side& at,
+                        const RowBlock::Side& from, const double* force) {
+  const auto part = [&](int row) -> Eigen::Vector3d {
+    Eigen::Vector3d out = compliance.block<3, 3>(row, from.translation_row) * six(force).head<3>();
+    if (from.rotation_row >= 0) {
+      out.noalias() += compliance.block<3, 3>(row, from.rotation_row) * six(force).tail<3>();
+    }
+    return out;
+  };
+  Vector6 image = Vector6::Zero();
+  image.head<3>() = part(at.translation_row);
+  if (at.rotation_row >= 0) image.tail<3>() = part(at.rotation_row);
+  return image;
 }
 
 }  // namespace
 
 MultiplierCondensation::MultiplierCondensation(int num_bodies, const std::vector<SystemRow>& rows)
-    : size_(static_cast<int>(rows.size())), rows_on_body_(static_cast<std::size_t>(num_bodies)) {
-  for (int r = 0; r < size_; ++r) {
-    const SystemRow& row = rows[static_cast<std::size_t>(r)];
-    for (const bool is_first : {true, false}) {
-      const int b = share(row, is_first).body;
-      if (b != model::kGround) rows_on_body_[static_cast<std::size_t>(b)].push_back({r, is_first});
+    : force_(rows),
+      blocks_on_body_(static_cast<std::size_t>(num_bodies)),
+      couples_(couples_of(force_, num_bodies)),
+      block_lu_(sizes_of(force_), couples_) {
+  const auto& blocks = force_.blocks();
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    for (int side = 0; side < 2; ++side) {
+      const int b = blocks[k].sides[static_cast<std::size_t>(side)].body;
+      if (b == model::kGround) continue;
+      blocks_on_body_[static_cast<std::size_t>(b)].push_back({static_cast<int>(k), side});
     }
   }
-  std::vector<linalg::Triplet> entries;
-  for (int r = 0; r < size_; ++r) entries.emplace_back(r, r, 0.0);
-  for (const auto& list : rows_on_body_) {
-    for (const RowOnBody& i : list) {
-      for (const RowOnBody& j : list) entries.emplace_back(i.row, j.row, 0.0);
+  for (const auto& list : blocks_on_body_) {
+    std::vector<int>& places = places_.emplace_back();
+    places.reserve(list.size() * list.size());
+    for (const BlockOnBody& j : list) {
+      for (const BlockOnBody& i : list) places.push_back(block_lu_.place(i.block, j.block));
     }
   }
-  S_.resize(size_, size_);
-  S_.setFromTriplets(entries.begin(), entries.end());
-  S_.makeCompressed();
-  for (int r = 0; r < size_; ++r) diagonal_.push_back(value_position(S_, r, r));
-  for (const auto& list : rows_on_body_) {
-    std::vector<int> positions;
-    positions.reserve(list.size() * list.size());
-    for (const RowOnBody& j : list) {
-      for (const RowOnBody& i : list) positions.push_back(value_position(S_, i.row, j.row));
-    }
-    positions_.push_back(std::move(positions));
-  }
-  lu_.emplace(S_);
 }
 
-void MultiplierCondensation::add_body(std::size_t b, const std::vector<SystemRow>& test,
-                                      const std::vector<SystemRow>& force,
-                                      const BodyCompliance& compliance) {
-  const auto& list = rows_on_body_[b];
-  std::size_t position = 0;
-  for (const RowOnBody& j : list) {
-    const BodyRow& acting = share(force[static_cast<std::size_t>(j.row)], j.is_first);
-    const Eigen::Matrix<double, 6, 1> frame_image = compliance.frame * acting.frame.transpose();
-    const bool on_interface = compliance.interface != nullptr && acting.translation_row >= 0;
-    if (on_interface) {
-      image_.resize(compliance.interface->rows());
-      image_.noalias() = compliance.interface->middleCols<3>(acting.translation_row) *
-                         acting.interface.head<3>().transpose();
-      if (acting.rotation_row >= 0) {
-        image_.noalias() += compliance.interface->middleCols<3>(acting.rotation_row) *
-                            acting.interface.tail<3>().transpose();
-      }
+void MultiplierCondensation::set_row(int row, const SystemRow& values) {
+  force_.set(row, values);
+  if (test_) test_->set(row, values);
+}
+
+void MultiplierCondensation::set_row(int row, const SystemRow& test, const SystemRow& force) {
+  if (!test_) test_ = force_;
+  force_.set(row, force);
+  test_->set(row, test);
+}
+
+void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compliance) {
+  const auto& list = blocks_on_body_[b];
+  const Eigen::Matrix3d rotation = compliance.frame.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d translation = compliance.frame.bottomRightCorner<3, 3>();
+  const RowBlocks& test = test_rows();
+  const auto side_of = [&](const BlockOnBody& k) -> const RowBlock::Side& {
+    return force_.blocks()[static_cast<std::size_t>(k.block)]
+        .sides[static_cast<std::size_t>(k.side)];
+  };
+  const auto count_of = [&](const BlockOnBody& k) {
+    return force_.blocks()[static_cast<std::size_t>(k.block)].count;
+  };
+  const int* place = places_[b].data();
+  Images images;
+  for (const BlockOnBody& j : list) {
+    const RowBlock::Side& acting = side_of(j);
+    const int columns = count_of(j);
+    for (int m = 0; m < columns; ++m) {
+      Vector6& image = images[static_cast<std::size_t>(m)];
+      image.head<3>().noalias() = rotation * six(force_.frame(acting, m)).head<3>();
+      image.tail<3>().noalias() = translation * six(force_.frame(acting, m)).tail<3>();
     }
-    for (const RowOnBody& i : list) {
-      const BodyRow& closing = share(test[static_cast<std::size_t>(i.row)], i.is_first);
-      double value = closing.frame.dot(frame_image);
-      if (on_interface && closing.translation_row >= 0) {
-        value += closing.interface.head<3>().dot(image_.segment<3>(closing.translation_row));
-        if (closing.rotation_row >= 0) {
-          value += closing.interface.tail<3>().dot(image_.segment<3>(closing.rotation_row));
-        }
+    const bool on_interface = compliance.interface != nullptr && acting.follows_mesh();
+    for (const BlockOnBody& i : list) {
+      const RowBlock::Side& closing = side_of(i);
+      const int rows = count_of(i);
+      double* const S = block_lu_.block(*place);
+      const int stride = block_lu_.stride(*place);
+      ++place;
+      for (int m = 0; m < columns; ++m) {
+        double* const column = S + m * stride;
+        const Vector6& image = images[static_cast<std::size_t>(m)];
+        for (int k = 0; k < rows; ++k) column[k] += six(test.frame(closing, k)).dot(image);
+        if (!on_interface || !closing.follows_mesh()) continue;
+        const Vector6 seen =
+            interface_image(*compliance.interface, closing, acting, force_.interface(acting, m));
+        for (int k = 0; k < rows; ++k) column[k] += six(test.interface(closing, k)).dot(seen);
       }
-      S_.valuePtr()[positions_[b][position++]] += value;
     }
   }
+}
+
+void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& compliance,
+                                      const std::vector<double>& soft_compliance) {
+  block_lu_.clear();
+  for (std::size_t b = 0; b < blocks_on_body_.size(); ++b) {
+    if (!blocks_on_body_[b].empty()) add_body(b, compliance[b]);
+  }
+  const int first_soft = size() - static_cast<int>(soft_compliance.size());
+  for (std::size_t k = 0; k < soft_compliance.size(); ++k) {
+    block_lu_.diagonal(first_soft + static_cast<int>(k)) += soft_compliance[k];
+  }
+}
+
+bool MultiplierCondensation::factorise_with_exchanges() {
+  std::vector<linalg::Triplet> entries;
+  for (const auto& [i, j] : couples_) {
+    const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
+    const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
+    const int place = block_lu_.place(i, j);
+    const double* const S = block_lu_.block(place);
+    for (int m = 0; m < column.count; ++m) {
+      for (int k = 0; k < row.count; ++k) {
+        entries.emplace_back(row.first_row + k, column.first_row + m,
+                             S[m * block_lu_.stride(place) + k]);
+      }
+    }
+  }
+  S_.resize(size(), size());
+  S_.setFromTriplets(entries.begin(), entries.end());
+  if (!general_) general_.emplace(S_);
+  return general_->factorise(S_);
+}
+
+bool MultiplierCondensation::factorise(const std::vector<BodyCompliance>& compliance,
+                                       const std::vector<double>& soft_compliance) {
+  assemble(compliance, soft_compliance);
+  exchanges_rows_ = !(block_lu_.factorise() && block_lu_.pivot_ratio() > kPoorPivot);
+  if (!exchanges_rows_) return true;
+  assemble(compliance, soft_compliance);
+  return factorise_with_exchanges();
 }
 
 bool MultiplierCondensation::factorise(const std::vector<SystemRow>& test,
                                        const std::vector<SystemRow>& force,
                                        const std::vector<BodyCompliance>& compliance,
                                        const std::vector<double>& soft_compliance) {
-  std::fill(S_.valuePtr(), S_.valuePtr() + S_.nonZeros(), 0.0);
-  for (std::size_t b = 0; b < rows_on_body_.size(); ++b) {
-    if (!rows_on_body_[b].empty()) add_body(b, test, force, compliance[b]);
-  }
-  const std::size_t first_soft = diagonal_.size() - soft_compliance.size();
-  for (std::size_t k = 0; k < soft_compliance.size(); ++k) {
-    S_.valuePtr()[diagonal_[first_soft + k]] += soft_compliance[k];
-  }
-  return lu_->factorise(S_);
-}
-
-void MultiplierCondensation::gather(const std::vector<SystemRow>& force, const linalg::Vector& x,
-                                    std::vector<BodyResponse>& responses) const {
-  for (std::size_t b = 0; b < rows_on_body_.size(); ++b) {
-    BodyResponse& out = responses[b];
-    out.frame_load.setZero();
-    out.interface_load.setZero();
-    for (const RowOnBody& entry : rows_on_body_[b]) {
-      const BodyRow& row = share(force[static_cast<std::size_t>(entry.row)], entry.is_first);
-      const double value = x[entry.row];
-      out.frame_load += value * row.frame.transpose();
-      if (row.translation_row >= 0) {
-        out.interface_load.segment<3>(row.translation_row) +=
-            value * row.interface.head<3>().transpose();
-      }
-      if (row.rotation_row >= 0) {
-        out.interface_load.segment<3>(row.rotation_row) +=
-            value * row.interface.tail<3>().transpose();
-      }
+  const bool are_one = &test == &force;
+  for (int row = 0; row < size(); ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    if (are_one) {
+      set_row(row, force[r]);
+    } else {
+      set_row(row, test[r], force[r]);
     }
   }
+  return factorise(compliance, soft_compliance);
+}
+
+void MultiplierCondensation::solve_in_place(linalg::Vector& x) const {
+  if (exchanges_rows_) {
+    general_->solve_in_place(x);
+  } else {
+    block_lu_.solve_in_place(x);
+  }
+}
+
+double MultiplierCondensation::pivot_ratio() const {
+  return exchanges_rows_ ? general_->pivot_ratio() : block_lu_.pivot_ratio();
 }
 
 }  // namespace buckens::dynamics

@@ -4,23 +4,19 @@
 #include <optional>
 #include <vector>
 
+#include "buckens/dynamics/row_blocks.h"
 #include "buckens/dynamics/system_kinematics.h"
+#include "buckens/linalg/block_lu.h"
 #include "buckens/linalg/sparse_lu.h"
 
 namespace buckens::dynamics {
 
 /// Response of one body to unit generalised forces, everything condensed to what joints can touch.
 struct BodyCompliance {
-  /// Frame coordinates per frame load, 6×6 (rotation block, translation block).
+  /// Frame coordinates per frame load, 6×6: a rotation block and a translation block.
   Eigen::Matrix<double, 6, 6> frame = Eigen::Matrix<double, 6, 6>::Zero();
   /// Interface values per interface load, N K̂⁻¹Nᵀ (sieved); empty for rigid bodies. Not owned.
   const linalg::Matrix* interface = nullptr;
-};
-
-/// Response of one body to a set of row forces.
-struct BodyResponse {
-  Eigen::Matrix<double, 6, 1> frame_load = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::VectorXd interface_load;
 };
 
 /// The condensed system of all joint equations, FM (42), (43):
@@ -28,45 +24,63 @@ struct BodyResponse {
 ///     S = Σ_bodies a ᵀ W⁻¹ a + Aᵀ (Y K̂⁻¹) A  (+ 1/k on the diagonal of soft rows)
 ///
 /// Rows are constraints in use, followed by the soft rows of force elements. Bodies enter only by
-/// small dense blocks, so the matrix is sparse across joints; its pattern is found once.
+/// small dense blocks, so the matrix is sparse across joints; its pattern is found once. The blocks
+/// are eliminated as they are (linalg::BlockLu); where that leaves poor pivots, rows are exchanged
+/// (linalg::SparseLu).
 class MultiplierCondensation {
  public:
   /// @param rows one entry per row, with body numbers and marker rows set; values are not read
   MultiplierCondensation(int num_bodies, const std::vector<SystemRow>& rows);
 
-  /// Assembles and factorises S.
-  /// @param test rows that are closed (left), @param force rows along which multipliers act (right)
+  /// Sets a row that is closed along the direction in which its multiplier acts.
+  void set_row(int row, const SystemRow& values);
+  /// Sets a row. @param test what is closed (left), @param force along which the multiplier acts
+  void set_row(int row, const SystemRow& test, const SystemRow& force);
+
+  /// Assembles and factorises S of the rows set.
   /// @param soft_compliance one entry per trailing soft row, 1/k [m/N, rad/(N m)]
   /// @return false if S is singular to working precision
+  bool factorise(const std::vector<BodyCompliance>& compliance,
+                 const std::vector<double>& soft_compliance);
+  /// Sets all rows and factorises.
   bool factorise(const std::vector<SystemRow>& test, const std::vector<SystemRow>& force,
                  const std::vector<BodyCompliance>& compliance,
                  const std::vector<double>& soft_compliance);
 
   /// x ← S⁻¹ x.
-  void solve_in_place(linalg::Vector& x) const { lu_->solve_in_place(x); }
+  void solve_in_place(linalg::Vector& x) const;
 
-  /// Sums the row forces x along `force` on each body.
-  void gather(const std::vector<SystemRow>& force, const linalg::Vector& x,
-              std::vector<BodyResponse>& responses) const;
+  /// Sums the row forces x along the directions of the multipliers on each body.
+  void gather(const linalg::Vector& x, std::vector<BodyResponse>& responses) const {
+    force_.gather(x, responses);
+  }
+  /// The rows that are closed.
+  const RowBlocks& test_rows() const { return test_ ? *test_ : force_; }
 
-  int size() const { return size_; }
-  double pivot_ratio() const { return lu_ ? lu_->pivot_ratio() : 1.0; }
+  int size() const { return force_.num_rows(); }
+  /// Smallest pivot relative to what stood on the diagonal; after an exchange of rows, relative to
+  /// the largest.
+  double pivot_ratio() const;
 
  private:
-  struct RowOnBody {
-    int row;
-    bool is_first;
+  struct BlockOnBody {
+    int block;
+    int side;
   };
-  void add_body(std::size_t b, const std::vector<SystemRow>& test,
-                const std::vector<SystemRow>& force, const BodyCompliance& compliance);
+  void assemble(const std::vector<BodyCompliance>& compliance,
+                const std::vector<double>& soft_compliance);
+  void add_body(std::size_t b, const BodyCompliance& compliance);
+  bool factorise_with_exchanges();
 
-  int size_ = 0;
-  std::vector<std::vector<RowOnBody>> rows_on_body_;
-  std::vector<std::vector<int>> positions_;  // into the values of S_, k×k per body
-  std::vector<int> diagonal_;
-  linalg::SparseMatrix S_;
-  std::optional<linalg::SparseLu> lu_;
-  Eigen::VectorXd image_;  // scratch of add_body()
+  RowBlocks force_;
+  std::optional<RowBlocks> test_;  // where other rows are closed than multipliers act along
+  std::vector<std::vector<BlockOnBody>> blocks_on_body_;
+  std::vector<std::vector<int>> places_;      // in blocks_lu_, one per pair of blocks on a body
+  std::vector<std::pair<int, int>> couples_;  // blocks (i, j) of S, every one once
+  linalg::BlockLu block_lu_;
+  bool exchanges_rows_ = false;  // the last factorisation is that of general_
+  linalg::SparseMatrix S_;       // for general_, empty until it is needed
+  std::optional<linalg::SparseLu> general_;
 };
 
 }  // namespace buckens::dynamics

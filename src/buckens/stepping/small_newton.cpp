@@ -2,13 +2,13 @@
 #include "buckens/stepping/small_newton.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/dynamics/joint_forces.h"
 #include "buckens/stepping/row_selection.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -53,8 +53,10 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       scheme_(scheme),
       settings_(settings),
       operators_(std::move(operators)),
-      rows_in_use_(std::move(rows_in_use)) {
+      rows_in_use_(std::move(rows_in_use)),
+      joints_(model) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
+  number_rows_in_use();
   const std::size_t count = model.bodies.size();
   for (auto* motions : {&end_, &evaluation_, &uncorrected_}) motions->resize(count);
   compliance_.resize(count);
@@ -91,10 +93,10 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_forces(model_, at_evaluation(), t_e, forces_);
   if (same) {
-    dynamics::evaluate_joints(model_, end_, t + scheme_.h, constraints_end_, &lambda, &forces_);
+    joints_.evaluate(end_, t + scheme_.h, residuals_, &lambda, &forces_);
   } else {
-    dynamics::evaluate_joints(model_, end_, t + scheme_.h, constraints_end_);
-    dynamics::evaluate_joints(model_, evaluation_, t_e, constraints_evaluation_, &lambda, &forces_);
+    joints_.evaluate(end_, t + scheme_.h, residuals_);
+    joints_.evaluate(evaluation_, t_e, other_residuals_, &lambda, &forces_);
   }
   keep_shapes_in_rates(bodies, t + scheme_.h);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -108,100 +110,120 @@ void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, doub
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].uncorrected_motion(scheme_, operators_[b], uncorrected_[b]);
   }
-  dynamics::evaluate_joints(model_, uncorrected_, t_end, uncorrected_residuals_);
-  constraints_end_.g_dot = uncorrected_residuals_.g_dot;
+  joints_.evaluate(uncorrected_, t_end, other_residuals_);
+  residuals_.g_dot = other_residuals_.g_dot;
 }
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   contraction_ = 1.0;
+  const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].motion_at_end(scheme_, operators_[b], end_[b]);
-    bodies[b].motion_at_evaluation(scheme_, operators_[b], evaluation_[b]);
-    bodies[b].compliance = shares_[b].frame_compliance(bodies[b], evaluation_[b]);
+    if (!same) bodies[b].motion_at_evaluation(scheme_, operators_[b], evaluation_[b]);
+    bodies[b].compliance = shares_[b].frame_compliance(bodies[b], at_evaluation()[b]);
     compliance_[b].frame = bodies[b].compliance;
     compliance_[b].interface = operators_[b] ? &operators_[b]->interface_compliance() : nullptr;
   }
-  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, constraints_end_);
-  if (scheme_.weight != 1.0) {
-    dynamics::evaluate_constraints(model_, evaluation_, scheme_.evaluation_time(t),
-                                   constraints_evaluation_);
-  }
-  dynamics::evaluate_soft_rows(model_, evaluation_, soft_);
-  bool is_closed = condense();
+  dynamics::evaluate_soft_rows(model_, at_evaluation(), soft_);
+  bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
   if (!is_closed || has_open_rows_ || pivots < kPivotDrop * trusted_pivots_) {
-    if (select_rows_anew()) is_closed = condense();
+    if (select_rows_anew(t)) is_closed = condense(t);
     trusted_pivots_ = condensation_->pivot_ratio();
   } else {
     trusted_pivots_ = std::max(trusted_pivots_, pivots);
   }
   if (is_closed) return;
+  joints_.evaluate(end_, t + scheme_.h, residuals_);
   StepReport report;
   report.worst_row = rows_in_use_.empty() ? 0 : rows_in_use_.front();
   if (!dependent_.empty()) report.worst_row = dependent_.front();
-  report.position_residual = constraints_end_.g.cwiseAbs().maxCoeff();
+  report.position_residual = residuals_.g.cwiseAbs().maxCoeff();
   fail(t, report, "joint equations have become dependent (a singular position)");
 }
 
-const std::vector<dynamics::SystemRow>& SmallNewton::test_rows() const {
-  return takes_all_rows_ ? constraints_end_.rows : test_rows_;
+void SmallNewton::number_rows_in_use() {
+  place_in_use_.assign(static_cast<std::size_t>(model_.num_constraint_rows()), -1);
+  for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
+    place_in_use_[static_cast<std::size_t>(rows_in_use_[k])] = static_cast<int>(k);
+  }
 }
 
-const std::vector<dynamics::SystemRow>& SmallNewton::force_rows() const {
-  return takes_all_rows_ ? constraints_end_.rows : force_rows_;
+void SmallNewton::set_joint_rows(double t) {
+  std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows, acting;
+  const bool same = scheme_.weight == 1.0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    joints_.derivatives(j, end_, t + scheme_.h, rows);
+    if (!same) joints_.derivatives(j, evaluation_, scheme_.evaluation_time(t), acting);
+    for (int k = 0; k < joints_.num_rows(j); ++k) {
+      const int place = place_in_use_[static_cast<std::size_t>(joints_.first_row(j) + k)];
+      if (place < 0) continue;
+      const dynamics::SystemRow& row = rows[static_cast<std::size_t>(k)];
+      if (same && !has_quasi_static_) {
+        condensation_->set_row(place, row);
+      } else {
+        condensation_->set_row(place, without_rates(row),
+                               same ? row : acting[static_cast<std::size_t>(k)]);
+      }
+    }
+  }
 }
 
-void SmallNewton::collect_rows() {
-  takes_all_rows_ = scheme_.weight == 1.0 && !has_quasi_static_ && soft_.rows.empty() &&
-                    rows_in_use_.size() == constraints_end_.rows.size();
+void SmallNewton::set_soft_rows() {
   soft_compliance_.clear();
   soft_stiffness_share_.clear();
-  if (takes_all_rows_) return;
-  const auto& forcing = scheme_.weight == 1.0 ? constraints_end_ : constraints_evaluation_;
-  test_rows_.clear();
-  force_rows_.clear();
-  for (const int row : rows_in_use_) {
-    test_rows_.push_back(without_rates(constraints_end_.rows[static_cast<std::size_t>(row)]));
-    force_rows_.push_back(forcing.rows[static_cast<std::size_t>(row)]);
-  }
   for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
     const double elastic = scheme_.weight * soft_.stiffness[k];
     const double k_eff = elastic + scheme_.mean_rate * soft_.damping[k];
-    dynamics::SystemRow row = soft_.rows[k];
-    if (k_eff == 0.0) row = {};
-    test_rows_.push_back(row);
-    force_rows_.push_back(row);
+    condensation_->set_row(static_cast<int>(rows_in_use_.size() + k),
+                           k_eff == 0.0 ? dynamics::SystemRow{} : soft_.rows[k]);
     soft_compliance_.push_back(k_eff > 0.0 ? 1.0 / (scheme_.force * k_eff) : 1.0);
     soft_stiffness_share_.push_back(k_eff > 0.0 ? elastic / k_eff : 0.0);
   }
 }
 
-bool SmallNewton::condense() {
-  collect_rows();
-  if (!condensation_) {
-    // Rows without effect keep the bodies they belong to, so that the pattern never changes.
-    std::vector<dynamics::SystemRow> pattern = test_rows();
-    std::copy(soft_.rows.begin(), soft_.rows.end(),
-              pattern.begin() + static_cast<std::ptrdiff_t>(rows_in_use_.size()));
-    condensation_ = std::make_unique<dynamics::MultiplierCondensation>(
-        static_cast<int>(model_.bodies.size()), pattern);
+std::vector<dynamics::SystemRow> SmallNewton::row_pattern(double t) {
+  std::vector<dynamics::SystemRow> pattern(rows_in_use_.size());
+  std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    joints_.derivatives(j, end_, t + scheme_.h, rows);
+    for (int k = 0; k < joints_.num_rows(j); ++k) {
+      const int place = place_in_use_[static_cast<std::size_t>(joints_.first_row(j) + k)];
+      if (place >= 0) pattern[static_cast<std::size_t>(place)] = rows[static_cast<std::size_t>(k)];
+    }
   }
-  return condensation_->factorise(test_rows(), force_rows(), compliance_, soft_compliance_);
+  // Soft rows without effect keep the bodies they belong to, so that the pattern never changes.
+  pattern.insert(pattern.end(), soft_.rows.begin(), soft_.rows.end());
+  return pattern;
 }
 
-bool SmallNewton::select_rows_anew() {
+bool SmallNewton::condense(double t) {
+  if (!condensation_) {
+    condensation_ = std::make_unique<dynamics::MultiplierCondensation>(
+        static_cast<int>(model_.bodies.size()), row_pattern(t));
+  }
+  set_joint_rows(t);
+  set_soft_rows();
+  return condensation_->factorise(compliance_, soft_compliance_);
+}
+
+bool SmallNewton::select_rows_anew(double t) {
   has_open_rows_ = false;
   std::vector<dynamics::BodyCompliance> compliance = compliance_;
   for (std::size_t b = 0; b < compliance.size(); ++b) {
     if (shares_[b].is_quasi_static()) compliance[b].interface = nullptr;
   }
-  linalg::RowRank rank = select_rows(constraints_end_.rows, compliance);
+  dynamics::Constraints all;
+  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
+  linalg::RowRank rank = select_rows(all.rows, compliance);
   dependent_ = std::move(rank.dependent);
   // Fewer rows mean a dead centre: the step goes on with those it has, or fails and says so.
   if (rank.independent == rows_in_use_ || rank.independent.size() < rows_in_use_.size()) {
     return false;
   }
   rows_in_use_ = std::move(rank.independent);
+  std::sort(rows_in_use_.begin(), rows_in_use_.end());
+  number_rows_in_use();
   condensation_.reset();
   ++num_selections_;
   return true;
@@ -212,7 +234,7 @@ void SmallNewton::leave_to_rows_in_use(Vector& lambda) const {
 }
 
 void SmallNewton::watch_rows_not_in_use() {
-  const Vector& g = constraints_end_.g;
+  const Vector& g = residuals_.g;
   double gap = 0;
   for_other_rows(rows_in_use_, g.size(),
                  [&](Eigen::Index row) { gap = std::max(gap, std::abs(g[row])); });
@@ -221,57 +243,45 @@ void SmallNewton::watch_rows_not_in_use() {
   has_open_rows_ = true;
 }
 
-double SmallNewton::residual_change(const dynamics::SystemRow& row) const {
-  double out = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
-    if (part->body == model::kGround) continue;
-    const BodyIteration& share = shares_[static_cast<std::size_t>(part->body)];
-    out += part->change(share.residual_u, share.y_moving);
-  }
-  return out;
-}
-
-double SmallNewton::correction_change(const dynamics::SystemRow& row) const {
-  double out = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
-    if (part->body == model::kGround) continue;
-    const BodyIteration& share = shares_[static_cast<std::size_t>(part->body)];
-    out += part->change(share.correction_u, share.y_correcting);
-  }
-  return out;
-}
-
 void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
   const auto in_use = static_cast<Eigen::Index>(rows_in_use_.size());
   E_.setZero(condensation_->size());
   if (corrects_positions()) {
     for (Eigen::Index k = 0; k < in_use; ++k) {
       const int row = rows_in_use_[static_cast<std::size_t>(k)];
-      E_[k] = constraints_end_.g_dot[row] / scheme_.end_rate - constraints_end_.g[row];
+      E_[k] = residuals_.g_dot[row] / scheme_.end_rate - residuals_.g[row];
     }
     condensation_->solve_in_place(E_);
   }
-  condensation_->gather(force_rows(), E_, correction_);
+  condensation_->gather(E_, correction_);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     shares_[b].answer_correction(bodies[b], correction_[b]);
   }
 }
 
 void SmallNewton::solve_multipliers() {
-  X_.resize(condensation_->size());
-  const std::size_t in_use = rows_in_use_.size();
-  const auto& rows = test_rows();
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    double value = -residual_change(rows[k]);
-    if (k < in_use) {
-      value -= constraints_end_.g_dot[rows_in_use_[k]] / scheme_.end_rate;
-    } else if (scheme_.weight == 1.0) {
-      value -= soft_stiffness_share_[k - in_use] * correction_change(rows[k]);
+  const auto in_use = static_cast<Eigen::Index>(rows_in_use_.size());
+  const dynamics::RowBlocks& rows = condensation_->test_rows();
+  rows.changes(X_, [&](int b) {
+    const BodyIteration& share = shares_[static_cast<std::size_t>(b)];
+    return dynamics::Displacement{&share.residual_u, &share.y_moving};
+  });
+  X_ = -X_;
+  for (Eigen::Index k = 0; k < in_use; ++k) {
+    X_[k] -= residuals_.g_dot[rows_in_use_[static_cast<std::size_t>(k)]] / scheme_.end_rate;
+  }
+  if (scheme_.weight == 1.0 && !soft_stiffness_share_.empty()) {
+    rows.changes(corrected_, [&](int b) {
+      const BodyIteration& share = shares_[static_cast<std::size_t>(b)];
+      return dynamics::Displacement{&share.correction_u, &share.y_correcting};
+    });
+    for (std::size_t k = 0; k < soft_stiffness_share_.size(); ++k) {
+      const Eigen::Index row = in_use + static_cast<Eigen::Index>(k);
+      X_[row] -= soft_stiffness_share_[k] * corrected_[row];
     }
-    X_[static_cast<Eigen::Index>(k)] = value;
   }
   condensation_->solve_in_place(X_);
-  condensation_->gather(force_rows(), X_, response_);
+  condensation_->gather(X_, response_);
 }
 
 SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& lambda) {
@@ -302,10 +312,10 @@ bool SmallNewton::settled(const Change& change, const Change& before) const {
 }
 
 void SmallNewton::record_residuals(StepReport& report) const {
-  if (constraints_end_.g.size() == 0) return;
+  if (residuals_.g.size() == 0) return;
   Eigen::Index worst = 0;
-  report.position_residual = constraints_end_.g.cwiseAbs().maxCoeff(&worst);
-  report.velocity_residual = constraints_end_.g_dot.cwiseAbs().maxCoeff();
+  report.position_residual = residuals_.g.cwiseAbs().maxCoeff(&worst);
+  report.velocity_residual = residuals_.g_dot.cwiseAbs().maxCoeff();
   report.worst_row = static_cast<int>(worst);
 }
 

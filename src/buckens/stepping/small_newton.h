@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/step_settings.h"
@@ -64,20 +65,16 @@ class SmallNewton {
   /// A joint row as it closes velocities: deformation without rates has no part in it.
   dynamics::SystemRow without_rates(dynamics::SystemRow row) const;
   bool corrects_positions() const;
-  /// Change of the scalar that a row closes, by residual_u and y_moving of its bodies.
-  double residual_change(const dynamics::SystemRow& row) const;
-  /// The same by the position correction.
-  double correction_change(const dynamics::SystemRow& row) const;
-  /// Rows along which multipliers act, as condensed: those in use, then the soft ones.
-  const std::vector<dynamics::SystemRow>& force_rows() const;
-  /// Rows that are closed, in the same order.
-  const std::vector<dynamics::SystemRow>& test_rows() const;
-  /// Copies the rows to be condensed, unless all rows of all joints serve as they are.
-  void collect_rows();
+  /// Bodies and marker rows of everything that is to be condensed: rows in use, then the soft ones.
+  std::vector<dynamics::SystemRow> row_pattern(double t);
+  void number_rows_in_use();
+  /// Hands the derivatives at this configuration to the condensation, soft rows last.
+  void set_joint_rows(double t);
+  void set_soft_rows();
   /// Assembles and factorises S for the rows in use. @return false if it is singular
-  bool condense();
+  bool condense(double t);
   /// Asks again which rows are independent. @return true if others are used from now on
-  bool select_rows_anew();
+  bool select_rows_anew(double t);
   /// Multipliers of rows that were given up are zero.
   void leave_to_rows_in_use(linalg::Vector& lambda) const;
   /// Notes a row not in use that no longer follows from the others.
@@ -97,20 +94,20 @@ class SmallNewton {
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
 
+  dynamics::JointSet joints_;
+  std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
   std::vector<dynamics::BodyMotion> end_, evaluation_, uncorrected_;
-  dynamics::Constraints constraints_end_, constraints_evaluation_;
-  dynamics::Constraints uncorrected_residuals_;
+  dynamics::JointResiduals residuals_;        // at the end of the step
+  dynamics::JointResiduals other_residuals_;  // elsewhere
   dynamics::Forces forces_;
   dynamics::SoftRows soft_;
-  std::vector<dynamics::SystemRow> test_rows_, force_rows_;  // in use, then soft
-  bool takes_all_rows_ = false;  // test and force rows are those of constraints_end_
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
   std::vector<dynamics::BodyCompliance> compliance_;
 
   std::vector<BodyIteration> shares_;                          // per body
   std::vector<dynamics::BodyResponse> correction_, response_;  // row forces on them
-  linalg::Vector E_, X_;
+  linalg::Vector E_, X_, corrected_;
   double contraction_ = 1;         // of the last two changes in this step
   std::size_t restless_body_ = 0;  // whose frame moved most in the last iteration
 };

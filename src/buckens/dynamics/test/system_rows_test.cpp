@@ -218,7 +218,7 @@ TEST(MultiplierCondensation, EqualsTheDenseMatrix) {
   for (std::size_t k = 0; k < loads.size(); ++k) {
     loads[k].interface_load = VectorXd::Zero(model.bodies[k].num_interface_rows());
   }
-  condensation.gather(acting.rows, x, loads);
+  condensation.gather(x, loads);
   const Vector expected = dense(model, acting.rows).transpose() * x;
   at = 0;
   for (std::size_t k = 0; k < loads.size(); ++k) {

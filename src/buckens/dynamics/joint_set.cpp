@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/dynamics/joint_set.h"
+
+#include "buckens/base/errors.h"
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::dynamics {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using spatial::Wrench;
+
+namespace {
+
+/// Rᵀ v, written out: there are many of these.
+inline Vector3d against(const Matrix3d& R, const Vector3d& v) {
+  return {R.col(0).dot(v), R.col(1).dot(v), R.col(2).dot(v)};
+}
+
+/// The interface values of a marker's translation or rotation.
+inline Vector3d three(const Eigen::VectorXd& y, int row) { return y.segment<3>(row); }
+
+}  // namespace
+
+/// Motion of one end, world axes unless said otherwise. `axes` turn what was given in body axes
+/// along with the marker's place in the mesh.
+struct JointSet::Motion {
+  Matrix3d R_WB, axes;
+  Matrix3d rotation_map;  // of ends that follow rotations of a mesh
+  Vector3d z;             // in the deformed body, body axes
+  Vector3d p, w, v;
+
+  spatial::MarkerMotion marker(const End& end) const { return {p, axes * end.R, w, v}; }
+};
+
+JointSet::JointSet(const model::Model& model) : num_rows_(model.num_constraint_rows()) {
+  const auto end_of = [&](const model::MarkerId& id) {
+    End end;
+    end.body = id.body;
+    spatial::Pose place = id.X_WF;
+    if (id.body != model::kGround) {
+      const body::Marker& marker = model.bodies[static_cast<std::size_t>(id.body)]
+                                       .markers[static_cast<std::size_t>(id.marker)];
+      end.translation_row = marker.translation_row;
+      end.rotation_row = marker.rotation_row;
+      place = marker.X_BF;
+    }
+    end.z = place.p;
+    end.R = place.R();
+    return end;
+  };
+  joints_.reserve(model.joints.size());
+  rows_.reserve(static_cast<std::size_t>(num_rows_));
+  for (const model::Joint& joint : model.joints) {
+    if (joint.rows.size() > kMostRows) {
+      throw ModelError("joint \"" + joint.name + "\" has more than six equations");
+    }
+    const Joint& own =
+        joints_.emplace_back(Joint{end_of(joint.first), end_of(joint.second), joint.first_row,
+                                   static_cast<int>(joint.rows.size()), rows_.size()});
+    for (const joints::ConstraintRow& row : joint.rows) {
+      Kind kind = Kind::other;
+      if (row.kind() == joints::ConstraintRow::Kind::point_world) kind = Kind::point;
+      if (row.kind() == joints::ConstraintRow::Kind::direction && !row.depends_on_time()) {
+        kind = Kind::direction;
+      }
+      const Vector3d b = kind == Kind::direction ? own.first.R * row.direction() : row.direction();
+      rows_.push_back({kind, b, own.second.R * row.second_direction(), &row});
+    }
+  }
+}
+
+JointSet::Motion JointSet::motion_of(const End& end, const std::vector<BodyMotion>& motions) {
+  Motion out;
+  if (end.body == model::kGround) {
+    out.R_WB.setIdentity();
+    out.axes.setIdentity();
+    out.z.setZero();
+    out.p = end.z;
+    out.w.setZero();
+    out.v.setZero();
+    return out;
+  }
+  const BodyMotion& motion = motions[static_cast<std::size_t>(end.body)];
+  const body::FrameMotion& frame = motion.frame;
+  out.R_WB = frame.X_WB.R();
+  out.axes = out.R_WB;
+  out.z = end.z;
+  Vector3d w = frame.w;
+  Vector3d v = Vector3d::Zero();
+  if (end.translation_row >= 0) {
+    out.z += three(motion.y, end.translation_row);
+    v = three(motion.y_dot, end.translation_row);
+  }
+  if (end.rotation_row >= 0) {
+    const Vector3d theta = three(motion.y, end.rotation_row);
+    out.rotation_map = spatial::left_jacobian(theta);
+    w += out.rotation_map * three(motion.y_dot, end.rotation_row);
+    out.axes = out.R_WB * spatial::exp_rotation(theta).toRotationMatrix();
+  }
+  v += frame.w.cross(out.z);
+  out.p = frame.X_WB.p + out.R_WB * out.z;
+  out.w = out.R_WB * w;
+  out.v = frame.v + out.R_WB * v;
+  return out;
+}
+
+void JointSet::add_wrench(const End& end, const Motion& motion, const Wrench& wrench, Forces& out) {
+  if (end.body == model::kGround) return;
+  const auto b = static_cast<std::size_t>(end.body);
+  const Vector3d force = against(motion.R_WB, wrench.force);
+  const Vector3d torque = against(motion.R_WB, wrench.torque);
+  out.frame[b].head<3>() += torque + motion.z.cross(force);
+  out.frame[b].tail<3>() += wrench.force;
+  if (end.translation_row < 0) return;
+  out.interface[b].segment<3>(end.translation_row) += force;
+  if (end.rotation_row < 0) return;
+  out.interface[b].segment<3>(end.rotation_row) += against(motion.rotation_map, torque);
+}
+
+void JointSet::derive(const End& end, const Motion& motion, const Wrench& wrench, BodyRow& out) {
+  out.body = end.body;
+  if (end.body == model::kGround) return;
+  out.translation_row = end.translation_row;
+  out.rotation_row = end.rotation_row;
+  // A scalar with a derivative is the work of the wrench of that size on the marker.
+  const Vector3d force = against(motion.R_WB, wrench.force);
+  const Vector3d torque = against(motion.R_WB, wrench.torque);
+  out.frame.head<3>() = (torque + motion.z.cross(force)).transpose();
+  out.frame.tail<3>() = wrench.force.transpose();
+  if (end.translation_row < 0) return;
+  out.interface.head<3>() = force.transpose();
+  out.interface.tail<3>().setZero();
+  if (end.rotation_row < 0) return;
+  out.interface.tail<3>() = against(motion.rotation_map, torque).transpose();
+}
+
+void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t, JointResiduals& out,
+                        const linalg::Vector* lambda, Forces* forces) const {
+  for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
+  for (const Joint& joint : joints_) {
+    const Motion F = motion_of(joint.first, motions);
+    const Motion M = motion_of(joint.second, motions);
+    const Vector3d r = M.p - F.p;
+    const Vector3d r_dot = M.v - F.v;
+    const Vector3d w = F.w - M.w;
+    Wrench on_first, on_second;
+    for (int k = 0; k < joint.num_rows; ++k) {
+      const Row& row = rows_[joint.rows + static_cast<std::size_t>(k)];
+      const int at = joint.first_row + k;
+      const double multiplier = lambda != nullptr ? (*lambda)[at] : 0.0;
+      if (row.kind == Kind::point) {
+        out.g[at] = row.b.dot(r);
+        out.g_dot[at] = row.b.dot(r_dot);
+        out.g_t[at] = 0.0;
+        on_first.force -= multiplier * row.b;
+        on_second.force += multiplier * row.b;
+      } else if (row.kind == Kind::direction) {
+        const Vector3d b = F.axes * row.b;
+        const Vector3d c = M.axes * row.c;
+        const Vector3d b_x_c = b.cross(c);
+        out.g[at] = b.dot(c);
+        out.g_dot[at] = b_x_c.dot(w);
+        out.g_t[at] = 0.0;
+        on_first.torque += multiplier * b_x_c;
+        on_second.torque -= multiplier * b_x_c;
+      } else {
+        const joints::RowValue value =
+            row.row->evaluate(F.marker(joint.first), M.marker(joint.second), t);
+        const auto& J = value.J;
+        out.g[at] = value.g;
+        out.g_t[at] = value.g_t;
+        out.g_dot[at] = value.g_t + J.segment<3>(0).dot(F.w) + J.segment<3>(3).dot(F.v) +
+                        J.segment<3>(6).dot(M.w) + J.segment<3>(9).dot(M.v);
+        on_first +=
+            {multiplier * J.segment<3>(0).transpose(), multiplier * J.segment<3>(3).transpose()};
+        on_second +=
+            {multiplier * J.segment<3>(6).transpose(), multiplier * J.segment<3>(9).transpose()};
+      }
+    }
+    if (forces == nullptr) continue;
+    add_wrench(joint.first, F, on_first, *forces);
+    add_wrench(joint.second, M, on_second, *forces);
+  }
+}
+
+void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
+                           std::array<SystemRow, kMostRows>& out) const {
+  const Joint& own = joints_[joint];
+  const Motion F = motion_of(own.first, motions);
+  const Motion M = motion_of(own.second, motions);
+  for (int k = 0; k < own.num_rows; ++k) {
+    const Row& row = rows_[own.rows + static_cast<std::size_t>(k)];
+    Wrench on_first, on_second;
+    if (row.kind == Kind::point) {
+      on_first.force = -row.b;
+      on_second.force = row.b;
+    } else if (row.kind == Kind::direction) {
+      on_first.torque = (F.axes * row.b).cross(M.axes * row.c);
+      on_second.torque = -on_first.torque;
+    } else {
+      const spatial::PairRow J = row.row->evaluate(F.marker(own.first), M.marker(own.second), t).J;
+      on_first = {J.segment<3>(0).transpose(), J.segment<3>(3).transpose()};
+      on_second = {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()};
+    }
+    SystemRow& values = out[static_cast<std::size_t>(k)];
+    derive(own.first, F, on_first, values.first);
+    derive(own.second, M, on_second, values.second);
+  }
+}
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/forces.h"
+
+namespace buckens::dynamics {
+
+/// What the joints leave open at one instant.
+struct JointResiduals {
+  linalg::Vector g;      ///< residuals [m] or [-]
+  linalg::Vector g_dot;  ///< their rates [m/s] or [1/s]
+  linalg::Vector g_t;    ///< their partial time derivatives
+};
+
+/// All joints of a model as a step reads them, several times over: markers and rows one after the
+/// other in memory, directions in body axes. Says the same as evaluate_constraints() and
+/// add_joint_forces(), which go through the model. Rows that slide or follow a law of time are left
+/// to their own code; points held together and directions held perpendicular, of which all but the
+/// rarest joints are made, are written out.
+class JointSet {
+ public:
+  static constexpr std::size_t kMostRows = 6;  ///< of one joint
+
+  /// @param model must live longer
+  explicit JointSet(const model::Model& model);
+
+  std::size_t size() const { return joints_.size(); }
+  int first_row(std::size_t joint) const { return joints_[joint].first_row; }
+  int num_rows(std::size_t joint) const { return joints_[joint].num_rows; }
+
+  /// Residuals of all rows. With multipliers, the forces Gᵀλ are added: the rows of a joint act on
+  /// its two markers together, and a marker's wrench goes to its body once. Allocates nothing once
+  /// `out` has its size.
+  /// @param lambda,forces both or neither
+  void evaluate(const std::vector<BodyMotion>& motions, double t, JointResiduals& out,
+                const linalg::Vector* lambda = nullptr, Forces* forces = nullptr) const;
+
+  /// Derivatives of the rows of one joint, num_rows() of them.
+  void derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
+                   std::array<SystemRow, kMostRows>& out) const;
+
+ private:
+  /// A marker in the undeformed body, on the ground in the world.
+  struct End {
+    int body = model::kGround;
+    int translation_row = -1, rotation_row = -1;
+    Eigen::Vector3d z;
+    Eigen::Matrix3d R;
+  };
+  enum class Kind { point, direction, other };
+  struct Row {
+    Kind kind;
+    Eigen::Vector3d b;  // of a direction row, in the first body; of a point row, in the world
+    Eigen::Vector3d c;  // in the second body
+    const joints::ConstraintRow* row;
+  };
+  struct Joint {
+    End first, second;
+    int first_row, num_rows;
+    std::size_t rows;  // first of them in rows_
+  };
+  struct Motion;
+
+  static Motion motion_of(const End& end, const std::vector<BodyMotion>& motions);
+  static void add_wrench(const End& end, const Motion& motion, const spatial::Wrench& wrench,
+                         Forces& out);
+  static void derive(const End& end, const Motion& motion, const spatial::Wrench& wrench,
+                     BodyRow& out);
+
+  std::vector<Joint> joints_;
+  std::vector<Row> rows_;
+  int num_rows_ = 0;
+};
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/dynamics/row_blocks.h"
+
+#include <algorithm>
+
+namespace buckens::dynamics {
+
+namespace {
+
+bool touch_the_same(const BodyRow& row, const RowBlock::Side& side) {
+  return row.body == side.body && row.translation_row == side.translation_row &&
+         row.rotation_row == side.rotation_row;
+}
+
+}  // namespace
+
+RowBlocks::RowBlocks(const std::vector<SystemRow>& pattern) {
+  for (std::size_t r = 0; r < pattern.size(); ++r) {
+    const SystemRow& row = pattern[r];
+    const bool fits = !blocks_.empty() && blocks_.back().count < kMostRows &&
+                      touch_the_same(row.first, blocks_.back().sides[0]) &&
+                      touch_the_same(row.second, blocks_.back().sides[1]);
+    if (!fits) {
+      RowBlock& block = blocks_.emplace_back();
+      block.first_row = static_cast<int>(r);
+      for (std::size_t s = 0; s < 2; ++s) {
+        const BodyRow& part = s == 0 ? row.first : row.second;
+        block.sides[s].body = part.body;
+        block.sides[s].translation_row = part.translation_row;
+        block.sides[s].rotation_row = part.rotation_row;
+      }
+    }
+    ++blocks_.back().count;
+    block_of_row_.push_back(static_cast<int>(blocks_.size()) - 1);
+  }
+  std::size_t next = 0;
+  for (RowBlock& block : blocks_) {
+    const auto numbers = static_cast<std::size_t>(6 * block.count);
+    for (RowBlock::Side& side : block.sides) {
+      if (side.body == model::kGround) continue;
+      side.frame = next;
+      next += numbers;
+      if (!side.follows_mesh()) continue;
+      side.interface = next;
+      next += numbers;
+    }
+  }
+  values_.assign(next, 0.0);
+}
+
+void RowBlocks::set(int row, const SystemRow& values) {
+  const RowBlock& block =
+      blocks_[static_cast<std::size_t>(block_of_row_[static_cast<std::size_t>(row)])];
+  const auto offset = static_cast<std::size_t>(6 * (row - block.first_row));
+  for (std::size_t s = 0; s < 2; ++s) {
+    const RowBlock::Side& side = block.sides[s];
+    if (side.body == model::kGround) continue;
+    const BodyRow& part = s == 0 ? values.first : values.second;
+    std::copy_n(part.frame.data(), 6, &values_[side.frame + offset]);
+    if (side.follows_mesh())
+      std::copy_n(part.interface.data(), 6, &values_[side.interface + offset]);
+  }
+}
+
+void RowBlocks::gather(const linalg::Vector& x, std::vector<BodyResponse>& responses) const {
+  for (BodyResponse& response : responses) {
+    response.frame_load.setZero();
+    response.interface_load.setZero();
+  }
+  for (const RowBlock& block : blocks_) {
+    const double* const forces = x.data() + block.first_row;
+    for (const RowBlock::Side& side : block.sides) {
+      if (side.body == model::kGround) continue;
+      BodyResponse& out = responses[static_cast<std::size_t>(side.body)];
+      Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+      for (int k = 0; k < block.count; ++k) {
+        sum += forces[k] * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(frame(side, k));
+      }
+      out.frame_load += sum;
+      if (!side.follows_mesh()) continue;
+      sum.setZero();
+      for (int k = 0; k < block.count; ++k) {
+        sum += forces[k] * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(interface(side, k));
+      }
+      out.interface_load.segment<3>(side.translation_row) += sum.head<3>();
+      if (side.rotation_row >= 0) out.interface_load.segment<3>(side.rotation_row) += sum.tail<3>();
+    }
+  }
+}
+
+}  // namespace buckens::dynamics

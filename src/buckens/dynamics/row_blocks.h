@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "buckens/dynamics/system_kinematics.h"
+
+namespace buckens::dynamics {
+
+/// Sums of row forces on one body.
+struct BodyResponse {
+  Eigen::Matrix<double, 6, 1> frame_load = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::VectorXd interface_load;
+};
+
+/// Displacement of one body: frame coordinates and interface values.
+struct Displacement {
+  const Eigen::Matrix<double, 6, 1>* u;
+  const Eigen::VectorXd* y;  ///< of bodies with a mesh
+};
+
+/// Up to six rows between the same markers, side by side: usually a joint.
+struct RowBlock {
+  /// What the rows touch of one body.
+  struct Side {
+    int body = model::kGround;
+    int translation_row = -1, rotation_row = -1;  ///< as in BodyRow
+    std::size_t frame = 0;                        ///< first of 6 × count values, row by row
+    std::size_t interface = 0;                    ///< the same, if the marker follows a mesh
+    bool follows_mesh() const { return translation_row >= 0; }
+  };
+  int first_row = 0;
+  int count = 0;
+  std::array<Side, 2> sides;
+};
+
+/// Derivatives of many rows, kept close together in the order of the rows.
+///
+/// A SystemRow says everything about one row; of a chain of a thousand links that is more than a
+/// processor's cache holds, and a step reads it several times. Here a row is its numbers only,
+/// twelve of a rigid pair, and what its block has in common is kept once.
+class RowBlocks {
+ public:
+  static constexpr int kMostRows = 6;
+
+  /// @param pattern one entry per row with body numbers and marker rows set; values are not read
+  explicit RowBlocks(const std::vector<SystemRow>& pattern);
+
+  const std::vector<RowBlock>& blocks() const { return blocks_; }
+  int num_rows() const { return static_cast<int>(block_of_row_.size()); }
+
+  /// Takes the numbers of a row. Its bodies are those of the pattern.
+  void set(int row, const SystemRow& values);
+
+  /// Derivatives of row `k` of a block on one side: six of the frame, six of the interface.
+  const double* frame(const RowBlock::Side& side, int k) const {
+    return &values_[side.frame + static_cast<std::size_t>(6 * k)];
+  }
+  const double* interface(const RowBlock::Side& side, int k) const {
+    return &values_[side.interface + static_cast<std::size_t>(6 * k)];
+  }
+
+  /// Sums the row forces x on each body. @param responses interface loads have their sizes
+  void gather(const linalg::Vector& x, std::vector<BodyResponse>& responses) const;
+
+  /// Change of every row by displacements of the bodies.
+  /// @param displacement returns the Displacement of a body by its number
+  template <class F>
+  void changes(linalg::Vector& out, F&& displacement) const {
+    out.setZero(num_rows());
+    for (const RowBlock& block : blocks_) {
+      for (const RowBlock::Side& side : block.sides) {
+        if (side.body == model::kGround) continue;
+        const Displacement moved = displacement(side.body);
+        for (int k = 0; k < block.count; ++k) {
+          out[block.first_row + k] += change(side, k, moved);
+        }
+      }
+    }
+  }
+
+ private:
+  double change(const RowBlock::Side& side, int k, const Displacement& moved) const {
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    double out = Eigen::Map<const Vector6>(frame(side, k)).dot(*moved.u);
+    if (!side.follows_mesh()) return out;
+    const double* const derivative = interface(side, k);
+    for (int i = 0; i < 3; ++i) out += derivative[i] * (*moved.y)[side.translation_row + i];
+    if (side.rotation_row < 0) return out;
+    for (int i = 0; i < 3; ++i) out += derivative[3 + i] * (*moved.y)[side.rotation_row + i];
+    return out;
+  }
+
+  std::vector<RowBlock> blocks_;
+  std::vector<int> block_of_row_;
+  std::vector<double> values_;
+};
+
+}  // namespace buckens::dynamics
