@@ -30,7 +30,9 @@ Parts split_beams(const fem::BeamBlock& block) {
   for (const auto& [properties, elements] : members) {
     auto part = std::make_unique<fem::BeamBlock>();
     const int own = part->add_properties(*properties);
-    for (const int e : elements) part->add(block.ends(e)[0], block.ends(e)[1], own);
+    for (const int e : elements) {
+      part->add(block.ends(e)[0], block.ends(e)[1], own, block.portion(e));
+    }
     parts.emplace_back(member("beams", parts.size(), members.size()), std::move(part));
   }
   return parts;

@@ -35,13 +35,37 @@ ShapePolynomial<12> section_field(const ShapePolynomial<12>& rotation, const Vec
 }
 
 /// M and J0 of the torsional flywheels ½∫ρI_p(ω·t+θ̇_x)² dx, with θ_x linear in ξ.
-void add_flywheel(double inertia, const Vector3d& t, const Dofs& dofs, InertiaSum& sum) {
+/// @param inertia ρ I_p l along the element
+void add_flywheel(const Quartic& inertia, const Vector3d& t, const Dofs& dofs, InertiaSum& sum) {
+  const Eigen::Matrix3d tt = t * t.transpose();
   Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Zero();
-  const Eigen::Matrix3d tt = inertia / 6.0 * (t * t.transpose());
-  M.block<3, 3>(3, 3) = M.block<3, 3>(9, 9) = 2.0 * tt;
-  M.block<3, 3>(3, 9) = M.block<3, 3>(9, 3) = tt;
+  double all = 0.0, linear = 0.0, square = 0.0;  // ∫ I ξᵏ dξ
+  for (std::size_t k = 0; k < inertia.size(); ++k) {
+    const auto power = static_cast<double>(k);
+    all += inertia[k] / (power + 1.0);
+    linear += inertia[k] / (power + 2.0);
+    square += inertia[k] / (power + 3.0);
+  }
+  M.block<3, 3>(3, 3) = (all - 2.0 * linear + square) * tt;
+  M.block<3, 3>(3, 9) = M.block<3, 3>(9, 3) = (linear - square) * tt;
+  M.block<3, 3>(9, 9) = square * tt;
   scatter<12>(M, dofs, 1.0, sum.M_flywheel);
-  sum.J0_flywheel += inertia * t * t.transpose();
+  sum.J0_flywheel += all * tt;
+}
+
+/// Calls visit(power, coefficient) for what is not zero.
+template <class Visitor>
+void visit_terms(const Quartic& p, Visitor&& visit) {
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if (p[k] != 0.0) visit(static_cast<int>(k), p[k]);
+  }
+}
+
+/// Polar moments from those about both axes.
+Quartic polar_moments(double factor, const Quartic& Iy, const Quartic& Iz) {
+  Quartic out{};
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = factor * (Iy[k] + Iz[k]);
+  return out;
 }
 
 }  // namespace
@@ -51,11 +75,16 @@ int BeamBlock::add_properties(BeamProperties properties) {
   return static_cast<int>(properties_.size()) - 1;
 }
 
-int BeamBlock::add(int node_a, int node_b, int properties) {
+int BeamBlock::add(int node_a, int node_b, int properties, const BeamPortion& portion) {
   if (properties < 0 || properties >= static_cast<int>(properties_.size())) {
     throw ModelError(fmt::format("beam: there are no properties number {}", properties));
   }
-  elements_.push_back({{node_a, node_b}, properties});
+  int taper = -1;
+  if (const SectionLaw& law = properties_[static_cast<std::size_t>(properties)].taper) {
+    taper = static_cast<int>(tapers_.size());
+    tapers_.push_back(section_taper(law, portion.from, portion.to));
+  }
+  elements_.push_back({{node_a, node_b}, properties, portion, taper});
   return num_elements() - 1;
 }
 
@@ -64,18 +93,54 @@ BeamBlock BeamBlock::subset(const std::vector<int>& elements,
   BeamBlock out;
   std::vector<int> number(properties_.size(), -1);
   for (const int e : elements) {
-    const auto& [ends, properties] = at(e);
+    const auto& [ends, properties, portion, taper] = at(e);
     int& own = number[static_cast<std::size_t>(properties)];
     if (own < 0) own = out.add_properties(properties_[static_cast<std::size_t>(properties)]);
     out.add(node_numbers.at(static_cast<std::size_t>(ends[0])),
-            node_numbers.at(static_cast<std::size_t>(ends[1])), own);
+            node_numbers.at(static_cast<std::size_t>(ends[1])), own, portion);
   }
   return out;
 }
 
 LineFrame BeamBlock::frame(const std::vector<Node>& nodes, const Element& element) const {
   return line_frame(nodes[static_cast<std::size_t>(element.ends[0])].position,
-                    nodes[static_cast<std::size_t>(element.ends[1])].position, of(element).up);
+                    nodes[static_cast<std::size_t>(element.ends[1])].position,
+                    element.portion.up ? element.portion.up : of(element).up);
+}
+
+const Section* BeamBlock::section(int element) const { return &middle(at(element)); }
+
+const Section* BeamBlock::end_section(int element, int end) const {
+  const SectionTaper* own = taper(at(element));
+  if (own == nullptr) return &of(at(element)).section;
+  return end == 0 ? &own->first : &own->last;
+}
+
+double BeamBlock::axial_rigidity(int element) const {
+  const SectionTaper* own = taper(at(element));
+  const BeamProperties& beam = of(at(element));
+  return own == nullptr ? beam.material.E * beam.section.A : beam.material.E / own->per_A;
+}
+
+Quartic BeamBlock::area(int element) const {
+  const SectionTaper* own = taper(at(element));
+  return own == nullptr ? constant_quartic(of(at(element)).section.A) : own->A;
+}
+
+BeamShape BeamBlock::shape_of(const Element& element, const LineFrame& axes) const {
+  const BeamProperties& beam = of(element);
+  return beam_shape(axes,
+                    shear_parameters(beam.theory, beam.material, middle(element), axes.length));
+}
+
+Eigen::Matrix<double, 12, 12> BeamBlock::local_stiffness(const Element& element,
+                                                         double length) const {
+  const BeamProperties& beam = of(element);
+  if (const SectionTaper* own = taper(element)) {
+    return beam_stiffness_local(beam.theory, beam.material, *own, length);
+  }
+  return beam_stiffness_local(beam.material, beam.section, length,
+                              shear_parameters(beam.theory, beam.material, beam.section, length));
 }
 
 void BeamBlock::check(const MeshView& mesh) const {
@@ -88,7 +153,8 @@ void BeamBlock::check(const MeshView& mesh) const {
     } catch (const ModelError& error) {
       throw ModelError(where + ": " + error.what());
     }
-    const auto& [material, section, theory, rotary, up] = of(element);
+    const Material& material = of(element).material;
+    const Section& section = middle(element);
     refuse_orthotropic(where, material);
     const bool elastic = material.E > 0.0 && material.G > 0.0;
     const bool solid = section.A > 0.0 && section.Iy > 0.0 && section.Iz > 0.0 && section.J > 0.0;
@@ -100,7 +166,8 @@ void BeamBlock::check(const MeshView& mesh) const {
                       where, material.E, material.G, material.rho, section.A, section.Iy,
                       section.Iz, section.J));
     }
-    if (theory == BeamTheory::timoshenko && !(section.shear_y > 0.0 && section.shear_z > 0.0)) {
+    if (of(element).theory == BeamTheory::timoshenko &&
+        !(section.shear_y > 0.0 && section.shear_z > 0.0)) {
       throw ModelError(where + ": the shear factors of a Timoshenko beam must be positive");
     }
   }
@@ -110,33 +177,49 @@ void BeamBlock::add_mass(const std::vector<Node>& nodes, MassMoment& sum) const 
   for (const Element& element : elements_) {
     const Vector3d& a = nodes[static_cast<std::size_t>(element.ends[0])].position;
     const Vector3d& b = nodes[static_cast<std::size_t>(element.ends[1])].position;
-    const double mass = of(element).material.rho * of(element).section.A * (b - a).norm();
-    sum.mass += mass;
-    sum.first += 0.5 * mass * (a + b);
+    const double rho_l = of(element).material.rho * (b - a).norm();
+    const SectionTaper* own = taper(element);
+    const Quartic A = own != nullptr ? own->A : constant_quartic(of(element).section.A);
+    visit_terms(A, [&](int power, double value) {
+      const double mass = rho_l * value / (power + 1.0);
+      const double share = (power + 1.0) / (power + 2.0);
+      sum.mass += mass;
+      sum.first += mass * ((1.0 - share) * a + share * b);
+    });
   }
 }
 
 void BeamBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaSum& sum) const {
   for (const Element& element : elements_) {
-    const auto& [material, section, theory, rotary, up] = of(element);
+    const Material& material = of(element).material;
     if (material.rho == 0.0) continue;
     const LineFrame axes = frame(mesh.nodes, element);
-    const BeamShape shape =
-        beam_shape(axes, shear_parameters(theory, material, section, axes.length));
+    const BeamShape shape = shape_of(element, axes);
     const Dofs dofs = element_dofs<6>(mesh.dofs, element.ends);
     const double rho_l = material.rho * axes.length;
+    const SectionTaper* own = taper(element);
+    const Section& section = of(element).section;
+    const Quartic A = own != nullptr ? own->A : constant_quartic(section.A);
+    const Quartic Iy = own != nullptr ? own->Iy : constant_quartic(section.Iy);
+    const Quartic Iz = own != nullptr ? own->Iz : constant_quartic(section.Iz);
     const Vector3d t = axes.axes.col(0);
     const Vector3d start = mesh.nodes[static_cast<std::size_t>(element.ends[0])].position - com;
 
     Inertia inertia;
-    inertia.add(rho_l * section.A, shape.displacement, {start, axes.length * t});
-    if (rotary) {
+    const auto add = [&](const Quartic& density, const ShapePolynomial<12>& field,
+                         const LinePosition& place) {
+      visit_terms(density, [&](int power, double value) {
+        inertia.add(rho_l * value, field, place, power);
+      });
+    };
+    add(A, shape.displacement, {start, axes.length * t});
+    if (of(element).rotary_inertia) {
       const Vector3d y = axes.axes.col(1);
       const Vector3d z = axes.axes.col(2);
-      inertia.add(rho_l * section.Iz, section_field(shape.rotation, y), {y, Vector3d::Zero()});
-      inertia.add(rho_l * section.Iy, section_field(shape.rotation, z), {z, Vector3d::Zero()});
+      add(Iz, section_field(shape.rotation, y), {y, Vector3d::Zero()});
+      add(Iy, section_field(shape.rotation, z), {z, Vector3d::Zero()});
     } else {
-      add_flywheel(rho_l * section.polar_moment(), t, dofs, sum);
+      add_flywheel(polar_moments(rho_l, Iy, Iz), t, dofs, sum);
     }
     inertia.symmetrise();
     scatter<12>(inertia, dofs, sum);
@@ -145,13 +228,10 @@ void BeamBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaSu
 
 void BeamBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
   for (const Element& element : elements_) {
-    const auto& [material, section, theory, rotary, up] = of(element);
+    const Material& material = of(element).material;
     const LineFrame axes = frame(mesh.nodes, element);
-    const ShearParameters shear = shear_parameters(theory, material, section, axes.length);
     const Eigen::Matrix<double, 12, 12> T = beam_rotation(axes.axes);
-    const Eigen::Matrix<double, 12, 12> local =
-        beam_stiffness_local(material, section, axes.length, shear);
-    Eigen::Matrix<double, 12, 12> K = T * local * T.transpose();
+    Eigen::Matrix<double, 12, 12> K = T * local_stiffness(element, axes.length) * T.transpose();
     K = (0.5 * (K + K.transpose())).eval();
     const Dofs dofs = element_dofs<6>(mesh.dofs, element.ends);
     scatter<12>(K, dofs, 1.0, sum.K);
@@ -165,12 +245,9 @@ void BeamBlock::add_force_rows(const MeshView& mesh, int first_element,
                                std::vector<linalg::Triplet>& rows) const {
   int row = 12 * first_element;
   for (const Element& element : elements_) {
-    const auto& [material, section, theory, rotary, up] = of(element);
     const LineFrame axes = frame(mesh.nodes, element);
-    const ShearParameters shear = shear_parameters(theory, material, section, axes.length);
     Eigen::Matrix<double, 12, 12> forces =
-        beam_stiffness_local(material, section, axes.length, shear) *
-        beam_rotation(axes.axes).transpose();
+        local_stiffness(element, axes.length) * beam_rotation(axes.axes).transpose();
     // The nodal force at the first end acts on the face that looks along −x.
     forces.topRows<6>() *= -1.0;
     const Dofs dofs = element_dofs<6>(mesh.dofs, element.ends);
@@ -186,10 +263,8 @@ void BeamBlock::add_force_rows(const MeshView& mesh, int first_element,
 
 PointRows BeamBlock::point_rows(const MeshView& mesh, int element, double xi) const {
   const Element& beam = at(element);
-  const auto& [material, section, theory, rotary, up] = of(beam);
   const LineFrame axes = frame(mesh.nodes, beam);
-  const BeamShape shape =
-      beam_shape(axes, shear_parameters(theory, material, section, axes.length));
+  const BeamShape shape = shape_of(beam, axes);
   const Dofs dofs = element_dofs<6>(mesh.dofs, beam.ends);
   PointRows rows;
   rows.has_rotation = true;

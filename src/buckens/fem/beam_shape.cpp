@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/beam_shape.h"
 
+#include <Eigen/LU>
+
 namespace buckens::fem {
 
 namespace {
@@ -61,13 +63,52 @@ void place_linear(ShapePolynomial<12>& field, int component, int column) {
 }
 
 /// The 4×4 bending stiffness of v_a, θ_a, v_b, θ_b.
-Eigen::Matrix4d bending_stiffness(double EI, double L, double Phi) {
+Eigen::Matrix4d uniform_bending(double EI, double L, double Phi) {
   Eigen::Matrix4d k;
   k << 12.0, 6.0 * L, -12.0, 6.0 * L,                               //
       6.0 * L, (4.0 + Phi) * L * L, -6.0 * L, (2.0 - Phi) * L * L,  //
       -12.0, -6.0 * L, 12.0, -6.0 * L,                              //
       6.0 * L, (2.0 - Phi) * L * L, -6.0 * L, (4.0 + Phi) * L * L;
   return EI / (L * L * L * (1.0 + Phi)) * k;
+}
+
+/// The same from the flexibility of the free end of a cantilever.
+/// @param per_EI ∫ (1 − ξ)ᵏ dξ/(E I), k = 0, 1, 2
+/// @param per_GA ∫ dξ/(κ G A), zero without shear
+Eigen::Matrix4d tapered_bending(const std::array<double, 3>& per_EI, double per_GA, double L) {
+  Eigen::Matrix2d flexibility;
+  flexibility << L * L * L * per_EI[2] + L * per_GA, L * L * per_EI[1],  //
+      L * L * per_EI[1], L * per_EI[0];
+  Eigen::Matrix<double, 2, 4> relative;  // motion of the second end as seen from the first
+  relative << -1.0, -L, 1.0, 0.0,        //
+      0.0, -1.0, 0.0, 1.0;
+  return relative.transpose() * flexibility.inverse() * relative;
+}
+
+using BeamMatrix = Eigen::Matrix<double, 12, 12>;
+
+/// @param along_y, along_z bending of v, θ_z and of w, −θ_y
+BeamMatrix beam_matrix(double axial, double torsion, const Eigen::Matrix4d& along_y,
+                       const Eigen::Matrix4d& along_z) {
+  BeamMatrix K = BeamMatrix::Zero();
+  const auto add_two_node = [&K](int dof, double k) {
+    K(dof, dof) = K(dof + 6, dof + 6) = k;
+    K(dof, dof + 6) = K(dof + 6, dof) = -k;
+  };
+  add_two_node(0, axial);
+  add_two_node(3, torsion);
+  constexpr std::array<int, 4> kAlongY = {1, 5, 7, 11};
+  constexpr std::array<int, 4> kAlongZ = {2, 4, 8, 10};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const auto row = static_cast<std::size_t>(i);
+      const auto column = static_cast<std::size_t>(j);
+      K(kAlongY[row], kAlongY[column]) = along_y(i, j);
+      const double sign = (i + j) % 2 == 0 ? 1.0 : -1.0;  // θ_y = −w'
+      K(kAlongZ[row], kAlongZ[column]) = sign * along_z(i, j);
+    }
+  }
+  return K;
 }
 
 }  // namespace
@@ -101,33 +142,27 @@ BeamShape beam_shape(const LineFrame& frame, const ShearParameters& shear) {
   return shape;
 }
 
-Eigen::Matrix<double, 12, 12> beam_stiffness_local(const Material& material, const Section& section,
-                                                   double length, const ShearParameters& shear) {
-  Eigen::Matrix<double, 12, 12> K = Eigen::Matrix<double, 12, 12>::Zero();
-  const auto add_two_node = [&K](int dof, double k) {
-    K(dof, dof) = K(dof + 6, dof + 6) = k;
-    K(dof, dof + 6) = K(dof + 6, dof) = -k;
-  };
-  add_two_node(0, material.E * section.A / length);
-  add_two_node(3, material.G * section.J / length);
-  const Eigen::Matrix4d ky = bending_stiffness(material.E * section.Iz, length, shear.along_y);
-  const Eigen::Matrix4d kz = bending_stiffness(material.E * section.Iy, length, shear.along_z);
-  constexpr std::array<int, 4> kAlongY = {1, 5, 7, 11};
-  constexpr std::array<int, 4> kAlongZ = {2, 4, 8, 10};
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      const auto row = static_cast<std::size_t>(i);
-      const auto column = static_cast<std::size_t>(j);
-      K(kAlongY[row], kAlongY[column]) = ky(i, j);
-      const double sign = (i + j) % 2 == 0 ? 1.0 : -1.0;  // θ_y = −w'
-      K(kAlongZ[row], kAlongZ[column]) = sign * kz(i, j);
-    }
-  }
-  return K;
+BeamMatrix beam_stiffness_local(const Material& material, const Section& section, double length,
+                                const ShearParameters& shear) {
+  return beam_matrix(material.E * section.A / length, material.G * section.J / length,
+                     uniform_bending(material.E * section.Iz, length, shear.along_y),
+                     uniform_bending(material.E * section.Iy, length, shear.along_z));
 }
 
-Eigen::Matrix<double, 12, 12> beam_rotation(const Eigen::Matrix3d& axes) {
-  Eigen::Matrix<double, 12, 12> T = Eigen::Matrix<double, 12, 12>::Zero();
+BeamMatrix beam_stiffness_local(BeamTheory theory, const Material& material,
+                                const SectionTaper& taper, double length) {
+  const auto over_E = [&material](std::array<double, 3> flexibility) {
+    for (double& f : flexibility) f /= material.E;
+    return flexibility;
+  };
+  const double shear = theory == BeamTheory::timoshenko ? 1.0 / material.G : 0.0;
+  return beam_matrix(material.E / (taper.per_A * length), material.G / (taper.per_J * length),
+                     tapered_bending(over_E(taper.per_Iz), shear * taper.per_shear_y, length),
+                     tapered_bending(over_E(taper.per_Iy), shear * taper.per_shear_z, length));
+}
+
+BeamMatrix beam_rotation(const Eigen::Matrix3d& axes) {
+  BeamMatrix T = BeamMatrix::Zero();
   for (int k = 0; k < 4; ++k) T.block<3, 3>(3 * k, 3 * k) = axes;
   return T;
 }

@@ -4,6 +4,7 @@
 #include "buckens/fem/line_frame.h"
 #include "buckens/fem/material.h"
 #include "buckens/fem/section.h"
+#include "buckens/fem/section_taper.h"
 #include "buckens/fem/shape_polynomial.h"
 
 namespace buckens::fem {
@@ -38,6 +39,11 @@ BeamShape beam_shape(const LineFrame& frame, const ShearParameters& shear);
 /// Stiffness matrix in element axes, closed form [N/m, N, N m].
 Eigen::Matrix<double, 12, 12> beam_stiffness_local(const Material& material, const Section& section,
                                                    double length, const ShearParameters& shear);
+
+/// The same of a tapered element, from its flexibility: exact for any taper under loads at the
+/// ends.
+Eigen::Matrix<double, 12, 12> beam_stiffness_local(BeamTheory theory, const Material& material,
+                                                   const SectionTaper& taper, double length);
 
 /// Turns the four triples of a beam's nodal variables: q_model = T q_element.
 Eigen::Matrix<double, 12, 12> beam_rotation(const Eigen::Matrix3d& axes);

@@ -76,6 +76,12 @@ class ElementBlock {
   /// Null for elements without material or section.
   virtual const Material* material(int element) const = 0;
   virtual const Section* section(int element) const = 0;
+  /// Section at the first (0) or second (1) end of a line element.
+  virtual const Section* end_section(int element, int /*end*/) const { return section(element); }
+  /// E A of the uniform line element that a tension stretches as much [N].
+  virtual double axial_rigidity(int element) const {
+    return material(element)->E * section(element)->A;
+  }
 
   /// @throws ModelError naming the nodes of an element that cannot be (zero length, bad constants)
   virtual void check(const MeshView& mesh) const = 0;

@@ -50,7 +50,7 @@ GeometricStiffness::GeometricStiffness(const FeModel& fe) : size_(fe.dofs.num_do
         element.dofs[k] = fe.dofs.node_dofs[a][k];
         element.dofs[6 + k] = fe.dofs.node_dofs[b][k];
       }
-      element.axial = block->material(e)->E * block->section(e)->A / frame.length * t;
+      element.axial = block->axial_rigidity(e) / frame.length * t;
       element.G = unit_stiffness(t, frame.length, block->has_rotations());
       elements_.push_back(element);
     }

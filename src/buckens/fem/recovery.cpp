@@ -81,7 +81,13 @@ Recovery::Recovery(const FeModel& fe) {
   for (const auto& block : fe.blocks) {
     if (!block->is_line()) continue;
     block->add_force_rows(mesh, num_elements(), triplets);
-    for (int e = 0; e < block->num_elements(); ++e) sections_.push_back(*block->section(e));
+    for (int e = 0; e < block->num_elements(); ++e) {
+      const Section *first = block->end_section(e, 0), *last = block->end_section(e, 1);
+      const std::size_t index = sections_.size();
+      sections_.push_back(*first);
+      if (last != first) sections_.push_back(*last);
+      at_ends_.push_back({index, sections_.size() - 1});
+    }
   }
   rows_.resize(12 * num_elements(), fe.dofs.num_dofs);
   rows_.setFromTriplets(triplets.begin(), triplets.end());
@@ -96,9 +102,9 @@ linalg::Matrix Recovery::section_forces(const linalg::Vector& d) const {
 linalg::Matrix Recovery::stresses(const linalg::Matrix& section_forces) const {
   linalg::Matrix out(2, section_forces.cols());
   for (Eigen::Index e = 0; e < section_forces.cols(); ++e) {
-    const Section& section = sections_[static_cast<std::size_t>(e)];
-    const EndStress a = end_stress(section, section_forces.col(e).head<6>());
-    const EndStress b = end_stress(section, section_forces.col(e).tail<6>());
+    const auto [first, last] = at_ends_[static_cast<std::size_t>(e)];
+    const EndStress a = end_stress(sections_[first], section_forces.col(e).head<6>());
+    const EndStress b = end_stress(sections_[last], section_forces.col(e).tail<6>());
     out(0, e) = std::max(a.normal, b.normal);
     out(1, e) = std::max(a.mises, b.mises);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "buckens/fem/element_block.h"
@@ -40,7 +41,7 @@ class Recovery {
  public:
   explicit Recovery(const FeModel& fe);
 
-  int num_elements() const { return static_cast<int>(sections_.size()); }
+  int num_elements() const { return static_cast<int>(at_ends_.size()); }
 
   /// @param d nodal variables
   /// @return 12×(number of elements). Cost: one sparse product.
@@ -54,6 +55,7 @@ class Recovery {
  private:
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
   std::vector<Section> sections_;
+  std::vector<std::array<std::size_t, 2>> at_ends_;  // sections of the ends of each element
 };
 
 }  // namespace buckens::fem

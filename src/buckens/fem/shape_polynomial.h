@@ -39,20 +39,22 @@ struct ElementInertia {
   Eigen::Matrix<double, N, 9> c = Eigen::Matrix<double, N, 9>::Zero();
   Eigen::Matrix3d C0 = Eigen::Matrix3d::Zero();
 
-  /// Adds ∫ over ξ of `weight` times the products of g and the position s, by the exact integrals
-  /// of monomials ∫ ξ^k dξ = 1/(k+1).
-  void add(double weight, const ShapePolynomial<N>& g, const LinePosition& s) {
+  /// Adds ∫ over ξ of `weight` ξ^power times the products of g and the position s, by the exact
+  /// integrals of monomials ∫ ξ^k dξ = 1/(k+1).
+  void add(double weight, const ShapePolynomial<N>& g, const LinePosition& s, int power = 0) {
     for (int i = 0; i <= g.degree; ++i) {
-      for (int j = 0; j <= g.degree; ++j) add_product(weight / (i + j + 1), g, i, j);
-      const Eigen::Vector3d moment = weight / (i + 1) * s.origin + weight / (i + 2) * s.slope;
+      for (int j = 0; j <= g.degree; ++j) add_product(weight / (i + j + power + 1), g, i, j);
+      const Eigen::Vector3d moment =
+          weight / (i + power + 1) * s.origin + weight / (i + power + 2) * s.slope;
       const auto& term = g.terms[static_cast<std::size_t>(i)];
       for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) c.col(3 * a + b) += moment[a] * term.row(b).transpose();
       }
     }
     const Eigen::Matrix3d mixed = s.origin * s.slope.transpose();
-    C0 += weight * (s.origin * s.origin.transpose() + 0.5 * (mixed + mixed.transpose()) +
-                    s.slope * s.slope.transpose() / 3.0);
+    C0 += weight * (s.origin * s.origin.transpose() / (power + 1.0) +
+                    (mixed + mixed.transpose()) / (power + 2.0) +
+                    s.slope * s.slope.transpose() / (power + 3.0));
   }
 
   /// Takes rounding out of the symmetry of W_aa.

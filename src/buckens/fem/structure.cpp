@@ -81,7 +81,9 @@ BeamDivision add_beam(Structure& structure, int node_a, int node_b, int division
                         divide_line(structure, "beam", node_a, node_b, divisions)};
   const int number = structure.beams.add_properties(properties);
   for (std::size_t k = 0; k + 1 < division.nodes.size(); ++k) {
-    structure.beams.add(division.nodes[k], division.nodes[k + 1], number);
+    const auto place = static_cast<double>(k);
+    structure.beams.add(division.nodes[k], division.nodes[k + 1], number,
+                        {place / divisions, (place + 1.0) / divisions, std::nullopt});
   }
   return division;
 }

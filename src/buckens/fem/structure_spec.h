@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "buckens/base/field.h"
+#include "buckens/fem/beam_path.h"
 #include "buckens/fem/beam_shape.h"
 #include "buckens/fem/link_spec.h"
 #include "buckens/fem/material_spec.h"
@@ -26,6 +27,9 @@ constexpr std::array<const char*, 2> choice_names(BeamTheory) {
 struct BeamPropertySpec {
   int elements = 1;
   base::Reference<SectionSpec> section;
+  std::optional<base::Reference<SectionSpec>> end_section;  ///< of the same kind
+  std::vector<Eigen::Vector3d> through;                     ///< between its ends, model axes [m]
+  BeamPath path = BeamPath::polyline;
   base::Reference<MaterialSpec> material;
   std::optional<Eigen::Vector3d> up;  ///< hint for the local z axis, model axes
   BeamTheory theory = BeamTheory::euler_bernoulli;
@@ -37,19 +41,36 @@ struct BeamPropertySpec {
 
   template <class Visitor>
   void property_fields(Visitor& visit) {
-    visit(base::field("elements", elements, "number of elements, all of the same length")
+    visit(base::field("elements", elements,
+                      "number of elements, all of the same length between two given points")
               .positive()
               .like("16"));
     visit(
         base::field("section", section, "cross-section: a name from `sections` or written in place")
             .required()
             .like("{circle: {diameter: 6 mm}}"));
+    visit(base::field("end-section", end_section,
+                      "section at the second end, of the same shape: the measures change linearly "
+                      "from `section` to it")
+              .like("{circle: {diameter: 3 mm}}")
+              .otherwise("the beam is uniform"));
+    visit(
+        base::field("through", through,
+                    "points between the ends that the beam goes through, in model axes; nodes lie "
+                    "on its `path`, elements are straight")
+            .in(base::kLength)
+            .like("[[0.1 m, 0.05 m, 0]]")
+            .otherwise("the beam is straight"));
+    visit(base::field("path", path,
+                      "way from point to point: straight lines, a circular arc (one point in "
+                      "`through`) or a natural cubic spline"));
     visit(base::field("material", material, "material: a name from `materials` or written in place")
               .required()
               .like("steel"));
     visit(base::field("up", up, "direction near which the local z axis lies, in model axes")
               .like("[0, 0, 1]")
-              .otherwise("model z; model y for members along z"));
+              .otherwise("model z; model y for members along z; along a `path` the axes of the "
+                         "first element are carried on without twist"));
     visit(base::field("theory", theory, "with (`timoshenko`) or without shear deformation"));
     visit(base::field("rotary-inertia", rotary_inertia,
                       "rotary inertia of bending (that of torsion is "
@@ -102,10 +123,10 @@ inline Eigen::Matrix3d symmetric_matrix(const std::vector<double>& entries) {
 
 inline Eigen::Matrix3d PointMassSpec::inertia_matrix() const { return symmetric_matrix(inertia); }
 
-/// A straight beam made a body by itself.
+/// A beam made a body by itself.
 struct BeamSpec : BeamPropertySpec {
   static constexpr const char* kKey = "beam";
-  static constexpr const char* kDoc = "flexible body: one straight beam";
+  static constexpr const char* kDoc = "flexible body: one beam";
   SourceLocation where;
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< model axes [m]
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< model axes [m]

@@ -16,21 +16,23 @@ struct NodeShares {
 /// Shares of the nodes of a solid element in its volume [m³]; they may be negative.
 NodeShares solid_shares(const SolidBlock& solids, const std::vector<Node>& nodes, int element);
 
-/// Integral of the displacement along a line element, as rows over d: ∫ u dx = N d.
+/// Integral of the displacement along a line element times a weight, as rows over d:
+/// ∫ w u dx = N d.
 struct LineIntegral {
-  double length = 0;                                 ///< [m]
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< model axes [m]
-  std::vector<linalg::Triplet> rows;                 ///< (0…2, DOF, value); the DOF may be −1
+  double extent = 0;                                       ///< ∫ w dx
+  Eigen::Vector3d first_moment = Eigen::Vector3d::Zero();  ///< ∫ w s dx, model axes
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();        ///< model axes [m]
+  std::vector<linalg::Triplet> rows;  ///< (0…2, DOF, value); the DOF may be −1
 };
 /// A uniform force on a beam gives moments at its ends besides, ± q l²/12, as its shape functions
 /// say.
 /// @param line number among the line elements
-LineIntegral line_integral(const FeModel& fe, int line);
+LineIntegral line_integral(const FeModel& fe, int line, const Quartic& weight);
 
-/// Mass per length and area of the section of a line element of a structure.
+/// Mass per length and area of the section of a line element of a structure, from end to end.
 struct LineSection {
-  double mass_per_length = 0;  ///< [kg/m]
-  double area = 0;             ///< [m²]
+  Quartic mass_per_length{};  ///< [kg/m]
+  Quartic area{};             ///< [m²]
 };
 /// @param line beams first, then bars
 LineSection line_section(const Structure& structure, int line);

@@ -36,6 +36,7 @@ Finding problem(const fem::TubeSpec& spec, const ReadContext& context);
 Finding problem(const fem::BoxSpec& spec, const ReadContext& context);
 Finding problem(const fem::PointMassSpec& spec, const ReadContext& context);
 Finding problem(const fem::BeamSpec& spec, const ReadContext& context);
+Finding problem(const fem::BeamMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::BarMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::SolidMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::ShellMemberSpec& spec, const ReadContext& context);

@@ -24,11 +24,27 @@ Finding up_problem(const std::optional<Vector3d>& up, const Vector3d& along) {
   return std::nullopt;
 }
 
+Finding path_problem(const fem::BeamPropertySpec& spec) {
+  if (spec.path != fem::BeamPath::polyline && spec.through.empty()) {
+    return Problem{"path",
+                   "it needs points between the ends; give them as `through`, or remove it"};
+  }
+  if (spec.path == fem::BeamPath::arc && spec.through.size() > 1) {
+    return Problem{"through", fmt::format("an arc goes through one point between its ends; {} are "
+                                          "given. Take one, a spline, or several beams",
+                                          spec.through.size())};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
+Finding problem(const fem::BeamMemberSpec& spec, const ReadContext&) { return path_problem(spec); }
+
 Finding problem(const fem::BeamSpec& spec, const ReadContext&) {
+  if (Finding found = path_problem(spec)) return found;
   const double length = (spec.to - spec.from).norm();
-  if (!(length > 0)) {
+  if (spec.through.empty() && !(length > 0)) {
     return Problem{"to", "the beam has the length zero: \"from\" and \"to\" are the same point"};
   }
   for (const auto& mass : spec.masses) {
@@ -42,7 +58,7 @@ Finding problem(const fem::BeamSpec& spec, const ReadContext&) {
                                              spec.elements)};
     }
   }
-  return up_problem(spec.up, spec.to - spec.from);
+  return spec.through.empty() ? up_problem(spec.up, spec.to - spec.from) : std::nullopt;
 }
 
 Finding problem(const fem::BarMemberSpec& spec, const ReadContext&) {
@@ -69,6 +85,9 @@ Finding member_problem(const fem::StructureSpec& spec, const Member& member, con
     return unknown_node(key + ".between", member.between[i], names_of(spec.nodes));
   }
   const Vector3d along = ends[1]->position - ends[0]->position;
+  if constexpr (requires { member.through; }) {
+    if (!member.through.empty()) return std::nullopt;
+  }
   if (!(along.norm() > 0)) {
     return Problem{key + ".between", fmt::format("the member has the length zero: its nodes \"{}\" "
                                                  "and \"{}\" are the same point",

@@ -202,7 +202,9 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::LineLoadSpec&
   const Place on = place_on_mesh(spec, kind.on);
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
-  for (const int line : find.lines().lines) shares.add_line(line, 1.0);
+  for (const int line : find.lines().lines) {
+    shares.add_line(line, fem::constant_quartic(1.0));
+  }
   add_uniform(spec, on, shares, {kind.axes, &kind.value, "length", kLength, "N/m"});
 }
 

@@ -109,20 +109,18 @@ void LoadShares::add_solid(int element, double density) {
   }
 }
 
-void LoadShares::add_line(int line, double density) {
+void LoadShares::add_line(int line, const fem::Quartic& density) {
   const fem::PartPlace place = place_of(&MeshDivision::lines, line);
   const int body = whole_.first + place.part;
-  const fem::LineIntegral own = fem::line_integral(mesh_of(body), place.index);
+  const fem::LineIntegral own = fem::line_integral(mesh_of(body), place.index, density);
   const fem::Structure& whole = mesh_.structure;
   const int beams = whole.beams.num_elements();
   const int end = line < beams ? whole.beams.ends(line)[0] : whole.bars.ends(line - beams)[0];
   LoadShare& share = shares_[body];
-  share.extent += density * own.length;
-  share.first_moment += density * own.length * own.middle;
+  share.extent += own.extent;
+  share.first_moment += own.first_moment;
   share.feet.push_back({own.middle, end, Vector3d::Zero()});
-  for (const auto& entry : own.rows) {
-    share.rows.emplace_back(entry.row(), entry.col(), density * entry.value());
-  }
+  share.rows.insert(share.rows.end(), own.rows.begin(), own.rows.end());
 }
 
 }  // namespace buckens::model

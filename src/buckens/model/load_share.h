@@ -41,7 +41,7 @@ class LoadShares {
   /// @param per_mass the extent is mass, else volume
   void add_shell(int element, bool per_mass);
   /// @param density extent per length
-  void add_line(int line, double density);
+  void add_line(int line, const fem::Quartic& density);
 
   /// By index into Model::bodies.
   const std::map<int, LoadShare>& shares() const { return shares_; }

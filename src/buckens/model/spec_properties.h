@@ -7,6 +7,7 @@
 #include "buckens/fem/material_spec.h"
 #include "buckens/fem/section.h"
 #include "buckens/fem/section_spec.h"
+#include "buckens/fem/section_taper.h"
 
 namespace buckens::model {
 
@@ -16,5 +17,11 @@ fem::Material make_material(const fem::MaterialSpec& spec,
 
 /// @throws InputError with the place of the section in the file
 fem::Section make_section(const fem::SectionSpec& spec);
+
+/// Section of a tapered beam. The measures of a shape change linearly from end to end; of a general
+/// section its constants and stress points do.
+/// @throws InputError with the place of the section at fault if one is impossible or the two are of
+/// different shapes
+fem::SectionLaw make_taper(const fem::SectionSpec& first, const fem::SectionSpec& last);
 
 }  // namespace buckens::model

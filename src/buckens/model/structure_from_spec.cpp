@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/assemble.h"
+#include "buckens/fem/curved_beam.h"
 #include "buckens/fem/generate_mesh.h"
 #include "buckens/fem/node_number.h"
 #include "buckens/fem/plate_mesh.h"
@@ -51,8 +52,11 @@ class StructureBuilder {
     properties.theory = spec.theory;
     properties.rotary_inertia = spec.has_rotary_inertia();
     properties.up = spec.up;
+    if (spec.end_section) properties.taper = make_taper(*spec.section, **spec.end_section);
     return properties;
   }
+  void add_beam(const fem::BeamPropertySpec& spec, int first, int last,
+                const SourceLocation& where);
 
   void name_place(const std::string& name, MeshPlace place) {
     out_.names.push_back(name);
@@ -76,11 +80,22 @@ class StructureBuilder {
   NamedStructure out_;
 };
 
+void StructureBuilder::add_beam(const fem::BeamPropertySpec& spec, int first, int last,
+                       const SourceLocation& where) {
+  const fem::BeamProperties properties = make_properties(spec);
+  try {
+    out_.beams.push_back(fem::add_curved_beam(out_.structure, first, last, spec.path, spec.through,
+                                              spec.elements, properties));
+  } catch (const ModelError& error) {
+    throw InputError(where, fmt::format("body \"{}\": {}", spec_.name, error.what()));
+  }
+}
+
 void StructureBuilder::add_single_beam(const fem::BeamSpec& beam) {
   fem::Structure& structure = out_.structure;
   const int start = fem::add_node(structure, "start", beam.from);
   const int end = fem::add_node(structure, "end", beam.to);
-  out_.beams.push_back(fem::add_beam(structure, start, end, beam.elements, make_properties(beam)));
+  add_beam(beam, start, end, beam.where);
   const fem::BeamDivision& division = out_.beams.back();
   const int half = beam.elements / 2;
   name_place("start", {start, -1, 0});
@@ -99,9 +114,8 @@ void StructureBuilder::add_structure(const fem::StructureSpec& spec) {
     name_place(node.name, {fem::add_node(structure, node.name, node.position), -1, 0});
   }
   for (const fem::BeamMemberSpec& beam : spec.beams) {
-    out_.beams.push_back(fem::add_beam(structure, node_called(beam.between[0], beam.where),
-                                       node_called(beam.between[1], beam.where), beam.elements,
-                                       make_properties(beam)));
+    add_beam(beam, node_called(beam.between[0], beam.where),
+             node_called(beam.between[1], beam.where), beam.where);
   }
   for (const fem::BarMemberSpec& bar : spec.bars) {
     const fem::Section section =
