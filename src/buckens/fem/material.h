@@ -29,7 +29,7 @@ struct Material {
   double rho = 0;                ///< density [kg/m³], zero allowed
   double damping_mass = 0;       ///< α [1/s]
   double damping_stiffness = 0;  ///< β [s]
-  /// Solids only: stands in place of E, ν and G.
+  /// Solids and layers of shells: stands in place of E, ν and G.
   std::optional<Orthotropy> orthotropy = std::nullopt;
 
   /// G = E / (2 (1 + ν)).

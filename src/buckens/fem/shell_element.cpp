@@ -31,8 +31,9 @@ Elastic elasticity(const ShellStiffness& s) {
   return C;
 }
 
-ShellStrainField strain_field(const ShellElement& element) {
-  return element.is_triangle() ? triangle_strain(element) : quadrilateral_strain(element);
+ShellStrainField strain_field(const ShellElement& element, bool with_corners = false) {
+  return element.is_triangle() ? triangle_strain(element, with_corners)
+                               : quadrilateral_strain(element, with_corners);
 }
 
 /// Stiffness over outer and inner variables.
@@ -165,6 +166,16 @@ ShellStrainRows shell_centre_strain(const ShellElement& element) {
   const FullStiffness K = full_stiffness(element, field);
   return {field.centre.outer + field.centre.inner * inner_motion(K, field.num_inner),
           field.centre_axes};
+}
+
+std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element) {
+  const ShellStrainField field = strain_field(element, true);
+  const auto inner = inner_motion(full_stiffness(element, field), field.num_inner);
+  std::vector<ShellStrainRows> out;
+  for (std::size_t k = 0; k < field.corners.size(); ++k) {
+    out.push_back({field.corners[k].outer + field.corners[k].inner * inner, field.corner_axes[k]});
+  }
+  return out;
 }
 
 ShellMatrix shell_drilling_inertia(const ShellElement& element) {

@@ -25,6 +25,8 @@ struct ShellStrainField {
   int num_inner = 0;  ///< variables to be condensed
   ShellStrainPoint centre;
   Eigen::Matrix3d centre_axes = Eigen::Matrix3d::Identity();
+  std::vector<ShellStrainPoint> corners;  ///< none unless asked for
+  std::vector<Eigen::Matrix3d> corner_axes;
 };
 
 /// Adds to a row over the nodal variables what the motion of the nodes contributes.
@@ -47,13 +49,6 @@ struct ShellRowBuilder {
       row.template segment<3>(6 * i + 3) += f[i] * turned(i, vector);
     }
   }
-  /// vector · Σ f_i θ_i
-  template <class Row, class Factors>
-  void add_rotation(Row&& row, const Eigen::Vector3d& vector, const Factors& f) const {
-    for (Eigen::Index i = 0; i < element.nodes.cols(); ++i) {
-      row.template segment<3>(6 * i + 3) += f[i] * vector.transpose();
-    }
-  }
 
  private:
   Eigen::RowVector3d turned(Eigen::Index node, const Eigen::Vector3d& vector) const {
@@ -68,14 +63,22 @@ void set_curvature(const ShellElement& element, const Eigen::Matrix3d& axes,
                    const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>& slope,
                    ShellStrain& rows);
 
+/// Takes m·ω off a row, ω the rotation of the surface at a point: with axes x, y, n it turns by
+/// ω_x = n·U,y, ω_y = −n·U,x, ω_n = ½ (y·U,x − x·U,y).
+/// @param slope ∂N/∂x, ∂N/∂y in the axes of the point
+void subtract_surface_rotation(const ShellElement& element, const Eigen::Matrix3d& axes,
+                               const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>& slope,
+                               const Eigen::Vector3d& m, ShellRow& row);
+
 /// Covariant transverse shear X,α·W + D·U,α at a point, rows r and s.
 using ShellShearRows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 24>;
 ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
 
-ShellStrainField quadrilateral_strain(const ShellElement& element);
-ShellStrainField triangle_strain(const ShellElement& element);
+ShellStrainField quadrilateral_strain(const ShellElement& element, bool with_corners = false);
+ShellStrainField triangle_strain(const ShellElement& element, bool with_corners = false);
 
-/// θ_i·n minus the mean rotation of the triangle in its plane.
+/// Drilling of each node against the triangle, m_i·(θ_i − ω) with m_i halfway between the normal
+/// and the director of the node.
 struct TriangleDrilling {
   std::array<ShellRow, 3> rows;
   double area = 0;  ///< [m²]
