@@ -20,9 +20,9 @@ using linalg::Triplet;
 namespace {
 
 // Cosine of 25°, up to which the shells at a node have one director, too.
-constexpr double kSmooth = 0.9063;
+constexpr double kSameSurface = 0.9063;
 // Up to which the x axes of elements with directed layers may differ: 10° in radians.
-constexpr double kAligned = 0.175;
+constexpr double kSameDirection = 0.175;
 
 bool same_layer(const ShellLayer& a, const ShellLayer& b) {
   const LayerElasticity of_a = layer_elasticity(a), of_b = layer_elasticity(b);
@@ -53,21 +53,21 @@ Matrix3d turned_back(double angle) {
   return T;
 }
 
-Eigen::Matrix<double, 6, 1> in_model_axes(const Matrix3d& axes, const Matrix3d& local,
-                                          double shear) {
+Eigen::Matrix<double, 6, 1> tensor_in_model_axes(const Matrix3d& axes, const Matrix3d& local,
+                                                 double shear) {
   const Matrix3d T = axes * local * axes.transpose();
   Eigen::Matrix<double, 6, 1> out;
   out << T(0, 0), T(1, 1), T(2, 2), shear * T(0, 1), shear * T(1, 2), shear * T(0, 2);
   return out;
 }
 
-Matrix3d plane_tensor(const Vector3d& s, double shear, double zz) {
+Matrix3d surface_tensor(const Vector3d& s, double shear, double zz) {
   Matrix3d out;
   out << s[0], shear * s[2], 0.0, shear * s[2], s[1], 0.0, 0.0, 0.0, zz;
   return out;
 }
 
-double plane_mises(const Vector3d& s) {
+double surface_mises(const Vector3d& s) {
   return std::sqrt(std::max(0.0, s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3.0 * s[2] * s[2]));
 }
 
@@ -160,9 +160,9 @@ class ShellNodeStresses::Grouping {
   bool are_alike(const Member& a, const Member& b) const {
     const std::size_t section = shells[static_cast<std::size_t>(a.at.shell)].section;
     if (section != shells[static_cast<std::size_t>(b.at.shell)].section) return false;
-    if (a.strain.axes.col(2).dot(b.strain.axes.col(2)) < kSmooth) return false;
+    if (a.strain.axes.col(2).dot(b.strain.axes.col(2)) < kSameSurface) return false;
     return !has_direction(*sections[section]) ||
-           std::abs(turn_between(a.strain.axes, b.strain.axes)) < kAligned;
+           std::abs(turn_between(a.strain.axes, b.strain.axes)) < kSameDirection;
   }
 
   const FeModel& fe_;
@@ -268,9 +268,10 @@ ShellNodeStresses::Surface ShellNodeStresses::surface(
     };
     const Vector3d strain = at(top), stress = top.elasticity * strain;
     const Matrix3d& axes = places_[place].axes;
-    out.strain.col(p) = in_model_axes(axes, plane_tensor(strain, 0.5, top.thinning * stress), 2.0);
-    out.stress.col(p) = in_model_axes(axes, plane_tensor(stress, 1.0, 0.0), 1.0);
-    out.mises[p] = std::max(plane_mises(stress), plane_mises(bottom.elasticity * at(bottom)));
+    out.strain.col(p) =
+        tensor_in_model_axes(axes, surface_tensor(strain, 0.5, top.thinning * stress), 2.0);
+    out.stress.col(p) = tensor_in_model_axes(axes, surface_tensor(stress, 1.0, 0.0), 1.0);
+    out.mises[p] = std::max(surface_mises(stress), surface_mises(bottom.elasticity * at(bottom)));
   }
   return out;
 }
