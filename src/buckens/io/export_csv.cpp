@@ -133,6 +133,39 @@ void write_fields(const RunReader& run, const std::vector<Instant>& instants,
   table.close();
 }
 
+/// Forces and torques on one body, a column per place and component.
+bool write_loads(const RunReader& run, const std::vector<Instant>& instants,
+                 const std::string& body, const std::filesystem::path& path) {
+  const std::string group = fmt::format("fields/bodies/{}/", body);
+  std::string head = "t [s]";
+  std::vector<std::string> channels;
+  for (const results::Channel& channel : run.field_layout().channels()) {
+    if (!channel.path.starts_with(group)) continue;
+    const std::string place = channel.path.substr(group.size());
+    if (!place.starts_with("interfaces/") && !place.starts_with("loads/")) continue;
+    channels.push_back(channel.path);
+    const std::string name = place.substr(place.find('/') + 1);
+    for (std::size_t k = 0; k < channel.components.size(); ++k) {
+      head += ',' +
+              csv_cell(fmt::format("{}.{} [{}]", name, channel.components[k], k < 3 ? "N" : "N m"));
+    }
+  }
+  if (channels.empty()) return false;
+  Table table(path, head + '\n');
+  for (const Instant& now : instants) {
+    if (!now.field_row) continue;
+    table.put("{:.17g}", now.t);
+    for (const std::string& channel : channels) {
+      for (const double value : run.read_fields(channel, std::array{*now.field_row})) {
+        table.put_value(value);
+      }
+    }
+    table.end_line();
+  }
+  table.close();
+  return true;
+}
+
 bool write_extremes(const RunReader& run, const results::GeometryBody& body,
                     const std::string& location, const std::filesystem::path& path) {
   const std::string place = fmt::format("extremes/bodies/{}/{}/von_mises", body.name, location);
@@ -178,6 +211,8 @@ std::vector<std::string> export_csv(const RunReader& run, const InstantChoice& c
       const std::string name = fmt::format("{}_{}_extremes.csv", body.name, location);
       if (write_extremes(run, body, location, directory / name)) files.push_back(name);
     }
+    const std::string loads = body.name + "_loads.csv";
+    if (write_loads(run, instants, body.name, directory / loads)) files.push_back(loads);
   }
   return files;
 }

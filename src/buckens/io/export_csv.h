@@ -14,6 +14,7 @@ namespace buckens::io {
 ///                             the body frame, then all fields at nodes
 ///     <body>_elements.csv     the same for solid elements, numbered from 1
 ///     <body>_nodes_extremes.csv (and _elements_…)   the largest von Mises stresses and when
+///     <body>_loads.csv        a line per chosen instant: force and torque at every place
 ///
 /// Empty cells are values that do not exist. Numbers of fields carry 9 digits, as many as they
 /// have.
