@@ -91,7 +91,11 @@ class LinkMaker {
     const int reference = names_.node(scope_, link.reference, link.place);
     std::vector<int> nodes = followers(link, reference);
     if (link.kind == AbaqusLinkKind::distributing) {
-      out_.averages.push_back({link.name, reference, std::move(nodes), {}, link.place.line});
+      fem::ImportedAverage& average = out_.averages.emplace_back();
+      average.name = link.name;
+      average.reference = reference;
+      average.nodes = std::move(nodes);
+      average.line = link.place.line;
     } else {
       out_.rigid_links.push_back(
           {link.name, reference, std::move(nodes), link.variables, link.place.line});
