@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "buckens/io/abaqus_cards.h"
@@ -29,6 +32,11 @@ void add_variables(AbaqusReading& in, const DeckRow& row, std::size_t first,
   const int from = variable_of(in, row.cell(first), row.place);
   const int to =
       row.cell(first + 1).empty() ? from : variable_of(in, row.cell(first + 1), row.place);
+  if (to < from) {
+    in.lines.fail(
+        row.place,
+        fmt::format("the last degree of freedom, {}, lies before the first, {}", to + 1, from + 1));
+  }
   for (int k = from; k <= to; ++k) variables[static_cast<std::size_t>(k)] = true;
 }
 
@@ -52,18 +60,22 @@ void read_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
       in.lines.fail(keyword.place, fmt::format("INFLUENCE RADIUS={} is no radius", text));
     }
   }
-  if (keyword.has("ORIENTATION")) {
-    in.note(keyword.place,
-            "*COUPLING, ORIENTATION: the axes of the model are used; that makes a "
-            "difference only where some degrees of freedom are left free");
-  }
+  link.is_turned = keyword.has("ORIENTATION");
   in.coupling = &link;
 }
 
-void read_kinematic(AbaqusReading& in, const DeckKeyword& keyword) {
-  if (in.coupling == nullptr) in.lines.fail(keyword.place, "*KINEMATIC belongs below a *COUPLING");
-  AbaqusLink& link = *in.coupling;
-  link.kind = AbaqusLinkKind::kinematic;
+namespace {
+
+/// The link of the *COUPLING above, which *KINEMATIC or *DISTRIBUTING completes.
+AbaqusLink& take_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
+  if (in.coupling == nullptr) {
+    in.lines.fail(keyword.place, fmt::format("{} belongs below a *COUPLING", keyword.written));
+  }
+  return *std::exchange(in.coupling, nullptr);
+}
+
+/// The degrees of freedom on the data lines; all if there are none.
+void read_coupled_variables(AbaqusReading& in, AbaqusLink& link) {
   DeckRow row;
   bool is_first = true;
   while (in.lines.next_row(row)) {
@@ -71,19 +83,32 @@ void read_kinematic(AbaqusReading& in, const DeckKeyword& keyword) {
     is_first = false;
     add_variables(in, row, 0, link.variables);
   }
-  in.coupling = nullptr;
+}
+
+}  // namespace
+
+void read_kinematic(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusLink& link = take_coupling(in, keyword);
+  link.kind = AbaqusLinkKind::kinematic;
+  read_coupled_variables(in, link);
 }
 
 void read_distributing(AbaqusReading& in, const DeckKeyword& keyword) {
-  if (in.coupling == nullptr) {
-    in.lines.fail(keyword.place, "*DISTRIBUTING belongs below a *COUPLING");
-  }
-  in.coupling->kind = AbaqusLinkKind::distributing;
-  in.coupling = nullptr;
+  AbaqusLink& link = take_coupling(in, keyword);
+  link.kind = AbaqusLinkKind::distributing;
+  read_coupled_variables(in, link);
+  // Only rotations can be released.
+  std::fill_n(link.variables.begin(), 3, true);
   const std::string weighting = upper(in.optional_parameter(keyword, "WEIGHTINGMETHOD"));
   if (!weighting.empty() && weighting != "UNIFORM") {
-    in.note(keyword.place,
-            fmt::format("*DISTRIBUTING, WEIGHTING METHOD={}: all nodes count alike", weighting));
+    in.note(keyword.place, fmt::format("*DISTRIBUTING, WEIGHTING METHOD={}: nodes count by their "
+                                       "area alone, not by their distance",
+                                       weighting));
+  }
+  if (upper(in.optional_parameter(keyword, "COUPLING")) == "STRUCTURAL") {
+    in.note(
+        keyword.place,
+        "*DISTRIBUTING, COUPLING=STRUCTURAL: rotations of the nodes do not take part in the mean");
   }
 }
 
@@ -138,9 +163,11 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
       kind = AbaqusLinkKind::mpc_tie;
     } else if (type == "PIN") {
       kind = AbaqusLinkKind::mpc_pin;
+    } else if (type == "LINK") {
+      kind = AbaqusLinkKind::mpc_link;
     } else if (type != "BEAM") {
-      in.lines.fail(row.place, fmt::format("*MPC of type \"{}\" is not supported; BEAM, TIE and "
-                                           "PIN are. Write it as *EQUATION",
+      in.lines.fail(row.place, fmt::format("*MPC of type \"{}\" is not supported; BEAM, TIE, PIN "
+                                           "and LINK are. Write it as *EQUATION",
                                            type.substr(0, 40)));
     }
     if (row.cells.size() != 3) {

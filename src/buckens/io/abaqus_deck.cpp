@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 #include <string_view>
 
 #include <Eigen/Geometry>
@@ -125,6 +126,7 @@ class DeckReader {
     static constexpr std::string_view kHolding[] = {"TIE",
                                                     "CONTACTPAIR",
                                                     "CONTACT",
+                                                    "DISTRIBUTINGCOUPLING",
                                                     "EMBEDDEDELEMENT",
                                                     "NONSTRUCTURALMASS",
                                                     "SHELLTOSOLIDCOUPLING",
@@ -189,9 +191,14 @@ class DeckReader {
       in_.lines.fail(keyword.place, fmt::format("there is no part \"{}\".{}", part,
                                                 base::suggestion(part, known)));
     }
-    for (const AbaqusInstance& other : in_.deck.instances) {
-      if (upper(other.name) != upper(name)) continue;
+    if (!instance_names_.insert(upper(name)).second) {
       in_.lines.fail(keyword.place, fmt::format("instance \"{}\" is defined a second time", name));
+    }
+    entries_of_instances_ += entries_of(found->second);
+    if (entries_of_instances_ > kMostEntries) {
+      in_.lines.fail(keyword.place, fmt::format("the instances have more than {} nodes, nodes of "
+                                                "elements and members of sets together",
+                                                kMostEntries));
     }
     AbaqusInstance instance;
     instance.name = name;
@@ -201,11 +208,6 @@ class DeckReader {
     if (in_.lines.next_row(row)) {
       instance.translation = read_vector(in_.lines, row, 0, "translation");
       if (in_.lines.next_row(row)) read_rotation(row, instance);
-    }
-    nodes_of_instances_ += instance.scope.nodes.ids.size();
-    if (nodes_of_instances_ > kMostNodes) {
-      in_.lines.fail(keyword.place,
-                     fmt::format("the instances have more than {} nodes together", kMostNodes));
     }
     in_.deck.instances.push_back(std::move(instance));
     in_.scope = &in_.deck.instances.back().scope;
@@ -254,11 +256,29 @@ class DeckReader {
     for (auto& [text, note] : in_.repeated) in_.deck.notes.push_back(note);
   }
 
-  static constexpr std::size_t kMostNodes = 50'000'000;
+  /// What a copy of a part costs.
+  static std::size_t entries_of(const AbaqusScope& part) {
+    std::size_t count = 1 + part.nodes.ids.size();
+    for (const AbaqusElements& block : part.elements)
+      count += block.ids.size() + block.nodes.size();
+    for (const auto* sets : {&part.node_sets, &part.element_sets}) {
+      for (const auto& [key, set] : *sets) {
+        for (const AbaqusSetPart& own : set.parts) {
+          count += 1 + own.ids.size() + own.ranges.size() + own.names.size();
+        }
+      }
+    }
+    for (const auto& [key, surface] : part.surfaces) count += 1 + surface.items.size();
+    for (const AbaqusEquation& equation : part.equations) count += 1 + equation.terms.size();
+    return count + part.sections.size() + part.links.size();
+  }
+
+  static constexpr std::size_t kMostEntries = 200'000'000;
 
   AbaqusReading in_;
   DeckKeyword open_;  ///< the *PART or *INSTANCE that has not ended; its name is empty otherwise
-  std::size_t nodes_of_instances_ = 0;
+  std::set<std::string> instance_names_;
+  std::size_t entries_of_instances_ = 0;
 };
 
 }  // namespace

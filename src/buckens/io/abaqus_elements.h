@@ -21,6 +21,12 @@ enum class AbaqusRole {
   left_out,        ///< springs, connectors, rigid and surface elements
 };
 
+/// Whether elements become elements of the body.
+constexpr bool is_kept(AbaqusRole role) {
+  return role == AbaqusRole::solid || role == AbaqusRole::shell || role == AbaqusRole::beam ||
+         role == AbaqusRole::bar;
+}
+
 /// An element type of Abaqus or CalculiX.
 struct AbaqusElementType {
   std::string_view name;

@@ -220,6 +220,11 @@ DeckKeyword AbaqusLines::parse_keyword(std::string line, DeckPlace place) const 
     const std::size_t equals = parts[i].find('=');
     DeckKeyword::Parameter& parameter = out.parameters.emplace_back();
     parameter.key = squeezed(parts[i].substr(0, equals));
+    if (std::isdigit(static_cast<unsigned char>(parameter.key[0])) != 0) {
+      fail(place, fmt::format("\"{}\" is no parameter of {}; a comma at the end of a keyword line "
+                              "makes the next line part of it, so take it away before data",
+                              parameter.key.substr(0, 40), out.written));
+    }
     if (equals == std::string_view::npos) continue;
     parameter.value = unquoted(stripped(parts[i].substr(equals + 1)));
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -12,6 +14,17 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
+
+// Share of a direction that is rounding of sines and cosines.
+constexpr double kNoShare = 1e-14;
+
+/// The term that is eliminated comes first, so it must be the largest.
+std::array<int, 3> largest_first(const Vector3d& shares) {
+  std::array<int, 3> order = {0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return std::abs(shares[a]) > std::abs(shares[b]); });
+  return order;
+}
 
 /// Turns what couples nodes into links, averages and equations of the mesh.
 class LinkMaker {
@@ -56,46 +69,78 @@ class LinkMaker {
     }
   }
 
-  std::vector<int> followers(const AbaqusLink& link, int reference) {
-    std::vector<int> nodes;
-    const auto take = [&nodes](const std::vector<int>& more) {
-      nodes.insert(nodes.end(), more.begin(), more.end());
-    };
-    for (const std::string& name : link.nodes) take(names_.nodes(scope_, name, link.place));
+  /// The nodes that follow, with their weights in a mean.
+  std::map<int, double> followers(const AbaqusLink& link, int reference) {
+    std::map<int, double> nodes;
+    for (const std::string& name : link.nodes) {
+      for (const int node : names_.nodes(scope_, name, link.place)) nodes[node] = 1.0;
+    }
     for (const std::string& name : link.surfaces) {
-      take(names_.surface_nodes(scope_, name, link.place));
+      for (const auto& [node, share] : names_.surface_nodes(scope_, name, link.place)) {
+        nodes[node] = share;
+      }
     }
     for (const std::string& name : link.element_sets) {
       for (const auto& at : names_.elements(scope_, name, link.place)) {
-        take(names_.element_nodes(at));
+        for (const int node : names_.element_nodes(at)) nodes[node] = 1.0;
       }
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const auto& positions = names_.positions();
-    std::erase_if(nodes, [&](int node) {
-      const double distance = (positions[static_cast<std::size_t>(node)] -
+    std::erase_if(nodes, [&](const auto& entry) {
+      const double distance = (positions[static_cast<std::size_t>(entry.first)] -
                                positions[static_cast<std::size_t>(reference)])
                                   .norm();
-      return node == reference || (link.radius && distance > *link.radius);
+      return entry.first == reference || (link.radius && distance > *link.radius);
     });
     if (nodes.empty()) lines_.fail(link.place, "no node follows the reference node");
     return nodes;
   }
 
+  /// Some of three directions mean another thing in turned axes.
+  void check_axes(const AbaqusLink& link) {
+    const auto& v = link.variables;
+    const auto is_split = [&v](std::size_t k) { return v[k] != v[k + 1] || v[k] != v[k + 2]; };
+    if (!is_split(0) && !is_split(3)) return;
+    if (link.is_turned) {
+      lines_.fail(link.place,
+                  "*COUPLING, ORIENTATION with some degrees of freedom left free is not supported; "
+                  "couple all three displacements and all or no rotations, or give ORIENTATION up");
+    }
+    note_turned(link.place);
+  }
+
+  void note_turned(DeckPlace place) {
+    const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope_)];
+    if (placed.rotation.isIdentity(1e-12) || has_noted_) return;
+    has_noted_ = true;
+    out_.notes.push_back(
+        {"degrees of freedom that are named within a part, which its *INSTANCE turns, are taken "
+         "along "
+         "the axes of the assembly",
+         place.file == 0 ? place.line : 0, 1});
+  }
+
   void add(const AbaqusLink& link) {
-    if (link.kind == AbaqusLinkKind::mpc_tie || link.kind == AbaqusLinkKind::mpc_pin ||
-        link.kind == AbaqusLinkKind::mpc_beam) {
+    if (link.kind != AbaqusLinkKind::kinematic && link.kind != AbaqusLinkKind::distributing &&
+        link.kind != AbaqusLinkKind::rigid_body) {
       return add_pairs(link);
     }
     const int reference = names_.node(scope_, link.reference, link.place);
-    std::vector<int> nodes = followers(link, reference);
+    std::vector<int> nodes;
+    std::vector<double> weights;
+    for (const auto& [node, weight] : followers(link, reference)) {
+      nodes.push_back(node);
+      weights.push_back(weight);
+    }
+    check_axes(link);
     if (link.kind == AbaqusLinkKind::distributing) {
-      fem::ImportedAverage& average = out_.averages.emplace_back();
-      average.name = link.name;
-      average.reference = reference;
-      average.nodes = std::move(nodes);
-      average.line = link.place.line;
+      out_.averages.push_back({link.name,
+                               reference,
+                               std::move(nodes),
+                               std::move(weights),
+                               link.place.line,
+                               link.variables,
+                               {}});
     } else {
       out_.rigid_links.push_back(
           {link.name, reference, std::move(nodes), link.variables, link.place.line});
@@ -107,7 +152,7 @@ class LinkMaker {
     std::vector<int> first = by_number(names_.nodes(scope_, link.nodes.front(), link.place));
     std::vector<int> second = by_number(names_.nodes(scope_, link.reference, link.place));
     if (second.size() == 1) second.resize(first.size(), second.front());
-    if (first.size() != second.size()) {
+    if (first.size() != second.size() || first.empty()) {
       lines_.fail(link.place, fmt::format("the sets of the *MPC have {} and {} nodes; they must "
                                           "have as many, or the second a single one",
                                           first.size(), second.size()));
@@ -121,12 +166,33 @@ class LinkMaker {
             {link.name, second[k], {first[k]}, link.variables, link.place.line});
         continue;
       }
+      if (link.kind == AbaqusLinkKind::mpc_link) {
+        add_distance(first[k], second[k], link.place);
+        continue;
+      }
       const bool turn = link.kind == AbaqusLinkKind::mpc_tie &&
                         turns_[static_cast<std::size_t>(first[k])] &&
                         turns_[static_cast<std::size_t>(second[k])];
       for (int v = 0; v < (turn ? 6 : 3); ++v) {
         out_.equations.push_back({{{first[k], v, 1.0}, {second[k], v, -1.0}}, link.place.line});
       }
+    }
+  }
+
+  /// Two nodes that keep their distance: (x_a − x_b)·(u_a − u_b) = 0.
+  void add_distance(int a, int b, DeckPlace place) {
+    const Vector3d between = names_.positions()[static_cast<std::size_t>(a)] -
+                             names_.positions()[static_cast<std::size_t>(b)];
+    if (!(between.norm() > 0.0)) {
+      lines_.fail(place, "the *MPC LINK joins nodes at one place, where it has no direction");
+    }
+    const Vector3d along = between.normalized();
+    fem::ImportedEquation& out = out_.equations.emplace_back();
+    out.line = place.line;
+    for (const int k : largest_first(along)) {
+      if (std::abs(along[k]) < kNoShare) continue;
+      out.terms.push_back({a, k, along[k]});
+      out.terms.push_back({b, k, -along[k]});
     }
   }
 
@@ -145,11 +211,12 @@ class LinkMaker {
     }
     const std::size_t count = nodes.front().size();
     for (const auto& list : nodes) {
-      if (list.size() == count || list.size() == 1) continue;
+      if (count > 0 && (list.size() == count || list.size() == 1)) continue;
       lines_.fail(equation.place, fmt::format("the sets of the equation have {} and {} nodes; they "
                                               "must have as many, or a single one",
                                               count, list.size()));
     }
+    note_turned(equation.place);
     for (std::size_t k = 0; k < count; ++k) {
       fem::ImportedEquation& out = out_.equations.emplace_back();
       out.line = equation.place.line;
@@ -170,12 +237,9 @@ class LinkMaker {
     const Matrix3d axes = axes_at(node, *found->second.first, found->second.second);
     const int first = term.variable < 3 ? 0 : 3;
     const Vector3d shares = term.coefficient * axes.col(term.variable - first);
-    std::vector<int> order = {0, 1, 2};
-    // The term that is eliminated comes first, so it must be the largest.
-    std::sort(order.begin(), order.end(),
-              [&](int a, int b) { return std::abs(shares[a]) > std::abs(shares[b]); });
-    for (const int k : order) {
-      if (shares[k] != 0.0) out.terms.push_back({node, first + k, shares[k]});
+    for (const int k : largest_first(shares)) {
+      if (std::abs(shares[k]) < kNoShare * std::abs(term.coefficient)) continue;
+      out.terms.push_back({node, first + k, shares[k]});
     }
   }
 
@@ -213,6 +277,7 @@ class LinkMaker {
   AbaqusNames& names_;
   fem::ImportedMesh& out_;
   int scope_ = 0;
+  bool has_noted_ = false;
   std::vector<bool> turns_;
   /// Per node its *TRANSFORM and the placed scope where it stands.
   std::map<int, std::pair<const AbaqusTransform*, int>> transforms_;

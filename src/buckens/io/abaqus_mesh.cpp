@@ -2,45 +2,15 @@
 #include "buckens/io/abaqus_mesh.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "buckens/base/nearest.h"
-
 namespace buckens::io {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using fem::PropertyKind;
-
-namespace {
-
-/// What elements of a section become: bars have solid sections in Abaqus.
-bool fits(AbaqusRole role, PropertyKind section, PropertyKind& kind) {
-  kind = section;
-  if (role == AbaqusRole::bar && section == PropertyKind::solid) kind = PropertyKind::bar;
-  return (role == AbaqusRole::solid && section == PropertyKind::solid) ||
-         (role == AbaqusRole::shell && section == PropertyKind::shell) ||
-         (role == AbaqusRole::beam && section == PropertyKind::beam) ||
-         (role == AbaqusRole::bar && section == PropertyKind::solid);
-}
-
-const char* name_of(PropertyKind kind) {
-  constexpr const char* names[] = {"*SOLID SECTION", "*SHELL SECTION", "*BEAM SECTION",
-                                   "*SOLID SECTION"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-bool is_kept(AbaqusRole role) {
-  return role == AbaqusRole::solid || role == AbaqusRole::shell || role == AbaqusRole::beam ||
-         role == AbaqusRole::bar;
-}
-
-}  // namespace
 
 AbaqusMesh::AbaqusMesh(const AbaqusDeck& deck, const AbaqusLines& lines)
     : deck_(deck), lines_(lines), names_(deck, lines) {}
@@ -76,17 +46,40 @@ std::string AbaqusMesh::prefixed(int scope, const std::string& name) const {
   return names_.scopes()[static_cast<std::size_t>(scope)].instance + "." + name;
 }
 
+/// Whether a number of a node or element stands in several instances.
+bool AbaqusMesh::labels_meet() const {
+  const auto& scopes = names_.scopes();
+  const auto meet_in = [&](auto&& visit) {
+    std::size_t count = 0;
+    std::int64_t largest = 0;
+    visit([&](std::int64_t label) {
+      ++count;
+      largest = std::max(largest, label);
+    });
+    LabelIndex seen(count, largest);
+    bool meet = false;
+    visit([&](std::int64_t label) { meet = seen.add(label, 1) >= 0 || meet; });
+    return meet;
+  };
+  const auto visit_nodes = [&](auto&& use) {
+    for (const std::int64_t label : out_.node_ids) use(label);
+  };
+  const auto visit_elements = [&](auto&& use) {
+    for (const AbaqusPlaced& placed : scopes) {
+      for (const AbaqusElements& block : placed.scope->elements) {
+        for (const std::int64_t label : block.ids) use(label);
+      }
+    }
+  };
+  return scopes.size() > 1 && (meet_in(visit_nodes) || meet_in(visit_elements));
+}
+
 void AbaqusMesh::add_nodes() {
   out_.positions = names_.positions();
   out_.node_ids = names_.labels();
+  if (!labels_meet()) return;
   std::int64_t largest = 0;
-  LabelIndex seen(out_.node_ids.size(), 0);
-  bool meet = false;
-  for (const std::int64_t label : out_.node_ids) {
-    largest = std::max(largest, label);
-    meet = seen.add(label, 1) >= 0 || meet;
-  }
-  if (!meet) return;
+  for (const std::int64_t label : out_.node_ids) largest = std::max(largest, label);
   for (shift_ = 10; shift_ <= largest;) shift_ *= 10;
   const auto& scopes = names_.scopes();
   for (std::size_t s = 1; s < scopes.size(); ++s) {
@@ -99,171 +92,6 @@ void AbaqusMesh::add_nodes() {
                                       scopes[s].instance, add + 1, add + 12),
                           0, 1});
   }
-}
-
-void AbaqusMesh::add_materials() {
-  for (const auto& [key, material] : deck_.materials) {
-    if (material.E > 0.0 || material.orthotropic) {
-      materials_[key] = material.name;
-      out_.materials.push_back(material);
-      continue;
-    }
-    out_.notes.push_back({fmt::format("material \"{}\" has no *ELASTIC; its parts need a material "
-                                      "from the model file",
-                                      material.name),
-                          material.where.line, 1});
-    materials_[key] = "";
-  }
-}
-
-std::string AbaqusMesh::material_called(const std::string& name, DeckPlace place) {
-  if (name.empty()) return "";
-  const auto found = materials_.find(upper(name));
-  if (found != materials_.end()) return found->second;
-  if (materials_.empty()) {
-    out_.notes.push_back(note_at(place,
-                                 fmt::format("material \"{}\" is not defined here; give it "
-                                             "in the model file",
-                                             name),
-                                 1));
-    return "";
-  }
-  std::vector<std::string> known;
-  for (const auto& [key, written] : materials_) known.push_back(written);
-  lines_.fail(place,
-              fmt::format("there is no material \"{}\".{}", name, base::suggestion(name, known)));
-}
-
-const AbaqusOrientation* AbaqusMesh::orientation_called(int scope, const std::string& name,
-                                                        DeckPlace place) const {
-  if (name.empty()) return nullptr;
-  for (const AbaqusScope* own :
-       {names_.scopes()[static_cast<std::size_t>(scope)].scope, names_.scopes().front().scope}) {
-    const auto found = own->orientations.find(upper(name));
-    if (found != own->orientations.end()) return &found->second;
-  }
-  lines_.fail(place, fmt::format("there is no orientation \"{}\"", name));
-}
-
-void AbaqusMesh::assign_sections(int scope) {
-  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
-  auto& section_of = section_of_.emplace_back(static_cast<std::size_t>(placed.num_elements), -1);
-  int replaced = 0;
-  DeckPlace where;
-  for (std::size_t k = 0; k < placed.scope->sections.size(); ++k) {
-    const AbaqusSection& section = placed.scope->sections[k];
-    for (const auto& at : names_.elements(scope, section.element_set, section.place)) {
-      if (at.scope != scope) continue;
-      const AbaqusElementType& type = *placed.at(at.element).first->type;
-      if (!is_kept(type.role)) continue;
-      PropertyKind kind;
-      if (!fits(type.role, section.kind, kind)) {
-        lines_.fail(section.place,
-                    fmt::format("set \"{}\" holds elements of type {}, which have "
-                                "no {}",
-                                section.element_set, type.name, name_of(section.kind)));
-      }
-      int& entry = section_of[static_cast<std::size_t>(at.element)];
-      if (entry >= 0) ++replaced;
-      if (entry >= 0) where = section.place;
-      entry = static_cast<int>(k);
-    }
-  }
-  if (replaced == 0) return;
-  out_.notes.push_back(
-      note_at(where, "elements with two sections: the one that comes last is taken", replaced));
-}
-
-int AbaqusMesh::property_for(int scope, const AbaqusSection& section,
-                             const AbaqusElementType& type) {
-  PropertyKind kind;
-  fits(type.role, section.kind, kind);
-  // Axes turn with an instance; other properties are shared by those of a part.
-  const bool is_own = !section.orientation.empty();
-  const auto key = std::make_tuple(section.place.file, section.place.line, is_own ? scope : 0, kind,
-                                   type.shear_flexible);
-  const auto known = properties_.find(key);
-  if (known != properties_.end()) return known->second;
-  fem::ImportedProperty property;
-  property.kind = kind;
-  property.line = section.place.line;
-  if (kind == PropertyKind::beam) property.shear_flexible = type.shear_flexible;
-  property.name = section.element_set;
-  const auto is_taken = [this](const std::string& name) {
-    return std::any_of(out_.properties.begin(), out_.properties.end(),
-                       [&](const auto& other) { return upper(other.name) == upper(name); });
-  };
-  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
-  if (is_taken(property.name) && !placed.instance.empty()) {
-    property.name = placed.instance + "." + section.element_set;
-  }
-  for (int k = 2; is_taken(property.name); ++k) {
-    property.name = fmt::format("{} ({})", section.element_set, k);
-  }
-  fill_property(scope, section, property);
-  out_.properties.push_back(std::move(property));
-  return properties_[key] = static_cast<int>(out_.properties.size()) - 1;
-}
-
-void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
-                               fem::ImportedProperty& property) {
-  property.material = material_called(section.material, section.place);
-  if (property.kind != PropertyKind::shell && deck_.laminae.contains(upper(section.material))) {
-    lines_.fail(section.place,
-                fmt::format("material \"{}\" is of TYPE=LAMINA, which is for shells; give all nine "
-                            "ENGINEERING CONSTANTS",
-                            section.material));
-  }
-  property.thickness = section.thickness;
-  double thickness = section.thickness.value_or(0.0);
-  for (const AbaqusSection::Layer& layer : section.layers) {
-    if (!layer.orientation.empty()) {
-      lines_.fail(layer.place, fmt::format("the layer has the orientation \"{}\"; give its angle "
-                                           "in degrees instead",
-                                           layer.orientation));
-    }
-    property.layers.push_back(
-        {material_called(layer.material, layer.place), layer.thickness, layer.angle});
-    thickness += layer.thickness;
-  }
-  // Abaqus counts from the middle to the nodes, we count from the nodes to the middle.
-  property.offset = -section.offset * thickness;
-  property.section = section.shape;
-  if (property.kind == PropertyKind::bar) {
-    fem::SectionSpec bar;
-    bar.where = lines_.where(section.place);
-    bar.shape = fem::CircleSpec{2.0 * std::sqrt(section.area / std::numbers::pi)};
-    property.section = bar;
-  }
-  const AbaqusOrientation* axes = orientation_called(scope, section.orientation, section.place);
-  if (axes == nullptr) return;
-  const auto material = deck_.materials.find(upper(section.material));
-  const bool is_isotropic =
-      material != deck_.materials.end() && !material->second.orthotropic && section.layers.empty();
-  if (axes->system == "RECTANGULAR") {
-    Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation * axes->axes;
-    if (section.kind == PropertyKind::shell) {
-      if (!axes->normal && is_isotropic) return;
-      if (!axes->normal) {
-        lines_.fail(
-            axes->place,
-            fmt::format("orientation \"{}\" is used for shells, so its second line must say "
-                        "which of its axes, 1, 2 or 3, is near their normal, and the angle "
-                        "about it: \"3, 0.\" takes its axis 1 as direction 1",
-                        axes->name));
-      }
-      // The axis after the one near the normal is projected onto the shell as direction 1.
-      const Matrix3d given = own;
-      for (int k = 0; k < 3; ++k) own.col(k) = given.col((*axes->normal + 1 + k) % 3);
-    }
-    property.axes = own;
-    return;
-  }
-  if (is_isotropic) return;
-  lines_.fail(section.place,
-              fmt::format("orientation \"{}\" is of {}, which is supported for isotropic materials "
-                          "only; give SYSTEM=RECTANGULAR, one section for each direction",
-                          axes->name, axes->system));
 }
 
 void AbaqusMesh::add_elements(int scope) {
@@ -323,7 +151,10 @@ Vector3d AbaqusMesh::up_direction(int scope, int element, int a, int b) const {
                                               "which is not defined",
                                               raw->ids[k], raw->direction_nodes[k]));
     }
-    n1 = out_.positions[static_cast<std::size_t>(node)] - start;
+    const auto stride = static_cast<std::size_t>(raw->type->num_nodes);
+    const int first = placed.nodes.find(raw->nodes[k * stride]);
+    n1 = out_.positions[static_cast<std::size_t>(node)] -
+         out_.positions[static_cast<std::size_t>(first)];
   }
   const Vector3d up = t.cross(n1);
   // The sine of the angle that numbers written with six digits can tell from zero.
@@ -387,12 +218,12 @@ void AbaqusMesh::add_sets(int scope) {
   const AbaqusScope& own = *names_.scopes()[static_cast<std::size_t>(scope)].scope;
   for (const auto& [key, set] : own.node_sets) {
     // Also sets that are not handed on are looked at: they may refer to what is not there.
-    auto nodes = names_.nodes(scope, set.name, set.parts.front().place);
+    auto nodes = names_.nodes(scope, set);
     if (!set.is_internal) out_.node_sets.push_back({prefixed(scope, set.name), std::move(nodes)});
   }
   for (const auto& [key, set] : own.element_sets) {
     fem::ImportedElementSet entry{prefixed(scope, set.name), {}};
-    for (const auto& at : names_.elements(scope, set.name, set.parts.front().place)) {
+    for (const auto& at : names_.elements(scope, set)) {
       const Numbers& numbers =
           numbers_[static_cast<std::size_t>(at.scope)][static_cast<std::size_t>(at.element)];
       for (int k = 0; k < numbers.count; ++k) entry.elements.push_back(numbers.first + k);
@@ -404,10 +235,17 @@ void AbaqusMesh::add_sets(int scope) {
 
 void AbaqusMesh::add_surfaces(int scope) {
   const AbaqusScope& own = *names_.scopes()[static_cast<std::size_t>(scope)].scope;
+  const auto add_nodes_of = [&](const std::string& name, const AbaqusSurface& surface) {
+    fem::ImportedNodeSet& set = out_.node_sets.emplace_back();
+    set.name = name;
+    for (const auto& [node, share] : names_.surface_nodes(scope, surface)) {
+      set.nodes.push_back(node);
+    }
+  };
   for (const auto& [key, surface] : own.surfaces) {
     const std::string name = prefixed(scope, surface.name);
     if (surface.is_of_nodes) {
-      out_.node_sets.push_back({name, names_.surface_nodes(scope, surface.name, surface.place)});
+      add_nodes_of(name, surface);
       continue;
     }
     fem::ImportedFaceSet entry{name, {}};
@@ -422,7 +260,7 @@ void AbaqusMesh::add_surfaces(int scope) {
     if (!entry.faces.empty()) {
       out_.face_sets.push_back(std::move(entry));
     } else if (has_edges) {
-      out_.node_sets.push_back({name, names_.surface_nodes(scope, surface.name, surface.place)});
+      add_nodes_of(name, surface);
     }
   }
 }

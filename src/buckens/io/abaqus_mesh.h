@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -27,6 +28,7 @@ class AbaqusMesh {
     int count = 0;
   };
 
+  bool labels_meet() const;
   void add_nodes();
   void add_materials();
   void assign_sections(int scope);
@@ -54,6 +56,7 @@ class AbaqusMesh {
   std::vector<std::vector<int>> section_of_;
   /// By file and line of the section, placed scope, kind and whether beams shear.
   std::map<std::tuple<int, int, int, fem::PropertyKind, bool>, int> properties_;
+  std::set<std::string> property_names_;          ///< in capitals
   std::map<std::string, std::string> materials_;  ///< names as written by names in capitals
   std::map<std::pair<const AbaqusElementType*, int>, std::size_t> block_of_;
   /// Per block: the placed scope and element of each of its elements.

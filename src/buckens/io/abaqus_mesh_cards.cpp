@@ -32,8 +32,8 @@ Vector3d rectangular(const std::string& system, const Vector3d& given) {
           given[0] * std::cos(latitude) * std::sin(theta), given[0] * std::sin(latitude)};
 }
 
-/// Cells of an element over as many lines as it needs: those that end with a comma go on, and so
-/// do those that are short of nodes where their number is known.
+/// Cells of an element over as many lines as it needs: a line that ends with a comma goes on,
+/// unless all nodes are there.
 bool element_cells(AbaqusReading& in, const AbaqusElementType& type,
                    std::vector<std::string_view>& cells, DeckPlace& place) {
   DeckRow row;
@@ -214,8 +214,12 @@ void read_surface(AbaqusReading& in, const DeckKeyword& keyword) {
     item.face = surface.is_of_nodes ? "" : upper(row.cell(1));
     item.instance = in.optional_parameter(keyword, "INSTANCE");
     item.place = row.place;
-    if (!item.reference.empty()) continue;
-    in.lines.fail(row.place, "an element, a node or a set must stand first on this line");
+    if (item.reference.empty()) {
+      in.lines.fail(row.place, "an element, a node or a set must stand first on this line");
+    }
+    if (!surface.is_of_nodes) continue;
+    item.area = in.lines.number_or(row, 1, 1.0, "area of the node");
+    if (!(item.area > 0.0)) in.lines.fail(row.place, "the area of a node must be positive");
   }
 }
 

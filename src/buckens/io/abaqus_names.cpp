@@ -14,33 +14,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t kDeepestSets = 100;  // sets in sets
-
-template <class Entry>
-void sort_unique(std::vector<Entry>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
 template <class Named>
 std::vector<std::string> names_in(const std::map<std::string, Named>& sets) {
   std::vector<std::string> out;
   for (const auto& [key, set] : sets) out.push_back(set.name);
   return out;
-}
-
-/// Calls `use` for the known numbers of a range and returns how many there are.
-template <class Use>
-std::size_t in_range(const AbaqusSetPart::Range& range, const std::vector<std::int64_t>& known,
-                     Use&& use) {
-  std::size_t count = 0;
-  for (const std::int64_t label : known) {
-    if (label < range.first || label > range.last) continue;
-    if ((label - range.first) % range.step != 0) continue;
-    use(label);
-    ++count;
-  }
-  return count;
 }
 
 std::int64_t largest_of(const std::vector<std::int64_t>& labels, std::int64_t so_far) {
@@ -90,6 +68,7 @@ void AbaqusNames::place_scope(const AbaqusScope& scope, const AbaqusInstance* in
   }
   placed.num_nodes = static_cast<int>(positions_.size()) - placed.first_node;
   number_elements(placed);
+  if (instance != nullptr) instances_[upper(instance->name)] = static_cast<int>(scopes_.size());
   scopes_.push_back(std::move(placed));
 }
 
@@ -128,10 +107,8 @@ std::string AbaqusNames::described(int scope) const {
 }
 
 int AbaqusNames::find_instance(const std::string& name) const {
-  for (std::size_t k = 1; k < scopes_.size(); ++k) {
-    if (upper(scopes_[k].instance) == upper(name)) return static_cast<int>(k);
-  }
-  return -1;
+  const auto found = instances_.find(upper(name));
+  return found == instances_.end() ? -1 : found->second;
 }
 
 AbaqusNames::Scoped AbaqusNames::in_instance(int scope, const std::string& reference,
@@ -149,60 +126,6 @@ AbaqusNames::Scoped AbaqusNames::in_instance(int scope, const std::string& refer
   return {scope, reference};
 }
 
-void AbaqusNames::open(const AbaqusSet& set) {
-  const bool is_open = std::find(open_sets_.begin(), open_sets_.end(), &set) != open_sets_.end();
-  if (is_open || open_sets_.size() > kDeepestSets) {
-    lines_.fail(
-        set.parts.front().place,
-        fmt::format("set \"{}\" contains itself, directly or by way of other sets", set.name));
-  }
-  open_sets_.push_back(&set);
-}
-
-std::vector<int> AbaqusNames::set_nodes(int scope, const AbaqusSet& set) {
-  const auto known = known_nodes_.find({scope, &set});
-  if (known != known_nodes_.end()) return known->second;
-  open(set);
-  std::vector<int> out;
-  for (const AbaqusSetPart& part : set.parts) {
-    const int own = in_instance(scope, "", part.instance, part.place).scope;
-    const AbaqusPlaced& placed = scopes_[static_cast<std::size_t>(own)];
-    for (const std::int64_t label : part.ids) {
-      const int node = placed.nodes.find(label);
-      if (node >= 0) {
-        out.push_back(node);
-        continue;
-      }
-      lines_.fail(part.place,
-                  fmt::format("node set \"{}\" refers to node {}, which is not defined{}", set.name,
-                              label, described(own)));
-    }
-    for (const AbaqusSetPart::Range& range : part.ranges) {
-      const std::size_t found = in_range(range, placed.scope->nodes.ids, [&](std::int64_t label) {
-        out.push_back(placed.nodes.find(label));
-      });
-      if (found > 0) continue;
-      lines_.fail(part.place,
-                  fmt::format("node set \"{}\" generates {} to {}, but there is no such "
-                              "node{}",
-                              set.name, range.first, range.last, described(own)));
-    }
-    for (const std::string& name : part.names) {
-      const auto more = nodes(own, name, part.place);
-      out.insert(out.end(), more.begin(), more.end());
-    }
-    if (part.of_elements.empty()) continue;
-    for (const AbaqusElementAt& at : elements(own, part.of_elements, part.place)) {
-      const auto more = element_nodes(at);
-      out.insert(out.end(), more.begin(), more.end());
-    }
-  }
-  open_sets_.pop_back();
-  sort_unique(out);
-  known_nodes_[{scope, &set}] = out;
-  return out;
-}
-
 std::vector<int> AbaqusNames::nodes(int scope, const std::string& reference, DeckPlace place) {
   const Scoped scoped = in_instance(scope, reference, "", place);
   const AbaqusPlaced& placed = scopes_[static_cast<std::size_t>(scoped.scope)];
@@ -212,7 +135,7 @@ std::vector<int> AbaqusNames::nodes(int scope, const std::string& reference, Dec
     lines_.fail(place, fmt::format("there is no node {}{}", scoped.name, described(scoped.scope)));
   }
   const auto found = placed.scope->node_sets.find(upper(scoped.name));
-  if (found != placed.scope->node_sets.end()) return set_nodes(scoped.scope, found->second);
+  if (found != placed.scope->node_sets.end()) return nodes(scoped.scope, found->second);
   lines_.fail(place,
               fmt::format("there is no node set \"{}\"{}.{}", scoped.name, described(scoped.scope),
                           base::suggestion(scoped.name, names_in(placed.scope->node_sets))));
@@ -223,47 +146,6 @@ int AbaqusNames::node(int scope, const std::string& reference, DeckPlace place) 
   if (found.size() == 1) return found.front();
   lines_.fail(
       place, fmt::format("\"{}\" has {} nodes; one node must stand here", reference, found.size()));
-}
-
-std::vector<AbaqusElementAt> AbaqusNames::set_elements(int scope, const AbaqusSet& set) {
-  const auto known = known_elements_.find({scope, &set});
-  if (known != known_elements_.end()) return known->second;
-  open(set);
-  std::vector<AbaqusElementAt> out;
-  for (const AbaqusSetPart& part : set.parts) {
-    const int own = in_instance(scope, "", part.instance, part.place).scope;
-    const AbaqusPlaced& placed = scopes_[static_cast<std::size_t>(own)];
-    for (const std::int64_t label : part.ids) {
-      const int element = placed.elements.find(label);
-      if (element >= 0) {
-        out.push_back({own, element});
-        continue;
-      }
-      lines_.fail(part.place,
-                  fmt::format("element set \"{}\" refers to element {}, which is not defined{}",
-                              set.name, label, described(own)));
-    }
-    for (const AbaqusSetPart::Range& range : part.ranges) {
-      std::size_t found = 0;
-      for (const AbaqusElements& block : placed.scope->elements) {
-        found += in_range(range, block.ids, [&](std::int64_t label) {
-          out.push_back({own, placed.elements.find(label)});
-        });
-      }
-      if (found > 0) continue;
-      lines_.fail(part.place, fmt::format("element set \"{}\" generates {} to {}, but there is no "
-                                          "such element{}",
-                                          set.name, range.first, range.last, described(own)));
-    }
-    for (const std::string& name : part.names) {
-      const auto more = elements(own, name, part.place);
-      out.insert(out.end(), more.begin(), more.end());
-    }
-  }
-  open_sets_.pop_back();
-  sort_unique(out);
-  known_elements_[{scope, &set}] = out;
-  return out;
 }
 
 std::vector<AbaqusElementAt> AbaqusNames::elements(int scope, const std::string& reference,
@@ -278,7 +160,7 @@ std::vector<AbaqusElementAt> AbaqusNames::elements(int scope, const std::string&
                 fmt::format("there is no element {}{}", scoped.name, described(scoped.scope)));
   }
   const auto found = placed.scope->element_sets.find(upper(scoped.name));
-  if (found != placed.scope->element_sets.end()) return set_elements(scoped.scope, found->second);
+  if (found != placed.scope->element_sets.end()) return elements(scoped.scope, found->second);
   lines_.fail(
       place,
       fmt::format("there is no element set \"{}\"{}.{}", scoped.name, described(scoped.scope),

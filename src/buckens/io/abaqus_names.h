@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -70,8 +71,18 @@ class AbaqusNames {
   /// Elements of a reference, ascending.
   std::vector<AbaqusElementAt> elements(int scope, const std::string& reference, DeckPlace place);
   std::vector<AbaqusFace> faces(int scope, const AbaqusSurface& surface);
-  /// Nodes of a surface by its name.
-  std::vector<int> surface_nodes(int scope, const std::string& name, DeckPlace place);
+  /// Nodes and elements of a set of a scope, ascending; its name may look like a number.
+  std::vector<int> nodes(int scope, const AbaqusSet& set) {
+    return members(scope, set, known_nodes_);
+  }
+  std::vector<AbaqusElementAt> elements(int scope, const AbaqusSet& set) {
+    return members(scope, set, known_elements_);
+  }
+  /// Nodes of a surface, each with what belongs to it of the faces (an area), of the edges of
+  /// shells (a length) or, of a surface of nodes, what the deck says (1 by default).
+  std::map<int, double> surface_nodes(int scope, const AbaqusSurface& surface);
+  /// The same by the name of the surface.
+  std::map<int, double> surface_nodes(int scope, const std::string& name, DeckPlace place);
   /// Nodes of an element, those at mid-sides included.
   std::vector<int> element_nodes(const AbaqusElementAt& at) const;
 
@@ -91,8 +102,20 @@ class AbaqusNames {
   /// Notes that a set is being looked up. @throws InputError if it is already, or sets nest too
   /// deep
   void open(const AbaqusSet& set);
-  std::vector<int> set_nodes(int scope, const AbaqusSet& set);
-  std::vector<AbaqusElementAt> set_elements(int scope, const AbaqusSet& set);
+  template <class Entry>
+  using KnownSets = std::map<std::pair<int, const AbaqusSet*>, std::vector<Entry>>;
+  /// The nodes (int) or elements of a set, looked up once.
+  template <class Entry>
+  const std::vector<Entry>& members(int scope, const AbaqusSet& set, KnownSets<Entry>& known);
+  template <class Entry>
+  void add_part(int scope, const AbaqusSet& set, const AbaqusSetPart& part,
+                std::vector<Entry>& out);
+  /// Adds the numbers of a range that there are. @return how many these are
+  template <class Entry>
+  std::size_t add_range(int scope, const AbaqusSetPart::Range& range,
+                        std::vector<Entry>& out) const;
+  template <class Entry>
+  bool add_entry(int scope, std::int64_t label, std::vector<Entry>& out) const;
   void add_faces(const AbaqusElementAt& at, const AbaqusSurface::Item& item,
                  std::vector<AbaqusFace>& out);
   AbaqusFace solid_face(const AbaqusElementAt& at, std::size_t face) const;
@@ -107,9 +130,12 @@ class AbaqusNames {
   std::vector<std::int64_t> labels_;
   std::vector<const AbaqusSet*> open_sets_;  ///< being looked up, to find circles
   /// Sets that were looked up: sets of sets would be walked through again and again.
-  std::map<std::pair<int, const AbaqusSet*>, std::vector<int>> known_nodes_;
-  std::map<std::pair<int, const AbaqusSet*>, std::vector<AbaqusElementAt>> known_elements_;
-  std::map<int, std::map<std::vector<int>, int>> face_counts_;  ///< per scope, by sorted corners
+  KnownSets<int> known_nodes_;
+  KnownSets<AbaqusElementAt> known_elements_;
+  std::size_t num_entries_ = 0;           ///< of these sets together
+  std::map<std::string, int> instances_;  ///< scopes by their names in capitals
+  /// Per scope the faces of all its solids by their corners, sorted.
+  std::map<int, std::vector<std::array<int, 4>>> faces_;
 };
 
 }  // namespace buckens::io

@@ -61,6 +61,7 @@ struct AbaqusSurface {
     std::string reference;
     std::string face;  ///< "S1", "SPOS", "": free faces
     std::string instance;
+    double area = 1;  ///< of each of its nodes, in a surface of nodes
     DeckPlace place;
   };
   std::string name;
@@ -120,7 +121,15 @@ struct AbaqusTransform {
   DeckPlace place;
 };
 
-enum class AbaqusLinkKind { kinematic, distributing, rigid_body, mpc_beam, mpc_tie, mpc_pin };
+enum class AbaqusLinkKind {
+  kinematic,
+  distributing,
+  rigid_body,
+  mpc_beam,
+  mpc_tie,
+  mpc_pin,
+  mpc_link,
+};
 
 /// A *COUPLING, *KINEMATIC COUPLING, *RIGID BODY or a line of *MPC.
 struct AbaqusLink {
@@ -130,6 +139,7 @@ struct AbaqusLink {
   /// The nodes that follow: references, surfaces or element sets.
   std::vector<std::string> nodes, surfaces, element_sets;
   std::array<bool, 6> variables = {true, true, true, true, true, true};
+  bool is_turned = false;        ///< the variables are in axes of their own, ORIENTATION=
   std::optional<double> radius;  ///< *COUPLING, INFLUENCE RADIUS=
   DeckPlace place;
 };

@@ -27,6 +27,38 @@ void add_mid_sides(fem::CellKind kind, const std::vector<int>& nodes,
   }
 }
 
+/// Shares a face among its nodes: corners take the triangles that they form with their neighbours;
+/// of quadratic shapes, cut into pieces at the nodes on their edges, the corners get less.
+void add_shares(const AbaqusFace& face, const std::vector<Eigen::Vector3d>& positions,
+                std::map<int, double>& out) {
+  const auto place = [&](int node) { return positions[static_cast<std::size_t>(node)]; };
+  const std::vector<int>& c = face.corners;
+  const std::size_t count = c.size();
+  const std::size_t num_mid = face.nodes.size() - count;
+  if (count == 2) {
+    const double length = (place(c[1]) - place(c[0])).norm();
+    const double corner = num_mid == 0 ? 0.5 : 0.25;
+    for (std::size_t k = 0; k < face.nodes.size(); ++k)
+      out[face.nodes[k]] += length * (k < 2 ? corner : 0.5);
+    return;
+  }
+  std::vector<double> shares;
+  double area = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Vector3d x = place(c[k]);
+    const Eigen::Vector3d one = place(c[(k + 1) % count]) - x;
+    const Eigen::Vector3d other = place(c[(k + count - 1) % count]) - x;
+    shares.push_back(one.cross(other).norm() / (count == 3 ? 6.0 : 4.0));
+    area += shares.back();
+  }
+  // Four triangles of a triangle; a square within and four triangles of a quadrilateral.
+  const double of_corner = num_mid == 0 ? 1.0 : count == 3 ? 0.25 : 1.0 / 6.0;
+  const double of_mid = num_mid == 0 ? 0.0 : (1.0 - of_corner) / static_cast<double>(num_mid);
+  for (std::size_t k = 0; k < face.nodes.size(); ++k) {
+    out[face.nodes[k]] += k < count ? of_corner * shares[k] : of_mid * area;
+  }
+}
+
 }  // namespace
 
 AbaqusFace AbaqusNames::solid_face(const AbaqusElementAt& at, std::size_t face) const {
@@ -64,24 +96,27 @@ AbaqusFace AbaqusNames::shell_edge(const AbaqusElementAt& at, std::size_t edge) 
 }
 
 bool AbaqusNames::is_free(const AbaqusElementAt& at, const AbaqusFace& face) {
-  auto [entry, is_new] = face_counts_.try_emplace(at.scope);
-  const auto key_of = [](const AbaqusFace& f) {
-    std::vector<int> key = f.corners;
+  const auto key_of = [](const std::vector<int>& corners) {
+    std::array<int, 4> key = {-1, -1, -1, -1};
+    std::copy(corners.begin(), corners.end(), key.begin());
     std::sort(key.begin(), key.end());
     return key;
   };
+  auto [entry, is_new] = faces_.try_emplace(at.scope);
+  std::vector<std::array<int, 4>>& all = entry->second;
   if (is_new) {
     const AbaqusPlaced& placed = scopes_[static_cast<std::size_t>(at.scope)];
     for (int e = 0; e < placed.num_elements; ++e) {
-      const auto [block, k] = placed.at(e);
-      static_cast<void>(k);
-      if (block->type->role != AbaqusRole::solid) continue;
-      for (std::size_t f = 0; f < abaqus_faces(block->type->kind).size(); ++f) {
-        ++entry->second[key_of(solid_face({at.scope, e}, f))];
+      const AbaqusElementType& type = *placed.at(e).first->type;
+      if (type.role != AbaqusRole::solid) continue;
+      for (std::size_t f = 0; f < abaqus_faces(type.kind).size(); ++f) {
+        all.push_back(key_of(solid_face({at.scope, e}, f).corners));
       }
     }
+    std::sort(all.begin(), all.end());
   }
-  return entry->second[key_of(face)] == 1;
+  const auto [first, last] = std::equal_range(all.begin(), all.end(), key_of(face.corners));
+  return last - first == 1;
 }
 
 void AbaqusNames::add_faces(const AbaqusElementAt& at, const AbaqusSurface::Item& item,
@@ -134,7 +169,8 @@ std::vector<AbaqusFace> AbaqusNames::faces(int scope, const AbaqusSurface& surfa
   return out;
 }
 
-std::vector<int> AbaqusNames::surface_nodes(int scope, const std::string& name, DeckPlace place) {
+std::map<int, double> AbaqusNames::surface_nodes(int scope, const std::string& name,
+                                                 DeckPlace place) {
   const Scoped scoped = in_instance(scope, name, "", place);
   const AbaqusScope& own = *scopes_[static_cast<std::size_t>(scoped.scope)].scope;
   const auto found = own.surfaces.find(upper(scoped.name));
@@ -144,21 +180,19 @@ std::vector<int> AbaqusNames::surface_nodes(int scope, const std::string& name, 
     lines_.fail(place, fmt::format("there is no surface \"{}\".{}", scoped.name,
                                    base::suggestion(scoped.name, known)));
   }
-  const AbaqusSurface& surface = found->second;
-  std::vector<int> out;
-  if (surface.is_of_nodes) {
-    for (const AbaqusSurface::Item& item : surface.items) {
-      const Scoped at = in_instance(scoped.scope, item.reference, item.instance, item.place);
-      const auto more = nodes(at.scope, at.name, item.place);
-      out.insert(out.end(), more.begin(), more.end());
-    }
-  } else {
-    for (const AbaqusFace& face : faces(scoped.scope, surface)) {
-      out.insert(out.end(), face.nodes.begin(), face.nodes.end());
-    }
+  return surface_nodes(scoped.scope, found->second);
+}
+
+std::map<int, double> AbaqusNames::surface_nodes(int scope, const AbaqusSurface& surface) {
+  std::map<int, double> out;
+  if (!surface.is_of_nodes) {
+    for (const AbaqusFace& face : faces(scope, surface)) add_shares(face, positions_, out);
+    return out;
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  for (const AbaqusSurface::Item& item : surface.items) {
+    const Scoped at = in_instance(scope, item.reference, item.instance, item.place);
+    for (const int node : nodes(at.scope, at.name, item.place)) out[node] = item.area;
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/nastran_connections.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -52,6 +53,7 @@ class ConnectionBuilder {
     return index;
   }
   void check_axes(const NastranCard& card, const Variables& variables, int node) const;
+  std::array<bool, 3> read_weight(const NastranCard& card, int field, double& weight);
 
   const NastranBulk& bulk_;
   const NastranCoordinates& coordinates_;
@@ -125,6 +127,24 @@ void ConnectionBuilder::add_rbar(const NastranCard& card) {
   mesh_.rigid_links.push_back(std::move(link));
 }
 
+/// A weight and the components that it holds for. @return how each of the three displacements
+/// counts
+std::array<bool, 3> ConnectionBuilder::read_weight(const NastranCard& card, int field,
+                                                   double& weight) {
+  weight = card.real(field);
+  if (!(weight > 0)) card.fail(field, fmt::format("the weight {:g} must be positive", weight));
+  const Variables used = read_variables(card, field + 1);
+  if (none_of(used, 0)) {
+    card.fail(field + 1,
+              "no displacement (1, 2, 3) of the nodes counts; means of rotations alone are not "
+              "supported");
+  }
+  if (!none_of(used, 3)) {
+    notes_.add("RBE3: rotations of the nodes do not take part in the mean", {card.file, card.line});
+  }
+  return {used[0], used[1], used[2]};
+}
+
 void ConnectionBuilder::add_rbe3(const NastranCard& card) {
   const NastranPlace place{card.file, card.line};
   fem::ImportedAverage average;
@@ -132,41 +152,39 @@ void ConnectionBuilder::add_rbe3(const NastranCard& card) {
   average.line = card.line;
   card.id(0);
   average.reference = node(card, 2);
-  const Variables dependent = read_variables(card, 3);
-  if (!all_of(dependent, 0)) {
-    card.fail(3, "REFC must hold 1, 2 and 3: the reference node follows in all translations");
-  }
-  if (!all_of(dependent, 3)) {
-    notes_.add("RBE3: the reference node follows in rotation, too, although REFC leaves it out",
-               place);
-  }
+  if (card.blank(3)) card.fail(3, "is blank; give the components REFC that follow");
+  average.variables = read_variables(card, 3);
+  check_axes(card, average.variables, average.reference);
   double weight = 0;
+  std::array<bool, 3> used = {true, true, true};
   for (int field = 4; field < card.size(); ++field) {
     if (card.blank(field)) continue;
     if (card.is_word(field)) {
-      notes_.add(fmt::format("RBE3: {} is left out", card.word(field)), place);
+      // UM chooses other variables to eliminate, which changes nothing.
+      if (card.word(field) != "UM" && card.word(field) != "ALPHA") {
+        card.fail(field, fmt::format("{} stands where a node should", card.word(field)));
+      }
+      if (card.word(field) == "ALPHA") notes_.add("RBE3: ALPHA is left out", place);
       break;
     }
     if (!card.is_integer(field)) {
-      weight = card.real(field);
-      const Variables used = read_variables(card, ++field);
-      if (!(weight > 0))
-        card.fail(field - 1, fmt::format("the weight {:g} must be positive", weight));
-      if (!all_of(used, 0)) {
-        card.fail(field, "the components of the nodes must hold 1, 2 and 3");
-      }
-      if (!none_of(used, 3)) {
-        notes_.add("RBE3: rotations of the nodes do not take part in the mean", place);
-      }
+      used = read_weight(card, field++, weight);
       continue;
     }
     if (weight == 0) card.fail(field, "a weight, with a decimal point, must come first");
     const int member = node(card, field);
     if (member == average.reference) card.fail(field, "the reference node is among the others");
+    check_axes(card, {used[0], used[1], used[2], false, false, false}, member);
     average.nodes.push_back(member);
     average.weights.push_back(weight);
+    average.components.push_back(used);
   }
   if (average.nodes.empty()) card.fail("there are no nodes to take the mean of");
+  const std::array<bool, 3> all = {true, true, true};
+  if (std::all_of(average.components.begin(), average.components.end(),
+                  [&](const auto& own) { return own == all; })) {
+    average.components.clear();
+  }
   mesh_.averages.push_back(std::move(average));
 }
 

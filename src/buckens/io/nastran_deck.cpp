@@ -19,6 +19,8 @@ namespace buckens::io {
 
 namespace {
 
+constexpr std::size_t kLargestDeck = std::size_t{2} << 30;
+
 void note_sections(const NastranControl& control, bool found_end, const NastranFile& file,
                    NastranNotes& notes) {
   if (control.num_lines > 0) {
@@ -69,8 +71,8 @@ fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::pat
 }
 
 fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path) {
-  fem::ImportedMesh mesh =
-      read_nastran_text(read_text_file(path, "Nastran deck"), path, load_nastran_file);
+  fem::ImportedMesh mesh = read_nastran_text(read_text_file(path, "Nastran deck", kLargestDeck),
+                                             path, load_nastran_file);
   if (mesh.num_elements() == 0 && mesh.masses.empty()) {
     throw InputError({mesh.file, 0, 0},
                      "the deck has nodes, but no elements and no masses; is it complete?");

@@ -43,7 +43,7 @@ fem::OrthotropicSpec read_mat8(const NastranCard& card) {
   out.G12 = card.positive(4);
   out.G13 = card.real(5, 0.0);
   out.G23 = card.real(6, 0.0);
-  // Blank or zero means rigid in shear across the shell.
+  // Blank or zero means rigid in shear across the shell, which no shell here is.
   for (double* G : {&out.G13, &out.G23}) {
     if (*G == 0.0) *G = out.G12;
     if (*G < 0.0) card.fail("G1Z and G2Z must be greater than zero");
@@ -156,7 +156,13 @@ fem::MaterialSpec NastranMaterials::convert(const NastranCard& card) {
   out.where = card.where();
   out.name = unique_name(card);
   if (card.name == "MAT1") read_moduli(card, out);
-  if (card.name == "MAT8") out.orthotropic = read_mat8(card);
+  if (card.name == "MAT8") {
+    out.orthotropic = read_mat8(card);
+    if (card.real(5, 0.0) == 0.0 || card.real(6, 0.0) == 0.0) {
+      notes_->add("MAT8: G1Z or G2Z is blank (rigid across the shell); G12 is taken for it",
+                  {card.file, card.line});
+    }
+  }
   if (card.name == "MAT9") out.orthotropic = read_mat9(card);
   out.rho = density(card) * weight_to_mass_;
   if (has_damping(card)) {

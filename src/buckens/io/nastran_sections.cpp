@@ -230,11 +230,15 @@ void read_shape(const NastranCard& card, NastranNotes& notes, NastranSection& ou
   out.mass_per_length = card.real(8 + count, 0.0);
   std::array<double, 4> last = dim;
   int field = 9 + count;
-  if (card.name == "PBEAML") {
-    for (; is_station(card, field); field += count + 3) {
-      last = dim;
-      read(field + 2, last);
+  // SO and X/XB of further stations may be blank, "YES" and 1 by default.
+  for (; card.name == "PBEAML" && field < card.size(); field += count + 3) {
+    if (!card.blank(field) && !is_station(card, field)) {
+      card.fail(field, fmt::format("\"{}\" stands where SO should: YES or NO; the section of type "
+                                   "{} has {} dimensions",
+                                   card.text(field), type, count));
     }
+    last = dim;
+    read(field + 2, last);
   }
   if (last != dim) {
     notes.add("PBEAML: tapered beams get the mean of the dimensions at both ends",

@@ -43,7 +43,7 @@ std::string load_nastran_file(const fs::path& path) {
     throw IoError(
         fmt::format("{}: cannot read the included file: it is not a regular file", path.string()));
   }
-  return read_text_file(path, "included file");
+  return read_text_file(path, "included file", kMostText);
 }
 
 NastranSource::NastranSource(const fs::path& name, std::string text, LoadNastranFile load)
