@@ -15,7 +15,8 @@ struct PageField {
   enum class From { records, fields, fixed };
 
   std::string name;  ///< "von_mises" …; the page knows the usual ones
-  std::string on;    ///< "places" on the surface, "elements" with a face, or "lines"
+  /// "places" on the surface, "elements" with a face, "lines", or "lineEnds": two per line.
+  std::string on;
   /// Where the values are: a channel of the records, a field over a mesh, values that exist once.
   From from = From::records;
   std::string path;
@@ -23,6 +24,7 @@ struct PageField {
   std::vector<std::string> components;  ///< one empty name for a scalar
   std::size_t count = 0;                ///< of places
   FrameReader::Choose choose;           ///< the row of the page from that of the channel
+  std::string level = {};               ///< side of a shell, "layer 2, top"; empty: none
 
   std::size_t values_per_frame() const {
     return from == From::fixed ? 0 : count * components.size();

@@ -41,7 +41,12 @@ nlohmann::json parse_summary(const std::string& text) {
   return summary.is_discarded() ? nlohmann::json() : summary;
 }
 
-Json joint_json(const results::GeometryJoint& joint) {
+/// Values of a vector over time, null where it was not recorded.
+Json vector_json(const FrameReader& reader, const std::string& path) {
+  return reader.size_of(path) == 3 ? Json(reader.values(path)) : Json(nullptr);
+}
+
+Json joint_json(const results::GeometryJoint& joint, const FrameReader& reader) {
   Json between = Json::array();
   for (const results::GeometrySide& side : joint.between) {
     between.push_back(
@@ -50,7 +55,9 @@ Json joint_json(const results::GeometryJoint& joint) {
   return {{"name", joint.name},
           {"type", joint.type},
           {"between", std::move(between)},
-          {"axis", json_of(joint.axis)}};
+          {"axis", json_of(joint.axis)},
+          {"force", vector_json(reader, fmt::format("joints/{}/force", joint.name))},
+          {"torque", vector_json(reader, fmt::format("joints/{}/torque", joint.name))}};
 }
 
 /// Loads as arrows; the nodes that carry them by their numbers in the page.
@@ -144,7 +151,8 @@ void choose_size(const RunReader& run, const std::vector<Shown>& shown,
     const std::string& path = channel.path;
     const bool is_shown = path.ends_with("/pose") || path.ends_with("/motion") ||
                           path.starts_with("sensors/") || path.starts_with("energies/") ||
-                          path.starts_with("loads/") || path.starts_with("modes/");
+                          path.starts_with("loads/") || path.starts_with("modes/") ||
+                          path.starts_with("joints/");
     if (is_shown) plain += channel.size();
   }
   std::size_t ranges = 0;  // ends of ranges of rounded rows
@@ -213,7 +221,9 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
                          run.field_times().size() < report.records;
   const std::size_t possible = at_fields ? run.field_times().size() : report.records;
   Json joints = Json::array();
-  for (const results::GeometryJoint& joint : geometry.joints) joints.push_back(joint_json(joint));
+  for (const results::GeometryJoint& joint : geometry.joints) {
+    joints.push_back(joint_json(joint, reader));
+  }
   Json modes = modes_json(run, reader);
   Json summary = parse_summary(run.summary_text());
   const std::filesystem::path shapes = directory / kModesName;
