@@ -448,9 +448,9 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
     ++report.newton_iterations;
     for (const auto& part : parts_) update_coupling(*part);
     evaluate(t);
-    // Rounding of positions bounds what can be reached.
+    // Rounding of positions bounds what can be reached; slow convergence is not taken for it.
     if (change <= settings_.newton_tolerance * motion + 1e-15 * model_.length) return;
-    if (before > 0 && change > 0.5 * before && change <= 1e-11 * model_.length) return;
+    if (before > 0 && change > 0.9 * before && change <= 1e-11 * model_.length) return;
     before = change;
   }
   throw NumericalError(
