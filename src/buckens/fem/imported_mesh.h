@@ -47,6 +47,9 @@ struct ImportedProperty {
   std::optional<SectionSpec> section;   ///< of a beam or bar
   std::optional<bool> shear_flexible;   ///< of a beam: Timoshenko or Euler–Bernoulli
   std::optional<Eigen::Matrix3d> axes;  ///< material axes 1, 2, 3 as columns, in mesh axes
+  /// Without axes the x axis of a shell lies along the first side of each element rather than near
+  /// the x axis of the mesh.
+  bool along_first_side = false;
   int line = 0;
 };
 

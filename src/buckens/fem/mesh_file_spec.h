@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "buckens/base/field.h"
+#include "buckens/fem/group_section_spec.h"
 #include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/link_spec.h"
 #include "buckens/fem/material_spec.h"
 #include "buckens/fem/region_spec.h"
 #include "buckens/fem/structure_spec.h"
@@ -76,10 +78,14 @@ struct MeshFileSpec {
   }
 };
 
-/// Which materials the parts of a foreign mesh have.
+/// What a model file adds to a foreign mesh: materials, sections, point masses and links.
 struct GroupMaterials {
   std::optional<base::Reference<MaterialSpec>> material;
   std::vector<GroupMaterialSpec> materials;
+  std::optional<GroupSectionSpec> section;
+  std::vector<GroupSectionSpec> sections;
+  std::vector<PointMassSpec> masses;
+  std::optional<StructureLinksSpec> links;
   /// In SI units; set by the reader of model files.
   std::shared_ptr<const ImportedMesh> imported;
 
@@ -94,6 +100,23 @@ struct GroupMaterials {
                       "of a file: material by the name of an element set, a physical group or a "
                       "property; stands above that of the file")
               .like("{HOUSING: steel, LID: aluminium}")
+              .otherwise("those of the file"));
+  }
+
+  template <class Visitor>
+  void section_fields(Visitor& visit) {
+    visit(base::field("section", section,
+                      "of a file: for all shells, or all lines, to which neither `sections` here "
+                      "nor the file gives one")
+              .like("{thickness: 2 mm}")
+              .otherwise("that of the file"));
+    visit(base::field("sections", sections,
+                      "of a file: thickness or layers of shells, cross-sections of beams and bars, "
+                      "by the name of an element set, a physical group or a property; stands above "
+                      "that of the file. A physical group that has one becomes elements, also "
+                      "where it lies on others: a skin on solids, ribs on a plate")
+              .like("{skin: {thickness: 2 mm}, ribs: {beam: {rectangle: {width: 5 mm, height: 20 "
+                    "mm}}}}")
               .otherwise("those of the file"));
   }
 };
@@ -172,7 +195,6 @@ struct GeometrySpec : GroupMaterials {
   double size = 0;  ///< of the elements [m]
   int order = 2;
   std::vector<GeometryFaceSpec> faces;
-  std::vector<PointMassSpec> masses;
 
   template <class Visitor>
   void fields(Visitor& visit) {

@@ -179,7 +179,6 @@ struct MeshSpec : GroupMaterials {
       shape;
   std::optional<LengthUnit> length_unit;
   std::optional<MassUnit> mass_unit;
-  std::vector<PointMassSpec> masses;
 
   bool is_file() const { return std::holds_alternative<MeshFileSpec>(shape); }
   LengthUnit unit_of_length() const { return length_unit.value_or(LengthUnit::m); }
@@ -199,8 +198,12 @@ struct MeshSpec : GroupMaterials {
               .like("t")
               .otherwise("t with millimetres, so that stresses are in MPa; else kg"));
     material_fields(visit);
+    section_fields(visit);
     visit(base::field("masses", masses,
                       "point masses at named nodes; those of a file are `n` and the number"));
+    visit(base::field("links", links,
+                      "of a file: rigid links, averages, equations and springs between nodes, "
+                      "written `n` and the number"));
   }
 };
 

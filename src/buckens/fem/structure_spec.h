@@ -85,8 +85,9 @@ struct PointMassSpec {
   SourceLocation where;
   std::string at;   ///< node; of a beam: start, mid, end
   double mass = 0;  ///< [kg]
-  /// Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the node in model axes [kg m²].
+  /// Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the mass centre in model axes [kg m²].
   std::vector<double> inertia;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the mass centre from the node [m]
 
   Eigen::Matrix3d inertia_matrix() const;
 
@@ -101,10 +102,15 @@ struct PointMassSpec {
     visit(base::field("mass", mass, "mass").in(base::kMass).required().non_negative().like("33 g"));
     visit(base::field("inertia", inertia,
                       "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the "
-                      "node, in model axes")
+                      "node, or about the mass centre where that is elsewhere; in model axes")
               .in(base::kInertia)
               .like("[0, 0, 1e-5 kg m^2]")
               .otherwise("none"));
+    visit(
+        base::field("offset", offset,
+                    "of the mass centre from the node, to which it is held rigidly; in model axes")
+            .in(base::kLength)
+            .like("[0, 0, 20 mm]"));
   }
 };
 

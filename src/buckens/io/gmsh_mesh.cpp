@@ -85,18 +85,20 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
 
 }  // namespace
 
-fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file) {
+fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file,
+                                  const std::vector<std::string>& members) {
   MeshText text(bytes, file);
   TaggedMesh mesh = file.ends_with(".unv") || file.ends_with(".UNV")
                         ? read_universal_file(text, file)
                         : read_msh(text, file);
-  fem::ImportedMesh out = mesh_of_groups(std::move(mesh));
+  fem::ImportedMesh out = mesh_of_groups(std::move(mesh), members);
   if (out.num_elements() == 0) text.fail("the mesh has no elements");
   return out;
 }
 
-fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path) {
-  return read_gmsh_bytes(read_text_file(path, "mesh"), path.string());
+fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path,
+                                 const std::vector<std::string>& members) {
+  return read_gmsh_bytes(read_text_file(path, "mesh"), path.string(), members);
 }
 
 }  // namespace buckens::io

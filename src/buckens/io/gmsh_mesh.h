@@ -11,14 +11,16 @@
 namespace buckens::io {
 
 /// Reads a mesh of Gmsh (.msh 2.2 and 4.1, text and binary) or a universal file (.unv). What the
-/// groups become: tagged_mesh.h.
+/// groups become, and what `members` does: tagged_mesh.h.
 /// @throws InputError with file and line where the contents cannot be, IoError if the file cannot
 /// be read
-fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path);
+fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path,
+                                 const std::vector<std::string>& members = {});
 
 /// The same from the bytes of a file.
 /// @param file as messages name it; universal files are known by the ending .unv
-fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file);
+fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file,
+                                  const std::vector<std::string>& members = {});
 
 enum class GmshFormat { ascii_2_2, binary_2_2, ascii_4_1, binary_4_1 };
 

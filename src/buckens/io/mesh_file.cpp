@@ -18,13 +18,22 @@ namespace {
 
 struct Format {
   std::string ending;
-  fem::ImportedMesh (*read)(const std::filesystem::path&);
+  fem::ImportedMesh (*read)(const std::filesystem::path&, const std::vector<std::string>& members);
 };
 
+/// Decks say of every element what it is.
+template <fem::ImportedMesh (*read)(const std::filesystem::path&)>
+fem::ImportedMesh read_deck(const std::filesystem::path& path, const std::vector<std::string>&) {
+  return read(path);
+}
+
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {{".inp", read_abaqus_deck},  {".msh", read_gmsh_mesh},
-                                          {".unv", read_gmsh_mesh},    {".bdf", read_nastran_deck},
-                                          {".dat", read_nastran_deck}, {".nas", read_nastran_deck}};
+  static const std::vector<Format> all = {{".inp", read_deck<read_abaqus_deck>},
+                                          {".msh", read_gmsh_mesh},
+                                          {".unv", read_gmsh_mesh},
+                                          {".bdf", read_deck<read_nastran_deck>},
+                                          {".dat", read_deck<read_nastran_deck>},
+                                          {".nas", read_deck<read_nastran_deck>}};
   return all;
 }
 
@@ -41,10 +50,11 @@ std::vector<std::string> mesh_file_endings() {
   return out;
 }
 
-fem::ImportedMesh read_mesh_file(const std::filesystem::path& path) {
+fem::ImportedMesh read_mesh_file(const std::filesystem::path& path,
+                                 const std::vector<std::string>& members) {
   const std::string ending = lower_case(path.extension().string());
   for (const Format& format : formats()) {
-    if (format.ending == ending) return format.read(path);
+    if (format.ending == ending) return format.read(path, members);
   }
   throw InputError(
       {path.string(), 0, 0},

@@ -160,8 +160,10 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
     return matrices_problem(spec, *matrices);
   }
   const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind);
+  // What is in a mesh file is known later.
+  const auto* mesh = std::get_if<fem::MeshSpec>(&spec.kind);
   const bool is_solid =
-      std::holds_alternative<fem::MeshSpec>(spec.kind) ||
+      (mesh != nullptr && !mesh->is_file()) ||
       std::holds_alternative<fem::GeometrySpec>(spec.kind) ||
       (structure != nullptr && structure->beams.empty() && structure->bars.empty());
   if (is_solid && spec.geometric_stiffness) {

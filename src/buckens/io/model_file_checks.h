@@ -42,6 +42,7 @@ Finding problem(const fem::SolidMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::ShellMemberSpec& spec, const ReadContext& context);
 Finding problem(const fem::AverageLinkSpec& spec, const ReadContext& context);
 Finding problem(const fem::StructureSpec& spec, const ReadContext& context);
+Finding problem(const fem::GroupSectionSpec& spec, const ReadContext& context);
 Finding problem(const fem::MeshSpec& spec, const ReadContext& context);
 Finding problem(const fem::GeometrySpec& spec, const ReadContext& context);
 Finding problem(const fem::FaceColorSpec& spec, const ReadContext& context);

@@ -165,6 +165,13 @@ Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
   if (!spec.materials.empty()) {
     return Problem{"materials", "a generated mesh is of one `material`; remove this key"};
   }
+  const char* of_files = spec.section             ? "section"
+                         : !spec.sections.empty() ? "sections"
+                         : spec.links             ? "links"
+                                                  : nullptr;
+  if (of_files != nullptr) {
+    return Problem{of_files, "only meshes of files take this key; remove it"};
+  }
   if (spec.length_unit || spec.mass_unit) {
     return Problem{spec.length_unit ? "length-unit" : "mass-unit",
                    "only files need to be told their units; write the unit behind the number"};

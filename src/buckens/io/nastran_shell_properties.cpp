@@ -192,6 +192,7 @@ int NastranProperties::shell(const NastranElement& element, const std::vector<Ve
     if (shell.mass < 0) card.fail("the non-structural mass NSM is negative");
     shell.property.name = name_of_card(card);
     shell.property.kind = fem::PropertyKind::shell;
+    shell.property.along_first_side = true;
     shell.property.line = card.line;
     found = shells_.emplace(&card, std::move(shell)).first;
   }

@@ -59,22 +59,28 @@ CornerKey corner_key(const TaggedCells& cells, std::size_t element) {
 /// Builds the mesh of elements and sets out of a tagged mesh.
 class GroupMesh {
  public:
-  explicit GroupMesh(TaggedMesh tagged) : tagged_(std::move(tagged)) {}
+  GroupMesh(TaggedMesh tagged, const std::vector<std::string>& members)
+      : tagged_(std::move(tagged)), members_(members.begin(), members.end()) {}
 
   ImportedMesh made() &&;
 
  private:
+  /// Where a surface lies on a volume.
   struct Side {
-    int element;
-    std::array<int, 4> corners;
+    int element = -1;  // −1: nowhere
+    std::array<int, 4> corners = {-1, -1, -1, -1};
   };
 
   void merge_repeated();
   void add_elements(const TaggedCells& cells, fem::PropertyKind kind);
+  void list_surfaces_and_lines();
+  void find_sides(const TaggedCells& cells, int first);
+  void find_edges(const TaggedCells& cells);
   void add_volumes();
   void add_surfaces();
   void add_lines();
-  void add_sides(const TaggedCells& cells);
+  void add_sides(const TaggedCells& cells, bool is_shell);
+  void add_shell_sides(const TaggedCells& cells, int first);
   void note_left_out(const TaggedCells& cells, std::size_t count);
   void add_sets();
   void add_node_sets();
@@ -84,14 +90,19 @@ class GroupMesh {
   const CellGroup& group(int number) const {
     return tagged_.groups[static_cast<std::size_t>(number)];
   }
+  bool has_member_group(const TaggedCells& cells) const {
+    return std::any_of(cells.groups.begin(), cells.groups.end(),
+                       [&](int number) { return members_.contains(group(number).name); });
+  }
 
   TaggedMesh tagged_;
+  std::set<std::string> members_;  // groups that are elements wherever they lie
   ImportedMesh mesh_;
-  std::unordered_map<CornerKey, Side, CornerHash> sides_;
-  std::unordered_set<CornerKey, CornerHash> edges_;
-  std::map<int, int> properties_;                        // by group
-  std::map<int, std::vector<int>> element_sets_;         // by group
-  std::map<int, std::vector<fem::ImportedFace>> faces_;  // by group
+  std::unordered_map<CornerKey, Side, CornerHash> sides_;  // of all surfaces
+  std::unordered_map<CornerKey, bool, CornerHash> edges_;  // all lines: whether they are edges
+  std::map<int, int> properties_;                          // by group
+  std::map<int, std::vector<int>> element_sets_;           // by group
+  std::map<int, std::vector<fem::ImportedFace>> faces_;    // by group
 };
 
 /// Version 2.2 writes an element once for each group that it belongs to. The lowest number stays.
@@ -168,24 +179,49 @@ void GroupMesh::add_elements(const TaggedCells& cells, fem::PropertyKind kind) {
     auto& elements = element_sets_[number];
     for (int e = 0; e < block.num_elements(); ++e) elements.push_back(first + e);
   }
-  const bool sides = fem::dimension_of(cells.kind) == 3;
+  find_sides(cells, first);
+  find_edges(cells);
+  mesh_.blocks.push_back(std::move(block));
+}
+
+void GroupMesh::list_surfaces_and_lines() {
+  for (const TaggedCells& cells : tagged_.cells) {
+    const int dimension = fem::dimension_of(cells.kind);
+    for (std::size_t e = 0; e < cells.ids.size(); ++e) {
+      if (dimension == 2) sides_.try_emplace(corner_key(cells, e));
+      if (dimension == 1) edges_.try_emplace(corner_key(cells, e), false);
+    }
+  }
+}
+
+/// Which of the surfaces are faces of these volumes.
+void GroupMesh::find_sides(const TaggedCells& cells, int first) {
+  if (sides_.empty() || fem::dimension_of(cells.kind) != 3) return;
   for (std::size_t e = 0; e < cells.ids.size(); ++e) {
     const std::vector<int> nodes = nodes_of(cells, e, fem::num_corners(cells.kind));
     for (const fem::CellFace& face : fem::cell_faces(cells.kind)) {
-      if (!sides) break;
       Side side{first + static_cast<int>(e), {-1, -1, -1, -1}};
       for (int k = 0; k < fem::num_corners(face); ++k) {
         const auto corner = static_cast<std::size_t>(k);
         side.corners[corner] = nodes[static_cast<std::size_t>(face[corner])];
       }
-      sides_.emplace(corner_key(side.corners), side);
-    }
-    for (const auto& [a, b] : fem::cell_edges(cells.kind)) {
-      edges_.insert(corner_key(std::array<int, 2>{nodes[static_cast<std::size_t>(a)],
-                                                  nodes[static_cast<std::size_t>(b)]}));
+      const auto found = sides_.find(corner_key(side.corners));
+      if (found != sides_.end() && found->second.element < 0) found->second = side;
     }
   }
-  mesh_.blocks.push_back(std::move(block));
+}
+
+/// Which of the lines are edges of these elements.
+void GroupMesh::find_edges(const TaggedCells& cells) {
+  if (edges_.empty() || fem::dimension_of(cells.kind) < 2) return;
+  for (std::size_t e = 0; e < cells.ids.size(); ++e) {
+    const std::vector<int> nodes = nodes_of(cells, e, fem::num_corners(cells.kind));
+    for (const auto& [a, b] : fem::cell_edges(cells.kind)) {
+      const auto found = edges_.find(corner_key(std::array<int, 2>{
+          nodes[static_cast<std::size_t>(a)], nodes[static_cast<std::size_t>(b)]}));
+      if (found != edges_.end()) found->second = true;
+    }
+  }
 }
 
 void GroupMesh::add_volumes() {
@@ -204,20 +240,29 @@ void GroupMesh::note_left_out(const TaggedCells& cells, std::size_t count) {
                          0, static_cast<int>(count)});
 }
 
-void GroupMesh::add_sides(const TaggedCells& cells) {
+/// The sides of shells from which their nodes run counter-clockwise.
+void GroupMesh::add_shell_sides(const TaggedCells& cells, int first) {
+  const int corners = fem::num_corners(cells.kind);
+  for (std::size_t e = 0; e < cells.ids.size(); ++e) {
+    const fem::ImportedFace face{first + static_cast<int>(e), nodes_of(cells, e, corners)};
+    for (const int number : cells.groups) faces_[number].push_back(face);
+  }
+}
+
+void GroupMesh::add_sides(const TaggedCells& cells, bool is_shell) {
   std::size_t missing = 0;
   for (std::size_t e = 0; e < cells.ids.size(); ++e) {
-    const auto found = sides_.find(corner_key(cells, e));
-    if (found == sides_.end()) {
+    const Side& side = sides_.at(corner_key(cells, e));
+    if (side.element < 0) {
       ++missing;
       continue;
     }
-    const auto& corners = found->second.corners;
-    fem::ImportedFace face{found->second.element,
+    const auto& corners = side.corners;
+    fem::ImportedFace face{side.element,
                            {corners.begin(), corners.end() - (corners[3] < 0 ? 1 : 0)}};
     for (const int number : cells.groups) faces_[number].push_back(face);
   }
-  note_left_out(cells, missing);
+  if (!is_shell) note_left_out(cells, missing);
 }
 
 void GroupMesh::add_surfaces() {
@@ -227,21 +272,24 @@ void GroupMesh::add_surfaces() {
   for (const TaggedCells& cells : tagged_.cells) {
     if (fem::dimension_of(cells.kind) != 2 || cells.groups.empty() || !has_volumes) continue;
     for (std::size_t e = 0; e < cells.ids.size(); ++e) {
-      if (sides_.count(corner_key(cells, e)) == 0) continue;
+      if (sides_.at(corner_key(cells, e)).element < 0) continue;
       for (const int number : cells.groups) touches[number] = true;
       break;
     }
   }
   for (const TaggedCells& cells : tagged_.cells) {
     if (fem::dimension_of(cells.kind) != 2) continue;
-    const bool is_shell =
+    const bool is_apart =
         !has_volumes || (!cells.groups.empty() &&
                          std::none_of(cells.groups.begin(), cells.groups.end(),
                                       [&](int number) { return touches.count(number) > 0; }));
-    if (is_shell) {
-      add_elements(cells, fem::PropertyKind::shell);
+    const int first = mesh_.num_elements();
+    const bool is_shell = is_apart || has_member_group(cells);
+    if (is_shell) add_elements(cells, fem::PropertyKind::shell);
+    if (is_apart) {
+      add_shell_sides(cells, first);
     } else {
-      add_sides(cells);
+      add_sides(cells, is_shell);
     }
   }
 }
@@ -252,9 +300,10 @@ void GroupMesh::add_lines() {
     if (fem::dimension_of(cells.kind) != 1) continue;
     std::size_t edges = 0;
     for (std::size_t e = 0; e < cells.ids.size() && !is_alone; ++e) {
-      edges += edges_.count(corner_key(cells, e));
+      edges += edges_.at(corner_key(cells, e)) ? 1 : 0;
     }
-    const bool is_beam = is_alone || (!cells.groups.empty() && edges == 0);
+    const bool is_beam =
+        is_alone || (!cells.groups.empty() && edges == 0) || has_member_group(cells);
     if (is_beam) {
       add_elements(cells, fem::PropertyKind::beam);
     } else {
@@ -272,11 +321,17 @@ void GroupMesh::add_sets() {
     all.insert(all.end(), elements.begin(), elements.end());
     std::sort(all.begin(), all.end());
   }
+  known.clear();
   for (auto& [number, faces] : faces_) {
-    std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+    const auto [found, is_new] = known.emplace(group(number).name, mesh_.face_sets.size());
+    if (is_new) mesh_.face_sets.push_back({group(number).name, {}});
+    std::vector<fem::ImportedFace>& all = mesh_.face_sets[found->second].faces;
+    all.insert(all.end(), faces.begin(), faces.end());
+  }
+  for (fem::ImportedFaceSet& set : mesh_.face_sets) {
+    std::sort(set.faces.begin(), set.faces.end(), [](const auto& a, const auto& b) {
       return std::tie(a.element, a.corners) < std::tie(b.element, b.corners);
     });
-    mesh_.face_sets.push_back({group(number).name, std::move(faces)});
   }
 }
 
@@ -294,13 +349,22 @@ void GroupMesh::add_node_sets() {
     auto& own = nodes[{group(number).dimension, number}];
     own.insert(own.end(), members.begin(), members.end());
   }
-  std::set<std::string> known;
-  for (auto& [key, own] : nodes) {
+  struct Known {
+    int dimension;
+    std::size_t set;
+  };
+  std::map<std::string, Known> known;
+  for (const auto& [key, own] : nodes) {
     const std::string& name = group(key.second).name;
-    if (!known.insert(name).second) continue;
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
-    mesh_.node_sets.push_back({name, std::move(own)});
+    const auto [found, is_new] = known.emplace(name, Known{key.first, mesh_.node_sets.size()});
+    if (found->second.dimension != key.first) continue;
+    if (is_new) mesh_.node_sets.push_back({name, {}});
+    std::vector<int>& all = mesh_.node_sets[found->second.set].nodes;
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  for (fem::ImportedNodeSet& set : mesh_.node_sets) {
+    std::sort(set.nodes.begin(), set.nodes.end());
+    set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
   }
 }
 
@@ -356,6 +420,7 @@ ImportedMesh GroupMesh::made() && {
   mesh_.format = tagged_.format;
   mesh_.notes = tagged_.notes;
   merge_repeated();
+  list_surfaces_and_lines();
   add_volumes();
   add_surfaces();
   add_lines();
@@ -390,6 +455,8 @@ int TaggedMesh::group(int dimension, std::int64_t tag) {
   return found->second;
 }
 
-fem::ImportedMesh mesh_of_groups(TaggedMesh tagged) { return GroupMesh(std::move(tagged)).made(); }
+fem::ImportedMesh mesh_of_groups(TaggedMesh tagged, const std::vector<std::string>& members) {
+  return GroupMesh(std::move(tagged), members).made();
+}
 
 }  // namespace buckens::io

@@ -53,8 +53,10 @@ struct TaggedMesh {
 
 /// Volumes become elements, their groups properties and element sets. Surfaces become sets of faces
 /// of the volumes where they lie on them; groups of surfaces that touch no volume become shells,
-/// and lines become beams where there is nothing else. Every group is a set of nodes, too.
-fem::ImportedMesh mesh_of_groups(TaggedMesh tagged);
+/// whose sides towards the normals are sets of faces; and lines become beams where there is nothing
+/// else, or where they are no edge of other elements. Every group is a set of nodes, too.
+/// @param members names of groups whose surfaces and lines are elements wherever they lie
+fem::ImportedMesh mesh_of_groups(TaggedMesh tagged, const std::vector<std::string>& members = {});
 
 /// The way back: what mesh_of_groups() makes this mesh of. Properties come before other groups, so
 /// that the first group of an element is its property. Node sets are groups of points unless

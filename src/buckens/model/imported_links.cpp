@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/node_number.h"
 
 namespace buckens::model {
 
@@ -116,6 +118,39 @@ void mark_linked_nodes(const fem::ImportedMesh& mesh, std::vector<bool>& used) {
     use(spring.nodes[1]);
   }
   for (const auto& mass : mesh.masses) use(mass.node);
+}
+
+void mark_given_nodes(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
+                      std::vector<bool>& used) {
+  std::vector<std::string> names;
+  const auto add = [&names](const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+  };
+  for (const fem::PointMassSpec& mass : given.masses) names.push_back(mass.at);
+  if (given.links) {
+    const auto add_links = [&](const auto& links) {
+      for (const auto& link : links) {
+        names.push_back(link.reference);
+        add(link.nodes);
+      }
+    };
+    add_links(given.links->rigid);
+    add_links(given.links->averages);
+    for (const auto& equation : given.links->equations) {
+      for (const auto& term : equation.terms) names.push_back(term.node);
+    }
+    for (const auto& spring : given.links->springs) {
+      names.insert(names.end(), spring.between.begin(), spring.between.end());
+    }
+  }
+  if (names.empty()) return;
+  std::unordered_map<std::int64_t, std::size_t> places;
+  for (std::size_t k = 0; k < mesh.node_ids.size(); ++k) places.emplace(mesh.node_ids[k], k);
+  for (const std::string& name : names) {
+    const auto number = fem::node_number(name);
+    const auto found = number ? places.find(*number) : places.end();
+    if (found != places.end()) used[found->second] = true;
+  }
 }
 
 void add_imported_links(const fem::ImportedMesh& mesh, const std::vector<int>& numbers,

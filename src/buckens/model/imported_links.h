@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "buckens/base/source_location.h"
 #include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh_file_spec.h"
 #include "buckens/fem/structure.h"
 
 namespace buckens::model {
@@ -13,6 +13,11 @@ namespace buckens::model {
 /// Marks the nodes that links and springs of a mesh file use.
 /// @param used one entry per node of the file
 void mark_linked_nodes(const fem::ImportedMesh& mesh, std::vector<bool>& used);
+
+/// Marks the nodes that point masses and links of the model file use; names that are none of the
+/// file are left to those who add them.
+void mark_given_nodes(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
+                      std::vector<bool>& used);
 
 /// Adds rigid links, averages, equations, springs and point masses of a mesh file. A mass beside
 /// its node gets a node of its own, linked rigidly.

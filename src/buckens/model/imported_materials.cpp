@@ -37,8 +37,8 @@ ImportedMaterials::ImportedMaterials(const fem::ImportedMesh& mesh,
   }
 }
 
-const fem::MaterialSpec* ImportedMaterials::chosen(const fem::ImportedBlock& block,
-                                                   int element) const {
+const fem::MaterialSpec* ImportedMaterials::find(const fem::ImportedBlock& block,
+                                                 int element) const {
   if (const auto* own = by_set_.at(static_cast<std::size_t>(element))) return own;
   if (block.property >= 0) {
     const auto& property = mesh_.properties.at(static_cast<std::size_t>(block.property));
@@ -85,13 +85,19 @@ int ImportedMaterials::turning_property(const fem::ImportedBlock& block,
   return turns ? block.property : -1;
 }
 
-int ImportedMaterials::number(const fem::ImportedBlock& block, int element) {
-  const fem::MaterialSpec* spec = chosen(block, element);
+const fem::MaterialSpec& ImportedMaterials::spec(const fem::ImportedBlock& block,
+                                                 int element) const {
+  const fem::MaterialSpec* spec = find(block, element);
   if (spec == nullptr) refuse(block, "have no material");
   if (!(spec->E > 0.0) && !spec->orthotropic) {
     refuse(block, fmt::format("have the material \"{}\" without elastic constants", spec->name));
   }
-  return number_of(*spec, turning_property(block, *spec));
+  return *spec;
+}
+
+int ImportedMaterials::number(const fem::ImportedBlock& block, int element) {
+  const fem::MaterialSpec& own = spec(block, element);
+  return number_of(own, turning_property(block, own));
 }
 
 int ImportedMaterials::number(const std::string& name) {

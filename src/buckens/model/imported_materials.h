@@ -25,8 +25,12 @@ class ImportedMaterials {
 
   /// Elements with the same number have the same material.
   /// @param element counted through all blocks
-  /// @throws InputError if it has none, or one without density
+  /// @throws InputError if it has none, or one without elastic constants
   int number(const fem::ImportedBlock& block, int element);
+  /// The same as the model or the mesh file has it, null if there is none.
+  const fem::MaterialSpec* find(const fem::ImportedBlock& block, int element) const;
+  /// What number() makes a material of. @throws InputError as number()
+  const fem::MaterialSpec& spec(const fem::ImportedBlock& block, int element) const;
   /// Number of a material of the file, for the layers of a laminate.
   int number(const std::string& name);
 
@@ -35,7 +39,6 @@ class ImportedMaterials {
   }
 
  private:
-  const fem::MaterialSpec* chosen(const fem::ImportedBlock& block, int element) const;
   [[noreturn]] void refuse(const fem::ImportedBlock& block, const std::string& what) const;
   /// Property whose axes turn the material, −1: none.
   int turning_property(const fem::ImportedBlock& block, const fem::MaterialSpec& spec) const;

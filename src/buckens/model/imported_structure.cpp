@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/model/imported_links.h"
 #include "buckens/model/imported_materials.h"
+#include "buckens/model/imported_sections.h"
+#include "buckens/model/shell_from_spec.h"
 #include "buckens/model/spec_properties.h"
 
 namespace buckens::model {
@@ -49,7 +52,12 @@ class Import {
  public:
   Import(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
          const std::optional<fem::DampingSpec>& damping, const SourceLocation& where)
-      : mesh_(mesh), materials_(mesh, given, damping, where), where_(where) {}
+      : mesh_(mesh),
+        given_(given),
+        damping_(damping),
+        materials_(mesh, given, damping, where),
+        sections_(mesh, given),
+        where_(where) {}
 
   ImportedStructure run() {
     number_nodes();
@@ -67,6 +75,10 @@ class Import {
                 int element);
   void add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
   fem::ShellSection shell_section(const fem::ImportedBlock& block, int element);
+  fem::ShellSection given_shell_section(const fem::GroupSectionSpec& section,
+                                        const fem::ImportedBlock& block, int element) const;
+  [[noreturn]] void refuse_without_section(const fem::ImportedBlock& block, const char* what,
+                                           const char* example) const;
   void add_sets();
   fem::ShellSide shell_side(const fem::ImportedFace& face) const;
   fem::ElementFace solid_face(const fem::ImportedFace& face, const std::string& set) const;
@@ -80,13 +92,18 @@ class Import {
   }
 
   const fem::ImportedMesh& mesh_;
+  const fem::GroupMaterials& given_;
+  const std::optional<fem::DampingSpec>& damping_;
   ImportedMaterials materials_;
+  ImportedSections sections_;
   SourceLocation where_;
   ImportedStructure out_;
   std::vector<int> new_numbers_;        // per node of the file, −1 where nothing uses it
   std::vector<Place> places_;           // per element of the file
   std::map<int, int> solid_materials_;  // number in the block by that of ImportedMaterials
-  std::map<std::pair<int, int>, int> shell_sections_;  // by property and material
+  // By section of the model file, property and material.
+  std::map<std::tuple<const fem::GroupSectionSpec*, int, const fem::MaterialSpec*>, int>
+      shell_sections_;
 };
 
 void Import::number_nodes() {
@@ -97,6 +114,7 @@ void Import::number_nodes() {
     std::for_each(block.nodes.begin(), block.nodes.end(), use);
   }
   mark_linked_nodes(mesh_, used);
+  mark_given_nodes(mesh_, given_, used);
   new_numbers_.assign(count, -1);
   for (std::size_t k = 0; k < count; ++k) {
     if (!used[k]) continue;
@@ -143,15 +161,33 @@ void Import::add_solid(const fem::ImportedBlock& block, const std::vector<int>& 
                     solids.add(fem::SolidForm::usual(*kind), nodes, known->second)};
 }
 
+void Import::refuse_without_section(const fem::ImportedBlock& block, const char* what,
+                                    const char* example) const {
+  const fem::ImportedProperty* of = property(block);
+  const bool has_name = of != nullptr && !of->name.empty();
+  refuse(fmt::format(
+      "the {} elements {} have no {}; write it in the model file beside the name of "
+      "the mesh file, for example {}",
+      block.source, has_name ? fmt::format("of \"{}\"", of->name) : "without a property", what,
+      has_name ? fmt::format("sections: {{\"{}\": {}}}", of->name, example)
+               : fmt::format("section: {}", example)));
+}
+
 void Import::add_line(const fem::ImportedBlock& block, int in_block, const std::vector<int>& nodes,
                       int element) {
   const fem::ImportedProperty* of = property(block);
-  if (of == nullptr || !of->section) {
-    refuse(fmt::format("the {} elements have no section; give them one in the file", block.source));
+  const fem::GroupSectionSpec* given = sections_.of(element);
+  if (given == nullptr && (of == nullptr || !of->section)) {
+    refuse_without_section(block, "cross-section", "{beam: {circle: {diameter: 6 mm}}}");
   }
-  const fem::Material& material = materials_.material(materials_.number(block, element));
-  const fem::Section section = make_section(*of->section);
-  if (of->kind == fem::PropertyKind::bar) {
+  const fem::Material material = given != nullptr && given->material
+                                     ? make_material(**given->material, damping_)
+                                     : materials_.material(materials_.number(block, element));
+  const bool is_bar =
+      given != nullptr ? given->bar.has_value() : of->kind == fem::PropertyKind::bar;
+  const fem::Section section =
+      make_section(given == nullptr ? *of->section : (is_bar ? **given->bar : **given->beam));
+  if (is_bar) {
     places_.back() = {Place::Block::bars,
                       out_.structure.bars.add(nodes[0], nodes[1], material, section)};
     return;
@@ -159,25 +195,46 @@ void Import::add_line(const fem::ImportedBlock& block, int in_block, const std::
   fem::BeamProperties beam;
   beam.material = material;
   beam.section = section;
-  if (of->shear_flexible.value_or(false)) beam.theory = fem::BeamTheory::timoshenko;
+  if (given != nullptr) {
+    beam.theory = given->theory.value_or(fem::BeamTheory::euler_bernoulli);
+  } else if (of->shear_flexible.value_or(false)) {
+    beam.theory = fem::BeamTheory::timoshenko;
+  }
   beam.rotary_inertia = beam.theory == fem::BeamTheory::timoshenko;
+  if (given != nullptr) beam.rotary_inertia = given->rotary_inertia.value_or(beam.rotary_inertia);
   if (!block.up.empty()) beam.up = block.up[static_cast<std::size_t>(in_block)];
+  if (given != nullptr && given->up) beam.up = given->up;
   fem::BeamBlock& beams = out_.structure.beams;
   places_.back() = {Place::Block::beams, beams.add(nodes[0], nodes[1], beams.add_properties(beam))};
 }
 
+fem::ShellSection Import::given_shell_section(const fem::GroupSectionSpec& section,
+                                              const fem::ImportedBlock& block, int element) const {
+  const bool every_layer_has_its_own =
+      !section.layers.empty() &&
+      std::all_of(section.layers.begin(), section.layers.end(),
+                  [](const fem::ShellLayerSpec& layer) { return layer.material.has_value(); });
+  const fem::MaterialSpec& material = section.material          ? **section.material
+                                      : every_layer_has_its_own ? **section.layers.front().material
+                                                                : materials_.spec(block, element);
+  fem::ShellSection out = make_shell_section(section, material, damping_);
+  out.along_first_side = section.along_first_side;
+  return out;
+}
+
 fem::ShellSection Import::shell_section(const fem::ImportedBlock& block, int element) {
+  if (const fem::GroupSectionSpec* given = sections_.of(element)) {
+    return given_shell_section(*given, block, element);
+  }
   const fem::ImportedProperty* of = property(block);
   if (of == nullptr || of->kind != fem::PropertyKind::shell ||
       (!of->thickness && of->layers.empty())) {
-    refuse(
-        fmt::format("the {} elements have no thickness; give them one in the file", block.source));
+    refuse_without_section(block, "thickness", "{thickness: 2 mm}");
   }
   fem::ShellSection out;
   out.offset = of->offset;
   if (of->axes) out.direction = of->axes->col(0);
-  // Nastran counts angles from the first side of each element, others from the mesh's x axis.
-  out.along_first_side = mesh_.format.starts_with("Nastran");
+  out.along_first_side = of->along_first_side;
   if (of->layers.empty()) {
     out.layers.push_back(
         {materials_.material(materials_.number(block, element)), *of->thickness, 0.0});
@@ -192,15 +249,11 @@ fem::ShellSection Import::shell_section(const fem::ImportedBlock& block, int ele
 
 void Import::add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes,
                        int element) {
-  const fem::ImportedProperty* of = property(block);
-  const bool is_layered = of != nullptr && !of->layers.empty();
-  const std::pair<int, int> key = {block.property,
-                                   is_layered ? -1 : materials_.number(block, element)};
+  const fem::GroupSectionSpec* given = sections_.of(element);
+  const fem::MaterialSpec* material = materials_.find(block, element);
   fem::ShellBlock& shells = out_.structure.shells;
-  auto known = shell_sections_.find(key);
-  if (known == shell_sections_.end()) {
-    known = shell_sections_.emplace(key, shells.add_section(shell_section(block, element))).first;
-  }
+  const auto [known, is_new] = shell_sections_.try_emplace({given, block.property, material}, -1);
+  if (is_new) known->second = shells.add_section(shell_section(block, element));
   places_.back() = {Place::Block::shells, shells.add(nodes, known->second)};
 }
 

@@ -30,12 +30,12 @@ class StructureBuilder {
       add_single_beam(*beam);
     } else if (const auto* mesh = std::get_if<fem::MeshSpec>(&spec_.kind)) {
       if (mesh->is_file()) {
-        add_imported(*mesh, mesh->masses, mesh->where);
+        add_imported(*mesh, mesh->where);
       } else {
         add_generated(*mesh);
       }
     } else if (const auto* part = std::get_if<fem::GeometrySpec>(&spec_.kind)) {
-      add_imported(*part, part->masses, part->where);
+      add_imported(*part, part->where);
     } else if (const auto* matrices = std::get_if<fem::MatricesSpec>(&spec_.kind)) {
       add_matrices(*matrices);
     } else {
@@ -65,16 +65,14 @@ class StructureBuilder {
 
   void add_single_beam(const fem::BeamSpec& beam);
   void add_generated(const fem::MeshSpec& mesh);
-  void add_imported(const fem::GroupMaterials& source,
-                    const std::vector<fem::PointMassSpec>& masses, const SourceLocation& where);
+  void add_imported(const fem::GroupMaterials& source, const SourceLocation& where);
   void add_matrices(const fem::MatricesSpec& matrices);
   void add_structure(const fem::StructureSpec& structure);
   void add_solid(const fem::SolidMemberSpec& solid);
   void add_shell(const fem::ShellMemberSpec& shell);
   int node_called(const std::string& name, const SourceLocation& where) const;
-  void add_mass(const fem::PointMassSpec& mass) {
-    out_.structure.masses.add(node_called(mass.at, mass.where), mass.mass, mass.inertia_matrix());
-  }
+  void add_mass(const fem::PointMassSpec& mass);
+  void add_given_links(const fem::StructureLinksSpec& links);
 
   const body::BodySpec& spec_;
   NamedStructure out_;
@@ -127,13 +125,30 @@ void StructureBuilder::add_structure(const fem::StructureSpec& spec) {
   for (const fem::SolidMemberSpec& solid : spec.solids) add_solid(solid);
   for (const fem::ShellMemberSpec& shell : spec.shells) add_shell(shell);
   for (const fem::PointMassSpec& mass : spec.masses) add_mass(mass);
-  if (!spec.links) return;
+  if (spec.links) add_given_links(*spec.links);
+}
+
+void StructureBuilder::add_given_links(const fem::StructureLinksSpec& links) {
   add_links(
-      *spec.links,
+      links,
       [this](const std::string& name, const SourceLocation& where) {
         return node_called(name, where);
       },
-      structure);
+      out_.structure);
+}
+
+/// A mass beside its node gets a node of its own, linked rigidly.
+void StructureBuilder::add_mass(const fem::PointMassSpec& mass) {
+  fem::Structure& structure = out_.structure;
+  int node = node_called(mass.at, mass.where);
+  if (!mass.offset.isZero(0.0)) {
+    const Eigen::Vector3d at = structure.nodes[static_cast<std::size_t>(node)].position;
+    const int own = fem::add_node(structure, "", at + mass.offset);
+    structure.links.rigid.push_back(
+        {fmt::format("the offset of the point mass at \"{}\"", mass.at), node, {own}});
+    node = own;
+  }
+  structure.masses.add(node, mass.mass, mass.inertia_matrix());
 }
 
 void StructureBuilder::add_shell(const fem::ShellMemberSpec& shell) {
@@ -162,13 +177,20 @@ void StructureBuilder::add_generated(const fem::MeshSpec& spec) {
 }
 
 void StructureBuilder::add_imported(const fem::GroupMaterials& source,
-                                    const std::vector<fem::PointMassSpec>& masses,
                                     const SourceLocation& where) {
   if (!source.imported) throw InputError(where, "the file of the mesh has not been read");
   ImportedStructure imported = imported_structure(*source.imported, source, spec_.damping, where);
   out_.structure = std::move(imported.structure);
   out_.numbers = std::move(imported.numbers);
-  for (const fem::PointMassSpec& mass : masses) add_mass(mass);
+  if (spec_.geometric_stiffness &&
+      out_.structure.beams.num_elements() + out_.structure.bars.num_elements() == 0) {
+    throw InputError(where, fmt::format("{}: `geometric-stiffness` belongs to beams and bars, and "
+                                        "this mesh has none; remove the key, or give the body more "
+                                        "`frames`",
+                                        source.imported->file));
+  }
+  for (const fem::PointMassSpec& mass : source.masses) add_mass(mass);
+  if (source.links) add_given_links(*source.links);
 }
 
 void StructureBuilder::add_matrices(const fem::MatricesSpec& matrices) {
@@ -183,6 +205,12 @@ void StructureBuilder::add_matrices(const fem::MatricesSpec& matrices) {
 
 int StructureBuilder::node_called(const std::string& name, const SourceLocation& where) const {
   const auto place = out_.find(name);
+  if (!place && !out_.numbers.empty()) {
+    throw InputError(where,
+                     fmt::format("body \"{}\" has no node \"{}\"; nodes of a file are written "
+                                 "`n` and the number, such as \"n{}\"",
+                                 spec_.name, name, out_.numbers.begin()->first));
+  }
   if (!place) {
     throw InputError(where, fmt::format("body \"{}\" has no node \"{}\"; nodes there: {}",
                                         spec_.name, name, fmt::join(out_.names, ", ")));

@@ -151,15 +151,44 @@ TEST(GmshMesh, TakesSurfacesForShellsWhereNoVolumeIs) {
   EXPECT_EQ(mesh.blocks[0].kind, CellKind::tri3);
   EXPECT_EQ(mesh.properties[0].kind, fem::PropertyKind::shell);
   EXPECT_EQ(mesh.element_sets[0].name, "ground");
-  EXPECT_TRUE(mesh.face_sets.empty());
+  // The side to which the normal points is a face for loads.
+  ASSERT_EQ(mesh.face_sets.size(), 1u);
+  EXPECT_EQ(mesh.face_sets[0].name, "ground");
+  EXPECT_THAT(mesh.face_sets[0].faces[0].corners, testing::ElementsAreArray(mesh.blocks[0].nodes));
+}
+
+TEST(GmshMesh, GroupsOnOthersBecomeElementsWhereAModelNamesThem) {
+  const ImportedMesh mesh = read_gmsh_bytes(kTwo22, "part.msh", {"ground", "edge"});
+  ASSERT_EQ(mesh.blocks.size(), 4u);
+  EXPECT_EQ(mesh.blocks[2].kind, CellKind::tri3);
+  EXPECT_EQ(mesh.properties[static_cast<std::size_t>(mesh.blocks[2].property)].name, "ground");
+  EXPECT_EQ(mesh.blocks[3].kind, CellKind::line2);
+  EXPECT_EQ(mesh.properties[static_cast<std::size_t>(mesh.blocks[3].property)].kind,
+            fem::PropertyKind::beam);
+  // Loads still find the face of the solid under the skin.
+  EXPECT_EQ(mesh.face_sets.at(0).faces.at(0).element, 0);
+}
+
+TEST(GmshMesh, GroupsOfOneNameBelongTogether) {
+  const std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"skin\"\n2 2 \"skin\"\n"
+      "3 3 \"block\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+      "$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 2 2 1 2 4\n3 4 2 3 3 1 2 3 4\n"
+      "$EndElements\n";
+  const ImportedMesh mesh = read_gmsh_bytes(text, "part.msh");
+  ASSERT_EQ(mesh.face_sets.size(), 1u);
+  EXPECT_EQ(mesh.face_sets[0].faces.size(), 2u);
+  ASSERT_EQ(mesh.node_sets.size(), 2u);
+  EXPECT_EQ(mesh.node_sets[0].name, "skin");
+  EXPECT_THAT(mesh.node_sets[0].nodes, ElementsAre(0, 1, 2, 3));
 }
 
 /// One element of each kind, each beside the next, with places that tell every node.
 ImportedMesh one_of_each() {
   ImportedMesh mesh;
   mesh.file = "all.msh";
-  mesh.properties = {{"first", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, 0},
-                     {"second", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, 0}};
+  mesh.properties = {{"first", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, false, 0},
+                     {"second", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, false, 0}};
   std::int64_t id = 100;
   for (const CellKind kind : {CellKind::tet4, CellKind::tet10, CellKind::pyramid5, CellKind::wedge6,
                               CellKind::wedge15, CellKind::hex8, CellKind::hex20}) {

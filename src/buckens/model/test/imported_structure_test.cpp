@@ -148,5 +148,108 @@ TEST(ImportedStructure, SaysWhatIsMissing) {
             "model.yaml:5:3: part.inp: surface \"TIP\" has a face that its element does not have");
 }
 
+/// A square of two triangles, the group "skin", and its lower edge, the group "rib".
+fem::ImportedMesh plate_with_rib() {
+  fem::ImportedMesh mesh;
+  mesh.file = "plate.msh";
+  mesh.node_ids = {1, 2, 3, 4};
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.properties.resize(2);
+  mesh.properties[0].name = "skin";
+  mesh.properties[0].kind = fem::PropertyKind::shell;
+  mesh.properties[1].name = "rib";
+  mesh.properties[1].kind = fem::PropertyKind::beam;
+  mesh.blocks.resize(2);
+  mesh.blocks[0].kind = fem::CellKind::tri3;
+  mesh.blocks[0].source = "triangle";
+  mesh.blocks[0].property = 0;
+  mesh.blocks[0].ids = {1, 2};
+  mesh.blocks[0].nodes = {0, 1, 2, 0, 2, 3};
+  mesh.blocks[1].kind = fem::CellKind::line2;
+  mesh.blocks[1].source = "line";
+  mesh.blocks[1].property = 1;
+  mesh.blocks[1].ids = {3};
+  mesh.blocks[1].nodes = {0, 1};
+  mesh.element_sets = {{"skin", {0, 1}}, {"rib", {2}}, {"corner", {1, 2}}};
+  return mesh;
+}
+
+fem::GroupSectionSpec skin(const std::string& name, double thickness) {
+  fem::GroupSectionSpec out;
+  out.name = name;
+  out.where = {"model.yaml", 8, 5};
+  out.thickness = thickness;
+  return out;
+}
+
+fem::GroupSectionSpec rod(const std::string& name, double diameter) {
+  fem::GroupSectionSpec out;
+  out.name = name;
+  out.where = {"model.yaml", 9, 5};
+  out.beam.emplace().value.shape = fem::CircleSpec{diameter};
+  return out;
+}
+
+TEST(ImportedStructure, TakesSectionsOfTheModel) {
+  const fem::ImportedMesh mesh = plate_with_rib();
+  fem::GroupMaterials given;
+  given.material.emplace().value = material("steel", 2e11, 7850);
+  given.section = skin("", 0.01);
+  given.sections = {rod("rib", 0.02), skin("corner", 0.005)};
+  given.sections[1].offset = 0.001;
+  given.sections[1].material.emplace().value = material("al", 7e10, 2700);
+  fem::Structure out = imported(mesh, given).structure;
+  ASSERT_EQ(out.shells.num_elements(), 2);
+  EXPECT_EQ(out.shells.shell_section(0).thickness(), 0.01);
+  EXPECT_EQ(out.shells.shell_section(1).thickness(), 0.005);
+  EXPECT_EQ(out.shells.shell_section(1).offset, 0.001);
+  EXPECT_EQ(out.shells.material(1)->rho, 2700);
+  ASSERT_EQ(out.beams.num_elements(), 1) << "the shell's section does not fit the line of `corner`";
+  EXPECT_NEAR(out.beams.section(0)->A, 3.14159265 * 1e-4, 1e-11);
+  given.sections[0].bar = given.sections[0].beam;
+  given.sections[0].beam.reset();
+  out = imported(mesh, given).structure;
+  EXPECT_EQ(out.beams.num_elements(), 0);
+  EXPECT_EQ(out.bars.num_elements(), 1);
+}
+
+TEST(ImportedStructure, SaysWhichSectionIsMissing) {
+  fem::ImportedMesh mesh = plate_with_rib();
+  fem::GroupMaterials given;
+  given.material.emplace().value = material("steel", 2e11, 7850);
+  EXPECT_EQ(message(mesh, given),
+            "model.yaml:5:3: plate.msh: the triangle elements of \"skin\" have no thickness; write "
+            "it in the model file beside the name of the mesh file, for example sections: "
+            "{\"skin\": {thickness: 2 mm}}");
+  given.sections = {skin("skin", 0.01)};
+  EXPECT_EQ(message(mesh, given),
+            "model.yaml:5:3: plate.msh: the line elements of \"rib\" have no cross-section; write "
+            "it in the model file beside the name of the mesh file, for example sections: "
+            "{\"rib\": {beam: {circle: {diameter: 6 mm}}}}");
+  given.sections = {skin("skin", 0.01), rod("ribs", 0.02)};
+  EXPECT_EQ(message(mesh, given),
+            "model.yaml:9:5: plate.msh has neither a property nor an element set \"ribs\". Did you "
+            "mean \"rib\"?");
+  given.sections = {rod("skin", 0.02)};
+  EXPECT_EQ(
+      message(mesh, given),
+      "model.yaml:9:5: plate.msh: there are no lines in \"skin\", to which this section could "
+      "belong");
+  mesh.blocks[0].property = -1;
+  given.sections = {rod("rib", 0.02)};
+  EXPECT_EQ(
+      message(mesh, given),
+      "model.yaml:5:3: plate.msh: the triangle elements without a property have no thickness; "
+      "write it in the model file beside the name of the mesh file, for example section: "
+      "{thickness: 2 mm}");
+}
+
+TEST(ImportedStructure, KeepsNodesThatTheModelNames) {
+  fem::GroupMaterials given;
+  given.masses.resize(1);
+  given.masses[0].at = "n999";
+  EXPECT_TRUE(imported(two_cubes(), given).numbers.contains(999));
+}
+
 }  // namespace
 }  // namespace buckens::model
