@@ -6,12 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/mesh_arguments.h"
+#include "cli/mesh_report_text.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
 #include "buckens/io/gmsh_mesh.h"
 #include "buckens/io/mesh_conversion.h"
+#include "buckens/io/mesh_model.h"
 #include "buckens/io/output_file.h"
 
 namespace buckens::cli {
@@ -50,14 +52,21 @@ ExitCode convert(const ConvertArguments& arguments, bool json) {
   const io::GmshFormat format = gmsh_format(arguments);
   const fem::ImportedMesh mesh = arguments.mesh.read();
   std::vector<std::string> notes;
+  const auto tell = [&notes](const std::vector<fem::ImportNote>& all) {
+    for (const fem::ImportNote& note : all) notes.push_back(note_text(note));
+  };
+  tell(mesh.notes);
   std::string side_car;
   if (ending == ".vtu") {
+    tell(io::losses_in_vtu(mesh));
     io::write_vtu(out, io::vtu_grid(mesh));
   } else {
-    for (const auto& note : io::losses_in_gmsh(mesh)) notes.push_back(note.text);
+    tell(io::losses_in_gmsh(mesh));
     io::replace_text_file(out, io::gmsh_bytes(mesh, format));
     side_car = out.string() + ".yaml";
-    io::replace_text_file(side_car, io::model_of_mesh(mesh, out.filename().string(), length, mass));
+    const io::MeshModel model = io::model_of_mesh(mesh, out.filename().string(), length, mass);
+    tell(model.notes);
+    io::replace_text_file(side_car, model.text);
   }
   if (json) {
     const nlohmann::ordered_json told = {
@@ -72,7 +81,9 @@ ExitCode convert(const ConvertArguments& arguments, bool json) {
   }
   std::string text = fmt::format("{}: {} nodes, {} elements\n", out.string(), mesh.num_nodes(),
                                  mesh.num_elements());
-  if (!side_car.empty()) text += fmt::format("{}: units and materials\n", side_car);
+  if (!side_car.empty()) {
+    text += fmt::format("{}: units, materials, sections, masses and links\n", side_car);
+  }
   for (const std::string& note : notes) text += "note: " + note + '\n';
   print(text);
   return ExitCode::ok;
@@ -85,8 +96,9 @@ Examples:
 
 Writes a mesh anew, in the units that it has: for Gmsh (.msh, text; --binary, --msh-version 2.2) or
 for VTK and ParaView (.vtu). Numbers of nodes and elements, and all sets, stay. Beside OUT.msh the
-model file OUT.msh.yaml is written with the units and materials, which .msh does not hold: run
-`buckens modes` on it, or take its parts over.
+model file OUT.msh.yaml is written with what .msh does not hold, units, materials, sections, point
+masses, links and springs: run `buckens modes` on it, or take its parts over. What has no place in
+either is told.
 
 Exit codes: 0 written, 2 bad input, 5 files. Details: docs/tutorials/meshes.md)";
 

@@ -84,13 +84,6 @@ std::vector<std::string> complaints(const MeshReport& report) {
   return out;
 }
 
-std::string note_text(const fem::ImportNote& note) {
-  std::string out = note.text;
-  if (note.count > 1) out += fmt::format(" ({} times)", note.count);
-  if (note.line > 0) out += fmt::format(" (line {})", note.line);
-  return out;
-}
-
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 Entries mass_entries(const MeshReport& report) {
@@ -152,6 +145,13 @@ std::string sets_text(const MeshReport& report) {
 }
 
 }  // namespace
+
+std::string note_text(const fem::ImportNote& note) {
+  std::string out = note.text;
+  if (note.count > 1) out += fmt::format(" ({} times)", note.count);
+  if (note.line > 0) out += fmt::format(" (line {})", note.line);
+  return out;
+}
 
 std::string mesh_report_text(const fem::ImportedMesh& mesh, const MeshReport& report) {
   std::string out = fmt::format("{}: {}\n", mesh.file, mesh.format);

@@ -16,6 +16,9 @@ std::string mesh_report_text(const fem::ImportedMesh& mesh, const fem::MeshRepor
 nlohmann::ordered_json mesh_report_json(const fem::ImportedMesh& mesh,
                                         const fem::MeshReport& report);
 
+/// A note of a reader: what became of something, how often and where.
+std::string note_text(const fem::ImportNote& note);
+
 /// The same in a few lines; empty for bodies whose mesh is no file.
 struct MeshNotes {
   std::string summary;

@@ -24,13 +24,13 @@ fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& fil
 
 enum class GmshFormat { ascii_2_2, binary_2_2, ascii_4_1, binary_4_1 };
 
-/// What gmsh_bytes() leaves out of a mesh.
+/// What gmsh_bytes() leaves out of the elements and sets of a mesh.
 std::vector<fem::ImportNote> losses_in_gmsh(const fem::ImportedMesh& mesh);
 
 /// A mesh as Gmsh writes it: elements with their numbers; properties, element sets and face sets as
 /// physical groups; node sets as groups of points, unless a group of the same name has the same
-/// nodes. Read again it is the same mesh. Point masses, springs, links and equations have no place
-/// there (losses_in_gmsh()).
+/// nodes. Read again it is the same mesh. Constants, sections, point masses, springs, links and
+/// equations have no place there; model_of_mesh() holds them.
 /// @throws InputError if there are no elements, or numbers are too large for version 2.2
 std::string gmsh_bytes(const fem::ImportedMesh& mesh, GmshFormat format);
 

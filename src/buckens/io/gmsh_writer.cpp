@@ -102,9 +102,7 @@ void GmshWriter::head() {
   out_.text("$PhysicalNames");
   out_.text(fmt::format("{}", mesh_.groups.size()));
   for (const CellGroup& group : mesh_.groups) {
-    std::string name = group.name;
-    std::replace(name.begin(), name.end(), '"', '\'');
-    out_.text(fmt::format("{} {} \"{}\"", group.dimension, group.tag, name));
+    out_.text(fmt::format("{} {} \"{}\"", group.dimension, group.tag, group.name));
   }
   out_.text("$EndPhysicalNames");
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
+#include "buckens/base/field.h"
 #include "buckens/fem/cell_faces.h"
 #include "buckens/io/gmsh_elements.h"
 #include "buckens/io/tagged_mesh.h"
@@ -41,8 +44,8 @@ class MeshGroups {
   int group(int dimension, const std::string& name);
   void add_elements();
   void add_faces();
+  bool is_group_of_shells(const fem::ImportedFaceSet& set) const;
   void add_node_sets();
-  void note_losses();
   /// The nodes of the face with these corners; empty if the element has no such face.
   static std::vector<int> face_nodes(const ElementPlace& place, const std::vector<int>& corners);
 
@@ -52,7 +55,8 @@ class MeshGroups {
   std::int64_t last_id_ = 0;
 };
 
-int MeshGroups::group(int dimension, const std::string& name) {
+int MeshGroups::group(int dimension, const std::string& text) {
+  const std::string name = group_name(text);
   for (std::size_t i = 0; i < out_.groups.size(); ++i) {
     if (out_.groups[i].dimension == dimension && out_.groups[i].name == name) {
       return static_cast<int>(i);
@@ -65,24 +69,46 @@ int MeshGroups::group(int dimension, const std::string& name) {
 
 void MeshGroups::add_elements() {
   std::vector<std::vector<int>> groups(places_.size());
-  for (std::size_t e = 0; e < places_.size(); ++e) {
-    const fem::ImportedBlock& block = *places_[e].block;
-    if (block.property < 0) continue;
-    groups[e].push_back(group(fem::dimension_of(block.kind),
-                              mesh_.properties[static_cast<std::size_t>(block.property)].name));
+  const std::vector<std::string> names = property_groups(mesh_);
+  std::size_t first = 0;
+  for (const fem::ImportedBlock& block : mesh_.blocks) {
+    const std::size_t end = first + block.ids.size();
+    if (block.property >= 0) {
+      const int own =
+          group(fem::dimension_of(block.kind), names[static_cast<std::size_t>(block.property)]);
+      for (std::size_t e = first; e < end; ++e) groups[e].push_back(own);
+    }
+    first = end;
   }
   for (const fem::ImportedElementSet& set : mesh_.element_sets) {
+    std::array<int, 4> own = {-1, -1, -1, -1};  // by dimension
     for (const int element : set.elements) {
       const auto e = static_cast<std::size_t>(element);
-      groups[e].push_back(group(fem::dimension_of(places_[e].block->kind), set.name));
+      const int dimension = fem::dimension_of(places_[e].block->kind);
+      int& number = own[static_cast<std::size_t>(dimension)];
+      if (number < 0) number = group(dimension, set.name);
+      groups[e].push_back(number);
     }
   }
+  std::unordered_set<std::int64_t> ids;
+  int renumbered = 0;
   for (std::size_t e = 0; e < places_.size(); ++e) {
     const ElementPlace& place = places_[e];
     const CellKind kind = place.block->kind;
+    std::int64_t id = place.block->ids[static_cast<std::size_t>(place.element)];
+    if (!ids.insert(id).second) {
+      id = ++last_id_;
+      ++renumbered;
+    }
     TaggedCells& cells = out_.cells_of(kind, gmsh_element(kind).name, groups[e]);
-    cells.ids.push_back(place.block->ids[static_cast<std::size_t>(place.element)]);
+    cells.ids.push_back(id);
     cells.nodes.insert(cells.nodes.end(), place.nodes(), place.nodes() + fem::num_nodes(kind));
+  }
+  if (renumbered > 0) {
+    out_.notes.push_back(
+        {"elements whose number another one has, such as the second half of a quadratic beam, have "
+         "new numbers",
+         0, renumbered});
   }
 }
 
@@ -122,6 +148,25 @@ CellKind kind_of_face(std::size_t nodes) {
   }
 }
 
+/// Whether the faces are the sides towards the normals of the shells in the element set of the same
+/// name. Its group then says all.
+bool MeshGroups::is_group_of_shells(const fem::ImportedFaceSet& set) const {
+  for (const fem::ImportedFace& face : set.faces) {
+    const ElementPlace& place = places_[static_cast<std::size_t>(face.element)];
+    const CellKind kind = place.block->kind;
+    if (fem::dimension_of(kind) != 2) return false;
+    const int* first = place.nodes();
+    const int corners = fem::num_corners(kind);
+    const auto at = std::find(first, first + corners, face.corners.at(0)) - first;
+    if (at == corners || first[(at + 1) % corners] != face.corners.at(1)) return false;
+  }
+  const auto* known = base::find_named(mesh_.element_sets, set.name);
+  std::set<int> elements, members;
+  for (const fem::ImportedFace& face : set.faces) elements.insert(face.element);
+  if (known != nullptr) members.insert(known->elements.begin(), known->elements.end());
+  return elements == members;
+}
+
 void MeshGroups::add_faces() {
   struct Surface {
     std::vector<int> nodes, groups;
@@ -130,6 +175,8 @@ void MeshGroups::add_faces() {
   std::vector<Surface> surfaces;
   int of_shells = 0;
   for (const fem::ImportedFaceSet& set : mesh_.face_sets) {
+    if (is_group_of_shells(set)) continue;
+    int own = -1;
     for (const fem::ImportedFace& face : set.faces) {
       const ElementPlace& place = places_[static_cast<std::size_t>(face.element)];
       const std::vector<int> nodes = face_nodes(place, face.corners);
@@ -141,7 +188,8 @@ void MeshGroups::add_faces() {
       std::sort(key.begin(), key.end());
       const auto [found, is_new] = known.emplace(std::move(key), surfaces.size());
       if (is_new) surfaces.push_back({nodes, {}});
-      surfaces[found->second].groups.push_back(group(2, set.name));
+      if (own < 0) own = group(2, set.name);
+      surfaces[found->second].groups.push_back(own);
     }
   }
   for (const Surface& surface : surfaces) {
@@ -152,7 +200,10 @@ void MeshGroups::add_faces() {
   }
   if (of_shells > 0) {
     out_.notes.push_back(
-        {"faces of shells have no place in a mesh of Gmsh and are left out", 0, of_shells});
+        {"faces of shells have no place in a mesh of Gmsh, unless they are an element set seen "
+         "from "
+         "the side of its normals, and are left out",
+         0, of_shells});
   }
 }
 
@@ -181,38 +232,61 @@ void MeshGroups::add_node_sets() {
   }
 }
 
-void MeshGroups::note_losses() {
-  const auto note = [&](const char* what, std::size_t count) {
-    if (count == 0) return;
-    out_.notes.push_back({fmt::format("{} have no place in a mesh of Gmsh and are left out", what),
-                          0, static_cast<int>(count)});
-  };
-  note("point masses", mesh_.masses.size());
-  note("springs", mesh_.springs.size());
-  note("rigid links", mesh_.rigid_links.size());
-  note("nodes that follow a mean motion", mesh_.averages.size());
-  note("equations between nodes", mesh_.equations.size());
-}
-
 TaggedMesh MeshGroups::made() && {
   out_.file = mesh_.file;
   out_.format = mesh_.format;
   out_.node_ids = mesh_.node_ids;
   out_.positions = mesh_.positions;
-  for (const fem::ImportedProperty& property : mesh_.properties) {
+  const std::vector<std::string> names = property_groups(mesh_);
+  for (std::size_t p = 0; p < names.size(); ++p) {
     for (const fem::ImportedBlock& block : mesh_.blocks) {
-      const auto index = static_cast<int>(&property - mesh_.properties.data());
-      if (block.property == index) group(fem::dimension_of(block.kind), property.name);
+      if (block.property == static_cast<int>(p)) group(fem::dimension_of(block.kind), names[p]);
     }
   }
   add_elements();
   add_faces();
   add_node_sets();
-  note_losses();
   return std::move(out_);
 }
 
 }  // namespace
+
+std::string group_name(const std::string& name) {
+  std::string out = name;
+  for (char& c : out) {
+    if (c == '"') c = '\'';
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return out;
+}
+
+std::vector<std::string> property_groups(const ImportedMesh& mesh) {
+  std::vector<std::set<int>> members(mesh.properties.size());
+  int element = 0;
+  for (const fem::ImportedBlock& block : mesh.blocks) {
+    for (int e = 0; e < block.num_elements(); ++e, ++element) {
+      if (block.property >= 0) members[static_cast<std::size_t>(block.property)].insert(element);
+    }
+  }
+  std::set<std::string> taken;
+  std::vector<std::string> out;
+  for (std::size_t p = 0; p < mesh.properties.size(); ++p) {
+    const std::string wanted = group_name(mesh.properties[p].name);
+    const auto is_free = [&](const std::string& name) {
+      if (taken.contains(name)) return false;
+      for (const fem::ImportedElementSet& set : mesh.element_sets) {
+        if (group_name(set.name) != name) continue;
+        if (members[p] != std::set<int>(set.elements.begin(), set.elements.end())) return false;
+      }
+      return true;
+    };
+    std::string name = wanted.empty() ? "property" : wanted;
+    for (int k = 2; !is_free(name); ++k) name = fmt::format("{} ({})", wanted, k);
+    taken.insert(name);
+    out.push_back(name);
+  }
+  return out;
+}
 
 TaggedMesh groups_of_mesh(const ImportedMesh& mesh) { return MeshGroups(mesh).made(); }
 

@@ -58,9 +58,17 @@ struct TaggedMesh {
 /// @param members names of groups whose surfaces and lines are elements wherever they lie
 fem::ImportedMesh mesh_of_groups(TaggedMesh tagged, const std::vector<std::string>& members = {});
 
+/// A name as groups take it: without quotation marks and line ends.
+std::string group_name(const std::string& name);
+
+/// The group that each property becomes. It has the property's name, unless another property or an
+/// element set with other members has it; then a number follows.
+std::vector<std::string> property_groups(const fem::ImportedMesh& mesh);
+
 /// The way back: what mesh_of_groups() makes this mesh of. Properties come before other groups, so
 /// that the first group of an element is its property. Node sets are groups of points unless
-/// another group has the same name and nodes. What has no place there stands in `notes`.
+/// another group has the same name and nodes. Only nodes, elements and sets have a place there; of
+/// sets, what has none stands in `notes`.
 TaggedMesh groups_of_mesh(const fem::ImportedMesh& mesh);
 
 }  // namespace buckens::io
