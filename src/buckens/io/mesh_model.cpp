@@ -67,6 +67,17 @@ struct SectionText {
   }
 };
 
+constexpr std::array<const char*, 6> kVariables = choice_names(fem::NodeVariable{});
+
+/// Which variables a link takes, where it does not take all.
+std::string variables_text(const std::array<bool, 6>& taken) {
+  std::vector<std::string> which;
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (taken[k]) which.emplace_back(kVariables[k]);
+  }
+  return which.size() == 6 ? "" : fmt::format(", variables: [{}]", fmt::join(which, ", "));
+}
+
 class ModelText {
  public:
   explicit ModelText(const fem::ImportedMesh& si) : si_(si), groups_(property_groups(si)) {}
@@ -242,17 +253,11 @@ void ModelText::add_masses() {
 }
 
 void ModelText::add_links() {
-  constexpr std::array<const char*, 6> kVariables = choice_names(fem::NodeVariable{});
   std::string rigid, averages, equations;
+  int partial = 0;
   for (const fem::ImportedRigidLink& link : si_.rigid_links) {
-    rigid += fmt::format("          - {{reference: {}, nodes: {}", node(link.reference),
-                         nodes(link.nodes));
-    std::vector<std::string> which;
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (link.variables[k]) which.emplace_back(kVariables[k]);
-    }
-    if (which.size() < 6) rigid += fmt::format(", variables: [{}]", fmt::join(which, ", "));
-    rigid += "}\n";
+    rigid += fmt::format("          - {{reference: {}, nodes: {}{}}}\n", node(link.reference),
+                         nodes(link.nodes), variables_text(link.variables));
   }
   for (const fem::ImportedAverage& average : si_.averages) {
     averages += fmt::format("          - {{reference: {}, nodes: {}", node(average.reference),
@@ -260,7 +265,13 @@ void ModelText::add_links() {
     if (!average.weights.empty()) {
       averages += fmt::format(", weights: [{}]", fmt::join(average.weights, ", "));
     }
-    averages += "}\n";
+    averages += variables_text(average.variables) + "}\n";
+    const bool counts_all = std::all_of(average.components.begin(), average.components.end(),
+                                        [](const auto& component) {
+                                          return std::all_of(component.begin(), component.end(),
+                                                             [](bool counts) { return counts; });
+                                        });
+    if (!counts_all) ++partial;
   }
   for (const fem::ImportedEquation& equation : si_.equations) {
     std::vector<std::string> terms;
@@ -270,6 +281,12 @@ void ModelText::add_links() {
                                   term.coefficient));
     }
     equations += fmt::format("          - terms: [{}]\n", fmt::join(terms, ", "));
+  }
+  if (partial > 0) {
+    out_.notes.push_back(
+        {"averages in which only some components of nodes count are written with "
+         "all components",
+         0, partial});
   }
   if (!rigid.empty()) links_ += "        rigid:\n" + rigid;
   if (!averages.empty()) links_ += "        averages:\n" + averages;
