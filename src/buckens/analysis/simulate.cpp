@@ -17,6 +17,7 @@
 #include "buckens/analysis/step_advice.h"
 #include "buckens/analysis/work_account.h"
 #include "buckens/base/errors.h"
+#include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
 #include "buckens/results/field_recorder.h"
@@ -93,6 +94,7 @@ class Simulation {
   results::RunSummary run() {
     const auto start = std::chrono::steady_clock::now();
     set_up();
+    base::return_free_memory();
     summary_.wall_seconds.setup = seconds_since(start);
     const auto stepping_start = std::chrono::steady_clock::now();
     std::exception_ptr failure;
