@@ -49,7 +49,7 @@ Difference central(const std::function<double(double)>& f, double t, double f_t,
 }
 
 /// Neville's scheme in h², rows added with growing h.
-class Extrapolation {
+class ExtrapolationTable {
  public:
   struct Estimate {
     double value = 0;
@@ -98,8 +98,8 @@ std::optional<double> derivative(const std::function<double(double)>& f, double 
   const double f_t = f(t);
   if (!std::isfinite(f_t)) return std::nullopt;
   double h = std::max(order == 1 ? 1e-7 : 1e-6, 1e-8 * std::abs(t));
-  Extrapolation table;
-  Extrapolation::Estimate best;
+  ExtrapolationTable table;
+  ExtrapolationTable::Estimate best;
   std::optional<double> fallback;
   int rows_without_agreement = 0;
   for (int level = 0; level < kMostLevels && rows_without_agreement < 3; ++level, h *= kRatio) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "buckens/analysis/test/time_law.h"
 #include "buckens/base/errors.h"
 #include "buckens/model/test/described.h"
 #include "buckens/results/table.h"
@@ -26,10 +27,6 @@ void set_run(Described& m, double duration, double step, std::optional<double> e
   m.d.simulation->duration = duration;
   m.d.simulation->step = step;
   m.d.output.every = every;
-}
-
-base::TimeLaw law(const std::string& text) {
-  return base::TimeLaw::expression(base::Expression(text, {"t"}, {}, {}));
 }
 
 /// A wheel on a shaft, torque 2 N m, inertia 0.5 kg m²: angle 2 t².
@@ -169,7 +166,7 @@ TEST(Simulate, AFailedStepDeliversWhatCameBefore) {
   // The torque has no value beyond t = 0.05 s.
   Described m = driven_wheel();
   auto& torque = std::get<loads::TorqueSpec>(m.d.loads[0].kind);
-  torque.value[2] = law("sqrt(0.05 - t)");
+  torque.value[2] = test::law_of_time("sqrt(0.05 - t)");
   set_run(m, 0.1, 1e-3, 0.01);
   Table table;
   EXPECT_THAT([&] { simulate(*m.build(), table); },
@@ -208,7 +205,8 @@ Described short_rod(double phi, const std::string& angle) {
   m.joint<joints::RevoluteSpec>("elbow", "crank/b", "rod/a");
   m.joint<joints::RevoluteSpec>("pin", "rod/b", "slider");
   m.joint<joints::PrismaticSpec>("guide", "ground", "slider").axis = Vector3d::UnitX();
-  m.joint<joints::PrescribedRotationSpec>("drive", "ground", "crank").angle = law(angle);
+  m.joint<joints::PrescribedRotationSpec>("drive", "ground", "crank").angle =
+      test::law_of_time(angle);
   return m;
 }
 

@@ -20,7 +20,7 @@ using test::at_marker;
 using test::ground_at;
 using test::Mechanism;
 
-constexpr double kG = 9.81;
+constexpr double kGravity = 9.81;
 constexpr double kIy = 0.02 * 0.03 * 0.03 * 0.03 / 12;
 
 std::vector<double> omegas(const VibrationReport& report) {
@@ -142,7 +142,7 @@ TEST(SystemVibration, RigidPendulumSwingsAboutItsEquilibrium) {
   EXPECT_EQ(report.rigid_modes, 0);
   ASSERT_EQ(report.vibrations.size(), 1U);
   // Differences of loads: 1e-10; the equilibrium is found to 1e-9 of the weight.
-  EXPECT_NEAR(omegas(report)[0], std::sqrt(1.5 * kG / 0.8), 1e-8);
+  EXPECT_NEAR(omegas(report)[0], std::sqrt(1.5 * kGravity / 0.8), 1e-8);
   // About the position as built nothing drives it back.
   const VibrationReport initial = vibrate(m, 3);
   EXPECT_EQ(initial.rigid_modes, 1);
@@ -161,8 +161,8 @@ TEST(SystemVibration, DoublePendulumHasItsTwoModes) {
   // Equal uniform rods: [4/3 1/2; 1/2 1/3] q̈ + g/l [3/2 0; 0 1/2] q = 0.
   const double a = 7.0 / 36.0, b = -7.0 / 6.0, c = 0.75;
   const double root = std::sqrt(b * b - 4 * a * c);
-  EXPECT_NEAR(omega[0] * omega[0], kG * (-b - root) / (2 * a), 1e-7);
-  EXPECT_NEAR(omega[1] * omega[1], kG * (-b + root) / (2 * a), 1e-7);
+  EXPECT_NEAR(omega[0] * omega[0], kGravity * (-b - root) / (2 * a), 1e-7);
+  EXPECT_NEAR(omega[1] * omega[1], kGravity * (-b + root) / (2 * a), 1e-7);
 }
 
 TEST(SystemVibration, FreeBodyIsWhatNothingHolds) {

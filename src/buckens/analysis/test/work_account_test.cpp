@@ -8,6 +8,7 @@
 
 #include "buckens/analysis/prepare.h"
 #include "buckens/analysis/simulate.h"
+#include "buckens/analysis/test/time_law.h"
 #include "buckens/model/test/described.h"
 #include "buckens/results/table.h"
 #include "buckens/stepping/stepper.h"
@@ -19,10 +20,6 @@ using Eigen::Vector3d;
 using model::test::Described;
 using results::RunSummary;
 using results::Table;
-
-base::TimeLaw law(const std::string& text) {
-  return base::TimeLaw::expression(base::Expression(text, {"t"}, {}, {}));
-}
 
 void set_run(Described& m, model::IntegrationMethod method, double duration, double step) {
   m.d.simulation.emplace();
@@ -76,7 +73,8 @@ TEST(WorkAccount, DriveDoesTheWorkOfTheAcceleration) {
     m.d.planar = spatial::Plane::xy;
     m.rigid("wheel", 1, {0, 0, 0}, {0, 0, 0.5});
     m.joint<joints::RevoluteSpec>("shaft", "ground", "wheel");
-    m.joint<joints::PrescribedRotationSpec>("drive", "ground", "wheel").angle = law("1.5*t^2");
+    m.joint<joints::PrescribedRotationSpec>("drive", "ground", "wheel").angle =
+        test::law_of_time("1.5*t^2");
     set_run(m, method, 1, 0.01);
     const Account account = run(m);
     // ½ J (3 t)² at t = 1.
@@ -116,7 +114,7 @@ Described driven_beam(model::IntegrationMethod method, double step) {
   rod.damping->stiffness = 1e-4;
   m.joint<joints::RevoluteSpec>("hinge", "ground", "rod/start");
   m.joint<joints::PrescribedRotationSpec>("drive", "ground", "rod/start").angle =
-      law("0.3*(1 - cos(20*t))");
+      test::law_of_time("0.3*(1 - cos(20*t))");
   set_run(m, method, 0.2, step);
   m.d.output.every = 1e-2;
   return m;

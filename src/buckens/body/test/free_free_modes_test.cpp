@@ -30,7 +30,7 @@ fem::BeamProperties steel(const fem::Section& section) {
                                  fem::BeamTheory::euler_bernoulli);
 }
 
-fem::Structure straight_beam(int divisions, const fem::Section& section) {
+fem::Structure free_beam(int divisions, const fem::Section& section) {
   fem::Structure s;
   fem::add_node(s, "start", {0.1, 0, 0});
   fem::add_node(s, "end", {0.1 + 0.6, 0.8, 0});
@@ -73,7 +73,7 @@ void expect_modes_solve(const FlexiblePart& part, const FreeFreeModes& modes) {
 }
 
 TEST(FreeFreeModes, AllMethodsAgree) {
-  const FlexiblePart part = part_of(straight_beam(40, fem::Section::rectangle(0.02, 0.01)));
+  const FlexiblePart part = part_of(free_beam(40, fem::Section::rectangle(0.02, 0.01)));
   const FreeFreeModes dense = free_free_modes(part, {.count = 12, .method = FreeModeMethod::dense});
   for (const FreeModeMethod method : kIterative) {
     const FreeFreeModes modes = free_free_modes(part, {.count = 12, .method = method});
@@ -90,7 +90,7 @@ TEST(FreeFreeModes, AllMethodsAgree) {
 }
 
 TEST(FreeFreeModes, SquareSectionsGiveCompletePairs) {
-  const FlexiblePart part = part_of(straight_beam(30, fem::Section::rectangle(0.01, 0.01)));
+  const FlexiblePart part = part_of(free_beam(30, fem::Section::rectangle(0.01, 0.01)));
   const double unit = std::sqrt(2.1e11 * 0.01 * 0.01 / 12 / 7850.0);  // ω = (βL)² · unit
   const std::vector<double> beta = {4.730040744862704, 7.853204624095838, 10.995607838001671,
                                     14.137165491257464};
@@ -126,7 +126,7 @@ TEST(FreeFreeModes, LatticeOfManyVariablesEqualsTheDenseProblem) {
 }
 
 TEST(FreeFreeModes, TheEstimateIsABoundAndCloseForSlenderBeams) {
-  const FlexiblePart part = part_of(straight_beam(24, fem::Section::rectangle(0.02, 0.01)));
+  const FlexiblePart part = part_of(free_beam(24, fem::Section::rectangle(0.02, 0.01)));
   const double lowest = free_free_modes(part, 1).omega[0];
   const double bound = lowest_square_estimate(part);
   EXPECT_GE(bound, lowest * lowest);
@@ -162,7 +162,7 @@ TEST(FreeFreeModes, VariablesWithoutMassAreNoModes) {
 }
 
 TEST(FreeFreeModes, ConditionIsTheSpreadOfTheSpectrum) {
-  const FlexiblePart part = part_of(straight_beam(16, fem::Section::rectangle(0.02, 0.01)));
+  const FlexiblePart part = part_of(free_beam(16, fem::Section::rectangle(0.02, 0.01)));
   const FreeFreeModes all = free_free_modes(part, 1000);
   const double lowest = all.omega[0];
   const double highest = all.omega[all.omega.size() - 1];
@@ -177,7 +177,7 @@ TEST(FreeFreeModes, ConditionIsTheSpreadOfTheSpectrum) {
 }
 
 TEST(FreeFreeModes, FullMatricesAreRefusedForLargeBodies) {
-  const FlexiblePart part = part_of(straight_beam(700, fem::Section::rectangle(0.02, 0.01)));
+  const FlexiblePart part = part_of(free_beam(700, fem::Section::rectangle(0.02, 0.01)));
   try {
     free_free_modes(part, {.count = 3, .method = FreeModeMethod::dense});
     FAIL() << "no error";
@@ -187,7 +187,7 @@ TEST(FreeFreeModes, FullMatricesAreRefusedForLargeBodies) {
 }
 
 TEST(FreeFreeModes, CountsOfZeroAndTooManyAreHandled) {
-  const FlexiblePart part = part_of(straight_beam(2, fem::Section::rectangle(0.02, 0.01)));
+  const FlexiblePart part = part_of(free_beam(2, fem::Section::rectangle(0.02, 0.01)));
   EXPECT_EQ(free_free_modes(part, 0).omega.size(), 0);
   for (const FreeModeMethod method :
        {FreeModeMethod::subspace, FreeModeMethod::augmented, FreeModeMethod::penalty}) {

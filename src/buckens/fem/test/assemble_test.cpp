@@ -16,12 +16,12 @@ using Eigen::Vector3d;
 using linalg::Matrix;
 using linalg::Vector;
 
-struct Case {
+struct AssembleCase {
   BeamTheory theory;
   bool rotary;
 };
 
-class AssembleTest : public testing::TestWithParam<Case> {
+class AssembleTest : public testing::TestWithParam<AssembleCase> {
  protected:
   BeamProperties properties() const {
     return beam_properties(GetParam().theory, GetParam().rotary);
@@ -121,10 +121,10 @@ TEST_P(AssembleTest, PlanarIsTheRestrictionOfSpatial) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Beams, AssembleTest,
-                         testing::Values(Case{BeamTheory::euler_bernoulli, false},
-                                         Case{BeamTheory::euler_bernoulli, true},
-                                         Case{BeamTheory::timoshenko, false},
-                                         Case{BeamTheory::timoshenko, true}));
+                         testing::Values(AssembleCase{BeamTheory::euler_bernoulli, false},
+                                         AssembleCase{BeamTheory::euler_bernoulli, true},
+                                         AssembleCase{BeamTheory::timoshenko, false},
+                                         AssembleCase{BeamTheory::timoshenko, true}));
 
 Structure straight(int divisions, const BeamProperties& properties, double length) {
   Structure s;

@@ -171,15 +171,15 @@ void integrate_mass(const FeModel& fe, int element, double mass, const Matrix3d&
   }
 }
 
-struct Case {
+struct IntegralsCase {
   BeamTheory theory;
   bool rotary;
 };
 
-class ShapeIntegralsTest : public testing::TestWithParam<Case> {};
+class ShapeIntegralsTest : public testing::TestWithParam<IntegralsCase> {};
 
 TEST_P(ShapeIntegralsTest, ClosedFormsEqualQuadratureOverTheVolume) {
-  const Case& param = GetParam();
+  const IntegralsCase& param = GetParam();
   const FeModel fe =
       assemble(frame_structure(beam_properties(param.theory, param.rotary), Matrix3d::Identity()));
   Integrals expected(fe.dofs.num_dofs);
@@ -207,10 +207,10 @@ TEST_P(ShapeIntegralsTest, ClosedFormsEqualQuadratureOverTheVolume) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Beams, ShapeIntegralsTest,
-                         testing::Values(Case{BeamTheory::euler_bernoulli, false},
-                                         Case{BeamTheory::euler_bernoulli, true},
-                                         Case{BeamTheory::timoshenko, false},
-                                         Case{BeamTheory::timoshenko, true}));
+                         testing::Values(IntegralsCase{BeamTheory::euler_bernoulli, false},
+                                         IntegralsCase{BeamTheory::euler_bernoulli, true},
+                                         IntegralsCase{BeamTheory::timoshenko, false},
+                                         IntegralsCase{BeamTheory::timoshenko, true}));
 
 TEST(ShapeIntegrals, FlywheelsStandInMassAndInertiaOnly) {
   // Rotary inertia off: M − ΣW_aa = ∫ρI_p θ_x θ_xᵀ dx by quadrature, J0 accordingly.

@@ -41,10 +41,10 @@ class AbaqusMalformed : public testing::Test {
   test::TemporaryDirectory folder_;
 };
 
-const char* const kNodes =
+const char* const kNodeCards =
     "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n";
 
-std::string with_nodes(const std::string& rest) { return kNodes + rest; }
+std::string with_nodes(const std::string& rest) { return kNodeCards + rest; }
 
 TEST_F(AbaqusMalformed, FilesThatAreNoDecks) {
   EXPECT_THROW(read_abaqus_deck(folder_ / "missing.inp"), IoError);
@@ -116,7 +116,7 @@ TEST_F(AbaqusMalformed, SetsAndSurfacesThatReferToNothing) {
 
 TEST_F(AbaqusMalformed, SetsOfSetsWithoutEndDoNotTakeForEver) {
   // Each set holds the next one twice under two names: 2^60 ways through them.
-  std::string text = kNodes;
+  std::string text = kNodeCards;
   for (int k = 0; k < 60; ++k) {
     text += fmt::format("*NSET, NSET=A{0}\nA{1}, B{1}\n*NSET, NSET=B{0}\nA{1}, B{1}\n", k, k + 1);
   }

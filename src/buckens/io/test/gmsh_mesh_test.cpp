@@ -10,6 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/cell_faces.h"
+#include "buckens/io/test/replaced.h"
 
 namespace buckens::io {
 namespace {
@@ -92,19 +93,13 @@ $NodeData
 $EndNodeData
 )";
 
-std::string message_of(const std::string& bytes, const std::string& file = "part.msh") {
+std::string gmsh_message(const std::string& bytes, const std::string& file = "part.msh") {
   try {
     read_gmsh_bytes(bytes, file);
   } catch (const InputError& error) {
     return error.what();
   }
   return "";
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(GmshMesh, TakesGroupsAsPropertiesAndSets) {
@@ -144,8 +139,8 @@ TEST(GmshMesh, TakesGroupsOfEntities) {
 }
 
 TEST(GmshMesh, TakesSurfacesForShellsWhereNoVolumeIs) {
-  const std::string text = replaced(replaced(kTwo41, "3 1 4 1\n2 10 20 30 40\n", ""),
-                                    "2 2 1 2\n2 1 2 1", "1 1 1 1\n2 1 2 1");
+  const std::string text = test::replaced(test::replaced(kTwo41, "3 1 4 1\n2 10 20 30 40\n", ""),
+                                          "2 2 1 2\n2 1 2 1", "1 1 1 1\n2 1 2 1");
   const ImportedMesh mesh = read_gmsh_bytes(text, "part.msh");
   ASSERT_EQ(mesh.num_elements(), 1);
   EXPECT_EQ(mesh.blocks[0].kind, CellKind::tri3);
@@ -297,33 +292,36 @@ INSTANTIATE_TEST_SUITE_P(All, Formats,
 
 TEST(GmshMesh, SaysWhatIsWrongAndWhere) {
   const std::string two = kTwo22, four = kTwo41;
-  EXPECT_THAT(message_of(""), HasSubstr("the file is empty"));
-  EXPECT_EQ(message_of(std::string("\x89PNG\r\n\x1a\n\0\0", 10)),
+  EXPECT_THAT(gmsh_message(""), HasSubstr("the file is empty"));
+  EXPECT_EQ(gmsh_message(std::string("\x89PNG\r\n\x1a\n\0\0", 10)),
             "part.msh:1:1: this is no mesh of Gmsh: it does not begin with $MeshFormat");
-  EXPECT_THAT(message_of(replaced(two, "2.2 0", "4.0 0")), HasSubstr("version 4.0"));
-  EXPECT_EQ(message_of(replaced(two, "$Nodes\n5", "$Nodes\n6")),
+  EXPECT_THAT(gmsh_message(test::replaced(two, "2.2 0", "4.0 0")), HasSubstr("version 4.0"));
+  EXPECT_EQ(gmsh_message(test::replaced(two, "$Nodes\n5", "$Nodes\n6")),
             "part.msh:19:1: \"$EndNodes\" stands where the number of a node should stand, a whole "
             "number");
-  EXPECT_THAT(message_of(replaced(two, "$Nodes\n5", "$Nodes\n4")),
+  EXPECT_THAT(gmsh_message(test::replaced(two, "$Nodes\n5", "$Nodes\n4")),
               HasSubstr("part.msh:18:1: $EndNodes should stand here"));
-  EXPECT_THAT(message_of(replaced(two, "$Nodes\n5", "$Nodes\n999999999999")),
+  EXPECT_THAT(gmsh_message(test::replaced(two, "$Nodes\n5", "$Nodes\n999999999999")),
               HasSubstr("more than the rest of the file"));
-  EXPECT_EQ(message_of(replaced(two, "1 1 1.5e0", "1 nan 1")),
+  EXPECT_EQ(gmsh_message(test::replaced(two, "1 1 1.5e0", "1 nan 1")),
             "part.msh:18:6: \"nan\" stands where a coordinate of a node should stand, a finite "
             "number");
-  EXPECT_THAT(message_of(replaced(two, "20 1 0 0", "10 1 0 0")), HasSubstr("node 10 stands"));
-  EXPECT_THAT(message_of(replaced(two, "20 30 40 50", "20 30 40 77")),
+  EXPECT_THAT(gmsh_message(test::replaced(two, "20 1 0 0", "10 1 0 0")),
+              HasSubstr("node 10 stands"));
+  EXPECT_THAT(gmsh_message(test::replaced(two, "20 30 40 50", "20 30 40 77")),
               HasSubstr("part.msh:26:20: element 5 refers to node 77"));
-  EXPECT_THAT(message_of(replaced(two, "5 4 2 5", "5 94 2 5")), HasSubstr("type 94"));
-  EXPECT_THAT(message_of(replaced(two, "5 4 2 5", "4 4 2 5")), HasSubstr("the number 4"));
-  EXPECT_THAT(message_of(replaced(two, "10 0 0 0", "99999999999999999999 0 0 0")),
+  EXPECT_THAT(gmsh_message(test::replaced(two, "5 4 2 5", "5 94 2 5")), HasSubstr("type 94"));
+  EXPECT_THAT(gmsh_message(test::replaced(two, "5 4 2 5", "4 4 2 5")), HasSubstr("the number 4"));
+  EXPECT_THAT(gmsh_message(test::replaced(two, "10 0 0 0", "99999999999999999999 0 0 0")),
               HasSubstr("a whole number"));
-  EXPECT_THAT(message_of(replaced(four, "2 4 10 40", "2 5 10 40")), HasSubstr("has 4 nodes"));
-  EXPECT_THAT(message_of(replaced(four, "3 1 4 1\n", "2 1 4 1\n")), HasSubstr("of dimension 2"));
-  EXPECT_THAT(message_of(replaced(four, "$Entities", "$PartitionedEntities")),
+  EXPECT_THAT(gmsh_message(test::replaced(four, "2 4 10 40", "2 5 10 40")),
+              HasSubstr("has 4 nodes"));
+  EXPECT_THAT(gmsh_message(test::replaced(four, "3 1 4 1\n", "2 1 4 1\n")),
+              HasSubstr("of dimension 2"));
+  EXPECT_THAT(gmsh_message(test::replaced(four, "$Entities", "$PartitionedEntities")),
               HasSubstr("partitions"));
-  EXPECT_THAT(message_of(two + "$Data\n1 2 3\n"), HasSubstr("has no end"));
-  EXPECT_THAT(message_of(replaced(two, "0 1 \"tip\"", "0 1 \"tip")),
+  EXPECT_THAT(gmsh_message(two + "$Data\n1 2 3\n"), HasSubstr("has no end"));
+  EXPECT_THAT(gmsh_message(test::replaced(two, "0 1 \"tip\"", "0 1 \"tip")),
               HasSubstr("closing quotation mark"));
 }
 

@@ -23,14 +23,14 @@ const char* const kMass =
     "1 1 2.0\n2 2 2.0\n3 3 2.0\n4 4 3.0\n5 5 3.0\n6 6 3.0\n";
 const char* const kStiffness =
     "%%MatrixMarket matrix coordinate real symmetric\n6 6 3\n1 1 5.0\n4 1 -5.0\n4 4 5.0\n";
-const char* const kNodes = "node,x,y,z\n7,0,0,0\n3,1,0,0\n";
+const char* const kNodeTable = "node,x,y,z\n7,0,0,0\n3,1,0,0\n";
 
 class MatrixBody : public testing::Test {
  protected:
   MatrixBody() {
     write("m.mtx", kMass);
     write("k.mtx", kStiffness);
-    write("nodes.csv", kNodes);
+    write("nodes.csv", kNodeTable);
     spec_.mass = "m.mtx";
     spec_.stiffness = "k.mtx";
     spec_.nodes = "nodes.csv";

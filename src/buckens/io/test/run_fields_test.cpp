@@ -59,7 +59,7 @@ results::Record field_record(double t) {
 }
 
 /// @param records written; fields go with every third
-void write_run(const std::filesystem::path& path, std::size_t records, bool finish = true) {
+void write_fields_run(const std::filesystem::path& path, std::size_t records, bool finish = true) {
   RunDirectory run(path, {.title = "sample", .model_text = "buckens: 1\n", .flush = {}});
   const results::RecordLayout layout = sample_layout();
   run.begin_fields(fields());
@@ -75,7 +75,7 @@ void write_run(const std::filesystem::path& path, std::size_t records, bool fini
 
 TEST(RunFields, ComeBackWithTheirOwnClock) {
   const TemporaryDirectory directory;
-  write_run(directory / "out", 250);
+  write_fields_run(directory / "out", 250);
   const RunReader run(directory / "out");
   EXPECT_EQ(run.num_records(), 250U);
   ASSERT_EQ(run.field_times().size(), 84U);
@@ -104,7 +104,7 @@ TEST(RunFields, ComeBackWithTheirOwnClock) {
 
 TEST(RunFields, PlacesComeBack) {
   const TemporaryDirectory directory;
-  write_run(directory / "out", 4);
+  write_fields_run(directory / "out", 4);
   const results::GeometryBody rod = RunReader(directory / "out").geometry().bodies[1];
   const results::GeometryBody known = geometry().bodies[1];
   EXPECT_EQ(rod.cell_kinds, known.cell_kinds);
@@ -142,7 +142,7 @@ TEST(RunFields, WrongNumbersOfValuesAreRefused) {
 
 TEST(RunFields, InstantsAreThoseOfTheFields) {
   const TemporaryDirectory directory;
-  write_run(directory / "out", 10);  // records 0 … 9, fields at 0, 3, 6, 9
+  write_fields_run(directory / "out", 10);  // records 0 … 9, fields at 0, 3, 6, 9
   const RunReader run(directory / "out");
   const std::vector<Instant> all = choose_instants(run, {});
   ASSERT_EQ(all.size(), 4U);
@@ -161,7 +161,7 @@ TEST(RunFields, InstantsAreThoseOfTheFields) {
 
 TEST(RunFields, BecomeTables) {
   const TemporaryDirectory directory;
-  write_run(directory / "out", 4);
+  write_fields_run(directory / "out", 4);
   const std::vector<std::string> files =
       export_csv(RunReader(directory / "out"), {}, directory / "csv");
   EXPECT_THAT(files, testing::ElementsAre("sensors.csv", "rod_nodes.csv", "rod_nodes_extremes.csv",

@@ -4,6 +4,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/io/gmsh_mesh.h"
+#include "buckens/io/test/replaced.h"
 
 namespace buckens::io {
 namespace {
@@ -61,13 +62,7 @@ ground
     -1
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-std::string message_of(const std::string& text) {
+std::string universal_message(const std::string& text) {
   try {
     read_gmsh_bytes(text, "part.unv");
   } catch (const InputError& error) {
@@ -95,23 +90,26 @@ TEST(UniversalFile, ReadsNodesElementsAndGroups) {
 
 TEST(UniversalFile, LeavesOutMembersThatAreNotThere) {
   const ImportedMesh mesh = read_gmsh_bytes(
-      replaced(kPart, "         8         7         0", "         8        70         0"),
+      test::replaced(kPart, "         8         7         0", "         8        70         0"),
       "part.unv");
   EXPECT_TRUE(mesh.properties.empty());
   EXPECT_THAT(mesh.notes.back().text, HasSubstr("members of groups"));
 }
 
 TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
-  EXPECT_THAT(message_of("hello\n"), HasSubstr("part.unv:1:1: -1, with which"));
-  EXPECT_THAT(message_of("    -1\n  2412\n    -1\n"), HasSubstr("no nodes"));
-  EXPECT_THAT(message_of(replaced(kPart, "        34         4\n", "        35         4\n")),
-              HasSubstr("element 7 refers to node 35"));
-  EXPECT_THAT(message_of(replaced(kPart, "       118 ", "       999 ")),
+  EXPECT_THAT(universal_message("hello\n"), HasSubstr("part.unv:1:1: -1, with which"));
+  EXPECT_THAT(universal_message("    -1\n  2412\n    -1\n"), HasSubstr("no nodes"));
+  EXPECT_THAT(
+      universal_message(test::replaced(kPart, "        34         4\n", "        35         4\n")),
+      HasSubstr("element 7 refers to node 35"));
+  EXPECT_THAT(universal_message(test::replaced(kPart, "       118 ", "       999 ")),
               HasSubstr("the descriptor 999"));
-  EXPECT_THAT(message_of(replaced(kPart, "         7        10\n", "         7         4\n")),
-              HasSubstr("has 4 nodes in place of 10"));
-  EXPECT_THAT(message_of(replaced(kPart, "2.0000000000000000D+00", "                   inf")),
-              HasSubstr("part.unv:12:"));
+  EXPECT_THAT(
+      universal_message(test::replaced(kPart, "         7        10\n", "         7         4\n")),
+      HasSubstr("has 4 nodes in place of 10"));
+  EXPECT_THAT(
+      universal_message(test::replaced(kPart, "2.0000000000000000D+00", "                   inf")),
+      HasSubstr("part.unv:12:"));
 }
 
 TEST(UniversalFile, SurvivesEveryTruncation) {

@@ -31,7 +31,7 @@ SparseMatrix grid_matrix(int n, double shift) {
   return A;
 }
 
-constexpr int kSize = 10;
+constexpr int kExchangeSize = 10;
 
 /// x ← A⁻¹ x + 1, `rounds` times, from a constant.
 Vector repeated(SolveExchange& exchange, const SparseMatrix& A, double start, int rounds) {
@@ -63,7 +63,7 @@ TEST(SolveExchange, ForgetsFactorsThatNobodyHolds) {
 }
 
 TEST(SolveExchange, SolvesTogetherWhatSeparateRunsSolve) {
-  const SparseMatrix A = grid_matrix(kSize, 0.5), B = grid_matrix(kSize, 0.7);
+  const SparseMatrix A = grid_matrix(kExchangeSize, 0.5), B = grid_matrix(kExchangeSize, 0.7);
   // Six participants, five with A; they end after different numbers of solves.
   const std::vector<int> rounds = {5, 7, 3, 7, 1, 6};
   std::vector<Vector> together(6), alone(6);
@@ -98,7 +98,7 @@ TEST(SolveExchange, SmallFactorsAreSolvedAtOnce) {
 
 TEST(SolveExchange, OneParticipantThatFailsDoesNotStopTheOthers) {
   SolveExchange exchange;
-  const SparseMatrix A = grid_matrix(kSize, 0.5);
+  const SparseMatrix A = grid_matrix(kExchangeSize, 0.5);
   Vector x;
   const auto fail = [&] {
     repeated(exchange, A, 2.0, 1);

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 using test::constant_law;
 using test::Described;
 
-const Vector3d kSize(0.4, 0.2, 0.1);
+const Vector3d kLoadedSize(0.4, 0.2, 0.1);
 
 loads::BodyPart part(const std::string& text) { return {test::at_line(61), text}; }
 
@@ -31,9 +31,9 @@ void pull(Described& m, const std::string& on, const Vector3d& value,
   kind.axes = axes;
 }
 
-Described block(fem::SolidKind kind = fem::SolidKind::hex8) {
+Described loaded_block(fem::SolidKind kind = fem::SolidKind::hex8) {
   Described m;
-  auto& spec = std::get<fem::MeshSpec>(m.block("block", kSize, {3, 2, 2}).kind);
+  auto& spec = std::get<fem::MeshSpec>(m.block("block", kLoadedSize, {3, 2, 2}).kind);
   auto& box = std::get<fem::BoxMeshSpec>(spec.shape);
   box.element = kind;
   box.integration.reset();
@@ -96,13 +96,13 @@ TEST(DistributedLoads, NodalForcesHaveTheResultantOnTheFrame) {
   for (const fem::SolidKind kind :
        {fem::SolidKind::hex8, fem::SolidKind::hex20, fem::SolidKind::tet4, fem::SolidKind::tet10}) {
     const char* name = choice_names(kind)[static_cast<std::size_t>(kind)];
-    Described pressed = block(kind);
+    Described pressed = loaded_block(kind);
     press(pressed, "block/y1", 1.0);
     expect_rigid_work(pressed, name);
-    Described pulled = block(kind);
+    Described pulled = loaded_block(kind);
     pull(pulled, "block/z0", {0.3, -0.5, 0.7});
     expect_rigid_work(pulled, name);
-    Described heavy = block(kind);
+    Described heavy = loaded_block(kind);
     auto& weight = heavy.load<loads::BodyForceSpec>("weight");
     weight.on = part("block");
     weight.per_volume = constant_law({1, 2, 3});
@@ -121,7 +121,7 @@ TEST(DistributedLoads, NodalForcesHaveTheResultantOnTheFrame) {
 }
 
 TEST(DistributedLoads, ResultantsOfABlock) {
-  Described pressed = block();
+  Described pressed = loaded_block();
   press(pressed, "block/x1", 2.0);
   const auto built = pressed.build();
   const Load& load = built->model.loads.at(0);
@@ -133,7 +133,7 @@ TEST(DistributedLoads, ResultantsOfABlock) {
   EXPECT_NEAR((resultant(built->model).force - Vector3d(-0.04, 0, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR(resultant(built->model).torque.norm(), 0, 1e-15);
 
-  Described pulled = block();
+  Described pulled = loaded_block();
   pull(pulled, "block/x1", {0, 5, 0});
   const spatial::Wrench sum = resultant(pulled.build()->model);
   EXPECT_NEAR((sum.force - Vector3d(0, 0.1, 0)).norm(), 0, 1e-15);
@@ -142,7 +142,7 @@ TEST(DistributedLoads, ResultantsOfABlock) {
 
 TEST(DistributedLoads, PartsOfADividedBodyShareThem) {
   for (const int frames : {1, 3}) {
-    Described m = block();
+    Described m = loaded_block();
     m.d.bodies[0].frames = body::FrameDivision(frames);
     press(m, "block/z1", 3.0);
     pull(m, "block/y0", {1, 2, -1});
@@ -163,7 +163,7 @@ TEST(DistributedLoads, PartsOfADividedBodyShareThem) {
 }
 
 TEST(DistributedLoads, AUniformAccelerationNeedsNoRows) {
-  Described m = block();
+  Described m = loaded_block();
   m.rigid("stone", 2.0, Vector3d::Zero(), {1, 1, 1});
   auto& weight = m.load<loads::BodyForceSpec>("weight");
   weight.on = part("block");
@@ -179,7 +179,7 @@ TEST(DistributedLoads, AUniformAccelerationNeedsNoRows) {
 }
 
 TEST(DistributedLoads, PatternsStandBehindTheRowsOfJointsAndMarkers) {
-  Described m = block();
+  Described m = loaded_block();
   press(m, "block/x1", 1.0);
   pull(m, "block/x1", {1, 0, 0});
   m.force("push", "block/corner_000", {1, 0, 0});
@@ -191,7 +191,7 @@ TEST(DistributedLoads, PatternsStandBehindTheRowsOfJointsAndMarkers) {
 }
 
 TEST(DistributedLoads, FacesComeFromInterfacesToo) {
-  Described m = block();
+  Described m = loaded_block();
   fem::PlaneSelection plane;
   plane.point = {0, 0.2, 0};
   plane.normal = {0, 1, 0};
@@ -204,7 +204,7 @@ TEST(DistributedLoads, FacesComeFromInterfacesToo) {
   EXPECT_NEAR((resultant(built->model).force - Vector3d(0, -0.04, 0)).norm(), 0, 1e-15);
 
   fem::BoxSelection all;
-  all.to = kSize;
+  all.to = kLoadedSize;
   m.d.bodies[0].interfaces[0].region = all;
   const auto skin = m.build();
   EXPECT_NEAR(skin->model.loads[0].region->extent, 2 * (0.08 + 0.04 + 0.02), 1e-14);
@@ -223,13 +223,13 @@ void expect_refused(const Described& m, const std::vector<std::string>& words) {
 }
 
 TEST(DistributedLoads, SayWhatIsWrong) {
-  Described face = block();
+  Described face = loaded_block();
   press(face, "block/x2", 1);
   expect_refused(face, {"test.yaml:61:1", "load \"gas\"", "no face \"x2\"", "Did you mean"});
-  Described whole = block();
+  Described whole = loaded_block();
   press(whole, "block", 1);
   expect_refused(whole, {"a face is needed", "block/x0"});
-  Described body = block();
+  Described body = loaded_block();
   press(body, "blok/x1", 1);
   expect_refused(body, {"no body \"blok\"", "block"});
   Described rigid;
@@ -240,10 +240,10 @@ TEST(DistributedLoads, SayWhatIsWrong) {
   beam.beam("rod", {0, 0, 0}, {1, 0, 0}, 4);
   press(beam, "rod", 1);
   expect_refused(beam, {"no faces", "line-load"});
-  Described solid = block();
+  Described solid = loaded_block();
   solid.load<loads::LineLoadSpec>("snow").on = part("block");
   expect_refused(solid, {"no beams and bars", "traction"});
-  Described set = block();
+  Described set = loaded_block();
   auto& force = set.load<loads::BodyForceSpec>("mag");
   force.on = part("block/core");
   force.per_volume = constant_law({1, 0, 0});
@@ -252,7 +252,7 @@ TEST(DistributedLoads, SayWhatIsWrong) {
   number.beam("rod", {0, 0, 0}, {1, 0, 0}, 4);
   number.load<loads::LineLoadSpec>("snow").on = part("rod/2");
   expect_refused(number, {"no beam \"2\"", "from 1 to 1"});
-  Described plane = block();
+  Described plane = loaded_block();
   plane.d.planar = spatial::Plane::xy;
   pull(plane, "block/x1", {0, 0, 1});
   expect_refused(plane, {"planar", "component z"});

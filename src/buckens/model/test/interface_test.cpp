@@ -4,12 +4,14 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/model/test/described.h"
+#include "buckens/model/test/marker_of.h"
 
 namespace buckens::model {
 namespace {
 
 using Eigen::Vector3d;
 using test::Described;
+using test::marker;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -43,14 +45,6 @@ Described block(const std::vector<body::InterfaceSpec>& interfaces) {
   Described m;
   m.block("block", kSize, {4, 2, 2}).interfaces = interfaces;
   return m;
-}
-
-const body::Marker& marker(const BuiltModel& built, const std::string& name) {
-  for (const body::Body& body : built.model.bodies) {
-    const int index = body.find_marker(name);
-    if (index >= 0) return body.markers[static_cast<std::size_t>(index)];
-  }
-  throw std::out_of_range(name);
 }
 
 /// The message of the error when the model is built.

@@ -6,22 +6,17 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/model/test/described.h"
+#include "buckens/model/test/marker_of.h"
 
 namespace buckens::model {
 namespace {
 
 using Eigen::Vector3d;
 using test::Described;
+using test::marker;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-const body::Marker& marker(const BuiltModel& built, const std::string& name) {
-  const body::Body& body = built.model.bodies[0];
-  const int index = body.find_marker(name);
-  if (index < 0) throw std::out_of_range(name);
-  return body.markers[static_cast<std::size_t>(index)];
-}
 
 /// Nodal variables of the rigid motion u + θ × s about the mass centre.
 linalg::Vector rigid_field(const body::Body& body, const Vector3d& u, const Vector3d& theta) {

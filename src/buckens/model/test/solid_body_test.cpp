@@ -7,25 +7,20 @@
 #include "buckens/base/errors.h"
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/model/test/described.h"
+#include "buckens/model/test/marker_of.h"
 
 namespace buckens::model {
 namespace {
 
 using Eigen::Vector3d;
 using test::Described;
+using test::marker;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const Vector3d kSize(0.4, 0.2, 0.2);
-
-const body::Marker& marker(const BuiltModel& built, const std::string& name) {
-  const body::Body& body = built.model.bodies[0];
-  const int index = body.find_marker(name);
-  if (index < 0) throw std::out_of_range(name);
-  return body.markers[static_cast<std::size_t>(index)];
-}
+const Vector3d kSolidSize(0.4, 0.2, 0.2);
 
 /// The eight corners of a cube, shifted along the diagonal of the x-y plane.
 std::vector<fem::NodeSpec> cube_nodes(const std::string& prefix, const Vector3d& from) {
@@ -56,8 +51,8 @@ std::vector<std::string> names(const std::string& prefix) {
 
 TEST(SolidBody, BlocksHaveMassNodesAndNamedPlaces) {
   Described m;
-  m.block("block", kSize, {4, 2, 2});
-  const Vector3d half = kSize / 2;
+  m.block("block", kSolidSize, {4, 2, 2});
+  const Vector3d half = kSolidSize / 2;
   const std::map<std::string, Vector3d> places = {{"node_first", -half},
                                                   {"node_last", half},
                                                   {"corner_010", {-0.2, 0.1, -0.1}},
@@ -68,7 +63,7 @@ TEST(SolidBody, BlocksHaveMassNodesAndNamedPlaces) {
   const body::Body& body = built->model.bodies[0];
   EXPECT_EQ(body.num_dofs(), 3 * 5 * 3 * 3);
   // Rounding of sums over elements.
-  EXPECT_NEAR(body.mass, test::kRho * kSize.prod(), 1e-12);
+  EXPECT_NEAR(body.mass, test::kRho * kSolidSize.prod(), 1e-12);
   EXPECT_NEAR((body.com - half).norm(), 0, 1e-15);
   for (const auto& [name, place] : places) {
     EXPECT_NEAR((marker(*built, name).X_BF.p - place).norm(), 0, 1e-14) << name;
@@ -79,7 +74,7 @@ TEST(SolidBody, BlocksHaveMassNodesAndNamedPlaces) {
 
 TEST(SolidBody, MarkersByCoordinatesHitANode) {
   Described m;
-  m.block("block", kSize, {4, 2, 2}).markers = {Described::marker("p", {0.3, 0.1, 0.2})};
+  m.block("block", kSolidSize, {4, 2, 2}).markers = {Described::marker("p", {0.3, 0.1, 0.2})};
   EXPECT_TRUE(marker(*m.build(), "p").follows_mesh());
   m.d.bodies[0].markers = {Described::marker("p", {0.3, 0.13, 0.2})};
   EXPECT_THAT([&] { m.build(); },
@@ -90,7 +85,7 @@ TEST(SolidBody, MarkersByCoordinatesHitANode) {
 
 TEST(SolidBody, JointsThatHoldADirectionAreRefused) {
   Described m;
-  m.block("block", kSize, {2, 2, 2});
+  m.block("block", kSolidSize, {2, 2, 2});
   m.joint<joints::RevoluteSpec>("hinge", "ground", "block/face_x0").axis = Vector3d::UnitZ();
   EXPECT_THAT([&] { m.build(); },
               ThrowsMessage<ModelError>(AllOf(HasSubstr("test.yaml:50:1"), HasSubstr("\"hinge\""),
@@ -104,7 +99,7 @@ TEST(SolidBody, JointsThatHoldADirectionAreRefused) {
 TEST(SolidBody, PlanarModelsKeepEveryTranslationAndSieveAllRigidMotion) {
   Described m;
   m.d.planar = spatial::Plane::xy;
-  m.block("block", kSize, {2, 2, 2});
+  m.block("block", kSolidSize, {2, 2, 2});
   m.joint<joints::RevoluteSpec>("hinge", "ground", "block/face_x0");
   const auto built = m.build();
   const body::Body& body = built->model.bodies[0];
@@ -115,13 +110,13 @@ TEST(SolidBody, PlanarModelsKeepEveryTranslationAndSieveAllRigidMotion) {
 
 TEST(SolidBody, PointMassesSitOnNamedNodesAndHaveNoInertiaThere) {
   Described m;
-  body::BodySpec& spec = m.block("block", kSize, {2, 2, 2});
+  body::BodySpec& spec = m.block("block", kSolidSize, {2, 2, 2});
   auto& mesh = std::get<fem::MeshSpec>(spec.kind);
   fem::PointMassSpec mass;
   mass.at = "node_last";
-  mass.mass = test::kRho * kSize.prod();
+  mass.mass = test::kRho * kSolidSize.prod();
   mesh.masses = {mass};
-  EXPECT_NEAR((m.build()->model.bodies[0].com - 0.75 * kSize).norm(), 0, 1e-14);
+  EXPECT_NEAR((m.build()->model.bodies[0].com - 0.75 * kSolidSize).norm(), 0, 1e-14);
   mesh.masses[0].inertia = {1, 1, 1};
   EXPECT_THAT([&] { m.build(); },
               ThrowsMessage<ModelError>(AllOf(HasSubstr("\"block\""), HasSubstr("no rotations"))));
@@ -129,7 +124,7 @@ TEST(SolidBody, PointMassesSitOnNamedNodesAndHaveNoInertiaThere) {
 
 TEST(SolidBody, MaterialsThatNoSolidHasAreRefusedWithThePlace) {
   Described m;
-  body::BodySpec& spec = m.block("block", kSize, {1, 1, 1});
+  body::BodySpec& spec = m.block("block", kSolidSize, {1, 1, 1});
   std::get<fem::MeshSpec>(spec.kind).material->value.nu = 0.5;
   EXPECT_THAT([&] { m.build(); },
               ThrowsMessage<ModelError>(AllOf(HasSubstr("test.yaml:10:1"), HasSubstr("\"block\""),
@@ -182,7 +177,7 @@ TEST(SolidBody, CubesThatShareAnEdgeAreAMechanism) {
 
 TEST(SolidBody, StressesAreFoundByNodeOrNumber) {
   Described m;
-  m.block("block", kSize, {4, 2, 2});
+  m.block("block", kSolidSize, {4, 2, 2});
   m.sensor_of<StressSensor>("all", "block");
   m.sensor_of<StressSensor>("corner", "block/corner_000");
   m.sensor_of<StressSensor>("middle", "block/centre");
@@ -204,7 +199,7 @@ class DividedBlock : public testing::TestWithParam<fem::SolidKind> {};
 
 TEST_P(DividedBlock, PartsHangTogetherByFaces) {
   Described m;
-  body::BodySpec& spec = m.block("block", kSize, {6, 3, 3});
+  body::BodySpec& spec = m.block("block", kSolidSize, {6, 3, 3});
   spec.frames.count = 5;
   // Quadratic elements that share an edge have three nodes in common, as many as a triangle.
   std::get<fem::BoxMeshSpec>(std::get<fem::MeshSpec>(spec.kind).shape).element = GetParam();

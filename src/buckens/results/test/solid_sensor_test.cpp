@@ -26,7 +26,7 @@ void set_nodes(const body::Body& body, const std::function<Vector3d(const Vector
   }
 }
 
-Described block() {
+Described sensed_block() {
   Described m;
   m.block("block", {0.4, 0.2, 0.2}, {4, 2, 2});
   m.sensor_of<model::StressSensor>("all", "block");
@@ -36,7 +36,7 @@ Described block() {
 }
 
 TEST(SolidSensors, UniformStrainGivesTheSameStressEverywhere) {
-  Recorded run(block());
+  Recorded run(sensed_block());
   const double strain = 1e-4;
   set_nodes(
       run.built->model.bodies[0], [&](const Vector3d& s) { return Vector3d(strain * s.x(), 0, 0); },
@@ -54,7 +54,7 @@ TEST(SolidSensors, UniformStrainGivesTheSameStressEverywhere) {
 }
 
 TEST(SolidSensors, NodesShowTheMeanOfTheElementsAround) {
-  Recorded run(block());
+  Recorded run(sensed_block());
   const double rate = 1e-3;
   // Shear γ_xy = 2 rate (x − 0.2): opposite on both sides of the middle; the trilinear field takes
   // at the centre of an element the mean of its corner planes.
@@ -70,8 +70,8 @@ TEST(SolidSensors, NodesShowTheMeanOfTheElementsAround) {
 }
 
 TEST(SolidSensors, DividedBlocksRecordElementsInTheOrderOfTheWhole) {
-  Described whole = block();
-  Described divided = block();
+  Described whole = sensed_block();
+  Described divided = sensed_block();
   divided.d.bodies[0].frames.count = 3;
   const auto field = [](const Vector3d& s) {
     return Vector3d(1e-3 * s.x() * s.x(), 2e-4 * s.x() * s.y(), 1e-4 * s.z() * s.y());
@@ -91,7 +91,7 @@ TEST(SolidSensors, DividedBlocksRecordElementsInTheOrderOfTheWhole) {
 }
 
 TEST(SolidSensors, GeometryIsTheSurface) {
-  Recorded run(block());
+  Recorded run(sensed_block());
   const GeometryBody body = run.recorder.geometry().bodies.at(0);
   EXPECT_EQ(body.kind, BodyKind::solid);
   EXPECT_EQ(body.nodes.rows(), 45);
