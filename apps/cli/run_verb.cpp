@@ -17,6 +17,7 @@
 #include "cli/summary_text.h"
 #include "cli/verbs.h"
 
+#include "buckens/analysis/output_plan.h"
 #include "buckens/analysis/simulate.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/version.h"
@@ -122,6 +123,8 @@ ExitCode run(const RunArguments& arguments, bool json) {
   journal.record(fmt::format("buckens {}, model {}", kVersion, arguments.model));
   for (const std::string& text : arguments.overrides) journal.record("--set " + text);
   const auto built = read_and_build(arguments);
+  // What is wrong with the output is said before an earlier run is replaced.
+  if (built->description.simulation) analysis::plan_output(built->description);
 
   io::RunDirectory directory(path, {built->description.title, built->description.source, {}});
   journal.open(directory);

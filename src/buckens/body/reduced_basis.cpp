@@ -116,6 +116,12 @@ Matrix beside(const Matrix& left, const Matrix& right) {
 
 /// Brings the columns to ZᵀMZ = 1 and ZᵀKZ = diag(ω²).
 void diagonalise(const FlexiblePart& part, const Matrix& columns, ReducedBasis& out) {
+  if (columns.cols() == 0) {  // which Eigen's solver does not take
+    out.omega.resize(0);
+    out.Z = columns;
+    out.num_residuals = -out.num_modes;
+    return;
+  }
   const Matrix K = columns.transpose() * (part.fe.K * columns);
   const Matrix M = columns.transpose() * (part.fe.M * columns);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(0.5 * (K + K.transpose()),

@@ -2,6 +2,7 @@
 #include "buckens/io/basis_files.h"
 
 #include <array>
+#include <fstream>
 #include <span>
 #include <system_error>
 #include <vector>
@@ -21,19 +22,29 @@ constexpr char kBasisFormat[] = "buckens reduced basis 1";
 
 std::string text_of(std::uint64_t key) { return fmt::format("{:016x}", key); }
 
+/// What a file says it is; empty for files of other programs.
+std::string format_of(const fs::path& path) {
+  try {
+    return read_string(Hdf5File::open_for_reading(path), "/", "format");
+  } catch (const IoError&) {
+    if (std::ifstream(path).good()) return {};
+    throw;
+  }
+}
+
 }  // namespace
 
 std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std::uint64_t key) {
   const fs::path path = directory_ / file;
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
-  const Hdf5File in = Hdf5File::open_for_reading(path);
-  if (read_string(in, "/", "format") != kBasisFormat) {
+  if (format_of(path) != kBasisFormat) {
     throw InputError(
         fmt::format("{}: is no reduced basis of this version of Buckens; name another "
                     "file (`reduction.file`) or remove it",
                     path.string()));
   }
+  const Hdf5File in = Hdf5File::open_for_reading(path);
   if (read_string(in, "/", "key") != text_of(key)) {
     throw InputError(fmt::format(
         "{}: this reduced basis belongs to another mesh, material, interface or choice of modes; "

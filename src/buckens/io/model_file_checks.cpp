@@ -121,7 +121,7 @@ Finding axis_problem(const Eigen::Vector3d& axis) {
 
 Finding under(const char* key, const Finding& finding) {
   if (!finding) return finding;
-  return Problem{std::string(key) + "." + finding->key, finding->text};
+  return Problem{finding->key.empty() ? key : std::string(key) + "." + finding->key, finding->text};
 }
 
 Finding problem(const TableLawSpec& spec, const ReadContext&) {

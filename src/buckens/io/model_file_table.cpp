@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/model_file_table.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -31,11 +32,28 @@ std::vector<std::string> split_row(const std::string& line) {
   return cells;
 }
 
-double cell_value(const std::string& cell, const SourceLocation& where) {
+/// The text as far as it can be shown.
+std::string shown(const std::string& cell) {
+  constexpr std::size_t kMost = 40;
+  std::string out = cell.substr(0, kMost);
+  std::replace_if(
+      out.begin(), out.end(), [](unsigned char c) { return c < 0x20 || c > 0x7E; }, '?');
+  return cell.size() > kMost ? out + "..." : out;
+}
+
+/// Number in a column, counted from 1.
+double cell_value(const std::vector<std::string>& cells, int column, const SourceLocation& row) {
+  const std::string& cell = cells[static_cast<std::size_t>(column - 1)];
   const auto value = base::parse_number(cell);
   if (value) return *value;
-  throw InputError(where, fmt::format("\"{}\" is not a number; write decimals such as 1.5e-3",
-                                      cell.substr(0, 40)));
+  SourceLocation where = row;
+  for (int k = 0; k + 1 < column; ++k) {
+    where.column += static_cast<int>(cells[static_cast<std::size_t>(k)].size()) + 1;
+  }
+  throw InputError(where,
+                   fmt::format("\"{}\" is not a number; write decimals such as 1.5e-3, with "
+                               "a point, and separate columns by commas, semicolons or blanks",
+                               shown(cell)));
 }
 
 /// The map with the name of a file under `file`, where it may stand under `table`, too.
@@ -66,13 +84,18 @@ CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
     may_be_heading = false;
     if (is_heading) continue;
     if (static_cast<int>(cells.size()) < column) {
-      throw InputError(where, fmt::format("the row has {} columns, column {} is asked for",
-                                          cells.size(), column));
+      throw InputError(where,
+                       fmt::format("the row has {} column{}, but the values are looked for in "
+                                   "column {}; separate columns by commas, semicolons or "
+                                   "blanks, or give another `column`",
+                                   cells.size(), cells.size() == 1 ? "" : "s", column));
     }
-    out.times.push_back(cell_value(cells[0], where));
-    out.values.push_back(cell_value(cells[static_cast<std::size_t>(column - 1)], where));
+    out.times.push_back(cell_value(cells, 1, where));
+    out.values.push_back(cell_value(cells, column, where));
   }
-  if (out.times.empty()) throw InputError({path.string(), 0, 0}, "the table has no rows");
+  if (out.times.empty())
+    throw InputError({path.string(), 0, 0},
+                     "the table has no rows; write a time in seconds and a value in each");
   return out;
 }
 
@@ -94,7 +117,7 @@ base::TimeLaw read_table_law(const ReadPlace& given, const base::FieldNote& note
       columns = read_csv_columns(context.directory / spec.file, spec.column);
     } catch (const IoError& error) {
       throw IoError(place.node.find("file")->where,
-                    fmt::format("{}.file: {}", place.path, error.what()));
+                    fmt::format("{}: {}", place.path, error.what()));
     }
   }
   if (!spec.unit.empty()) {

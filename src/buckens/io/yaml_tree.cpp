@@ -194,6 +194,18 @@ class TreeBuilder final : public YAML::EventHandler {
   std::size_t count_ = 0;
 };
 
+/// What is often wrong in a line that cannot be read.
+std::string hint(const std::string& text, const YAML::Mark& mark) {
+  if (mark.is_null()) return {};
+  std::istringstream lines(text);
+  std::string line;
+  for (int k = 0; k <= mark.line && std::getline(lines, line); ++k) {
+  }
+  const std::size_t first = line.find_first_not_of(' ');
+  const bool has_tab = first != std::string::npos && line[first] == '\t';
+  return has_tab ? "; the line begins with a tab, indent with blanks" : "";
+}
+
 }  // namespace
 
 const YamlNode* YamlNode::find(const std::string& key) const {
@@ -251,7 +263,8 @@ YamlNode parse_yaml(const std::string& text, const std::string& name, bool singl
     }
     return root;
   } catch (const YAML::Exception& error) {
-    throw InputError(builder.place(error.mark), "YAML syntax: " + error.msg);
+    throw InputError(builder.place(error.mark),
+                     "YAML syntax: " + error.msg + hint(text, error.mark));
   }
 }
 

@@ -46,7 +46,7 @@ LoadedFaces LoadPlaceFinder::faces() const {
   for (const InterfaceRegion& interface : mesh_.interfaces) known.push_back(interface.name);
   const std::string part = on_.part();
   if (part.empty()) {
-    fail(fmt::format("a face is needed, for example \"{}/{}\"", on_.text,
+    fail(fmt::format("a face is needed, for example \"{}/{}\"", on_.body(),
                      known.empty() ? "top" : known.front()));
   }
   const body::InterfaceSpec* interface = base::find_named(body_.interfaces, part);

@@ -167,8 +167,10 @@ int MarkerTable::add_region(const std::string& name, const std::optional<Vector3
     add_entries(rows, num_rows_);
     num_rows_ += 3;
   }
+  const int index = static_cast<int>(body_.markers.size());
   body_.markers.push_back(marker);
-  return static_cast<int>(body_.markers.size()) - 1;
+  found_.emplace(name, index);
+  return index;
 }
 
 int MarkerTable::add_pattern(const std::vector<linalg::Triplet>& entries) {

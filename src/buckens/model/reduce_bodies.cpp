@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/reduce_bodies.h"
 
+#include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,12 +58,33 @@ std::string basis_name(const body::BodySpec& spec) {
   return spec.reduction.free_free ? "free-free" : "craig-bampton";
 }
 
+/// A basis kept before; files that cannot be used are errors, told with the place of the body.
+std::optional<body::ReducedBasis> find_kept(const body::BodySpec& spec, std::uint64_t key,
+                                            body::BasisStore& store) {
+  const auto told = [&](const Error& error) {
+    return fmt::format("body \"{}\": {}", spec.name, error.text());
+  };
+  try {
+    return store.find(spec.reduction.file, key);
+  } catch (const InputError& error) {
+    throw InputError(spec.where, told(error));
+  } catch (const IoError& error) {
+    throw IoError(spec.where, told(error));
+  }
+}
+
+/// Modes that are asked for, 0: as many as there are below a frequency.
+int asked_modes(const body::ReductionSpec& reduction) {
+  if (reduction.free_free) return reduction.free_free->modes;
+  return reduction.craig_bampton ? reduction.craig_bampton->modes.value_or(0) : 0;
+}
+
 void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore* store) {
   body.flexible->is_quasi_static = spec.flexibility == body::Flexibility::quasi_static;
   const bool is_kept = store != nullptr && !spec.reduction.file.empty();
   const std::uint64_t key = is_kept ? body::basis_key(*body.flexible, describe(spec)) : 0;
   std::optional<body::ReducedBasis> basis;
-  if (is_kept) basis = store->find(spec.reduction.file, key);
+  if (is_kept) basis = find_kept(spec, key, *store);
   if (!basis) {
     basis = make_basis(spec, body);
     if (is_kept) store->keep(spec.reduction.file, key, *basis);
@@ -91,7 +114,14 @@ void reduce_bodies(const ModelDescription& description, Model& model, body::Basi
                                                "modes",
                                                spec.name));
     }
-    reduce_body(spec, model.bodies[static_cast<std::size_t>(model.wholes[w].first)], store);
+    body::Body& body = model.bodies[static_cast<std::size_t>(model.wholes[w].first)];
+    reduce_body(spec, body, store);
+    const int asked = asked_modes(spec.reduction), found = body.flexible->reduction.modes;
+    if (found < asked) {
+      model.notes.push_back(fmt::format(
+          "body \"{}\": {} modes are asked for; its mesh has no more than {}, all are in the basis",
+          spec.name, asked, found));
+    }
     if (!is_quasi_static) continue;
     model.notes.push_back(fmt::format(
         "body \"{}\" is quasi-static: it does not vibrate, and work that goes into its deformation "

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Models that say something that cannot be: loads, laws of time, interfaces, meshes, output, reduction,
+sweeps. Every message names the place in the file, what is wrong with which value, and what to do."""
+
+import pytest
+
+MODEL = """
+buckens: 1
+materials:
+  steel: {E: 2.1e11 Pa, nu: 0.3, rho: 7850 kg/m^3}
+bodies:
+  bar:
+    mesh: {box: {size: [1 m, 0.1 m, 0.1 m], divisions: [4, 2, 2]}, material: steel}
+    interfaces:
+      root: {face: x0, kind: rigid}
+      tip: {face: x1}
+  stone: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}
+joints:
+  wall: {fixed: {between: [ground, bar/root]}}
+loads:
+  gas: {pressure: {on: bar/x1, value: 1 MPa}}
+simulation: {duration: 1 ms, step: 0.1 ms}
+output:
+  every: 1 ms
+  sensors:
+    tip: {position: bar/tip}
+"""
+
+TABLES = {
+    "falls.csv": "t,p\n0,1\n1,2\n0.5,2\n",
+    "text.csv": "t,p\n0,1\n1,abc\n2,3\n",
+    "comma.csv": "t;p\n0;1,5\n1;2,5\n",
+    "one.csv": "0\n1\n",
+    "empty.csv": "",
+    "binary.csv": "".join(chr(k) for k in range(1, 127)),
+    "short.csv": "t,p\n0,1\n0.5e-3,2\n",
+}
+
+
+@pytest.fixture
+def refuse(buckens, tmp_path):
+    """Runs MODEL with `old` replaced by `new`; it must fail with these words, naming a line, and leave
+    no run directory."""
+
+    def call(old, new, code, *words):
+        assert old in MODEL
+        for name, text in TABLES.items():
+            (tmp_path / name).write_text(text)
+        (tmp_path / "model.yaml").write_text(MODEL.replace(old, new, 1))
+        buckens("run", "model.yaml", "-o", "out").must(code, *words)
+        assert not (tmp_path / "out").exists()
+
+    return call
+
+
+@pytest.mark.parametrize("value, words", [
+    ("[1 MPa, 0, 0]", ["model.yaml:15:", "loads.gas.pressure.value", "a list", "expected is a stress"]),
+    ("1 MPaa", ["model.yaml:15:", "\"MPaa\"", "\"MPa\""]),
+    ("\"1e6*sin(w*t)\"", ["model.yaml:15:", "unknown name \"w\"", "Known are: t"]),
+    ("\"1/t\"", ["model.yaml:15:", "inf at t = 0", "division by zero"]),
+    ("{table: falls.csv}", ["model.yaml:15:", "must increase", "row 3 has 0.5 s after 1 s", "sort"]),
+    ("{table: text.csv}", ["text.csv:3:3:", "\"abc\"", "decimals"]),
+    ("{table: comma.csv}", ["comma.csv:2:3:", "\"1,5\"", "with a point"]),
+    ("{table: one.csv}", ["one.csv:1:1:", "1 column,", "column 2", "commas"]),
+    ("{table: empty.csv}", ["empty.csv", "no rows", "a time in seconds"]),
+    ("{table: binary.csv}", ["binary.csv:", "???", "is not a number"]),
+    ("{table: short.csv}", ["model.yaml:15:", "to 0.0005 s", "0 to 0.001 s", "extrapolation: hold"]),
+    ("{table: short.csv, column: 9}", ["short.csv:2:1:", "2 columns", "column 9", "`column`"]),
+    ("{table: short.csv, unit: kg}", ["model.yaml:15:", "\"kg\"", "stress"]),
+    ("{table: [[0, 1, 2], [1, 2, 3]]}", ["model.yaml:15:", "value.table.0", "list of 2 values"]),
+])
+def test_values_of_loads(refuse, value, words):
+    refuse("value: 1 MPa", f"value: {value}", 2, *words)
+
+
+def test_files_of_tables(refuse):
+    refuse("value: 1 MPa", "value: {table: nowhere.csv}", 5, "model.yaml:15:", "loads.gas.pressure.value:",
+           "nowhere.csv", "no such file")
+    refuse("value: 1 MPa", "value: {table: .}", 5, "model.yaml:15:", "directory", "name a file")
+
+
+@pytest.mark.parametrize("load, words", [
+    ("{pressure: {on: bar/, value: 1}}", ["a face is needed", "\"bar/x0\""]),
+    ("{pressure: {on: bar/corner_000, value: 1}}", ["no face \"corner_000\"", "x0, x1"]),
+    ("{pressure: {on: [bar/x1], value: 1}}", ["loads.gas.pressure.on", "a list", "a text"]),
+    ("{presure: {on: bar/x1, value: 1}}", ["unknown key \"presure\"", "\"pressure\""]),
+    ("{pressure: {on: bar/x1, value: 1}, force: {on: stone, value: [1, 0, 0]}}", ["only one of these keys"]),
+    ("{body-force: {on: bar}}", ["loads.gas.body-force: exactly one", "per-mass"]),
+    ("{body-force: {on: ground, per-mass: [0, 0, 1]}}", ["no body \"ground\"", "bar, stone"]),
+    ("{body-force: {on: stone, per-volume: [0, 0, 1]}}", ["\"stone\" is rigid", "per mass"]),
+    ("{base-acceleration: {on: bar, value: [1, 2, 0]}}", ["unknown key \"on\"", "value"]),
+])
+def test_loads(refuse, load, words):
+    refuse("{pressure: {on: bar/x1, value: 1 MPa}}", load, 2, "model.yaml:15:", *words)
+
+
+@pytest.mark.parametrize("interface, code, words", [
+    ("{face: w0}", 2, ["model.yaml:9:", "no face \"w0\"", "\"x0\""]),
+    ("{face: x0, kind: stiff}", 2, ["model.yaml:9:", "\"stiff\"", "average, rigid"]),
+    ("{sphere: {center: [9 m, 0, 0], radius: 1 mm}}", 2, ["model.yaml:9:", "no node lies in the sphere", "8 m away", "enlarge"]),
+    ("{sphere: {center: [0, 0, 0], radius: -1 mm}}", 2, ["model.yaml:9:", "-1 mm", "positive"]),
+    ("{set: [corner_000, corner_001], kind: rigid}", 2, ["model.yaml:9:", "2 nodes", "span a surface"]),
+    ("{set: [corner_00]}", 2, ["model.yaml:9:", "no node or set \"corner_00\"", "\"corner_000\""]),
+    ("{face: y0, kind: rigid}\n      more: {face: x0, kind: rigid}", 3, ["model.yaml:6:", "\"root\"", "\"more\"", "in common", "average"]),
+])
+def test_interfaces(refuse, interface, code, words):
+    refuse("{face: x0, kind: rigid}", interface, code, *words)
+
+
+@pytest.mark.parametrize("box, words", [
+    ("divisions: [0, 2, 2]", ["divisions.0", "0", "positive"]),
+    ("divisions: [4, 2]", ["2 values", "3 values"]),
+    ("divisions: [40000, 20000, 20000]", ["1.6e+13 elements", "use fewer"]),
+    ("divisions: [4.5, 2, 2]", ["4.5", "whole number"]),
+    ("divisions: [4, 2, 2], element: hex9", ["\"hex9\"", "\"hex8\""]),
+])
+def test_meshes(refuse, box, words):
+    refuse("divisions: [4, 2, 2]", box, 2, "model.yaml:7:", *words)
+
+
+@pytest.mark.parametrize("output, words", [
+    ("fields: {record: [stress], every: 0.3 ms}", ["0.0003 s", "no multiple", "0.001 s"]),
+    ("fields: [mises]", ["\"mises\"", "von-mises"]),
+    ("fields: {record: [stress], on: [bar/xx]}", ["\"xx\"", "\"x0\""]),
+])
+def test_output(refuse, output, words):
+    """An earlier run in the directory is still there, too: nothing is opened before all is checked."""
+    refuse("  every: 1 ms", f"  every: 1 ms\n  {output}", 2, "model.yaml:19:", *words)
+
+
+def test_tabs(refuse):
+    refuse("  gas:", "\tgas:", 2, "model.yaml:15:", "YAML syntax", "begins with a tab")
+
+
+# ---- reduction
+
+REDUCED = "material: steel}\n    reduction: "
+
+
+@pytest.mark.parametrize("reduction, code, words", [
+    ("{craig-bampton: 4, free-free: 4}", 2, ["one basis"]),
+    ("{craig-bampton: {modes: 3, cutoff: 2 kHz}}", 2, ["exactly one", "modes", "cutoff"]),
+    ("{craig-bampton: {modes: 0, static-correction: off}}", 3, ["\"bar\"", "no deformation", "rigid"]),
+    ("{free-free: 3, file: text.csv}", 2, ["\"bar\"", "text.csv", "no reduced basis", "reduction.file"]),
+])
+def test_reductions(refuse, reduction, code, words):
+    refuse("material: steel}", REDUCED + reduction, code, "model.yaml:", *words)
+
+
+def test_bases_without_vibrations_or_with_all_of_them(buckens, tmp_path):
+    for reduction in ("{craig-bampton: 0}", "{craig-bampton: {cutoff: 1e-3 Hz}}"):
+        (tmp_path / "model.yaml").write_text(MODEL.replace("material: steel}", REDUCED + reduction))
+        report = buckens("check", "model.yaml", "--json").must(0).json["bodies"]["bar"]["reduction"]
+        assert report["modes"] == 0 and report["static_shapes"] > 0
+    (tmp_path / "model.yaml").write_text(MODEL.replace("material: steel}", REDUCED + "{craig-bampton: 100000}"))
+    notes = buckens("check", "model.yaml", "--json").must(0).json["notes"]
+    assert any("100000 modes are asked for" in note and "no more than" in note for note in notes)
+
+
+@pytest.mark.parametrize("load", ["pressure: {on: bar/z1, value: 1 MPa}",
+                                  "traction: {on: bar/z1, value: [0, 0, \"1e5*sin(3e4*t)\"]}",
+                                  "base-acceleration: {value: [0, \"9e3*sin(3e4*t)\", 0]}"])
+def test_modes_are_chosen_under_loads_on_bodies(buckens, tmp_path, load):
+    text = MODEL.replace("pressure: {on: bar/x1, value: 1 MPa}", load)
+    (tmp_path / "model.yaml").write_text(text.replace("material: steel}", REDUCED + "{auto: 2 %}"))
+    notes = buckens("check", "model.yaml", "--json").must(0).json["notes"]
+    assert any("all markers stay within" in note for note in notes), notes
