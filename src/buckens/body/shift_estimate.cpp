@@ -7,6 +7,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "buckens/linalg/tall_products.h"
+
 namespace buckens::body {
 
 using Eigen::Vector3d;
@@ -66,7 +68,8 @@ Matrix smooth_fields(const fem::FeModel& fe) {
 double lowest_square_estimate(const FlexiblePart& part) {
   Matrix X = smooth_fields(part.fe);
   part.sieve.apply(X);
-  const Eigen::SelfAdjointEigenSolver<Matrix> mass(X.transpose() * (part.fe.M * X));
+  const Eigen::SelfAdjointEigenSolver<Matrix> mass(
+      linalg::inner_products(X, linalg::symmetric_product(part.fe.M, X)));
   const double largest = mass.eigenvalues()[mass.eigenvalues().size() - 1];
   if (!(largest > 0.0)) return 0.0;
   Eigen::Index first = 0;
@@ -74,7 +77,7 @@ double lowest_square_estimate(const FlexiblePart& part) {
   const Eigen::Index kept = X.cols() - first;
   const Matrix Z = mass.eigenvectors().rightCols(kept) *
                    mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Matrix strain = X.transpose() * (part.fe.K * X);
+  const Matrix strain = linalg::inner_products(X, linalg::symmetric_product(part.fe.K, X));
   const Eigen::SelfAdjointEigenSolver<Matrix> ritz(Z.transpose() * strain * Z,
                                                    Eigen::EigenvaluesOnly);
   return std::max(0.0, ritz.eigenvalues()[0]);

@@ -9,6 +9,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "buckens/linalg/tall_products.h"
+
 namespace buckens::linalg {
 
 namespace {
@@ -39,7 +41,7 @@ class Subspace {
         inverse_(inverse),
         settings_(settings),
         deflated_(deflated),
-        MD_(M * deflated),
+        MD_(symmetric_product(M, deflated)),
         V_(M.rows(), std::min<Eigen::Index>(M.rows(), basis_limit())),
         MV_(M.rows(), V_.cols()) {}
 
@@ -50,8 +52,9 @@ class Subspace {
   void sweep();
   void solve_projected();
   void restart(Eigen::Index keep);
-  void orthonormalise(Matrix W, Matrix MW, double nothing, Matrix* coefficients);
-  void remove_known(Matrix& W, Matrix& MW) const;
+  void orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix* shares,
+                      Matrix* coefficients);
+  void remove_known(Matrix& W, Matrix& MW, const Matrix* shares_of_basis) const;
   auto basis() const { return V_.leftCols(size_); }
   auto mass_basis() const { return MV_.leftCols(size_); }
   Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
@@ -88,28 +91,34 @@ class Subspace {
   long solves_ = 0;
 };
 
-void Subspace::remove_known(Matrix& W, Matrix& MW) const {
+/// @param shares_of_basis VᵀM W if it is known
+void Subspace::remove_known(Matrix& W, Matrix& MW, const Matrix* shares_of_basis) const {
   if (deflated_.cols() > 0) {
-    const Matrix shares = MD_.transpose() * W;
-    W.noalias() -= deflated_ * shares;
-    MW.noalias() -= MD_ * shares;
+    const Matrix shares = inner_products(MD_, W);
+    subtract_combinations(deflated_, shares, W);
+    subtract_combinations(MD_, shares, MW);
+    shares_of_basis = nullptr;  // of what W was before
   }
   if (size_ > 0) {
-    const Matrix shares = mass_basis().transpose() * W;
-    W.noalias() -= basis() * shares;
-    MW.noalias() -= mass_basis() * shares;
+    const Matrix shares =
+        shares_of_basis != nullptr ? *shares_of_basis : inner_products(mass_basis(), W);
+    subtract_combinations(basis(), shares, W);
+    subtract_combinations(mass_basis(), shares, MW);
   }
 }
 
 /// Makes block_ the M-orthonormal basis of the span of W without what V holds, directions shorter
-/// than `nothing` left out; W = block_ · coefficients. @param MW M W
-void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, Matrix* coefficients) {
+/// than `nothing` left out; W = block_ · coefficients.
+/// @param MW M W
+/// @param shares VᵀM W if it is known
+void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix* shares,
+                              Matrix* coefficients) {
   if (coefficients != nullptr) *coefficients = Matrix::Identity(W.cols(), W.cols());
   for (int pass = 0; pass < kMostPasses && W.cols() > 0; ++pass) {
     // The first pass may have taken most of W away; what it left of M W is then rounding.
-    if (pass == 1) MW.noalias() = M_ * W;
-    remove_known(W, MW);
-    const Matrix G = W.transpose() * MW;
+    if (pass == 1) MW = symmetric_product(M_, W);
+    remove_known(W, MW, pass == 0 ? shares : nullptr);
+    const Matrix G = inner_products(W, MW);
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (G + G.transpose()));
     const double least = pass == 0 ? nothing : 0.1;
     Eigen::Index dropped = 0;
@@ -121,8 +130,8 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, Matrix* coeff
     const Matrix U = eigen.eigenvectors().rightCols(kept);
     const Vector size = eigen.eigenvalues().tail(kept).cwiseSqrt();
     const Matrix to_unit = U * size.cwiseInverse().asDiagonal();
-    W = (W * to_unit).eval();
-    MW = (MW * to_unit).eval();
+    W = combinations(W, to_unit);
+    MW = combinations(MW, to_unit);
     if (coefficients != nullptr) {
       *coefficients = (size.asDiagonal() * U.transpose() * *coefficients).eval();
     }
@@ -137,17 +146,17 @@ void Subspace::start(unsigned seed) {
   const auto columns = std::min<Eigen::Index>(settings_.block, M_.rows());
   Matrix X = scattered_block(M_.rows(), columns, seed);
   for (int k = 0; k < 2; ++k) {  // twice: into the range of A⁻¹M, and smooth
-    X = (M_ * X).eval();
+    X = symmetric_product(M_, X);
     inverse_(X);
     solves_ += X.cols();
-    const Matrix MX = M_ * X;
+    const Matrix MX = symmetric_product(M_, X);
     for (Eigen::Index j = 0; j < X.cols(); ++j) {
       const double size = std::sqrt(std::max(0.0, X.col(j).dot(MX.col(j))));
       if (size > 0.0) X.col(j) /= size;
     }
   }
-  Matrix MX = M_ * X;
-  orthonormalise(std::move(X), std::move(MX), kNothingNew, nullptr);
+  Matrix MX = symmetric_product(M_, X);
+  orthonormalise(std::move(X), std::move(MX), kNothingNew, nullptr, nullptr);
 }
 
 void Subspace::sweep() {
@@ -164,9 +173,9 @@ void Subspace::sweep() {
   inverse_(W);
   solves_ += width;
   ++sweeps_;
-  Matrix MW = M_ * W;
+  Matrix MW = symmetric_product(M_, W);
   longest_ = std::max(longest_, longest_column(W, MW));
-  const Matrix H = mass_basis().transpose() * W;
+  const Matrix H = inner_products(mass_basis(), W);
   const Matrix square = H.bottomRows(width);
   if (longest_ > 0.0) {
     rounding_ = std::max(rounding_, (square - square.transpose()).norm() / longest_);
@@ -174,7 +183,7 @@ void Subspace::sweep() {
   T_.conservativeResize(size_, size_);
   T_.rightCols(width) = H;
   T_.bottomRows(width) = H.transpose();
-  orthonormalise(std::move(W), std::move(MW), kNothing * longest_, &coupling_);
+  orthonormalise(std::move(W), std::move(MW), kNothing * longest_, &H, &coupling_);
 }
 
 void Subspace::solve_projected() {
@@ -198,8 +207,8 @@ void Subspace::solve_projected() {
 
 void Subspace::restart(Eigen::Index keep) {
   const Matrix Z = Z_.leftCols(keep);
-  V_.leftCols(keep) = (basis() * Z).eval();
-  MV_.leftCols(keep) = (mass_basis() * Z).eval();
+  V_.leftCols(keep) = combinations(basis(), Z);
+  MV_.leftCols(keep) = combinations(mass_basis(), Z);
   size_ = keep;
   T_ = theta_.head(keep).asDiagonal();
 }
@@ -226,7 +235,7 @@ InversePairs Subspace::result(bool is_complete) const {
   Eigen::Index count = wanted();
   while (count > 0 && std::abs(theta_[count - 1]) <= kNothing * std::abs(theta_[0])) --count;
   out.theta = theta_.head(count);
-  out.shapes = count > 0 ? Matrix(basis() * Z_.leftCols(count)) : Matrix(M_.rows(), 0);
+  out.shapes = count > 0 ? combinations(basis(), Z_.leftCols(count)) : Matrix(M_.rows(), 0);
   out.residual = residual_.head(count).cwiseQuotient(out.theta.cwiseAbs());
   out.sweeps = sweeps_;
   out.solves = solves_;

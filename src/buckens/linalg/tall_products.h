@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// Products of matrices with many rows and few columns, as block iterations need them. BLAS carries
+/// the dense ones out: it has the vector instructions of the processor, where a program that is to
+/// run everywhere is compiled without.
+
+/// AᵀB.
+Matrix inner_products(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B);
+
+/// B ← B − A S. @param A n×m, @param S m×k, @param B n×k
+void subtract_combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S,
+                           Eigen::Ref<Matrix> B);
+
+/// A S.
+Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S);
+
+/// A X, entries of A read once for eight columns.
+/// @param A symmetric, both triangles stored
+Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X);
+
+}  // namespace buckens::linalg
