@@ -202,14 +202,29 @@ int PanelFactor::top_place(int group) const {
 
 void PanelFactor::solve(const double* B, double* X, Eigen::Index columns, Eigen::Index stride,
                         Workspace& work, TaskPool* pool) const {
+  std::array<const double*, kMostSides> from{};
+  std::array<double*, kMostSides> to{};
   for (Eigen::Index done = 0; done < columns; done += kMostSides) {
-    const int some = static_cast<int>(std::min<Eigen::Index>(kMostSides, columns - done));
-    solve_some(B + done * stride, X + done * stride, some, stride, work, pool);
+    const Eigen::Index some = std::min<Eigen::Index>(kMostSides, columns - done);
+    for (Eigen::Index k = 0; k < some; ++k) {
+      from[static_cast<std::size_t>(k)] = B + (done + k) * stride;
+      to[static_cast<std::size_t>(k)] = X + (done + k) * stride;
+    }
+    solve_some(from.data(), to.data(), static_cast<int>(some), work, pool);
   }
 }
 
-void PanelFactor::solve_some(const double* B, double* X, int columns, Eigen::Index stride,
-                             Workspace& work, TaskPool* pool) const {
+void PanelFactor::solve_in_place(std::span<double* const> vectors, Workspace& work,
+                                 TaskPool* pool) const {
+  for (std::size_t done = 0; done < vectors.size(); done += kMostSides) {
+    const std::size_t some = std::min<std::size_t>(kMostSides, vectors.size() - done);
+    double* const* X = vectors.data() + done;
+    solve_some(X, X, static_cast<int>(some), work, pool);
+  }
+}
+
+void PanelFactor::solve_some(const double* const* B, double* const* X, int columns, Workspace& work,
+                             TaskPool* pool) const {
   const int unit = side_multiple();
   const int sides = columns == 1 ? 1 : (columns + unit - 1) / unit * unit;
   const auto needed = static_cast<std::size_t>(num_places_) * static_cast<std::size_t>(sides);
@@ -218,7 +233,7 @@ void PanelFactor::solve_some(const double* B, double* X, int columns, Eigen::Ind
   const Panel* panels = panels_.data();
   run_tasks(pool, num_groups(), [&](int g) {
     const Group& group = groups_[static_cast<std::size_t>(g)];
-    gather(g, B, columns, stride, sides, x);
+    gather(g, B, columns, sides, x);
     kernels_->forward(panels + group.panels_begin, panels + group.panels_end, x, sides);
   });
   solve_top(x, sides);
@@ -230,7 +245,7 @@ void PanelFactor::solve_some(const double* B, double* X, int columns, Eigen::Ind
                 x + static_cast<std::ptrdiff_t>(top_place(g)) * sides);
     }
     kernels_->backward(panels + group.panels_begin, panels + group.panels_end, x, sides);
-    scatter(g, x, sides, columns, stride, X);
+    scatter(g, x, sides, columns, X);
   });
 }
 
@@ -247,26 +262,26 @@ void PanelFactor::solve_top(double* x, int sides) const {
   kernels_->backward(begin, end, x, sides);
 }
 
-void PanelFactor::gather(int group, const double* B, int columns, Eigen::Index stride, int sides,
+void PanelFactor::gather(int group, const double* const* B, int columns, int sides,
                          double* x) const {
   const Group& g = groups_[static_cast<std::size_t>(group)];
   const int end = g.first + g.columns + top_columns_ + 1;
   for (int p = g.first; p < end; ++p) {
     double* to = x + static_cast<std::ptrdiff_t>(p) * sides;
     const int row = origin_[static_cast<std::size_t>(p)];
-    for (int r = 0; r < sides; ++r) to[r] = row >= 0 && r < columns ? B[row + r * stride] : 0.0;
+    for (int r = 0; r < sides; ++r) to[r] = row >= 0 && r < columns ? B[r][row] : 0.0;
   }
 }
 
-void PanelFactor::scatter(int group, const double* x, int sides, int columns, Eigen::Index stride,
-                          double* X) const {
+void PanelFactor::scatter(int group, const double* x, int sides, int columns,
+                          double* const* X) const {
   const Group& g = groups_[static_cast<std::size_t>(group)];
   const int end = g.first + g.columns + top_columns_;
   for (int p = g.first; p < end; ++p) {
     const int row = origin_[static_cast<std::size_t>(p)];
     if (row < 0) continue;
     const double* from = x + static_cast<std::ptrdiff_t>(p) * sides;
-    for (int r = 0; r < columns; ++r) X[row + r * stride] = from[r];
+    for (int r = 0; r < columns; ++r) X[r][row] = from[r];
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,6 +41,8 @@ class PanelFactor {
   /// @param B,X column-major, may be the same. @param stride from column to column
   void solve(const double* B, double* X, Eigen::Index columns, Eigen::Index stride, Workspace& work,
              TaskPool* pool) const;
+  /// x ← A⁻¹ x for vectors that lie anywhere.
+  void solve_in_place(std::span<double* const> vectors, Workspace& work, TaskPool* pool) const;
 
  private:
   /// Places of one group: own columns, a copy of the top's, one for missing rows.
@@ -50,12 +53,10 @@ class PanelFactor {
   };
   class Layout;
 
-  void solve_some(const double* B, double* X, int columns, Eigen::Index stride, Workspace& work,
+  void solve_some(const double* const* B, double* const* X, int columns, Workspace& work,
                   TaskPool* pool) const;
-  void gather(int group, const double* B, int columns, Eigen::Index stride, int sides,
-              double* x) const;
-  void scatter(int group, const double* x, int sides, int columns, Eigen::Index stride,
-               double* X) const;
+  void gather(int group, const double* const* B, int columns, int sides, double* x) const;
+  void scatter(int group, const double* x, int sides, int columns, double* const* X) const;
   void solve_top(double* x, int sides) const;
   int top_place(int group) const;
 

@@ -66,7 +66,7 @@ struct SolveExchange::Participant {
   std::exception_ptr error;  ///< that ended it
   // What it waits for:
   const SparseCholesky* factor = nullptr;
-  Matrix* columns = nullptr;
+  std::span<double* const> vectors;
   TaskPool* pool = nullptr;
   std::exception_ptr refusal;  ///< of the solve
 };
@@ -116,15 +116,16 @@ std::shared_ptr<const SparseCholesky> SolveExchange::factor(const SparseMatrix& 
   return factor;
 }
 
-void SolveExchange::solve(const SparseCholesky& factor, Matrix& X, TaskPool* pool) {
+void SolveExchange::solve(const SparseCholesky& factor, std::span<double* const> vectors,
+                          TaskPool* pool) {
   const std::optional<std::size_t> caller = turns_->running;
   if (!caller || factor.num_factor_entries() < kLeastEntries) {
-    factor.solve_in_place(X, pool);
+    factor.solve_in_place(vectors, pool);
     return;
   }
   Participant& self = *participants_[*caller];
   self.factor = &factor;
-  self.columns = &X;
+  self.vectors = vectors;
   self.pool = pool;
   turns_->give_back_until_mine(*caller);
   if (self.refusal) std::rethrow_exception(std::exchange(self.refusal, nullptr));
@@ -182,26 +183,12 @@ void SolveExchange::solve_group(const std::vector<Participant*>& group) {
   const SparseCholesky& factor = *group.front()->factor;
   TaskPool* pool = group.front()->pool;
   ++num_passes_;
-  if (group.size() == 1) {
-    num_columns_ += group.front()->columns->cols();
-    factor.solve_in_place(*group.front()->columns, pool);
-    return;
-  }
-  Eigen::Index count = 0;
-  for (const Participant* participant : group) count += participant->columns->cols();
-  num_columns_ += count;
-  columns_.resize(factor.size(), count);
-  Eigen::Index first = 0;
+  vectors_.clear();
   for (const Participant* participant : group) {
-    columns_.middleCols(first, participant->columns->cols()) = *participant->columns;
-    first += participant->columns->cols();
+    vectors_.insert(vectors_.end(), participant->vectors.begin(), participant->vectors.end());
   }
-  factor.solve_in_place(columns_, pool);
-  first = 0;
-  for (Participant* participant : group) {
-    *participant->columns = columns_.middleCols(first, participant->columns->cols());
-    first += participant->columns->cols();
-  }
+  num_columns_ += static_cast<long>(vectors_.size());
+  factor.solve_in_place(vectors_, pool);
 }
 
 }  // namespace buckens::linalg

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "buckens/base/task_pool.h"
@@ -27,8 +28,10 @@ class SolveExchange {
   /// @throws NumericalError as SparseCholesky does
   std::shared_ptr<const SparseCholesky> factor(const SparseMatrix& A);
 
-  /// X ← A⁻¹ X by a factor from factor(): together with the others if a participant calls.
-  void solve(const SparseCholesky& factor, Matrix& X, TaskPool* pool = nullptr);
+  /// x ← A⁻¹ x for some vectors by a factor from factor(): together with the others if a
+  /// participant calls.
+  void solve(const SparseCholesky& factor, std::span<double* const> vectors,
+             TaskPool* pool = nullptr);
 
   /// Runs all participants to their ends, each on a thread of its own.
   /// @throws the first exception that a participant left, after all have ended
@@ -50,7 +53,7 @@ class SolveExchange {
   std::vector<Known> known_;
   std::vector<std::unique_ptr<Participant>> participants_;  // of the run that goes on
   std::unique_ptr<Turns> turns_;
-  Matrix columns_;
+  std::vector<double*> vectors_;
   long num_factorisations_ = 0, num_columns_ = 0, num_passes_ = 0;
 };
 

@@ -71,6 +71,7 @@ struct SparseCholesky::Backend {
   void factorise(const SparseMatrix& A, const CholeskyOptions& options);
   void lay_out(SimdLevel simd);
   void solve(const double* rhs, double* x, Eigen::Index rows, Eigen::Index columns, TaskPool* pool);
+  void solve_in_place(std::span<double* const> vectors, TaskPool* pool);
   void solve_by_cholmod(const double* rhs, double* x, Eigen::Index rows, Eigen::Index columns);
 };
 
@@ -125,6 +126,16 @@ void SparseCholesky::Backend::solve(const double* rhs, double* x, Eigen::Index r
     panels->solve(rhs, x, columns, rows, workspace, pool);
   } else {
     solve_by_cholmod(rhs, x, rows, columns);
+  }
+}
+
+void SparseCholesky::Backend::solve_in_place(std::span<double* const> vectors, TaskPool* pool) {
+  if (size == 0 || vectors.empty()) return;
+  const std::scoped_lock lock(turn);
+  if (panels) {
+    panels->solve_in_place(vectors, workspace, pool);
+  } else {
+    for (double* x : vectors) solve_by_cholmod(x, x, size, 1);
   }
 }
 
@@ -190,8 +201,8 @@ void SparseCholesky::solve_in_place(Matrix& X, TaskPool* pool) const {
   backend_->solve(X.data(), X.data(), X.rows(), X.cols(), pool);
 }
 
-void SparseCholesky::solve_first(Matrix& X, Eigen::Index columns, TaskPool* pool) const {
-  backend_->solve(X.data(), X.data(), X.rows(), columns, pool);
+void SparseCholesky::solve_in_place(std::span<double* const> vectors, TaskPool* pool) const {
+  backend_->solve_in_place(vectors, pool);
 }
 
 Matrix SparseCholesky::solve(const Matrix& B, TaskPool* pool) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
@@ -54,8 +55,8 @@ class SparseCholesky {
   void solve_in_place(Vector& x, TaskPool* pool = nullptr) const;
   /// X ← A⁻¹ X for several right-hand sides at once: up to 32 read the factor together.
   void solve_in_place(Matrix& X, TaskPool* pool = nullptr) const;
-  /// The same for the first columns of X only.
-  void solve_first(Matrix& X, Eigen::Index columns, TaskPool* pool = nullptr) const;
+  /// The same for vectors that lie anywhere.
+  void solve_in_place(std::span<double* const> vectors, TaskPool* pool = nullptr) const;
   /// A⁻¹ B.
   Matrix solve(const Matrix& B, TaskPool* pool = nullptr) const;
 

@@ -56,29 +56,17 @@ struct Stepper::FactorGroup {
   const linalg::SparseCholesky* factor = nullptr;
   std::vector<std::size_t> bodies;
   std::vector<std::size_t> active;  // those that solve in this round
-  linalg::Matrix sides;
+  std::vector<double*> sides;
 
   void solve(std::vector<std::unique_ptr<Large>>& large, TaskPool* pool,
              linalg::SolveExchange* exchange) {
     if (active.empty()) return;
-    if (active.size() == 1 && exchange == nullptr) {
-      factor->solve_in_place(large[active.front()]->step.side(), pool);
-      return;
-    }
-    const auto count = static_cast<Eigen::Index>(active.size());
-    // An exchange takes all columns; alone, room for all bodies serves any number of them.
-    sides.resize(factor->size(),
-                 exchange != nullptr ? count : static_cast<Eigen::Index>(bodies.size()));
-    for (std::size_t k = 0; k < active.size(); ++k) {
-      sides.col(static_cast<Eigen::Index>(k)) = large[active[k]]->step.side();
-    }
+    sides.clear();
+    for (const std::size_t b : active) sides.push_back(large[b]->step.side().data());
     if (exchange != nullptr) {
       exchange->solve(*factor, sides, pool);
     } else {
-      factor->solve_first(sides, count, pool);
-    }
-    for (std::size_t k = 0; k < active.size(); ++k) {
-      large[active[k]]->step.side() = sides.col(static_cast<Eigen::Index>(k));
+      factor->solve_in_place(sides, pool);
     }
   }
 };
@@ -161,6 +149,7 @@ void Stepper::group_factors() {
     }
     group->bodies.push_back(b);
     group->active.reserve(group->bodies.size());
+    group->sides.reserve(group->bodies.size());
   }
 }
 

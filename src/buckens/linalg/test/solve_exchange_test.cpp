@@ -36,9 +36,10 @@ constexpr int kExchangeSize = 10;
 /// x ← A⁻¹ x + 1, `rounds` times, from a constant.
 Vector repeated(SolveExchange& exchange, const SparseMatrix& A, double start, int rounds) {
   const auto factor = exchange.factor(A);
-  Matrix x = Matrix::Constant(A.rows(), 1, start);
+  Vector x = Vector::Constant(A.rows(), start);
+  const std::vector<double*> vectors = {x.data()};
   for (int k = 0; k < rounds; ++k) {
-    exchange.solve(*factor, x);
+    exchange.solve(*factor, vectors);
     x.array() += 1.0;
   }
   return x;
