@@ -52,8 +52,16 @@ bool CouplingWatch::is_measured(const Watched& body, const model::BodyState& sta
   return body.is_automatic || steps_ % kWindow == 0;
 }
 
+double CouplingWatch::measure(std::size_t b, const stepping::Stepper& stepper,
+                              const model::State& state, const CouplingTerms& kept) {
+  if (!stepper.has_balance(b, state, kept)) {
+    products_ += model_.bodies[b].flexible->is_damped() ? 2 : 1;
+  }
+  return stepper.neglected(b, state, kept);
+}
+
 CouplingTerms CouplingWatch::needed(std::size_t b, const stepping::Stepper& stepper,
-                                    const model::State& state) const {
+                                    const model::State& state) {
   const Watched& watched = bodies_[b];
   const model::BodyState& s = state.bodies[b];
   const double w = s.frame.w.norm();
@@ -68,7 +76,7 @@ CouplingTerms CouplingWatch::needed(std::size_t b, const stepping::Stepper& step
   if (watched.window <= watched.tolerance) return s.terms;
   if (s.terms == CouplingTerms::none()) {
     const CouplingTerms first = CouplingTerms::first_order();
-    if (stepper.neglected(b, state, first) <= 0.5 * watched.tolerance) return first;
+    if (measure(b, stepper, state, first) <= 0.5 * watched.tolerance) return first;
   }
   return {};
 }
@@ -111,7 +119,7 @@ void CouplingWatch::start(const stepping::Stepper& stepper, model::State& state)
   for (int round = 0; round < 2; ++round) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (!bodies_[b].is_automatic) continue;
-      bodies_[b].window = stepper.neglected(b, state, state.bodies[b].terms);
+      bodies_[b].window = measure(b, stepper, state, state.bodies[b].terms);
     }
     if (!decide(stepper, state)) break;
   }
@@ -122,7 +130,7 @@ void CouplingWatch::after_step(const stepping::Stepper& stepper, model::State& s
   ++steps_;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!is_measured(bodies_[b], state.bodies[b])) continue;
-    const double share = stepper.neglected(b, state, state.bodies[b].terms);
+    const double share = measure(b, stepper, state, state.bodies[b].terms);
     bodies_[b].window = std::max(bodies_[b].window, share);
     bodies_[b].neglected = std::max(bodies_[b].neglected, share);
   }

@@ -33,6 +33,10 @@ class CouplingWatch {
   /// To be called after each step.
   void after_step(const stepping::Stepper& stepper, model::State& state);
 
+  /// Products with the stiffness or damping matrices of meshes so far: none after steps whose
+  /// balance of loads is known, see stepping::Stepper::has_balance().
+  long num_products() const { return products_; }
+
   /// Level, its changes and the largest neglected share of each body.
   void fill(const model::State& state, results::RunSummary& summary) const;
 
@@ -49,9 +53,12 @@ class CouplingWatch {
   };
 
   bool is_measured(const Watched& body, const model::BodyState& state) const;
+  /// What a body would leave out with these terms.
+  double measure(std::size_t b, const stepping::Stepper& stepper, const model::State& state,
+                 const body::CouplingTerms& kept);
   /// Terms that the motion asks for, at least those in use.
   body::CouplingTerms needed(std::size_t b, const stepping::Stepper& stepper,
-                             const model::State& state) const;
+                             const model::State& state);
   /// @return whether any body moved up
   bool decide(const stepping::Stepper& stepper, model::State& state);
 
@@ -60,6 +67,7 @@ class CouplingWatch {
   std::vector<int> rows_in_use_;
   std::vector<Watched> bodies_;
   long steps_ = 0;
+  long products_ = 0;
 };
 
 }  // namespace buckens::analysis

@@ -350,13 +350,17 @@ double Stepper::factor_bytes() const {
   return sum;
 }
 
+bool Stepper::has_balance(std::size_t body, const model::State& state,
+                          const body::CouplingTerms& kept) const {
+  return has_stepped_ && scheme_.weight == 1.0 &&
+         std::abs(state.t - stepped_to_) <= kSameInstant * scheme_.h &&
+         kept == bodies_[body].terms && !operators_[body]->is_quasi_static();
+}
+
 double Stepper::neglected(std::size_t body, const model::State& state,
                           const body::CouplingTerms& kept) const {
-  const bool is_balanced = has_stepped_ && scheme_.weight == 1.0 &&
-                           std::abs(state.t - stepped_to_) <= kSameInstant * scheme_.h &&
-                           kept == bodies_[body].terms && !operators_[body]->is_quasi_static();
   return neglected_share(model_.bodies[body], *operators_[body], state.bodies[body], kept,
-                         is_balanced ? &bodies_[body].load : nullptr);
+                         has_balance(body, state, kept) ? &bodies_[body].load : nullptr);
 }
 
 double Stepper::lowest_frequency(std::size_t body) {

@@ -55,10 +55,13 @@ class Stepper {
   void use_threads(int threads);
 
   SolveCounts counts(std::size_t body) const;
-  /// What a flexible body would leave out at a state if it kept these terms only. At the end of
-  /// the last step by a method that satisfies the equations of motion there, and with the terms of
-  /// that step, no product with K is formed.
+  /// What a flexible body would leave out at a state if it kept these terms only, see
+  /// neglected_share(). No product with K or C is formed where has_balance() holds.
   double neglected(std::size_t body, const model::State& state,
+                   const body::CouplingTerms& kept) const;
+  /// Whether the loads on a body at a state are known to satisfy its equations of motion: at the
+  /// end of the last step by a method that satisfies them there, with the terms of that step.
+  bool has_balance(std::size_t body, const model::State& state,
                    const body::CouplingTerms& kept) const;
   /// Lowest elastic frequency of a flexible body [rad/s], see lowest_frequency.h.
   double lowest_frequency(std::size_t body);
