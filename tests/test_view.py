@@ -82,8 +82,8 @@ def test_runs_and_vibrations_are_not_shown_side_by_side(buckens, models, install
 def test_fields_of_a_page_are_chosen(buckens, models, installed, tmp_path):
     buckens("run", models / "beam.yaml", "-o", "out").must(0)
     add_viewer(installed)
-    for wanted, names in (("von_mises", ["von_mises"]), ("nothing", []), ("", ["axial_stress",
-                                                                              "von_mises"])):
+    for wanted, names in (("von_mises", ["von_mises"]), ("nothing", []), ("", ["axial_stress", "section_force",
+                                                                              "section_moment", "von_mises"])):
         view(installed, "out", "--fields", wanted, cwd=tmp_path).must(0)
         text = (tmp_path / "out" / "view.html").read_text()
         data = json.loads(text.split("const run = ")[1].split(";</script>")[0])
@@ -147,6 +147,73 @@ def test_fields_over_meshes_go_into_the_page(buckens, installed, tmp_path, every
     assert (load["name"], load["kind"], load["width"]) == ("push", "force", 3)
     values = numbers(load["values"], "<f4").reshape(-1, 3)
     assert len(values) == frames and 990 < abs(values[:, 0]).max() <= 1000
+
+
+# A cantilever of beams with a force at its end, and a strip of two layers of shells, both at rest in balance.
+LINES_AND_SHELLS = """
+buckens: 1
+title: A beam and a strip
+materials: {plain: {E: 210 GPa, nu: 0, rho: 7850 kg/m^3}}
+bodies:
+  rod: {beam: {to: [1 m, 0, 0], elements: 4, section: {rectangle: {width: 20 mm, height: 20 mm}}, material: plain}}
+  strip:
+    mesh:
+      plate:
+        from: [0, 1 m, 0]
+        size: [0.4 m, 0.1 m]
+        divisions: [4, 1]
+        layers: [{thickness: 1 mm, material: plain}, {thickness: 1 mm, material: plain}]
+    interfaces: {root: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}, kind: rigid},
+                 end: {plane: {point: [0.4 m, 0, 0], normal: [1, 0, 0]}, kind: average}}
+joints:
+  wall: {fixed: {between: [ground, rod/start]}}
+  edge: {fixed: {between: [{ground: [0, 1.05 m, 0]}, strip/root]}}
+loads:
+  hang: {force: {on: rod/end, value: [0, 0, -10 N]}}
+  pull: {force: {on: strip/end, value: [100 N, 0, 0]}}
+initial: {start: static}
+simulation: {duration: 2 ms, step: 1 ms}
+output: {every: 1 ms, fields: [stress, von-mises]}
+"""
+
+
+def test_section_forces_layers_and_joint_forces_go_into_the_page(buckens, installed, tmp_path):
+    (tmp_path / "model.yaml").write_text(LINES_AND_SHELLS)
+    buckens("run", "model.yaml", "-o", "out", "-q").must(0)
+    add_viewer(installed)
+    view(installed, "out", cwd=tmp_path).must(0)
+    text = (tmp_path / "out" / "view.html").read_text()
+    run = json.loads(text.split("const run = ")[1].split(";</script>")[0])["runs"][0]
+    rod, strip = run["bodies"]
+    frames = run["time"]["n"]
+    # A force of 10 N at the end: bending moments fall from 10 N m to nothing, from end to end of every element.
+    moment = next(f for f in rod["fields"] if f["name"] == "section_moment")
+    assert (moment["on"], moment["unit"], moment["components"]) == ("lineEnds", "N m", ["Mt", "My", "Mz"])
+    ends = numbers(moment["values"]["values"], "<f4").reshape(frames, 4, 2, 3)
+    assert numpy.linalg.norm(ends[0], axis=2) == pytest.approx(
+        numpy.array([[10, 7.5], [7.5, 5], [5, 2.5], [2.5, 0]]), abs=1e-3)
+    force = next(f for f in rod["fields"] if f["name"] == "section_force")
+    across = numbers(force["values"]["values"], "<f4").reshape(frames, 8, 3)
+    assert numpy.linalg.norm(across[0], axis=1) == pytest.approx(10, rel=1e-4)
+    # 100 N over 0.1 m by 2 mm: 0.5 MPa on all sides of both layers.
+    levels = {f["level"]: f for f in strip["fields"] if f["name"] == "shell_stress"}
+    assert list(levels) == ["layer 1, bottom", "layer 1, top", "layer 2, bottom", "layer 2, top"]
+    for field in levels.values():
+        assert (field["on"], field["components"]) == ("elements", ["x", "y", "xy"])
+        stress = numbers(field["values"]["values"], "<f4").reshape(frames, 4, 3)
+        assert stress[0, 1:3] == pytest.approx(numpy.array([[0.5e6, 0, 0]] * 2), abs=1e3)
+    membrane = next(f for f in strip["fields"] if f["name"] == "shell_force")
+    assert membrane["unit"] == "N/m"
+    assert numbers(membrane["values"]["values"], "<f4").reshape(frames, 4, 3)[0, 1, 0] == pytest.approx(1000, rel=2e-3)
+    largest = next(f for f in strip["fields"] if f["name"] == "von_mises_largest" and f["on"] == "elements")
+    with h5py.File(tmp_path / "out" / "results.h5", "r", swmr=True) as file:
+        exact = file["extremes/bodies/strip/shells/von_mises"][:]
+        joint = file["joints/wall/force"][:]
+    assert numbers(largest["values"]["values"], "<f4") == pytest.approx(exact, rel=1e-6)
+    assert any(f["name"] == "von_mises_time" and f["on"] == "elements" for f in strip["fields"])
+    wall = next(j for j in run["joints"] if j["name"] == "wall")
+    assert numbers(wall["force"], "<f4").reshape(frames, 3) == pytest.approx(joint, rel=1e-6)
+    assert wall["torque"] is not None
 
 
 @pytest.mark.parametrize("name", ["empty", "missing"])

@@ -15,7 +15,7 @@ export class BodyField {
   /** Where the values of an item come from on the lines, or on the surface, of the body. */
   source(item: string, lines: boolean, perElement: boolean): FieldSource | null {
     const order = lines
-      ? ['lines', 'nodes']
+      ? ['lines', 'lineEnds', 'nodes']
       : perElement
         ? ['elements', 'places', 'nodes']
         : ['places', 'nodes', 'elements'];

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { BodyField } from './body_field';
 import { aligned, allTimes, valueAt } from './chart';
-import { fieldItems, FieldValues, history, pointOf, rangeOfRun, sourcesOf } from './fields';
+import { fieldItems, FieldValues, history, indexAt, pointOf, rangeOfRun, sourcesOf } from './fields';
 import { decodeRun, nodeNumber, nodeNumbered } from './run';
 import { magnitude, misesOf, principalOf } from './tensor';
-import { kVariants } from '../tests/fixture.mjs';
+import { kVariants, rows } from '../tests/fixture.mjs';
 
 const cube = () => decodeRun(kVariants.solid());
 const kEnd = { index: 49, fraction: 0 };
@@ -79,6 +79,53 @@ describe('fields of a run', () => {
     expect(over[49]).toBeCloseTo(0.3, 5);
     const mises = sourcesOf(body).find(({ item, on }) => item.id === 'von_mises' && on === 'places')!;
     expect(history(mises, point.place, 50)[49]).toBeCloseTo(Math.hypot(4e6, Math.sqrt(3) * 1e5), -3);
+  });
+});
+
+describe('lines and shells', () => {
+  it('have section forces at both ends of every line', () => {
+    const run = decodeRun(kVariants['slider-crank']());
+    const rod = run.bodies[1]!;
+    const source = new BodyField(rod).source('section_moment/Mz', true, false)!;
+    expect(source.on).toBe('lineEnds');
+    expect(source.item.label).toBe('Bending moment Mz');
+    const frame = { index: 60, fraction: 0 };
+    const values = new FieldValues(source).at(frame);
+    expect(values.length).toBe(24);
+    // What ends at a node is what begins there.
+    for (let e = 0; e + 1 < 12; e++) expect(values[2 * e + 1]).toBe(values[2 * e + 2]);
+    expect(indexAt(source, pointOf(rod, 0))).toBe(0);
+    expect(indexAt(source, pointOf(rod, 12))).toBe(23);
+    expect(values[23]).toBeCloseTo(0, 3);
+  });
+
+  it('have stresses side by side, and share items with the solids of their body', () => {
+    const data = kVariants.solid();
+    const body = data.bodies[0]!;
+    const shell = (name: string, components: string[], numbers: number[], level = '') => ({
+      name,
+      unit: 'Pa',
+      components,
+      on: 'elements' as const,
+      level,
+      constant: true,
+      values: rows(numbers),
+    });
+    const of = (values: number[]) => values.concat(Array<number>(8 - values.length).fill(NaN));
+    body.fields!.push(
+      shell('shell_stress', ['x', 'y', 'xy'], Array(8).fill([3, 1, 2]).flat(), 'layer 2, top'),
+      shell('von_mises_largest', [''], of([1, 2, 3])),
+      shell('von_mises_largest', [''], of([9, 9, NaN, 4])),
+    );
+    const run = decodeRun(data);
+    const field = new BodyField(run.bodies[0]!);
+    const mises = field.source('shell_stress/layer 2, top/von_mises', false, false)!;
+    expect(new FieldValues(mises).at(kEnd)[0]).toBeCloseTo(Math.sqrt(9 - 3 + 1 + 12), 6);
+    expect(mises.item.label).toBe('Shell von Mises stress, layer 2, top');
+    const largest = field.source('von_mises_largest', false, true)!;
+    expect([...new FieldValues(largest).at(kEnd)].slice(0, 4)).toEqual([1, 2, 3, 4]);
+    expect(rangeOfRun([run], 'von_mises_largest')).toEqual([0, 4e6]);
+    expect(history(largest, 3, 2)).toEqual(Float32Array.of(4, 4));
   });
 });
 

@@ -1,6 +1,6 @@
-import { rangeOf, type Rows } from './rows';
+import { MergedRows, rangeOf, type Rows } from './rows';
 import type { Body, Field, Run } from './run';
-import { magnitude, misesOf, principalOf } from './tensor';
+import { magnitude, misesOf, planeMisesOf, principalOf } from './tensor';
 import type { FramePlace } from './interpolation';
 
 /** Something that can be shown in colour. */
@@ -17,11 +17,12 @@ type Reduction =
   | { kind: 'pick'; component: number }
   | { kind: 'magnitude' }
   | { kind: 'mises' }
+  | { kind: 'planeMises' }
   | { kind: 'principal'; component: number };
 
 /** Where a body has the values of an item. */
 export interface FieldSource {
-  on: 'nodes' | 'places' | 'elements' | 'lines';
+  on: 'nodes' | Field['on'];
   rows: Rows;
   /** Numbers per place. */
   stride: number;
@@ -36,6 +37,21 @@ const kLabels: Record<string, string> = {
   principal_stress: 'Principal stress',
   von_mises_largest: 'von Mises stress, largest of the run',
   von_mises_time: 'von Mises stress, time of the largest',
+};
+
+/** Names of section forces of beams, and of forces per length of shells, by component. */
+const kForces: Record<string, { group: string; text: Record<string, string> }> = {
+  section_force: {
+    group: 'Section forces',
+    text: { N: 'Normal force N', Qy: 'Shear force Qy', Qz: 'Shear force Qz' },
+  },
+  section_moment: {
+    group: 'Section forces',
+    text: { Mt: 'Torque Mt', My: 'Bending moment My', Mz: 'Bending moment Mz' },
+  },
+  shell_force: { group: 'Shells', text: {} },
+  shell_moment: { group: 'Shells', text: {} },
+  shell_shear_force: { group: 'Shells', text: {} },
 };
 
 function label(name: string): string {
@@ -96,7 +112,32 @@ function principalItem(component: number, unit: string): FieldItem {
   };
 }
 
+/** Stresses on one side of a shell or of one of its layers. */
+function levelSources({ name, unit, level, components, on, rows }: Field): FieldSource[] {
+  const group = `Shells, ${level}`;
+  const item = (part: string, text: string) => ({
+    id: `${name}/${level}/${part}`,
+    group,
+    label: `${text}, ${level}`,
+    unit,
+  });
+  return [
+    source(on, rows, 3, { kind: 'planeMises' }, item('von_mises', 'Shell von Mises stress')),
+    ...components.map((c, k) => source(on, rows, 3, pick(k), item(c, `Shell stress ${c}`))),
+  ];
+}
+
+function forceSources({ name, unit, components, on, rows }: Field): FieldSource[] {
+  const { group, text } = kForces[name]!;
+  return components.map((c, k) => {
+    const item = { id: `${name}/${c}`, group, label: text[c] ?? `${label(name)} ${c}`, unit };
+    return source(on, rows, components.length, pick(k), item);
+  });
+}
+
 function fieldSources(field: Field): FieldSource[] {
+  if (field.level && field.components.length === 3) return levelSources(field);
+  if (kForces[field.name]) return forceSources(field);
   const { name, unit, components, on, rows } = field;
   const stride = components.length;
   if (stride === 1) {
@@ -124,10 +165,30 @@ export function sourcesOf(body: Body): FieldSource[] {
   }
   // "von Mises" of a recorded field stands before the one worked out from the tensor.
   const rank = ({ reduction: { kind } }: FieldSource) => (kind === 'mises' || kind === 'principal' ? 1 : 0);
-  return all.sort((a, b) => rank(a) - rank(b));
+  return merged(all.sort((a, b) => rank(a) - rank(b)));
 }
 
-const kGroupOrder = ['Stress', 'Principal stress', 'Displacement', 'Velocity', 'Acceleration'];
+/** Solids and shells of one body record the same quantity each for themselves: one source of both. */
+function merged(all: FieldSource[]): FieldSource[] {
+  const known = new Map<string, FieldSource>();
+  for (const of of all) {
+    const key = `${of.item.id} ${of.on}`;
+    const first = known.get(key);
+    const alike = first && first.stride === of.stride && first.rows.width === of.rows.width;
+    if (!first) known.set(key, of);
+    else if (alike) known.set(key, { ...first, rows: new MergedRows(first.rows, of.rows) });
+  }
+  return [...known.values()];
+}
+
+const kGroupOrder = [
+  'Stress',
+  'Principal stress',
+  'Section forces',
+  'Displacement',
+  'Velocity',
+  'Acceleration',
+];
 
 /** The list of what can be shown, each item once. */
 export function fieldItems(runs: Run[]): FieldItem[] {
@@ -154,6 +215,8 @@ function reduce(reduction: Reduction, row: ArrayLike<number>, at: number): numbe
       return magnitude(row, at);
     case 'mises':
       return misesOf(row, at);
+    case 'planeMises':
+      return planeMisesOf(row, at);
     case 'principal':
       return principalOf(row, at, reduction.component);
   }
@@ -216,21 +279,31 @@ export interface FieldPoint {
   place: number;
   element: number;
   line: number;
+  /** Of the line: 0 or 1. */
+  end: number;
 }
 
 /** Index of a point among the places of a source, −1 if it is none of them. */
 export function indexAt(of: FieldSource, point: FieldPoint): number {
-  const index = { nodes: point.node, places: point.place, elements: point.element, lines: point.line };
-  return index[of.on];
+  const { node, place, element, line, end } = point;
+  const lineEnds = line < 0 ? -1 : 2 * line + end;
+  return { nodes: node, places: place, elements: element, lines: line, lineEnds }[of.on];
+}
+
+/** Which end of a line a node is. */
+export function endOf(body: Body, line: number, node: number): number {
+  return line >= 0 && body.elements[line]![1] === node ? 1 : 0;
 }
 
 /** Any way to a node's element and place, for nodes chosen by number. */
 export function pointOf(body: Body, node: number): FieldPoint {
   const corner = body.faces ? body.faces.nodes.indexOf(node) : -1;
+  const line = body.elements.findIndex((ends) => ends.includes(node));
   return {
     node,
     place: corner < 0 ? -1 : (body.faces!.places?.[corner] ?? -1),
     element: corner < 0 ? -1 : body.faces!.elements[corner >> 2]!,
-    line: body.elements.findIndex((ends) => ends.includes(node)),
+    line,
+    end: endOf(body, line, node),
   };
 }

@@ -2,16 +2,17 @@ import * as THREE from 'three';
 import { jointGlyph, rod, solid, span, spring, support } from './glyphs';
 import { Motion, rotate } from './motion';
 import type { GlyphSize } from './body_view';
-import type { PageJoint, Triple } from './page_data';
+import type { Joint } from './run';
+import type { Triple } from './page_data';
 import type { Theme } from './theme';
 
 const kZ = new THREE.Vector3(0, 0, 1);
 
-function isSpring(joint: PageJoint): boolean {
+function isSpring(joint: Joint): boolean {
   return joint.type.toLowerCase().includes('spring');
 }
 
-function isPrismatic(joint: PageJoint): boolean {
+function isPrismatic(joint: Joint): boolean {
   return joint.type.toLowerCase() === 'prismatic';
 }
 
@@ -27,7 +28,7 @@ export class JointView {
   private readonly support: THREE.Object3D | null = null;
 
   constructor(
-    private readonly joint: PageJoint,
+    private readonly joint: Joint,
     private readonly motion: Motion,
     theme: Theme,
     private readonly size: GlyphSize,

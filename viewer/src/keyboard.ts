@@ -15,7 +15,7 @@ const kKeys: [string, string][] = [
   ['f · o', 'fit: the whole run in view · parallel or perspective'],
   ['[ ]', 'less, more deformation'],
   ['v, shift v', 'next, previous field'],
-  ['j a b l u s', 'joints, loads, frames, names, undeformed shape, colours'],
+  ['j a r b l u s', 'joints, loads, joint forces, frames, names, undeformed shape, colours'],
   ['e · x', 'edges of elements · section'],
   ['t', 'light, dark, as the system has it'],
   ['click on a body', 'follow the nearest node, or no longer'],

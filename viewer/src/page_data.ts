@@ -35,9 +35,11 @@ export interface PageField {
   components: string[];
   /**
    * What has a value: `places` of the surface (`facePlaces`), `elements` with a face, `lines`
-   * (`elements` of the body).
+   * (`elements` of the body), `lineEnds`: first and second end of each line.
    */
-  on: 'places' | 'elements' | 'lines';
+  on: 'places' | 'elements' | 'lines' | 'lineEnds';
+  /** Side of a shell: "top", "layer 2, bottom". */
+  level?: string;
   /** True for one row that holds for the whole run. */
   constant?: boolean;
   /** frames × places × components. */
@@ -93,6 +95,10 @@ export interface PageJoint {
   between: PageJointSide[];
   /** Unit vector along the axes of the first side's body, of the world for the ground. */
   axis: Triple;
+  /** frames × 3, on the last side in world axes [N]; null if not recorded. */
+  force?: Base64 | null;
+  /** frames × 3, on the last side about its origin, in world axes [N m]. */
+  torque?: Base64 | null;
 }
 
 /** A load to be drawn as arrows. */

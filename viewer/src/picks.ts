@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 import { BodyField } from './body_field';
-import { history, indexAt, pointOf, type FieldPoint, type FieldSource } from './fields';
+import { endOf, history, indexAt, pointOf, type FieldPoint, type FieldSource } from './fields';
 import { nodeNumber, numNodes, type Body, type Run } from './run';
 import type { BodyView } from './body_view';
 
@@ -25,7 +25,8 @@ export function pickAlong(ray: THREE.Raycaster, views: BodyView[]): Omit<Pick, '
         const { node, place, line } = skin.vertex(vertex);
         const known = pointOf(view.field.body, node);
         const pick = { ...known, body, place: place >= 0 ? place : known.place };
-        best = { distance: hit.distance, pick: { ...pick, line: line >= 0 ? line : known.line } };
+        const end = endOf(view.field.body, line, node);
+        best = { distance: hit.distance, pick: line >= 0 ? { ...pick, line, end } : pick };
         break;
       }
     }

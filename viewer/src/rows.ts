@@ -164,6 +164,39 @@ export class SparseRows implements Rows {
   }
 }
 
+/** The first rows, and where they have no number, the second. */
+export class MergedRows implements Rows {
+  readonly width: number;
+  readonly frames: number;
+  private readonly row: Float32Array;
+
+  constructor(
+    private readonly first: Rows,
+    private readonly second: Rows,
+  ) {
+    this.width = first.width;
+    this.frames = Math.max(first.frames, second.frames);
+    this.row = new Float32Array(first.width);
+  }
+
+  interpolate(place: FramePlace, out: Float32Array): void {
+    this.first.interpolate(place, out);
+    this.second.interpolate(place, this.row);
+    for (let i = 0; i < this.width; i++) if (Number.isNaN(out[i]!)) out[i] = this.row[i]!;
+  }
+
+  value(frame: number, index: number): number {
+    const value = this.first.value(frame, index);
+    return Number.isNaN(value) ? this.second.value(frame, index) : value;
+  }
+
+  range(frame: number): [number, number] {
+    const row = new Float32Array(this.width);
+    this.interpolate({ index: frame, fraction: 0 }, row);
+    return rangeOf(row);
+  }
+}
+
 /** One shape that swings: row k is the shape times `factors[k]`. */
 export class SwingingRows implements Rows {
   private readonly shape: Float32Array;

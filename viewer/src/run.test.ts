@@ -32,7 +32,7 @@ describe('decodeRun', () => {
     expect(run.times[399]).toBeCloseTo(0.1, 7);
     expect(run.bodies.map((body) => body.name)).toEqual(['crank', 'rod', 'slider']);
     expect(run.bodies[1]!.displacement).toMatchObject({ frames: 400, width: 13 * 6 });
-    expect(run.bodies[1]!.fields.map((field) => field.name)).toEqual(['von_mises']);
+    expect(run.bodies[1]!.fields.map((field) => field.name)).toEqual(['von_mises', 'section_moment']);
     expect(run.loads[0]).toMatchObject({ name: 'push', width: 3 });
     expect(run.bodies[1]!.hasRotations).toBe(true);
     expect(run.bodies[0]!.hasRotations).toBe(false);

@@ -19,7 +19,9 @@ export interface Field {
   name: string;
   unit: string;
   components: string[];
-  on: 'places' | 'elements' | 'lines';
+  on: PageField['on'];
+  /** Side of a shell; empty without one. */
+  level: string;
   constant: boolean;
   /** Row: places × components. */
   rows: Rows;
@@ -66,6 +68,12 @@ export interface Load extends Omit<PageLoad, 'values'> {
   values: Float32Array | null;
 }
 
+/** A joint with what it does to its last side, frames × 3. */
+export interface Joint extends Omit<PageJoint, 'force' | 'torque'> {
+  force: Float32Array | null;
+  torque: Float32Array | null;
+}
+
 /** One recorded quantity; `values` is frames × components. */
 export interface Series {
   name: string;
@@ -81,7 +89,7 @@ export interface Run {
   generated: string;
   times: Float64Array;
   bodies: Body[];
-  joints: PageJoint[];
+  joints: Joint[];
   loads: Load[];
   gravity: Triple;
   planar: 'xy' | 'yz' | 'zx' | null;
@@ -152,7 +160,7 @@ function decodeField(field: PageField, frames: number, count: number, where: str
   const at = field.frames ? decodeInts(field.frames, 1, `${where}.frames`) : null;
   const packed = new PackedRows(field.values, width, constant ? 1 : (at?.length ?? frames), where);
   const rows = at ? new SparseRows(packed, at, frames) : packed;
-  return { name, unit: unit ?? '', on, components, constant, rows };
+  return { name, unit: unit ?? '', on, level: field.level ?? '', components, constant, rows };
 }
 
 /** Frames that are searched for rotations. */
@@ -188,7 +196,12 @@ function decodeBody(body: PageBody, frames: number, where: string): Body {
     : null;
   const numbers = body.nodeNumbers ? decodeInts(body.nodeNumbers, 1, `${where}.nodeNumbers`) : null;
   if (numbers && numbers.length !== count) throw new PageDataError(`${where}.nodeNumbers: wrong count`);
-  const size = { places: faces?.numPlaces, elements: faces?.numElements, lines: elements.length };
+  const size = {
+    places: faces?.numPlaces,
+    elements: faces?.numElements,
+    lines: elements.length,
+    lineEnds: 2 * elements.length,
+  };
   return {
     name: body.name,
     kind: kKinds.find((kind) => kind === body.kind) ?? 'rigid',
@@ -209,12 +222,14 @@ function decodeBody(body: PageBody, frames: number, where: string): Body {
   };
 }
 
-function checkJoint(joint: PageJoint, bodies: Body[], where: string): PageJoint {
+function decodeJoint(joint: PageJoint, bodies: Body[], frames: number, where: string): Joint {
   for (const side of joint.between ?? []) {
     if (side.body >= bodies.length) throw new PageDataError(`${where}: no body ${side.body}`);
   }
   if ((joint.between ?? []).length === 0) throw new PageDataError(`${where}: no side given`);
-  return joint;
+  const vector = (text: string | null | undefined, name: string) =>
+    text ? decodeFloats(text, 3 * frames, `${where}.${name}`) : null;
+  return { ...joint, force: vector(joint.force, 'force'), torque: vector(joint.torque, 'torque') };
 }
 
 function decodeLoad(load: PageLoad, bodies: Body[], frames: number, where: string): Load {
@@ -242,7 +257,7 @@ export function decodeRun(data: PageRun): Run {
     generated: data.generated ?? '',
     times,
     bodies,
-    joints: (data.joints ?? []).map((joint, i) => checkJoint(joint, bodies, `joints[${i}]`)),
+    joints: (data.joints ?? []).map((joint, i) => decodeJoint(joint, bodies, n, `joints[${i}]`)),
     loads: (data.loads ?? []).map((load, i) => decodeLoad(load, bodies, n, `loads[${i}]`)),
     gravity: data.gravity ?? [0, 0, 0],
     planar: planar === 'xy' || planar === 'yz' || planar === 'zx' ? planar : null,

@@ -10,6 +10,7 @@ import { LoadView } from './load_view';
 import { Motion } from './motion';
 import { namesOf } from './names';
 import { orientationOf, type Orientation } from './orientation';
+import { largestReactions, ReactionView } from './reaction_view';
 import { pickAlong, pickName, type Pick } from './picks';
 import { paintsSlowly } from './graphics';
 import { Section } from './section';
@@ -47,6 +48,7 @@ export class Stage {
   private bodies: BodyView[] = [];
   private joints: JointView[] = [];
   private loads: LoadView[] = [];
+  private reactions: ReactionView[] = [];
   private dots: THREE.Mesh[] = [];
   private width = 1;
   private height = 1;
@@ -100,8 +102,13 @@ export class Stage {
       (joint) => new JointView(joint, motion, theme, glyphs, orientation.up),
     );
     this.loads = run.loads.map((load) => new LoadView(load, motion, glyphs));
+    const largest = largestReactions(run);
+    this.reactions = run.joints
+      .filter(({ force, torque }) => force || torque)
+      .map((joint) => new ReactionView(joint, motion, glyphs, largest));
     this.model.add(grid.root, this.trace.root);
-    for (const view of [...this.bodies, ...this.joints, ...this.loads]) this.model.add(view.root);
+    const views = [...this.bodies, ...this.joints, ...this.loads, ...this.reactions];
+    for (const view of views) this.model.add(view.root);
   }
 
   resize(width: number, height: number): void {
@@ -141,6 +148,7 @@ export class Stage {
     for (const [views, shown] of [
       [this.joints, options.joints],
       [this.loads, options.loads],
+      [this.reactions, options.reactions],
     ] as const) {
       for (const view of views) {
         view.root.visible = shown;
@@ -234,6 +242,12 @@ export class Stage {
       const text = pickName(this.run.bodies[pick.body]!, pick);
       const at = this.project(this.placeOf(pick, options.scale));
       labels.push({ text, kind: 'marker', ...at });
+    }
+    if (options.reactions) {
+      for (const view of this.reactions) {
+        const at = this.project(view.position(options.scale));
+        if (view.text) labels.push({ text: view.text, kind: 'marker', ...at });
+      }
     }
     if (options.labels) {
       const { joints, loads } = this;

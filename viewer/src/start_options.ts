@@ -9,6 +9,7 @@ export function startOptions(items: FieldItem[]): ViewOptions {
     frames: false,
     joints: true,
     loads: true,
+    reactions: false,
     labels: false,
     undeformed: false,
     colors: stress !== undefined,

@@ -1,3 +1,4 @@
+import type { FieldSource } from './fields';
 import type { Faces } from './run';
 import type { Surface } from './surface';
 
@@ -9,7 +10,7 @@ export const kNoValue = 3e38;
 
 /** Where given values belong. */
 export interface Painted {
-  on: 'nodes' | 'places' | 'elements' | 'lines';
+  on: FieldSource['on'];
   values: Float32Array;
 }
 

@@ -11,6 +11,12 @@ export function misesOf(s: ArrayLike<number>, at: number): number {
   return Math.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * shear);
 }
 
+/** Von Mises stress of x, y, xy in a plane. */
+export function planeMisesOf(s: ArrayLike<number>, at: number): number {
+  const [x, y, xy] = [s[at]!, s[at + 1]!, s[at + 2]!];
+  return Math.sqrt(x * x - x * y + y * y + 3 * xy * xy);
+}
+
 /**
  * Eigenvalue 0 (largest), 1 or 2 of xx, yy, zz, xy, yz, zx by the angle of the deviator's third
  * invariant (Smith, Comm. ACM 4, 1961).

@@ -2,7 +2,7 @@ import { el } from './dom';
 import type { Run } from './run';
 import type { ViewOptions } from './view_options';
 
-export type Toggle = 'joints' | 'loads' | 'frames' | 'labels' | 'undeformed' | 'colors';
+export type Toggle = 'joints' | 'loads' | 'reactions' | 'frames' | 'labels' | 'undeformed' | 'colors';
 
 interface ToggleEntry {
   name: Toggle;
@@ -14,6 +14,7 @@ interface ToggleEntry {
 const kToggles: ToggleEntry[] = [
   { name: 'joints', text: 'Joints', key: 'j', title: 'Joints, supports and springs' },
   { name: 'loads', text: 'Loads', key: 'a', title: 'Loads as arrows' },
+  { name: 'reactions', text: 'Forces', key: 'r', title: 'Forces and torques of joints as arrows' },
   { name: 'frames', text: 'Frames', key: 'b', title: 'Buckens frames of the bodies' },
   { name: 'labels', text: 'Names', key: 'l', title: 'Names; with frames shown also of markers' },
   { name: 'undeformed', text: 'Undeformed', key: 'u', title: 'Undeformed shape as a ghost' },
@@ -36,6 +37,7 @@ export class Toolbar {
       undeformed: bodies.some((body) => body.displacement),
       colors: bodies.some((body) => body.displacement || body.fields.length > 0),
       loads: runs.some((run) => run.loads.length > 0),
+      reactions: runs.some((run) => run.joints.some(({ force }) => force)),
     };
     const offered = kToggles.filter(({ name }) => useful[name] ?? true);
     for (const { name, text, key, title } of offered) {

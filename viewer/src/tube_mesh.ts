@@ -76,8 +76,8 @@ export class TubeMesh implements Skin {
     for (let v = 0; v < elementOf.length; v++) {
       const e = elementOf[v]!;
       let value = values[e]!;
-      if (on === 'nodes') {
-        const [a, b] = elements[e]!;
+      if (on !== 'lines') {
+        const [a, b] = on === 'nodes' ? elements[e]! : [2 * e, 2 * e + 1];
         const s = byFace ? 0.5 : alongOf[v]!;
         value = (1 - s) * values[a]! + s * values[b]!;
       }

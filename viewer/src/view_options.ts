@@ -37,6 +37,8 @@ export interface ViewOptions {
   frames: boolean;
   joints: boolean;
   loads: boolean;
+  /** Forces and torques of joints as arrows. */
+  reactions: boolean;
   labels: boolean;
   undeformed: boolean;
   /** Whether a field is shown in colour at all. */

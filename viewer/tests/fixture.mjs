@@ -34,6 +34,12 @@ function rodShape(nodes, l, mid) {
   });
 }
 
+/** Bending moment of the sine at both ends of every element. */
+function rodMoments(nodes, l, mid) {
+  const at = ([x]) => [0, 0, 13 * mid * (Math.PI / l) ** 2 * Math.sin(Math.PI * (x / l + 0.5))];
+  return nodes.slice(1).flatMap((node, i) => [...at(nodes[i]), ...at(node)]);
+}
+
 export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], planar = 'xy', bending = 1 } = {}) {
   const [r, l, speed, duration, elements] = [0.15 * scale, 0.3 * scale, 150, 0.1, 12];
   const nodes = [...Array(elements + 1)].map((_, i) => [l * (i / elements - 0.5), 0, 0]);
@@ -92,6 +98,13 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
         ),
           ),
         },
+        {
+          name: 'section_moment',
+          unit: 'N m',
+          components: ['Mt', 'My', 'Mz'],
+          on: 'lineEnds',
+          values: rows(states.flatMap((s) => rodMoments(nodes, l, s.mid))),
+        },
       ],
     },
     {
@@ -106,6 +119,7 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
     },
   ];
   const joint = (name, type, a, b, axis = [0, 0, 1]) => ({ name, type, between: [a, b], axis });
+  const pinForce = (s) => [900 * Math.cos(s.phi), 650 * Math.sin(s.phi), 0];
   const ground = side(-1, -1, offset);
   const joints = [
     joint('base', 'revolute', ground, side(0, 0, [-r / 2, 0, 0])),
@@ -114,6 +128,8 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
     joint('wrist', 'revolute', side(1, 2, [l / 2, 0, 0]), side(2, 0, [0, 0, 0])),
     joint('guide', 'prismatic', ground, side(2, 0, [0, 0, 0]), [1, 0, 0]),
   ];
+  joints[2].force = base64(states.flatMap(pinForce));
+  joints[1].torque = base64(states.flatMap((s) => [0, 0, 3 * Math.sin(2 * s.phi)]));
   const sensor = (name, unit, components, row) => ({
     name,
     unit,
@@ -148,11 +164,7 @@ export function sliderCrank({ frames = 400, scale = 1, offset = [0, 0, 0], plana
       sensor('mid deflection', 'm', [''], (s) => [s.mid]),
       sensor('slider position', 'm', ['x', 'y', 'z'], (s) => place([s.slider, 0, 0])),
       sensor('motor torque', 'N m', [''], (s) => [3 * Math.sin(2 * s.phi)]),
-      sensor('pin force', 'N', ['x', 'y', 'z'], (s) => [
-        900 * Math.cos(s.phi),
-        650 * Math.sin(s.phi),
-        0,
-      ]),
+      sensor('pin force', 'N', ['x', 'y', 'z'], pinForce),
     ],
     energies: [
       { name: 'kinetic', unit: 'J', values: base64(states.map(kinetic)) },
