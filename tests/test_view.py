@@ -162,7 +162,8 @@ bodies:
         from: [0, 1 m, 0]
         size: [0.4 m, 0.1 m]
         divisions: [4, 1]
-        layers: [{thickness: 1 mm, material: plain}, {thickness: 1 mm, material: plain}]
+        layers: [{thickness: 1 mm}, {thickness: 1 mm}]
+      material: plain
     interfaces: {root: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}, kind: rigid},
                  end: {plane: {point: [0.4 m, 0, 0], normal: [1, 0, 0]}, kind: average}}
 joints:
