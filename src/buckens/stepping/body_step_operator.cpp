@@ -200,7 +200,7 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     y_alg[row] = sum_alg;
   }
   const Matrix* columns = patterns();
-  if (columns == nullptr) return;
+  if (columns == nullptr || !state.terms.use_patterns()) return;
   using Values = Eigen::Matrix<double, 6, 4>;
   const linalg::RowParts rows(num_dofs());
   std::array<Values, linalg::RowParts::kMostParts> sums;

@@ -82,7 +82,7 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   ++solves_;
   const Scheme& scheme = op_->scheme();
   const linalg::Matrix& P = op_->sieve().P();
-  const linalg::Matrix* patterns = op_->patterns();
+  const linalg::Matrix* patterns = before.terms.use_patterns() ? op_->patterns() : nullptr;
   const bool adds = op_->inertial().share() != 0.0;
   // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
   // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
@@ -115,7 +115,8 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
     if (patterns != nullptr) y_free.tail<6>() += sums.patterns;
   }
   y_free.head(interface).noalias() += op_->N().topRows(interface) * free_;
-  y_free.noalias() -= op_->rigid_row_values() * rigid_;
+  const Index used = patterns != nullptr ? y_free.size() : interface;
+  y_free.head(used).noalias() -= op_->rigid_row_values().topRows(used) * rigid_;
 }
 
 void LargeStep::form_end(const model::BodyState& before, Index first, Index size,

@@ -36,7 +36,7 @@ class LargeStep {
   /// The right-hand side, to be solved in place.
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
   /// Makes the motion without loads along N of the solution in side(), and its row values.
-  /// @param y_free N x⁺
+  /// @param y_free N x⁺; zero for patterns that the body's terms do not use
   void take_solution(const model::BodyState& before, Eigen::VectorXd& y_free, TaskPool* pool);
 
   /// Adds the answers to loads along N and forms the nodal state at the end.
