@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/deformation_coupling.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 
+#include "buckens/body/column_products.h"
 #include "buckens/body/nodal_inertia.h"
 #include "buckens/body/second_moments.h"
 #include "buckens/linalg/row_parts.h"
@@ -47,29 +50,19 @@ class Pass {
     if (is_mixed) dd_(b, a) = dd_(a, b);
   }
 
-  /// The same for an integral without zeros, as reduced bodies have them.
+  /// The same for an integral without zeros, as reduced bodies have them: two columns at a time.
   void add_full(const SparseMatrix& W, int a, int b) {
-    const Eigen::Index n = W.rows();
-    const Eigen::Map<const linalg::Matrix> columns(W.valuePtr(), n, n);
-    const bool is_mixed = a != b;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const auto column = columns.col(j);
-      const double Wd = column.dot(d_);
-      dd_(a, b) += Wd * d_[j];
-      dv_(a, b) += Wd * v_[j];
-      da_(a, b) += Wd * a_[j];
-      const double Wv = is_mixed || weights_.with_rate(a, b) != 0.0 ? column.dot(v_) : 0.0;
-      if (!is_mixed) {  // W is symmetric
-        if (loads_) load_[j] += weights_.with_d(a, a) * Wd + weights_.with_rate(a, a) * Wv;
-        continue;
+    const auto n = static_cast<int>(W.rows());
+    for (int j = 0; j < n; j += 2) {
+      // The last of an odd number goes beside itself, unheeded the second time.
+      const int next = std::min(j + 1, n - 1);
+      if (a != b) {
+        add_mixed_columns(W, a, b, j, next);
+      } else {
+        add_symmetric_columns(W, a, j, next);
       }
-      dv_(b, a) += Wv * d_[j];
-      da_(b, a) += column.dot(a_) * d_[j];
-      if (!loads_) continue;
-      load_ += (weights_.with_d(a, b) * d_[j] + weights_.with_rate(a, b) * v_[j]) * column;
-      load_[j] += weights_.with_d(b, a) * Wd + weights_.with_rate(b, a) * Wv;
     }
-    if (is_mixed) dd_(b, a) = dd_(a, b);
+    if (a != b) dd_(b, a) = dd_(a, b);
   }
 
   /// The share of the scalar mass matrix: Ms ⊗ E_ab for all pairs at once.
@@ -92,6 +85,43 @@ class Pass {
   }
 
  private:
+  static const double* column(const SparseMatrix& W, int j) {
+    return W.valuePtr() + static_cast<std::ptrdiff_t>(j) * W.rows();
+  }
+
+  void add_mixed_columns(const SparseMatrix& W, int a, int b, int j, int next) {
+    const auto spread = [&](int k) {
+      return weights_.with_d(a, b) * d_[k] + weights_.with_rate(a, b) * v_[k];
+    };
+    ColumnPair<3> products;
+    products.multiply(column(W, j), column(W, next), static_cast<int>(W.rows()),
+                      {d_.data(), v_.data(), a_.data()}, {spread(j), next > j ? spread(next) : 0.0},
+                      loads_ ? load_.data() : nullptr);
+    for (int k = j; k <= next; ++k) {
+      const auto& [Wd, Wv, Wa] = k == j ? products.first : products.second;
+      dd_(a, b) += Wd * d_[k];
+      dv_(a, b) += Wd * v_[k];
+      da_(a, b) += Wd * a_[k];
+      dv_(b, a) += Wv * d_[k];
+      da_(b, a) += Wa * d_[k];
+      if (loads_) load_[k] += weights_.with_d(b, a) * Wd + weights_.with_rate(b, a) * Wv;
+    }
+  }
+
+  /// Of an integral with equal indices, which is symmetric.
+  void add_symmetric_columns(const SparseMatrix& W, int a, int j, int next) {
+    ColumnPair<2> products;
+    products.multiply(column(W, j), column(W, next), static_cast<int>(W.rows()),
+                      {d_.data(), v_.data()}, {0.0, 0.0}, nullptr);
+    for (int k = j; k <= next; ++k) {
+      const auto& [Wd, Wv] = k == j ? products.first : products.second;
+      dd_(a, a) += Wd * d_[k];
+      dv_(a, a) += Wd * v_[k];
+      da_(a, a) += Wd * a_[k];
+      if (loads_) load_[k] += weights_.with_d(a, a) * Wd + weights_.with_rate(a, a) * Wv;
+    }
+  }
+
   /// Sums over the nodes of one part.
   struct Products {
     Matrix3d dd = Matrix3d::Zero(), dv = Matrix3d::Zero(), da = Matrix3d::Zero();
