@@ -43,6 +43,14 @@ double interface_change(const body::Body& body, const linalg::Vector& dy) {
   return larger(out, dy.tail<6>().cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
 }
 
+/// W⁻¹ f: rotations and translations apart.
+Vector6 frame_answer(const Eigen::Matrix<double, 6, 6>& compliance, const Vector6& f) {
+  Vector6 out;
+  out.head<3>().noalias() = compliance.topLeftCorner<3, 3>() * f.head<3>();
+  out.tail<3>().noalias() = compliance.bottomRightCorner<3, 3>() * f.tail<3>();
+  return out;
+}
+
 }  // namespace
 
 double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
@@ -80,19 +88,32 @@ void BodyIteration::find_residual(const BodyStep& step, const dynamics::BodyMoti
     inertia = dynamics::frame_inertia(*body_, step.moments(*body_, motion), w, w_dot,
                                       acceleration.tail<3>());
   }
-  residual_u = step.compliance * (scheme_.force * (frame_load - inertia));
+  residual_u = frame_answer(step.compliance, scheme_.force * (frame_load - inertia));
   if (op_ == nullptr) return;
   y_moving = step.y_free - step.y_end;
+  const SmallBodyAnswers& small = op_->small_answers();
+  if (!small.empty()) {
+    if (op_->corrects_outside()) {
+      small.add(scheme_.force, step.load, y_moving);
+    } else {
+      small.add(scheme_.force, step.load, step.correction_load, y_moving);
+    }
+    return;
+  }
   y_moving.noalias() += scheme_.force * (op_->compliance() * step.load);
   if (!op_->corrects_outside())
     y_moving.noalias() += op_->correction_answer() * step.correction_load;
 }
 
 void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyResponse& correction) {
-  correction_u = step.compliance * correction.frame_load;
+  correction_u = frame_answer(step.compliance, correction.frame_load);
   if (op_ == nullptr) return;
   // Frames alone close what a changed deformation opens.
   if (op_->is_quasi_static()) correction.interface_load.setZero();
+  if (!op_->small_answers().empty()) {
+    op_->small_answers().correct(correction.interface_load, y_correcting, y_moving);
+    return;
+  }
   y_correcting.noalias() = op_->compliance() * correction.interface_load;
   if (!op_->corrects_outside()) {
     y_moving.noalias() += op_->correction_answer() * correction.interface_load;
@@ -103,14 +124,18 @@ BodyIteration::Moved BodyIteration::advance(BodyStep& step,
                                             const dynamics::BodyResponse& correction,
                                             const dynamics::BodyResponse& response, double L) {
   Moved out;
-  const Vector6 du = residual_u + step.compliance * response.frame_load;
+  const Vector6 du = residual_u + frame_answer(step.compliance, response.frame_load);
   step.u += du;
   step.correction += correction_u;
   out.frame = size_of(du, L) + size_of(correction_u, L);
   out.motion = size_of(step.u, L);
   if (op_ == nullptr || step.y_end.size() == 0) return out;
   change_ = y_moving;
-  change_.noalias() += op_->compliance() * response.interface_load;
+  if (op_->small_answers().empty()) {
+    change_.noalias() += op_->compliance() * response.interface_load;
+  } else {
+    op_->small_answers().add(1.0, response.interface_load, change_);
+  }
   step.y_end += change_;
   step.correction_load += correction.interface_load;
   step.y_correction += y_correcting;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "buckens/linalg/row_parts.h"
@@ -16,7 +17,7 @@ using linalg::Vector;
 namespace {
 
 // Up to this size the dense inverse is quicker than a sparse solve and as accurate.
-constexpr Eigen::Index kSmall = 24;
+constexpr Eigen::Index kSmall = SmallBodyAnswers::kMostVariables;
 
 SparseMatrix step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
   SparseMatrix K_hat = scheme.mass * part.fe.M + scheme.stiffness * part.fe.K;
@@ -111,6 +112,18 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   answer_ = Matrix::Zero(NG_.rows(), NG_.cols());
   if (scheme.weight == 1.0) answer_.leftCols(part.num_interface_rows) = N_ * D_less_G_;
   rigid_row_values_ = N_ * part.sieve.Phi();
+  if (inverse_.size() > 0 && part.num_dofs() < N_.rows()) small_answers_ = answers_by_variables();
+}
+
+SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
+  const Eigen::Index n = inverse_.rows();
+  Matrix B = Matrix::Zero(n, n);
+  if (scheme_.weight == 1.0) {  // as D − G in the constructor
+    Matrix inertia = scheme_.mass * Matrix(part_->fe.M);
+    if (part_->is_damped()) inertia += scheme_.damping * Matrix(part_->C);
+    B = inverse_ * (inertia * inverse_) - inverse_;
+  }
+  return {N_, inverse_, std::move(B)};
 }
 
 SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_); }
@@ -185,6 +198,13 @@ void BodyStepOperator::add_correction_answer(const Eigen::VectorXd& e, Eigen::In
 
 void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vector& y_dot,
                                   Vector& y_ddot, Vector& y_alg, TaskPool* pool) const {
+  if (!small_answers_.empty()) {
+    small_answers_.row_values(state.d, y);
+    small_answers_.row_values(state.d_dot, y_dot);
+    small_answers_.row_values(state.d_ddot, y_ddot);
+    small_answers_.row_values(state.d_alg, y_alg);
+    return;
+  }
   for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(N_.rows());
   for (int row = 0; row < num_interface_rows(); ++row) {
     double sum = 0, sum_dot = 0, sum_ddot = 0, sum_alg = 0;

@@ -9,6 +9,7 @@
 #include "buckens/model/state.h"
 #include "buckens/stepping/inertial_load.h"
 #include "buckens/stepping/scheme.h"
+#include "buckens/stepping/small_body_answers.h"
 
 namespace buckens::stepping {
 
@@ -63,6 +64,8 @@ class BodyStepOperator {
   /// N D − N G: what a correction load changes of the interface values besides the correction
   /// itself. Zero where corrects_outside().
   const linalg::Matrix& correction_answer() const { return answer_; }
+  /// compliance() and correction_answer() of a body with fewer variables than rows; else empty.
+  const SmallBodyAnswers& small_answers() const { return small_answers_; }
   /// Whether the equations hold where the position correction does not appear: then D = G.
   bool corrects_outside() const { return scheme_.weight != 1.0; }
   /// N d, N ḋ, N d̈ and N times the algorithmic accelerations, in one pass over N; patterns that the
@@ -101,6 +104,7 @@ class BodyStepOperator {
  private:
   void find_factor(const linalg::SparseMatrix& K_hat, const BodyStepOperator* twin,
                    linalg::SolveExchange* exchange);
+  SmallBodyAnswers answers_by_variables() const;
   /// X ← Y K̂⁻¹ X, as part of the set-up.
   void solve_columns(linalg::Matrix& X);
 
@@ -115,6 +119,7 @@ class BodyStepOperator {
   linalg::Matrix G_;         // Y K̂⁻¹ Nᵀ
   linalg::Matrix D_less_G_;  // for interface rows, D of a correction's effect on x⁺; empty: D = G
   linalg::Matrix NG_, answer_, interface_, rigid_row_values_;
+  SmallBodyAnswers small_answers_;
   InertialLoad inertial_;
   linalg::Vector scratch_;
   long setup_solves_ = 0;
