@@ -1,5 +1,6 @@
 // What the page tests need to know about an open page.
 import { pathToFileURL } from 'node:url';
+import { decodePng } from './png.mjs';
 
 /** Opens a page and records whatever goes wrong in it or is fetched by it. */
 export async function open(browser, path, options = {}) {
@@ -33,27 +34,11 @@ export const setTime = async (tab, t) => {
   await settle(tab);
 };
 
-/** RGBA pixels of the 3-D view, read back from a screenshot so that it is what a person sees. */
+/** RGBA pixels of the 3-D view from a screenshot: what a person sees. */
 export async function pixels(tab) {
   await settle(tab);
   const box = await tab.locator('.view').boundingBox();
-  const shot = await tab.screenshot({ clip: box });
-  const numbers = await tab.evaluate(async (text) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${text}`;
-    await image.decode();
-    const canvas = document.createElement('canvas');
-    [canvas.width, canvas.height] = [image.width, image.height];
-    const context = canvas.getContext('2d');
-    context.drawImage(image, 0, 0);
-    const { data } = context.getImageData(0, 0, image.width, image.height);
-    let raw = '';
-    for (let i = 0; i < data.length; i += 8192) {
-      raw += String.fromCharCode(...data.subarray(i, i + 8192));
-    }
-    return { width: image.width, height: image.height, text: btoa(raw) };
-  }, shot.toString('base64'));
-  return { ...numbers, data: Buffer.from(numbers.text, 'base64') };
+  return decodePng(await tab.screenshot({ clip: box }));
 }
 
 /** Pixels that differ by more than 24 of 255 in some channel. */
