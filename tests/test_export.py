@@ -150,6 +150,54 @@ def check_fields(grid, results, row, record):
     assert list(vtk_to_numpy(grid.GetCellData().GetArray("body"))) == [0, 0, 1, 1, 1, 1, 2]
 
 
+# A wedge of each order beside one another, and two strips of shells, one with two layers.
+OTHER_CELLS = """
+buckens: 1
+title: Wedges and shells
+materials: {plain: {E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3}}
+bodies:
+  wedges:
+    structure:
+      nodes: {a: [0, 0, 0], b: [1, 0, 0], c: [0, 1, 0], d: [0, 0, 1], e: [1, 0, 1], f: [0, 1, 1],
+              ab: [0.5, 0, 0], bc: [0.5, 0.5, 0], ca: [0, 0.5, 0], de: [0.5, 0, 1], ef: [0.5, 0.5, 1],
+              fd: [0, 0.5, 1], ad: [0, 0, 0.5], be: [1, 0, 0.5], cf: [0, 1, 0.5],
+              g: [0, 0, -1], h: [1, 0, -1], i: [0, 1, -1]}
+      solids:
+        - {nodes: [a, b, c, d, e, f, ab, bc, ca, de, ef, fd, ad, be, cf], material: plain}
+        - {nodes: [g, h, i, a, b, c], material: plain}
+  thin:
+    at: {position: [3 m, 0, 0]}
+    mesh: {plate: {size: [1 m, 1 m], divisions: [1, 1], thickness: 10 mm}, material: plain}
+  layered:
+    at: {position: [6 m, 0, 0]}
+    mesh: {plate: {size: [1 m, 1 m], divisions: [2, 1], layers: [{thickness: 5 mm}, {thickness: 5 mm}]}, material: plain}
+initial: {bodies: {layered: {nodal-velocity: {x: "0.1*x m/s"}}}}
+simulation: {duration: 20 us, step: 10 us}
+output: {every: 10 us, fields: [stress]}
+"""
+
+
+def test_wedges_and_shells_of_different_layers_read_right(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(OTHER_CELLS)
+    buckens("run", "model.yaml", "-o", "out", "-q").must(0)
+    buckens("export", "out", "--vtk", "--at", "20e-6").must(0)
+    grid = read_grid(tmp_path / "out" / "export" / "out_0000.vtu")
+    assert [grid.GetCellType(c) for c in range(2)] == [26, 13]
+    sizes = vtk.vtkCellSizeFilter()
+    sizes.SetInputData(grid)
+    sizes.Update()
+    assert vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))[:2] == pytest.approx([0.5, 0.5])
+    with h5py.File(tmp_path / "out" / "results.h5", "r", swmr=True) as file:
+        thin = file["fields/bodies/thin/shells/stress"][-1]
+        layered = file["fields/bodies/layered/shells/stress"][-1]
+    assert thin.shape == (1, 2, 3) and layered.shape == (2, 4, 3) and numpy.abs(layered).max() > 1e3
+    stress = vtk_to_numpy(grid.GetCellData().GetArray("shell_stress"))
+    assert stress.shape == (5, 12)
+    assert (stress[2, :6] == thin.ravel()).all() and numpy.isnan(stress[2, 6:]).all()
+    assert (stress[3:] == layered.reshape(2, 12)).all()
+    assert numpy.isnan(stress[:2]).all()
+
+
 def test_single_instants_can_be_asked_for(exported):
     report = json.loads(exported("--vtk", "--at", "0.0041", "--at", "0.01", "--json").out)
     assert report["vtk"]["instants"] == 2

@@ -80,7 +80,7 @@ BodyGrid make_grid(const results::GeometryBody& body) {
 /// Data arrays by name; what a body does not have is NaN.
 class Arrays {
  public:
-  /// Appends values of one body, or that many NaN to all arrays that get none.
+  /// Appends values of one body. Bodies of fewer layers than others have NaN for the rest.
   void put(const results::Channel& channel, const std::string& name, std::vector<float> values) {
     const int width = width_of(channel);
     auto [at, is_new] = arrays_.try_emplace(name);
@@ -90,7 +90,13 @@ class Arrays {
                     are_named ? channel.components : std::vector<std::string>{}};
     }
     auto& all = std::get<std::vector<float>>(at->second.values);
+    if (at->second.components < width) {
+      all = widened(all, at->second.components, width);
+      at->second.components = width;
+      at->second.component_names.clear();
+    }
     const auto components = static_cast<std::size_t>(at->second.components);
+    values = widened(values, width, at->second.components);
     all.resize(count_ * components, kNoValue);
     all.insert(all.end(), values.begin(), values.end());
   }
@@ -108,6 +114,19 @@ class Arrays {
   }
 
  private:
+  /// Rows of `from` numbers with NaN behind them up to `to` numbers.
+  static std::vector<float> widened(const std::vector<float>& values, int from, int to) {
+    if (from == to) return values;
+    const auto width = static_cast<std::size_t>(from);
+    std::vector<float> out;
+    for (std::size_t row = 0; row * width < values.size(); ++row) {
+      out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(row * width),
+                 values.begin() + static_cast<std::ptrdiff_t>((row + 1) * width));
+      out.resize((row + 1) * static_cast<std::size_t>(to), kNoValue);
+    }
+    return out;
+  }
+
   std::map<std::string, VtuArray> arrays_;
   std::size_t count_ = 0;
 };

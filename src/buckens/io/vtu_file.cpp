@@ -148,8 +148,19 @@ std::uint8_t vtk_cell_type(fem::CellKind kind) {
   return types[static_cast<std::size_t>(kind)];
 }
 
+namespace {
+
+/// VTK wants the normal of a wedge's first triangle to look outwards; ours look to the second one,
+/// as in Abaqus and Gmsh. The order of the nodes for VTK, those on edges behind the corners.
+constexpr std::array<std::size_t, 15> kWedge = {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13};
+
+}  // namespace
+
 void VtuGrid::add_cell(fem::CellKind kind, std::span<const int> nodes) {
-  connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
+  const bool is_wedge = kind == fem::CellKind::wedge6 || kind == fem::CellKind::wedge15;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    connectivity.push_back(nodes[is_wedge ? kWedge[k] : k]);
+  }
   offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   types.push_back(vtk_cell_type(kind));
 }

@@ -34,6 +34,7 @@ struct VtuGrid {
   std::vector<VtuArray> point_data, cell_data;
   std::vector<VtuArray> field_data;  ///< of any length, for instance TimeValue
 
+  /// @param nodes in the order of Abaqus; VTK's differs for wedges
   void add_cell(fem::CellKind kind, std::span<const int> nodes);
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/vtu_file.h"
 
+#include <array>
 #include <cstring>
+#include <span>
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -68,6 +70,19 @@ TEST(VtuFile, UnpacksToWhatWasWritten) {
             (std::vector<std::int64_t>{0, 1, 2, 3, 4, 19999}));
   EXPECT_EQ(unpacked<std::int64_t>(file, "offsets"), (std::vector<std::int64_t>{4, 6}));
   EXPECT_EQ(unpacked<std::uint8_t>(file, "types"), (std::vector<std::uint8_t>{10, 3}));
+}
+
+TEST(VtuFile, TurnsWedgesAsVtkWantsThem) {
+  // VTK's own reading of a wedge of either kind in this order gives a positive volume.
+  VtuGrid grid;
+  std::array<int, 15> nodes;
+  for (int k = 0; k < 15; ++k) nodes[static_cast<std::size_t>(k)] = 10 + k;
+  grid.add_cell(fem::CellKind::wedge6, std::span(nodes).first<6>());
+  grid.add_cell(fem::CellKind::wedge15, nodes);
+  EXPECT_EQ(grid.connectivity,
+            (std::vector<std::int64_t>{10, 12, 11, 13, 15, 14, 10, 12, 11, 13, 15,
+                                       14, 18, 17, 16, 21, 20, 19, 22, 24, 23}));
+  EXPECT_EQ(grid.offsets, (std::vector<std::int64_t>{6, 21}));
 }
 
 TEST(VtuFile, RefusesArraysOfAnotherLength) {
