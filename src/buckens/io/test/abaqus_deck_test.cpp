@@ -222,6 +222,21 @@ TEST(AbaqusBeams, SectionsAndDirectionsAreTaken) {
   EXPECT_EQ(own->rho, 2700.0);
 }
 
+TEST(AbaqusBeams, SectionsOfOneNameInTwoPartsKeepTheirMaterials) {
+  const ImportedMesh mesh = read("beam_parts.inp");
+  ASSERT_EQ(mesh.properties.size(), 2u);
+  std::vector<double> moduli;
+  for (const auto& property : mesh.properties) {
+    moduli.push_back(base::find_named(mesh.materials, property.material)->E);
+  }
+  EXPECT_THAT(moduli, ElementsAre(70e9, 210e9));
+  // The third node lies beside the first; both halves of a quadratic beam look from there.
+  const auto& beams = block_of(mesh, "B32");
+  ASSERT_EQ(beams.up.size(), 2u);
+  EXPECT_LT((beams.up[0] - Eigen::Vector3d(0, -1, 1).normalized()).norm(), 1e-15);
+  EXPECT_LT((beams.up[1] - Eigen::Vector3d(0.5, -1, 1).normalized()).norm(), 1e-15);
+}
+
 TEST(AbaqusBeams, WallsOfTwoThicknessesGiveTheConstantsOfTheBox) {
   const ImportedMesh mesh = read("lines.inp");
   const auto& box =
@@ -295,6 +310,9 @@ TEST(AbaqusAssembly, CouplingsBecomeLinksAndAverages) {
   EXPECT_THAT(labels(mesh, lead.nodes), ElementsAre(15, 16, 17, 18));
   ASSERT_EQ(mesh.averages.size(), 1u);
   EXPECT_THAT(labels(mesh, mesh.averages[0].nodes), ElementsAre(15, 16, 17, 18));
+  // A quarter of the face of size one each; rotations about x and z are released.
+  EXPECT_THAT(mesh.averages[0].weights, ElementsAre(0.25, 0.25, 0.25, 0.25));
+  EXPECT_THAT(mesh.averages[0].variables, ElementsAre(true, true, true, false, true, false));
   EXPECT_EQ(mesh.node_ids[static_cast<std::size_t>(mesh.rigid_links[1].reference)], 31);
   EXPECT_THAT(note(mesh, "*TIE").text, HasSubstr("hold together"));
 }
@@ -315,17 +333,29 @@ TEST(AbaqusConstraints, MultiPointConstraintsJoinSetsByNumber) {
   EXPECT_EQ(mesh.equations[9].terms[1].coefficient, -1.0);
 }
 
+TEST(AbaqusConstraints, LinksKeepTheDistanceOfTheirNodes) {
+  const ImportedMesh mesh = read("constraints.inp");
+  // Between node 8 at (1, 0, 1) and node 5 at (0, 3, 0): (1, −3, 1)/√11, the largest part first.
+  const auto& terms = mesh.equations.at(12).terms;
+  ASSERT_EQ(terms.size(), 6u);
+  EXPECT_EQ(mesh.node_ids[static_cast<std::size_t>(terms[0].node)], 8);
+  EXPECT_EQ(terms[0].variable, 1);
+  EXPECT_NEAR(terms[0].coefficient, -3 / std::sqrt(11.0), 1e-15);
+  EXPECT_NEAR(terms[1].coefficient, 3 / std::sqrt(11.0), 1e-15);
+  EXPECT_NEAR(terms[2].coefficient, 1 / std::sqrt(11.0), 1e-15);
+}
+
 TEST(AbaqusConstraints, EquationsHaveTheirTermsInAxesOfTheMesh) {
   const ImportedMesh mesh = read("constraints.inp");
-  ASSERT_EQ(mesh.equations.size(), 6u + 6u + 2u + 1u + 2u);
-  EXPECT_EQ(mesh.equations[12].terms[0].node, 0);  // sets are gone through by number
-  const auto& three = mesh.equations[14].terms;
+  ASSERT_EQ(mesh.equations.size(), 6u + 6u + 1u + 2u + 1u + 2u);
+  EXPECT_EQ(mesh.equations[13].terms[0].node, 0);  // sets are gone through by number
+  const auto& three = mesh.equations[15].terms;
   ASSERT_EQ(three.size(), 3u);
   EXPECT_EQ(three[1].variable, 3);
   EXPECT_EQ(three[1].coefficient, 0.5);
   // Direction 1 of node 7 is y of the mesh; that of node 8, at (1, 0, 1), is radial: x.
-  EXPECT_EQ(mesh.equations[15].terms[0].variable, 1);
-  EXPECT_EQ(mesh.equations[16].terms[0].variable, 0);
+  EXPECT_EQ(mesh.equations[16].terms[0].variable, 1);
+  EXPECT_EQ(mesh.equations[17].terms[0].variable, 0);
 }
 
 TEST(AbaqusConstraints, RigidBodiesTakeElementsAndPinnedNodes) {

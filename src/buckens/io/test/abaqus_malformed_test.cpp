@@ -87,6 +87,36 @@ TEST_F(AbaqusMalformed, HugeNumbersCostNoMemory) {
   refuses(with_nodes("*NSET, NSET=A, GENERATE\n1, 8, 0\n"), {"the step"});
 }
 
+TEST_F(AbaqusMalformed, OverlappingRangesCostNoMoreThanTheirNodes) {
+  std::string text = std::string(kNodes) + "*NSET, NSET=A, GENERATE\n";
+  for (int k = 0; k < 20000; ++k) text += "1, 99999999, 1\n1, 8, 1\n";
+  const auto mesh = read_abaqus_deck(write("deck.inp", text));
+  EXPECT_EQ(mesh.node_sets.at(0).nodes.size(), 8u);
+}
+
+TEST_F(AbaqusMalformed, ManyInstancesAreLookedUpAtOnce) {
+  // 3000 instances, and as many references to them: nothing may go through all for each.
+  std::string text = "*PART, NAME=P\n*NODE\n1,0,0,0\n*END PART\n*ASSEMBLY, NAME=A\n";
+  std::string set = "*NSET, NSET=ALL\n";
+  for (int k = 0; k < 3000; ++k) {
+    text += fmt::format("*INSTANCE, NAME=I{0}, PART=P\n{0}, 0, 0\n*END INSTANCE\n", k);
+    set += fmt::format("I{}.1\n", k);
+  }
+  const auto mesh = read_abaqus_deck(write("deck.inp", text + set + "*END ASSEMBLY\n"));
+  EXPECT_EQ(mesh.node_sets.at(0).nodes.size(), 3000u);
+  refuses(text + "*INSTANCE, NAME=i7, PART=P\n", {"instance \"i7\"", "second time"});
+}
+
+TEST_F(AbaqusMalformed, DataThatAKeywordLineSwallows) {
+  refuses("*NODE,\n1, 0, 0, 0\n", {"deck.inp:1:1", "\"1\" is no parameter of *NODE", "comma"});
+}
+
+TEST_F(AbaqusMalformed, ASetMayHaveANumberForItsName) {
+  const auto mesh = read_abaqus_deck(write("deck.inp", with_nodes("*NSET, NSET=3\n5, 6\n")));
+  ASSERT_EQ(mesh.node_sets.size(), 1u);
+  EXPECT_EQ(mesh.node_sets[0].nodes, (std::vector<int>{4, 5}));
+}
+
 TEST_F(AbaqusMalformed, ElementsThatAreNone) {
   refuses(with_nodes("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7\n"),
           {"deck.inp:11:1", "C3D8 has 8 nodes", "here are 7"});
@@ -186,6 +216,15 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n1\n"), {"TYPE=ANISOTROPIC"});
   refuses(with_nodes(steel + steel), {"defined twice"});
   refuses(with_nodes("*ORIENTATION, NAME=O\n1,0,0,2,0,0\n"), {"on one line"});
+  refuses(shell + "*SHELL GENERAL SECTION, ELSET=E\n1e5,1e4,1e5\n", {"by its stiffnesses"});
+  refuses(shell + "*SHELL SECTION, ELSET=E, NODAL THICKNESS\n1\n", {"thicknesses that vary"});
+  const std::string tet = with_nodes("*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1,2,3,5\n");
+  refuses(tet +
+              "*MATERIAL, NAME=L\n*ELASTIC, TYPE=LAMINA\n9,1,.3,1,1,1\n"
+              "*SOLID SECTION, ELSET=E, MATERIAL=L\n",
+          {"deck.inp:15:1", "TYPE=LAMINA", "ENGINEERING CONSTANTS"});
+  refuses(with_nodes("*ELEMENT, TYPE=ROTARYI, ELSET=R\n1, 1\n*ROTARY INERTIA, ELSET=R\n1,1,1,5\n"),
+          {"deck.inp:13:1", "principal moment of inertia", "negative"});
 }
 
 TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
@@ -194,7 +233,8 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(with_nodes("*EQUATION\n1000000000\n1,1,1.\n"), {"number of terms"});
   refuses(with_nodes("*EQUATION\n2\n1,7,1.,2,1,-1.\n"), {"\"7\" is no degree of freedom"});
   refuses(with_nodes("*EQUATION\n2\n1,1,0.,2,1,-1.\n"), {"first coefficient is zero"});
-  refuses(with_nodes("*MPC\nLINK, 1, 2\n"), {"type \"LINK\" is not supported"});
+  refuses(with_nodes("*MPC\nSLIDER, 1, 2, 3\n"), {"type \"SLIDER\" is not supported", "LINK"});
+  refuses(with_nodes("*NODE\n9,0,0,0\n*MPC\nLINK, 1, 9\n"), {"deck.inp:13:1", "at one place"});
   refuses(with_nodes("*MPC\nBEAM, 1\n"), {"has two nodes"});
   refuses(with_nodes("*MPC\nPIN, 1, 1\n"), {"joins a node to itself"});
   refuses(with_nodes("*RIGID BODY, REF NODE=1\n"), {"needs ELSET"});
@@ -202,6 +242,14 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(with_nodes("*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=S\n*NSET, NSET=A\n1\n"),
           {"followed by *KINEMATIC"});
   refuses(with_nodes("*KINEMATIC\n1,3\n"), {"below a *COUPLING"});
+  refuses(with_nodes("*NSET, NSET=A\n*EQUATION\n2\nA,1,1.,2,1,-1.\n"), {"have 0 and 0 nodes"});
+  refuses(with_nodes("*NSET, NSET=A\n*MPC\nPIN, A, A\n"), {"have 0 and 0 nodes"});
+  const std::string surface = with_nodes("*SURFACE, NAME=S, TYPE=NODE\n2\n3\n4\n");
+  refuses(with_nodes("*SURFACE, NAME=S, TYPE=NODE\n2, -1.\n"), {"deck.inp:11:1", "positive"});
+  const std::string turned =
+      surface + "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=S, ORIENTATION=O\n";
+  refuses(turned + "*KINEMATIC\n1, 2\n", {"deck.inp:14:1", "give ORIENTATION up"});
+  refuses(turned + "*KINEMATIC\n3, 1\n", {"deck.inp:16:1", "lies before the first"});
 }
 
 }  // namespace

@@ -181,6 +181,41 @@ TEST(NastranCards, springs_along_their_nodes_need_no_links) {
   EXPECT_TRUE(has_note(grounded, "to ground"));
 }
 
+TEST(NastranCards, means_by_components) {
+  const auto mesh = read_deck(kTetra +
+                              "RBE3,8,,1,1356,1.,123,2,3\n,4\n"
+                              "RBE3,9,,1,123,2.,1,2,3.\n,12,3,4,UM,2,123\n");
+  ASSERT_EQ(mesh.averages.size(), 2u);
+  using Six = std::array<bool, 6>;
+  EXPECT_EQ(mesh.averages[0].variables, (Six{true, false, true, false, true, true}));
+  EXPECT_TRUE(mesh.averages[0].components.empty());
+  EXPECT_EQ(mesh.averages[1].variables, (Six{true, true, true, false, false, false}));
+  EXPECT_EQ(mesh.averages[1].nodes, (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(mesh.averages[1].weights, (std::vector<double>{2, 3, 3}));
+  using Three = std::array<bool, 3>;
+  EXPECT_EQ(mesh.averages[1].components,
+            (std::vector<Three>{{true, false, false}, {true, true, false}, {true, true, false}}));
+}
+
+TEST(NastranCards, tapered_shapes_need_no_word_for_their_stresses) {
+  for (const char* station : {"YES,1.", "NO,", ",1.", ","}) {
+    const auto mesh = read_deck(
+        "GRID,1\nGRID,2,,1.\nCBEAM,1,1,1,2,0.,1.,0.\nMAT1,1,1.,,.3\n"
+        "PBEAML,1,1,,BAR\n,4.,8.,," +
+        std::string(station) + ",2.,6.\n");
+    const auto bar = std::get<fem::RectangleSpec>(mesh.properties.at(0).section->shape);
+    EXPECT_EQ(bar.height, 3.0) << station;
+    EXPECT_EQ(bar.width, 7.0) << station;
+  }
+}
+
+TEST(NastranCards, blank_shear_moduli_across_shells_are_noted) {
+  const std::string shell = "PSHELL,2,2,.1,2\nCTRIA3,2,2,1,2,3\n";
+  const auto mesh = read_deck(kTetra + "MAT8,2,9.,1.,.3,.5\n" + shell);
+  EXPECT_EQ(mesh.materials.at(1).orthotropic->G13, 0.5);
+  EXPECT_TRUE(has_note(mesh, "G12 is taken"));
+}
+
 TEST(NastranCards, a_mass_may_be_placed_in_the_basic_system) {
   const auto mesh = read_deck("GRID,1,,1.,1.,1.\nCONM2,1,1,-1,2.,1.,2.,3.\n");
   EXPECT_EQ(mesh.masses.at(0).offset, Vector3d(0, 1, 2));

@@ -99,7 +99,16 @@ TEST(NastranMalformed, what_is_refused_says_why) {
                {"orientation vector is along the beam"});
   expect_words(refusal(kTetra + "PCOMP,2,,,,,,,MEM\n,1,1.\nCTRIA3,2,2,1,2,3\n"), {"LAM = MEM"});
   expect_words(refusal(kTetra + "RBAR,2,1,2,123,456\n"), {"one end must have all six"});
-  expect_words(refusal(kTetra + "RBE3,2,,1,12,1.,123,2,3,4\n"), {"REFC must hold 1, 2 and 3"});
+  expect_words(refusal(kTetra + "RBE3,2,,1,,1.,123,2,3,4\n"), {"give the components REFC"});
+  expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,456,2,3\n,4\n"),
+               {"deck.bdf:8:18", "means of rotations alone"});
+  expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,123,2,THRU\n,4\n"),
+               {"THRU stands where a node should"});
+  expect_words(refusal("CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n" + kTetra +
+                       "GRID,9,,1.,1.,1.,7\nRBE3,2,,1,123,1.,1,2,3\n,9\n"),
+               {"single components at GRID 9"});
+  expect_words(refusal(kTetra + "PBEAML,2,1,,BAR\n,1.,2.,,3.,1.\nCBEAM,2,2,1,2,0.,0.,1.\n"),
+               {"\"3.\" stands where SO should", "2 dimensions"});
   expect_words(refusal(kTetra + "MAT9,3,3.,1.,1.,.5,,,3.\n,1.,,,,3.\n,1.,,,1.,,1.\n"
                                 "PSOLID,2,3\nCTETRA,2,2,1,2,3,4\n"),
                {"couples tension and shear"});
