@@ -120,10 +120,27 @@ class MatrixReader {
       add_plain();
     }
     const auto found = static_cast<std::int64_t>(out_.entries.size());
-    if (found == announced) return;
-    fail(lines_.number(), fmt::format("{} entries are announced, {} are there; the file seems to "
-                                      "be cut off",
-                                      announced, found));
+    if (found != announced) {
+      fail(lines_.number(), fmt::format("{} entries are announced, {} are there; the file seems to "
+                                        "be cut off",
+                                        announced, found));
+    }
+    check_triangle();
+  }
+
+  /// A symmetric matrix has one triangle in the file; of two each entry would count twice.
+  void check_triangle() const {
+    if (!out_.is_triangle) return;
+    const MatrixEntry* above = nullptr;
+    const MatrixEntry* below = nullptr;
+    for (const MatrixEntry& entry : out_.entries) {
+      if (entry.row < entry.column && above == nullptr) above = &entry;
+      if (entry.row > entry.column && below == nullptr) below = &entry;
+    }
+    if (above == nullptr || below == nullptr) return;
+    fail(std::max(above->line, below->line),
+         "the matrix is said to be symmetric, of which one triangle is written, but there are "
+         "entries on both sides of the diagonal; write \"general\" in the first line");
   }
 
   /// Column by column; of symmetric matrices from the diagonal downwards.

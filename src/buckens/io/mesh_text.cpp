@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/mesh_text.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/io/deck_number.h"
 
 namespace buckens::io {
 
@@ -27,16 +27,6 @@ std::string shown(std::string_view word) {
 }
 
 }  // namespace
-
-bool parse_real(std::string_view text, double& out) {
-  std::array<char, 64> room;
-  if (text.empty() || text.size() > room.size()) return false;
-  if (text.front() == '+') text.remove_prefix(1);
-  std::size_t size = 0;
-  for (const char c : text) room[size++] = c == 'd' || c == 'D' ? 'e' : c;
-  const auto result = std::from_chars(room.data(), room.data() + size, out);
-  return result.ec == std::errc() && result.ptr == room.data() + size && std::isfinite(out);
-}
 
 void MeshText::fail(const std::string& text) const {
   const std::size_t at = std::max(word_start_, line_start_);
@@ -132,11 +122,11 @@ std::size_t MeshText::count(std::string_view what, std::size_t bytes_each) {
 
 double MeshText::number(std::string_view what) {
   const std::string_view text = word(what);
-  double out = 0;
-  if (!parse_real(text, out)) {
+  const auto out = deck_number(text);
+  if (!out) {
     fail(fmt::format("\"{}\" stands where {} should stand, a finite number", shown(text), what));
   }
-  return out;
+  return *out;
 }
 
 std::size_t MeshText::binary_count(std::string_view what, std::size_t bytes_each) {

@@ -84,8 +84,4 @@ class MeshText {
   int word_line_ = 1;
 };
 
-/// A real number as people and Fortran write it: "1", "+1.5", "1d3". @return false if it is none,
-/// or not finite
-bool parse_real(std::string_view text, double& out);
-
 }  // namespace buckens::io

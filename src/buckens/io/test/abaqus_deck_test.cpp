@@ -92,6 +92,13 @@ TEST(AbaqusSolids, EveryKindOfSolidArrivesWithItsNodesInOrder) {
             Eigen::Vector3d(10, 10, 10));
 }
 
+TEST(AbaqusSolids, FullIntegrationAndPlainTrianglesNeedNoNote) {
+  const ImportedMesh mesh = read("kinds.inp");
+  EXPECT_EQ(block_of(mesh, "C3D20").kind, CellKind::hex20);
+  EXPECT_EQ(block_of(mesh, "S3").kind, CellKind::tri3);
+  EXPECT_EQ(note(mesh, "C3D20").count, 0);
+}
+
 TEST(AbaqusSolids, SetsAddUpAndMayHoldSetsRangesAndNodesOfElements) {
   const ImportedMesh mesh = read("solids.inp");
   EXPECT_THAT(set_labels(mesh, "BOTTOM"), ElementsAre(1, 2, 3, 4));

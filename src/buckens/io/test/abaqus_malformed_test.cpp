@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/source_directory.h"
 #include "buckens/io/abaqus_deck.h"
 #include "buckens/io/test/sample_run.h"
 
@@ -177,6 +178,27 @@ TEST_F(AbaqusMalformed, CirclesAndCascadesOfIncludedFilesEnd) {
   }
   write("c30.inc", "**\n");
   refuses("*INCLUDE, INPUT=c0.inc\n", {"in all"});
+}
+
+TEST_F(AbaqusMalformed, EveryBeginningOfADeckIsReadOrRefused) {
+  const fs::path folder = fs::path(buckens::test::kSourceDirectory) / "tests/decks/abaqus";
+  fs::copy(folder / "solids_nodes.inc", folder_ / "solids_nodes.inc");
+  int num_refused = 0;
+  for (const char* name : {"assembly.inp", "constraints.inp", "lines.inp", "solids.inp"}) {
+    std::ifstream stream(folder / name);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    ASSERT_GT(text.size(), 500u) << name;
+    for (std::size_t size = 0; size < text.size(); size += 5) {
+      const fs::path path = write("deck.inp", text.substr(0, size));
+      try {
+        read_abaqus_deck(path);
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("deck.inp"));
+        ++num_refused;
+      }
+    }
+  }
+  EXPECT_GT(num_refused, 300);
 }
 
 TEST_F(AbaqusMalformed, WhatIsCutOffOrNestedWrongly) {

@@ -145,6 +145,9 @@ TEST_F(MatrixBody, MalformedMatricesAreRefusedWithFileAndLine) {
   with("%%MatrixMarket matrix array real general\n6 6\n1 2 3\n", {"column 1 of 6", "cut off"});
   with("%%MatrixMarket matrix coordinate real general\n6 6 2\n1 2 5\n2 1 4\n", {"not symmetric"});
   with("%%MatrixMarket matrix coordinate real symmetric\n9 9 1\n1 1 1\n", {"9 rows"});
+  with("%%MatrixMarket matrix coordinate real symmetric\n6 6 3\n1 1 5\n4 1 -5\n1 4 -5\n",
+       {"k.mtx:5:1", "both sides", "general"});
+  with("%%MatrixMarket matrix coordinate real symmetric\n6 6 1\n1 x 1\n", {"k.mtx:3:1", "\"x\""});
   with("1,1,1,1\n", {"here are 4 values"});
   with("1 1 5.0\n1 1\n", {"k.mtx:2:1", "2 values"});
   with("7,1,7,8,1.0\n", {"degree of freedom", "\"8\""});
@@ -154,6 +157,29 @@ TEST_F(MatrixBody, MalformedMatricesAreRefusedWithFileAndLine) {
   with("1 1 5\n" + std::string(1, '\0'), {"no text"});
   spec_.stiffness = "missing.mtx";
   EXPECT_THROW(read(), IoError);
+}
+
+TEST_F(MatrixBody, GarbageAndTornFilesEndInAMessage) {
+  std::string garbage;
+  unsigned state = 1;
+  for (int k = 0; k < 20000; ++k) {
+    state = state * 1664525u + 1013904223u;
+    garbage.push_back(static_cast<char>(1 + (state >> 24) % 255));
+  }
+  const std::string good = "%%MatrixMarket matrix coordinate real symmetric\n6 6 2\n1 1 5\n4 4 5\n";
+  for (const std::string& text : {garbage, "%%MatrixMarket " + garbage, good + garbage}) {
+    write("k.mtx", text);
+    EXPECT_THROW(read(), InputError);
+  }
+  // Whatever is missing at the end, but for the line end and the last digits of a number.
+  for (std::size_t size = 0; size + 2 < good.size(); ++size) {
+    write("k.mtx", good.substr(0, size));
+    EXPECT_THROW(read(), InputError) << size;
+  }
+  write("k.mtx", good);
+  read();
+  write("nodes.csv", garbage);
+  EXPECT_THROW(read(), InputError);
 }
 
 TEST_F(MatrixBody, MalformedTablesAreRefusedWithFileAndLine) {

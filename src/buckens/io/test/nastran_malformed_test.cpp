@@ -144,6 +144,13 @@ TEST(NastranInclude, files_are_put_in_place) {
   EXPECT_TRUE(test::has_note(mesh, "longname.bdf: FORCE"));
 }
 
+TEST(NastranInclude, files_stand_beside_the_deck) {
+  const auto mesh = read_nastran_deck(std::filesystem::path(buckens::test::kSourceDirectory) /
+                                      "tests/decks/nastran/include.bdf");
+  EXPECT_EQ(mesh.num_nodes(), 4);
+  EXPECT_EQ(mesh.num_elements(), 1);
+}
+
 TEST(NastranInclude, circles_doubles_and_missing_files_are_refused) {
   expect_words(
       refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'b.bdf'\n"}, {"b.bdf", "INCLUDE a.bdf"}}),
@@ -163,6 +170,19 @@ TEST(NastranInclude, circles_doubles_and_missing_files_are_refused) {
 TEST(NastranInclude, only_regular_files) {
   EXPECT_THROW(load_nastran_file("/dev/zero"), IoError);
   EXPECT_THROW(load_nastran_file("/"), IoError);
+}
+
+TEST(NastranMalformed, garbage) {
+  unsigned state = 1;
+  for (const std::string& start : {std::string(), "BEGIN BULK\n" + kTetra, kTetra + "GRID,9,"}) {
+    std::string text = start;
+    for (int k = 0; k < 20000; ++k) {
+      state = state * 1664525u + 1013904223u;
+      text.push_back(static_cast<char>(1 + (state >> 24) % 255));
+    }
+    expect_words(refusal(text), {"deck.bdf:"});
+    EXPECT_NE(refusal(text), "");
+  }
 }
 
 TEST(NastranMalformed, every_beginning_of_a_deck_is_read_or_refused) {
