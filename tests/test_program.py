@@ -8,7 +8,8 @@ import pytest
 
 from conftest import SOURCE
 
-VERBS = ["run", "check", "modes", "view", "schema", "reference", "version"]
+VERBS = ["run", "sweep", "static", "check", "modes", "compare", "mesh-info", "convert", "view", "export",
+         "plot", "schema", "reference", "version"]
 
 
 def test_version_is_that_of_the_file(buckens):
@@ -39,10 +40,22 @@ def test_every_verb_explains_itself(buckens, verb):
         assert f"buckens {verb}" in page, "a worked example"
 
 
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_option_stands_in_the_reference(buckens, verb):
+    """In the list at the head of the page, or in the section of the verb."""
+    page = (SOURCE / "docs" / "reference" / "command-line.md").read_text()
+    section = re.search(rf"\n## [^\n]*\b{verb}\b[^\n]*\n(.*?)(?=\n## |\Z)", page, re.DOTALL)
+    lines = [line for line in page.split("\n") if line.startswith(f"buckens {verb}")]
+    assert section and lines, f"the page does not know {verb}"
+    told = section.group(1) + "".join(lines)
+    options = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", buckens(verb, "--help").must(0).out))
+    # Told once for all: --json prints the same as text; -o is what pages call --out.
+    assert {option for option in options - {"--help", "--json", "--out"} if option not in told} == set()
+
+
 def test_help_names_verbs_and_exit_codes(buckens):
     page = buckens("--help").must(0).out
-    for verb in VERBS:
-        assert re.search(rf"^  {verb}\b", page, re.MULTILINE), verb
+    assert set(re.findall(r"^  ([a-z][a-z-]*)  ", page, re.MULTILINE)) == set(VERBS)
     for code in ["0", "1", "2", "3", "4", "5", "130"]:
         assert re.search(rf"^  {code} ", page, re.MULTILINE), code
     assert "docs/reference/command-line.md" in page
