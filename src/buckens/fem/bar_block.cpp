@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Dofs = std::array<int, 6>;
+using BarDofs = std::array<int, 6>;
 
 ShapePolynomial<6> linear_shape() {
   ShapePolynomial<6> shape;
@@ -108,7 +108,7 @@ void BarBlock::add_stiffness(const MeshView& mesh, StiffnessSum& sum) const {
     const double stiffness = element.material.E * element.section.A / at.length;
     Eigen::Matrix<double, 6, 6> K = strain * strain.transpose();
     K *= stiffness;  // after the product, so that rounding stays symmetric
-    const Dofs dofs = element_dofs<3>(mesh.dofs, element.ends);
+    const BarDofs dofs = element_dofs<3>(mesh.dofs, element.ends);
     scatter<6>(K, dofs, 1.0, sum.K);
     if (element.material.damping_stiffness != 0.0) {
       scatter<6>(K, dofs, element.material.damping_stiffness, sum.K_damping);
@@ -122,7 +122,7 @@ void BarBlock::add_force_rows(const MeshView& mesh, int first_element,
   for (const Element& element : elements_) {
     const Line at = line(mesh.nodes, element.ends);
     const double stiffness = element.material.E * element.section.A / at.length;
-    const Dofs dofs = element_dofs<3>(mesh.dofs, element.ends);
+    const BarDofs dofs = element_dofs<3>(mesh.dofs, element.ends);
     for (int j = 0; j < 6; ++j) {
       const int column = dofs[static_cast<std::size_t>(j)];
       const double value = (j < 3 ? -stiffness : stiffness) * at.direction[j % 3];

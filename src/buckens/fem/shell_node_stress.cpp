@@ -92,14 +92,14 @@ class ShellNodeStresses::Grouping {
 
   explicit Grouping(const FeModel& fe) : fe_(fe), at_node_(fe.nodes.size()) {
     for (const auto& block : fe.blocks) {
-      const auto* shells = dynamic_cast<const ShellBlock*>(block.get());
-      for (int e = 0; shells != nullptr && e < shells->num_elements(); ++e) {
-        const auto nodes = shells->nodes(e);
+      const auto* source = dynamic_cast<const ShellBlock*>(block.get());
+      for (int e = 0; source != nullptr && e < source->num_elements(); ++e) {
+        const auto nodes = source->nodes(e);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           at_node_[static_cast<std::size_t>(nodes[k])].push_back(
-              {static_cast<int>(this->shells.size()), k});
+              {static_cast<int>(shells.size()), k});
         }
-        this->shells.push_back({shells, e, number_of(shells->shell_section(e))});
+        shells.push_back({source, e, number_of(source->shell_section(e))});
       }
     }
   }
