@@ -102,6 +102,8 @@ output:
 
 
 @pytest.mark.parametrize("link", ["{averages: [{reference: hub, nodes: [e, f, g, h]}]}",
+                                  "{averages: [{reference: hub, nodes: [e, f, g, h], variables: [x, "
+                                  "y, z, rotation-x, rotation-y, rotation-z]}]}",
                                   "{rigid: [{reference: hub, nodes: [e, f, g, h]}]}"])
 def test_reference_nodes_carry_masses_and_joints(buckens, tmp_path, link):
     text = PLATE.replace("{LINK}", link).replace(", at: disc/hub}}", "}}").replace(
@@ -130,6 +132,7 @@ def test_reference_nodes_carry_masses_and_joints(buckens, tmp_path, link):
     ("averages: [{reference: b, nodes: [c, d]}]", 3, ["the average of line", "on one line"]),
     ("springs: [{between: [d, d], translation: [1, 1, 1]}]", 3, ["both ends are the same node"]),
     ("rigid: [{reference: b, nodes: [c], variables: [w]}]", 2, ["variables"]),
+    ("averages: [{reference: b, nodes: [c, d], variables: [u]}]", 2, ["variables"]),
 ])
 def test_impossible_links_are_refused(buckens, tmp_path, more, code, words):
     text = more if more.startswith(("rigid", "averages")) else (

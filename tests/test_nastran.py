@@ -143,6 +143,26 @@ def test_bad_decks_say_where(buckens, tmp_path, change, words):
     buckens("check", "model.yaml").must(2, *words)
 
 
+def test_a_mean_takes_the_components_that_count(solved, buckens, tmp_path):
+    # A mass that follows the four corners of the end face, at their middle.
+    corners = [7 * (k + 1) for k in (0, 1, 4, 5)]
+    more = write_card("free", "GRID", 900, None, "300.", "20.", "25.")
+    more += write_card("free", "CONM2", 901, 900, None, "1.-3")
+
+    def write_mean(*fields):
+        card = write_card("free", "RBE3", *fields)
+        (tmp_path / "block.bdf").write_text(
+            box_deck("free").replace("ENDDATA", more + card + "ENDDATA"))
+    write_mean(902, None, 900, 123456, "1.", 123, *corners)
+    _, full = solved(FILE)
+    # In the middle the mean displacement needs no rotation, so single components tell the same.
+    write_mean(902, None, 900, 123, "1.", 1, *corners, "1.", 2, *corners, "1.", 3, *corners)
+    _, same = solved(FILE)
+    assert same == pytest.approx(full, rel=1e-9)
+    write_mean(902, None, 900, 123456, "1.", 1, *corners)
+    buckens("check", "model.yaml").must(3, "RBE3 902", "do not tell the displacement along y")
+
+
 def test_a_missing_deck_is_named(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(FILE)
     buckens("check", "model.yaml").must(2, "model.yaml:5", "block.bdf", "there is no such file")
