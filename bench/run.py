@@ -54,6 +54,8 @@ class Programs:
         """Results of Google Benchmark: name, time [s], counters."""
         out = self.bench(name, f"--benchmark_filter={pattern}", "--benchmark_format=json",
                          "--benchmark_repetitions=3", "--benchmark_min_time=0.1")
+        if "error" in out:
+            sys.exit(f"{out['command']}: {out['error']}")
         best = {}
         for entry in out["benchmarks"]:
             if entry["run_type"] == "aggregate":

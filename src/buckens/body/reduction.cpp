@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "buckens/body/second_moments.h"
+
 namespace buckens::body {
 
 using linalg::Matrix;
@@ -40,7 +42,6 @@ SparseMatrix projected(const SparseMatrix& A, const Matrix& Z) {
 }
 
 fem::ShapeIntegrals projected(const FlexiblePart& part, const Matrix& Z) {
-  constexpr int kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   const fem::ShapeIntegrals& full = part.fe.shape;
   fem::ShapeIntegrals out;
   out.mass = full.mass;
