@@ -24,15 +24,19 @@ struct ColumnPair {
     const Four t = {spread[1], spread[1], spread[1], spread[1]};
     int i = 0;
     for (; i + 4 <= n; i += 4) {
-      const Four u = load(c0 + i);
-      const Four v = load(c1 + i);
+      Four u, v;
+      load(c0 + i, u);
+      load(c1 + i, v);
       for (int k = 0; k < Dots; ++k) {
-        const Four z = load(x[static_cast<std::size_t>(k)] + i);
+        Four z;
+        load(x[static_cast<std::size_t>(k)] + i, z);
         a[k] += u * z;
         b[k] += v * z;
       }
       if (y == nullptr) continue;
-      const Four sum = load(y + i) + u * s + v * t;
+      Four sum;
+      load(y + i, sum);
+      sum += u * s + v * t;
       __builtin_memcpy(y + i, &sum, sizeof sum);
     }
     for (int k = 0; k < Dots; ++k) {
@@ -51,11 +55,9 @@ struct ColumnPair {
  private:
   typedef double Four __attribute__((vector_size(32)));
 
-  static Four load(const double* p) {
-    Four out;
-    __builtin_memcpy(&out, p, sizeof out);
-    return out;
-  }
+  // By reference: returned by value, a vector of four would be passed otherwise with AVX than
+  // without.
+  static void load(const double* p, Four& out) { __builtin_memcpy(&out, p, sizeof out); }
 };
 
 }  // namespace buckens::body
