@@ -7,7 +7,7 @@ namespace buckens::io {
 
 namespace {
 
-constexpr std::int64_t kAny = std::numeric_limits<std::int32_t>::min();
+constexpr std::int64_t kLowestTag = std::numeric_limits<std::int32_t>::min();
 
 void read_nodes(GmshReader& reader) {
   // The count is text in binary files, too.
@@ -30,7 +30,7 @@ struct Header {
 void read_tags_and_nodes(GmshReader& reader, const Header& header, std::int64_t id) {
   std::vector<int> groups;
   for (std::size_t i = 0; i < header.tags; ++i) {
-    const std::int64_t tag = reader.int32("a tag of an element", kAny + 1);
+    const std::int64_t tag = reader.int32("a tag of an element", kLowestTag + 1);
     // The first is the physical group, negative where it looks the other way.
     if (i > 0 || tag == 0) continue;
     groups.push_back(reader.mesh().group(fem::dimension_of(header.element->kind), std::abs(tag)));

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Text that YAML reads as a string whatever is in it.
-std::string quoted(const std::string& text) {
+std::string yaml_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -225,7 +225,7 @@ std::string ModelText::line_entry(std::size_t number) {
 void ModelText::add_properties() {
   for (std::size_t p = 0; p < si_.properties.size(); ++p) {
     const fem::ImportedProperty& property = si_.properties[p];
-    const std::string key = quoted(groups_[p]);
+    const std::string key = yaml_text(groups_[p]);
     if (property.kind == fem::PropertyKind::solid) {
       const std::string of = solid_entry(property);
       if (!of.empty()) of_properties_ += fmt::format("        {}: {}\n", key, of);
@@ -342,7 +342,7 @@ MeshModel ModelText::written(const std::string& mesh_file, const char* length) &
       mesh_file);
   if (!materials_.empty()) out += "materials:\n" + materials_;
   out += fmt::format("bodies:\n  part:\n    mesh:\n      file: {}\n      length-unit: {}\n",
-                     quoted(mesh_file), length);
+                     yaml_text(mesh_file), length);
   if (!of_properties_.empty()) out += "      materials:\n" + of_properties_;
   if (!sections_.empty()) out += "      sections:\n" + sections_;
   if (of_properties_.empty() && sections_.empty()) {
