@@ -38,6 +38,7 @@ class SolidStrains {
 
   /// The wanted nodes in their order, one entry per material there.
   const std::vector<StrainPlace>& places() const { return places_; }
+  Eigen::Index num_places() const { return static_cast<Eigen::Index>(places_.size()); }
   int num_elements() const { return static_cast<int>(element_materials_.size()); }
   /// Of each wanted element, index into elasticities().
   const std::vector<int>& element_materials() const { return element_materials_; }

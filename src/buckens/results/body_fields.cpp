@@ -95,7 +95,7 @@ BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& plac
   const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(whole_)];
   const fem::FeModel& mesh = *mesh_of(model, whole);
   const int num_solids = volume_elements(mesh);
-  choose_quantities(spec, num_solids > 0);
+  choose_quantities(spec, num_solids > 0, fem::num_solids(mesh) > num_solids);
   std::vector<bool> wanted(mesh.nodes.size(), places.is_everywhere && !at_nodes_.empty());
   if (!at_nodes_.empty()) {
     for (const int node : places.nodes) wanted[static_cast<std::size_t>(node)] = true;
@@ -113,7 +113,8 @@ BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& plac
   for (int b = whole.first; b < whole.first + whole.count; ++b) add_part(b, wanted);
 }
 
-void BodyFields::choose_quantities(const model::FieldOutputSpec& spec, bool has_solids) {
+void BodyFields::choose_quantities(const model::FieldOutputSpec& spec, bool has_solids,
+                                   bool has_shells) {
   for (const FieldQuantity quantity : spec.record) {
     const auto add = [quantity](std::vector<FieldQuantity>& list) {
       if (std::find(list.begin(), list.end(), quantity) == list.end()) list.push_back(quantity);
@@ -121,9 +122,11 @@ void BodyFields::choose_quantities(const model::FieldOutputSpec& spec, bool has_
     if (quantity == FieldQuantity::interface_load) continue;
     if (is_motion(quantity)) {
       add(at_nodes_);
-    } else if (has_solids) {
-      if (spec.at != model::FieldLocation::elements) add(at_nodes_);
-      if (spec.at != model::FieldLocation::nodes) add(at_elements_);
+    } else {
+      const bool is_at_nodes = spec.at != model::FieldLocation::elements;
+      const bool is_at_elements = spec.at != model::FieldLocation::nodes;
+      if (is_at_nodes && (has_solids || has_shells)) add(at_nodes_);
+      if (is_at_elements && has_solids) add(at_elements_);
     }
   }
   has_stresses_ = has_tensors(at_nodes_) || has_tensors(at_elements_);
@@ -155,14 +158,38 @@ void BodyFields::add_part(int body, const std::vector<bool>& wanted) {
     part.strains = std::make_unique<fem::SolidStrains>(flexible.mesh(), own, part_elements);
     for (const fem::StrainPlace& place : part.strains->places()) {
       part.nodes.push_back(place.node);
-      has_solid_.push_back(place.material >= 0);
+      has_stress_.push_back(place.material >= 0);
     }
+    add_shell_places(flexible.mesh(), own, part);
   } else {
     part.nodes = own;
-    has_solid_.insert(has_solid_.end(), own.size(), false);
+    has_stress_.insert(has_stress_.end(), own.size(), false);
   }
   for (const int node : part.nodes) nodes_.push_back(whole_nodes[static_cast<std::size_t>(node)]);
   part.compose(flexible, std::any_of(at_nodes_.begin(), at_nodes_.end(), is_motion));
+}
+
+/// Shells take the place of a node that no solid has, further ones follow behind.
+void BodyFields::add_shell_places(const fem::FeModel& mesh, const std::vector<int>& nodes,
+                                  PartFields& part) {
+  part.first_shell = volume_elements(mesh);
+  if (fem::num_solids(mesh) == part.first_shell || nodes.empty()) return;
+  part.shells = std::make_unique<fem::ShellNodeStresses>(mesh, nodes);
+  const Index num_known = part.strains->num_places();
+  Index known = 0;  // both lists follow the order of the nodes
+  for (const fem::ShellPlace& place : part.shells->places()) {
+    const auto at = [&] { return static_cast<std::size_t>(known); };
+    while (known < num_known && part.nodes[at()] < place.node) ++known;
+    const auto own = static_cast<std::size_t>(part.first_place) + at();
+    if (known < num_known && part.nodes[at()] == place.node && !has_stress_[own]) {
+      has_stress_[own] = true;
+      part.shell_columns.push_back(known);
+    } else {
+      part.shell_columns.push_back(part.num_places());
+      part.nodes.push_back(place.node);
+      has_stress_.push_back(true);
+    }
+  }
 }
 
 void BodyFields::add_channels(FieldLayout& layout) const {
@@ -211,8 +238,8 @@ void BodyFields::add_places(GeometryBody& shape) const {
     if (local < 0) return -1;
     const PartFields& part = parts_[k];
     const int own = part.nodes[static_cast<std::size_t>(local)];
-    const int found = part.strains ? part.strains->place_of(own, copy.index) : local;
-    return found < 0 ? -1 : static_cast<int>(part.first_place) + found;
+    const Index found = part.strains ? part.place_of(own, copy.index) : Index{local};
+    return found < 0 ? -1 : static_cast<int>(part.first_place + found);
   };
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const auto& face = shape.faces[f];
@@ -235,6 +262,7 @@ void BodyFields::evaluate_stresses(const model::State& state) {
   node_stress_.resize(6, static_cast<Index>(nodes_.size()));
   element_strain_.resize(6, static_cast<Index>(elements_.size()));
   element_stress_.resize(6, static_cast<Index>(elements_.size()));
+  shell_mises_.assign(nodes_.size(), 0.0);
   const Eigen::Quaterniond to_whole = whole_motion(model_, whole, state).X_WB.q.conjugate();
   TensorColumns at_nodes, at_elements;
   for (const PartFields& part : parts_) {
@@ -244,6 +272,7 @@ void BodyFields::evaluate_stresses(const model::State& state) {
     part.evaluate(*model_.bodies[b].flexible, s.d, at_nodes, at_elements);
     TensorColumns node_stress, element_stress;
     part.strains->stresses(at_nodes, at_elements, node_stress, element_stress);
+    if (part.shells) add_shells(part, s.d, at_nodes, node_stress);
     if (whole.is_divided()) {
       const Matrix3d R = (to_whole * s.frame.X_WB.q).toRotationMatrix();
       rotate(R, 0.5, at_nodes);
@@ -258,6 +287,20 @@ void BodyFields::evaluate_stresses(const model::State& state) {
       element_strain_.col(row) = at_elements.col(e);
       element_stress_.col(row) = element_stress.col(e);
     }
+  }
+}
+
+void BodyFields::add_shells(const PartFields& part, const linalg::Vector& d, TensorColumns& strain,
+                            TensorColumns& stress) {
+  const body::Body& body = model_.bodies[static_cast<std::size_t>(part.body)];
+  const auto surface = part.evaluate_shells(*body.flexible, d);
+  strain.conservativeResize(6, part.num_places());
+  stress.conservativeResize(6, part.num_places());
+  for (std::size_t k = 0; k < part.shell_columns.size(); ++k) {
+    const Index place = part.shell_columns[k], column = static_cast<Index>(k);
+    strain.col(place) = surface.strain.col(column);
+    stress.col(place) = surface.stress.col(column);
+    shell_mises_[static_cast<std::size_t>(part.first_place + place)] = surface.mises[column];
   }
 }
 
@@ -300,6 +343,12 @@ void BodyFields::append_motion(const model::State& state, FieldQuantity quantity
   }
 }
 
+double BodyFields::mises_at(const TensorColumns& stress, Index column) const {
+  const double own = fem::mises_stress(stress.col(column));
+  return &stress == &node_stress_ ? std::max(own, shell_mises_[static_cast<std::size_t>(column)])
+                                  : own;
+}
+
 void BodyFields::append_tensors(FieldQuantity quantity, const TensorColumns& strain,
                                 const TensorColumns& stress, const std::vector<bool>& known,
                                 std::vector<double>& values) const {
@@ -317,7 +366,7 @@ void BodyFields::append_tensors(FieldQuantity quantity, const TensorColumns& str
         values.insert(values.end(), strain.col(p).data(), strain.col(p).data() + 6);
         break;
       case FieldQuantity::von_mises:
-        values.push_back(fem::mises_stress(stress.col(p)));
+        values.push_back(mises_at(stress, p));
         break;
       case FieldQuantity::principal_stress: {
         const Vector3d principal = fem::principal_stresses(stress.col(p));
@@ -335,7 +384,7 @@ void BodyFields::append(const model::State& state, std::vector<double>& values) 
     if (is_motion(quantity)) {
       append_motion(state, quantity, values);
     } else {
-      append_tensors(quantity, node_strain_, node_stress_, has_solid_, values);
+      append_tensors(quantity, node_strain_, node_stress_, has_stress_, values);
     }
   }
   for (const FieldQuantity quantity : at_elements_) {
@@ -345,20 +394,20 @@ void BodyFields::append(const model::State& state, std::vector<double>& values) 
 
 void BodyFields::update_extremes(double t) {
   if (!has_extremes_) return;
-  const auto update = [t](const TensorColumns& stress, const std::vector<bool>& known,
-                          std::vector<double>& largest, std::vector<double>& times) {
+  const auto update = [t, this](const TensorColumns& stress, const std::vector<bool>& known,
+                                std::vector<double>& largest, std::vector<double>& times) {
     const bool is_first = largest.empty();
     largest.resize(known.size(), kNoValue);
     times.resize(known.size(), kNoValue);
     for (std::size_t p = 0; p < known.size(); ++p) {
       if (!known[p]) continue;
-      const double now = fem::mises_stress(stress.col(static_cast<Index>(p)));
+      const double now = mises_at(stress, static_cast<Index>(p));
       if (!is_first && !(now > largest[p])) continue;
       largest[p] = now;
       times[p] = t;
     }
   };
-  update(node_stress_, has_solid_, largest_.nodes, largest_.node_times);
+  update(node_stress_, has_stress_, largest_.nodes, largest_.node_times);
   update(element_stress_, is_element_, largest_.elements, largest_.element_times);
 }
 

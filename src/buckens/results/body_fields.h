@@ -13,15 +13,16 @@ namespace buckens::results {
 /// Fields over one body of the model file: strains, stresses and motion of its mesh at the places
 /// where the model file wants them.
 ///
-/// Tensors are in the axes of the whole body's frame. The parts of a divided body are places of
-/// their own: nothing is averaged across a cut.
+/// Of shells nodes have the stresses of the side that the normal points to, and the larger von
+/// Mises stress of both sides. Tensors are in the axes of the whole body's frame. The parts of a
+/// divided body are places of their own: nothing is averaged across a cut.
 class BodyFields {
  public:
   /// @param model outlives the object
   BodyFields(const model::Model& model, const model::FieldPlaces& places,
              const model::FieldOutputSpec& spec);
 
-  /// Whether anything is recorded: bodies without solids have motion only.
+  /// Whether nothing is recorded: bodies without solids and shells have motion only.
   bool is_empty() const { return at_nodes_.empty() && at_elements_.empty(); }
   bool has_extremes() const { return has_extremes_; }
   int whole() const { return whole_; }
@@ -43,8 +44,14 @@ class BodyFields {
     std::vector<double> nodes, node_times, elements, element_times;
   };
 
-  void choose_quantities(const model::FieldOutputSpec& spec, bool has_solids);
+  void choose_quantities(const model::FieldOutputSpec& spec, bool has_solids, bool has_shells);
   void add_part(int body, const std::vector<bool>& wanted);
+  void add_shell_places(const fem::FeModel& mesh, const std::vector<int>& nodes, PartFields& part);
+  /// Puts strains and stresses of the surfaces of shells in their places.
+  void add_shells(const PartFields& part, const linalg::Vector& d, fem::TensorColumns& strain,
+                  fem::TensorColumns& stress);
+  /// Von Mises stress of a column; at nodes of shells the larger one of both sides.
+  double mises_at(const fem::TensorColumns& stress, Eigen::Index column) const;
   void append_motion(const model::State& state, model::FieldQuantity quantity,
                      std::vector<double>& values) const;
   void append_tensors(model::FieldQuantity quantity, const fem::TensorColumns& strain,
@@ -59,9 +66,10 @@ class BodyFields {
   std::vector<PartFields> parts_;
   std::vector<int> nodes_;        // of the whole mesh, one per place
   std::vector<int> elements_;     // of the whole mesh, ascending
-  std::vector<bool> has_solid_;   // one per place
+  std::vector<bool> has_stress_;  // one per place: a solid or shell is there
   std::vector<bool> is_element_;  // all true, one per element
   fem::TensorColumns node_strain_, node_stress_, element_strain_, element_stress_;
+  std::vector<double> shell_mises_;  // one per place, zero without shells
   Largest largest_;
 };
 

@@ -35,7 +35,9 @@ std::vector<int> whole_nodes_of(const model::Model& model, const model::WholeBod
   std::vector<std::span<const int>> of_part, of_whole;
   const auto collect = [](const fem::FeModel& fe, std::vector<std::span<const int>>& list) {
     for (const auto& block : fe.blocks) {
-      for (int e = 0; block->is_solid() && e < block->num_elements(); ++e) {
+      // Shells are counted behind the solids, and their block follows.
+      const bool is_counted = block->is_solid() || block->is_shell();
+      for (int e = 0; is_counted && e < block->num_elements(); ++e) {
         list.push_back(block->nodes(e));
       }
     }
@@ -56,10 +58,12 @@ void PartFields::compose(const body::FlexiblePart& flexible, bool has_motion) {
   if (!flexible.recovery.is_dense()) return;
   const linalg::Matrix& Z = flexible.recovery.dense();
   const double rows = (strains ? 6.0 * static_cast<double>(num_places() + num_elements()) : 0.0) +
+                      6.0 * static_cast<double>(shell_columns.size()) +
                       (has_motion ? 3.0 * static_cast<double>(num_places()) : 0.0);
   if (rows * static_cast<double>(Z.cols()) * sizeof(double) > kMostBasisBytes) return;
+  if (shells) shell_basis = shells->rows() * Z;
   if (strains) {
-    node_basis.resize(6 * num_places(), Z.cols());
+    node_basis.resize(6 * strains->num_places(), Z.cols());
     element_basis.resize(6 * num_elements(), Z.cols());
     TensorColumns at_nodes, at_elements;
     for (Index k = 0; k < Z.cols(); ++k) {
@@ -89,10 +93,27 @@ void PartFields::evaluate(const body::FlexiblePart& flexible, const linalg::Vect
     strains->evaluate(flexible.nodal(d), at_nodes, at_elements);
     return;
   }
-  at_nodes.resize(6, num_places());
+  at_nodes.resize(6, strains->num_places());
   at_elements.resize(6, num_elements());
   at_nodes.reshaped().noalias() = node_basis * d;
   at_elements.reshaped().noalias() = element_basis * d;
+}
+
+fem::ShellNodeStresses::Surface PartFields::evaluate_shells(const body::FlexiblePart& flexible,
+                                                            const linalg::Vector& d) const {
+  TensorColumns strain(6, static_cast<Index>(shell_columns.size()));
+  if (shell_basis.cols() > 0) {
+    strain.reshaped().noalias() = shell_basis * d;
+  } else {
+    strain.reshaped().noalias() = shells->rows() * flexible.nodal(d);
+  }
+  return shells->surface(strain);
+}
+
+Index PartFields::place_of(int node, int element) const {
+  if (element < first_shell || !shells) return strains->place_of(node, element);
+  const int place = shells->place_of(node, element - first_shell);
+  return place < 0 ? -1 : shell_columns[static_cast<std::size_t>(place)];
 }
 
 Eigen::Matrix3Xd PartFields::translations(const body::FlexiblePart& flexible,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/body/body.h"
+#include "buckens/fem/shell_node_stress.h"
 #include "buckens/fem/solid_strains.h"
 #include "buckens/model/model.h"
 
@@ -17,9 +18,12 @@ struct PartFields {
   Eigen::Index first_place = 0;                // among those of the whole
   std::vector<int> nodes;                      // of the part, one per place
   std::vector<Eigen::Index> element_rows;      // among all elements, one per element of the part
-  std::unique_ptr<fem::SolidStrains> strains;  // null without solids or stresses
+  std::unique_ptr<fem::SolidStrains> strains;  // null without stresses
+  std::unique_ptr<fem::ShellNodeStresses> shells;  // null without shells or stresses
+  std::vector<Eigen::Index> shell_columns;         // place of each of theirs
+  int first_shell = 0;                             // of the part, behind its solids
   // Reduced bodies: what one unit of each variable does. Empty where the mesh is evaluated.
-  linalg::Matrix node_basis, element_basis, motion_basis;
+  linalg::Matrix node_basis, element_basis, motion_basis, shell_basis;
 
   Eigen::Index num_places() const { return static_cast<Eigen::Index>(nodes.size()); }
   Eigen::Index num_elements() const { return static_cast<Eigen::Index>(element_rows.size()); }
@@ -31,6 +35,11 @@ struct PartFields {
   /// @param d variables of the body
   void evaluate(const body::FlexiblePart& flexible, const linalg::Vector& d,
                 fem::TensorColumns& at_nodes, fem::TensorColumns& at_elements) const;
+  /// Stresses on the surfaces of shells, at the places that shell_columns lists.
+  fem::ShellNodeStresses::Surface evaluate_shells(const body::FlexiblePart& flexible,
+                                                  const linalg::Vector& d) const;
+  /// Place of a node of the part for one of its solids or shells, −1 if there is none.
+  Eigen::Index place_of(int node, int element) const;
   /// 3×places: translations of the nodes by some values of the variables.
   Eigen::Matrix3Xd translations(const body::FlexiblePart& flexible, const linalg::Vector& d) const;
 };
