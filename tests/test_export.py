@@ -150,21 +150,22 @@ def check_fields(grid, results, row, record):
     assert list(vtk_to_numpy(grid.GetCellData().GetArray("body"))) == [0, 0, 1, 1, 1, 1, 2]
 
 
-# A wedge of each order beside one another, and two strips of shells, one with two layers.
+# A wedge of each order, and two strips of shells, one with two layers.
 OTHER_CELLS = """
 buckens: 1
 title: Wedges and shells
 materials: {plain: {E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3}}
 bodies:
-  wedges:
+  curved:
     structure:
       nodes: {a: [0, 0, 0], b: [1, 0, 0], c: [0, 1, 0], d: [0, 0, 1], e: [1, 0, 1], f: [0, 1, 1],
               ab: [0.5, 0, 0], bc: [0.5, 0.5, 0], ca: [0, 0.5, 0], de: [0.5, 0, 1], ef: [0.5, 0.5, 1],
-              fd: [0, 0.5, 1], ad: [0, 0, 0.5], be: [1, 0, 0.5], cf: [0, 1, 0.5],
-              g: [0, 0, -1], h: [1, 0, -1], i: [0, 1, -1]}
-      solids:
-        - {nodes: [a, b, c, d, e, f, ab, bc, ca, de, ef, fd, ad, be, cf], material: plain}
-        - {nodes: [g, h, i, a, b, c], material: plain}
+              fd: [0, 0.5, 1], ad: [0, 0, 0.5], be: [1, 0, 0.5], cf: [0, 1, 0.5]}
+      solids: [{nodes: [a, b, c, d, e, f, ab, bc, ca, de, ef, fd, ad, be, cf], element: wedge15, material: plain}]
+  straight:
+    structure:
+      nodes: {a: [0, 3, 0], b: [1, 3, 0], c: [0, 4, 0], d: [0, 3, 1], e: [1, 3, 1], f: [0, 4, 1]}
+      solids: [{nodes: [a, b, c, d, e, f], element: wedge6, material: plain}]
   thin:
     at: {position: [3 m, 0, 0]}
     mesh: {plate: {size: [1 m, 1 m], divisions: [1, 1], thickness: 10 mm}, material: plain}
