@@ -97,6 +97,14 @@ def test_the_pin_of_a_turning_block_holds_its_centrifugal_force(buckens, tmp_pat
         assert load[:, :3] == pytest.approx(file["joints/pin/force"][late], rel=1e-5, abs=1e-3)
 
 
+def test_a_place_that_is_no_node_has_loads_only(buckens, tmp_path):
+    text = HELD.replace("  beam: {beam:", "  beam: {markers: {tap: {position: [0.1 m, 0, 0]}}, beam:").replace("ball/hook, value", "beam/tap, value")
+    text = text.replace("FIELDS", "{record: [velocity, interface-load], on: [beam/tap]}")
+    with run(buckens, tmp_path, text) as file:
+        assert set(file["fields/bodies/beam"]) == {"interfaces"}
+        assert file["fields/bodies/beam/interfaces/tap"][0, :3] == pytest.approx([4, 0, 5])
+
+
 def test_loads_at_chosen_times_and_places_are_tables(buckens, tmp_path):
     fields = "{record: [interface-load], on: [ball/hook, beam/start], every: 2 ms}"
     run(buckens, tmp_path, HELD.replace("FIELDS", fields)).close()

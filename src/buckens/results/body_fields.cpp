@@ -108,6 +108,11 @@ BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& plac
       std::iota(elements_.begin(), elements_.end(), 0);
     }
   }
+  // Places of loads need not be places of the mesh.
+  if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) at_nodes_.clear();
+  if (elements_.empty()) at_elements_.clear();
+  has_stresses_ = has_tensors(at_nodes_) || has_tensors(at_elements_);
+  has_extremes_ = has_stresses_ && spec.extremes != model::ExtremeRate::off;
   is_element_.assign(elements_.size(), true);
   if (is_empty()) return;
   for (int b = whole.first; b < whole.first + whole.count; ++b) add_part(b, wanted);
@@ -129,8 +134,6 @@ void BodyFields::choose_quantities(const model::FieldOutputSpec& spec, bool has_
       if (is_at_elements && has_solids) add(at_elements_);
     }
   }
-  has_stresses_ = has_tensors(at_nodes_) || has_tensors(at_elements_);
-  has_extremes_ = has_stresses_ && spec.extremes != model::ExtremeRate::off;
 }
 
 void BodyFields::add_part(int body, const std::vector<bool>& wanted) {
