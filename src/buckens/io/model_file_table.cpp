@@ -33,7 +33,7 @@ std::vector<std::string> split_row(const std::string& line) {
 }
 
 /// The text as far as it can be shown.
-std::string shown(const std::string& cell) {
+std::string shown_cell(const std::string& cell) {
   constexpr std::size_t kMost = 40;
   std::string out = cell.substr(0, kMost);
   std::replace_if(
@@ -53,7 +53,7 @@ double cell_value(const std::vector<std::string>& cells, int column, const Sourc
   throw InputError(where,
                    fmt::format("\"{}\" is not a number; write decimals such as 1.5e-3, with "
                                "a point, and separate columns by commas, semicolons or blanks",
-                               shown(cell)));
+                               shown_cell(cell)));
 }
 
 /// The map with the name of a file under `file`, where it may stand under `table`, too.
