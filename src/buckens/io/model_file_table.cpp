@@ -34,11 +34,11 @@ std::vector<std::string> split_row(const std::string& line) {
 
 /// The text as far as it can be shown.
 std::string shown_cell(const std::string& cell) {
-  constexpr std::size_t kMost = 40;
-  std::string out = cell.substr(0, kMost);
+  constexpr std::size_t kMostShown = 40;
+  std::string out = cell.substr(0, kMostShown);
   std::replace_if(
       out.begin(), out.end(), [](unsigned char c) { return c < 0x20 || c > 0x7E; }, '?');
-  return cell.size() > kMost ? out + "..." : out;
+  return cell.size() > kMostShown ? out + "..." : out;
 }
 
 /// Number in a column, counted from 1.
