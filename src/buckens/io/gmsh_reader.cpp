@@ -7,7 +7,7 @@ namespace buckens::io {
 
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostTag = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostInt = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
@@ -18,8 +18,8 @@ std::int64_t GmshReader::int32(std::string_view what, std::int64_t least) {
 }
 
 std::int64_t GmshReader::int64(std::string_view what, std::int64_t least) {
-  return is_binary_ ? text_.binary_integer<std::uint64_t>(what, least, kMost)
-                    : text_.integer(what, least, kMost);
+  return is_binary_ ? text_.binary_integer<std::uint64_t>(what, least, kMostTag)
+                    : text_.integer(what, least, kMostTag);
 }
 
 double GmshReader::real(std::string_view what) {
