@@ -18,7 +18,7 @@ namespace buckens::io {
 
 namespace {
 
-constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoFloat = std::numeric_limits<float>::quiet_NaN();
 
 /// Numbers per place.
 int width_of(const results::Channel& channel) {
@@ -97,7 +97,7 @@ class Arrays {
     }
     const auto components = static_cast<std::size_t>(at->second.components);
     values = widened(values, width, at->second.components);
-    all.resize(count_ * components, kNoValue);
+    all.resize(count_ * components, kNoFloat);
     all.insert(all.end(), values.begin(), values.end());
   }
   /// Ends the share of a body. @param count its points or cells
@@ -107,7 +107,7 @@ class Arrays {
     std::vector<VtuArray> out;
     for (auto& [name, array] : arrays_) {
       const auto components = static_cast<std::size_t>(array.components);
-      std::get<std::vector<float>>(array.values).resize(count_ * components, kNoValue);
+      std::get<std::vector<float>>(array.values).resize(count_ * components, kNoFloat);
       out.push_back(std::move(array));
     }
     return out;
@@ -122,7 +122,7 @@ class Arrays {
     for (std::size_t row = 0; row * width < values.size(); ++row) {
       out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(row * width),
                  values.begin() + static_cast<std::ptrdiff_t>((row + 1) * width));
-      out.resize((row + 1) * static_cast<std::size_t>(to), kNoValue);
+      out.resize((row + 1) * static_cast<std::size_t>(to), kNoFloat);
     }
     return out;
   }
@@ -201,7 +201,7 @@ class VtkExporter {
     for (const int row : rows) {
       for (std::size_t k = 0; k < width; ++k) {
         out.push_back(row < 0
-                          ? kNoValue
+                          ? kNoFloat
                           : static_cast<float>(values[static_cast<std::size_t>(row) * width + k]));
       }
     }
@@ -231,11 +231,11 @@ class VtkExporter {
     };
     const std::vector<double> lines = of_record("stress");
     for (std::size_t e = 0; e < grid.num_lines; ++e) {
-      mises.push_back(2 * e + 1 < lines.size() ? static_cast<float>(lines[2 * e + 1]) : kNoValue);
+      mises.push_back(2 * e + 1 < lines.size() ? static_cast<float>(lines[2 * e + 1]) : kNoFloat);
     }
     const std::vector<double> solids = of_record("solid_stress");
     for (std::size_t e = 0; e < grid.num_solids; ++e) {
-      mises.push_back(e < solids.size() ? static_cast<float>(solids[e]) : kNoValue);
+      mises.push_back(e < solids.size() ? static_cast<float>(solids[e]) : kNoFloat);
     }
     arrays.put(kMises, "von_mises", std::move(mises));
     if (!now.field_row) return;

@@ -19,7 +19,7 @@ using model::FieldQuantity;
 
 namespace {
 
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoShellValue = std::numeric_limits<double>::quiet_NaN();
 
 int num_volume_elements(const fem::FeModel& mesh) {
   int count = 0;
@@ -133,7 +133,7 @@ void ShellFields::append(std::vector<double>& values) const {
                               : quantity == Quantity::stress  ? 6 * most_layers_
                                                               : 8;
     const std::size_t first = values.size();
-    values.resize(first + width * shells_.size(), kNoValue);
+    values.resize(first + width * shells_.size(), kNoShellValue);
     const auto put = [&](std::size_t row, std::size_t at, double value) {
       values[first + width * row + at] = value;
     };
@@ -161,8 +161,8 @@ void ShellFields::append(std::vector<double>& values) const {
 void ShellFields::update_extremes(double t) {
   if (!has_extremes_) return;
   const bool is_first = largest_.empty();
-  largest_.resize(shells_.size(), kNoValue);
-  times_.resize(shells_.size(), kNoValue);
+  largest_.resize(shells_.size(), kNoShellValue);
+  times_.resize(shells_.size(), kNoShellValue);
   visit([&](const Part& part, int shell, std::size_t row) {
     const double now = mises(part, shell);
     if (!is_first && !(now > largest_[row])) return;
