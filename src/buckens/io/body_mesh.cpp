@@ -9,7 +9,7 @@
 #include "buckens/fem/node_number.h"
 #include "buckens/io/matrix_body.h"
 #include "buckens/io/mesh_file.h"
-#include "buckens/io/step_mesh.h"
+#include "buckens/io/step_mesh_cache.h"
 
 namespace buckens::io {
 
@@ -40,8 +40,9 @@ void load_matrices(fem::MatricesSpec& matrices, const ReadContext& context) {
 
 void load_geometry(fem::GeometrySpec& part, const ReadContext& context) {
   try {
-    part.imported =
-        std::make_shared<const fem::ImportedMesh>(mesh_step(full_path(part.step, context), part));
+    StepMeshCache only_here;
+    StepMeshCache& meshes = context.step_meshes != nullptr ? *context.step_meshes : only_here;
+    part.imported = meshes.mesh(full_path(part.step, context), part);
   } catch (const IoError& error) {
     throw InputError(part.where, error.what());
   }

@@ -141,10 +141,28 @@ GmshLibrary::Color GmshLibrary::color(const GmshEntity& entity) const {
   return out;
 }
 
-double GmshLibrary::volume(const GmshEntity& entity) const {
+double GmshLibrary::size(const GmshEntity& entity) const {
   int error = 0;
   double out = 0;
   BUCKENS_GMSH(gmshModelOccGetMass)(entity.first, entity.second, &out, &error);
+  check(error);
+  return out;
+}
+
+std::array<double, 3> GmshLibrary::centre(const GmshEntity& entity) const {
+  int error = 0;
+  std::array<double, 3> out{};
+  BUCKENS_GMSH(gmshModelOccGetCenterOfMass)
+  (entity.first, entity.second, &out[0], &out[1], &out[2], &error);
+  check(error);
+  return out;
+}
+
+std::array<double, 6> GmshLibrary::box(const GmshEntity& entity) const {
+  int error = 0;
+  std::array<double, 6> out{};
+  BUCKENS_GMSH(gmshModelGetBoundingBox)
+  (entity.first, entity.second, &out[0], &out[1], &out[2], &out[3], &out[4], &out[5], &error);
   check(error);
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,11 @@ class GmshLibrary {
     int red, green, blue, alpha;
   };
   Color color(const GmshEntity& entity) const;
-  double volume(const GmshEntity& entity) const;
+  /// Volume, area or length of an entity.
+  double size(const GmshEntity& entity) const;
+  std::array<double, 3> centre(const GmshEntity& entity) const;
+  /// Least and largest x, y, z, somewhat widened.
+  std::array<double, 6> box(const GmshEntity& entity) const;
   void add_group(int dimension, std::vector<int> entities, const std::string& name);
   void mesh(int dimension);
   void write(const std::string& file);

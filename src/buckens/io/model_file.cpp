@@ -6,6 +6,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/io/model_file_fields.h"
 #include "buckens/io/model_overrides.h"
+#include "buckens/io/step_mesh_cache.h"
 #include "buckens/io/table_ranges.h"
 #include "buckens/io/text_file.h"
 #include "buckens/io/yaml_tree.h"
@@ -28,10 +29,9 @@ std::string with_overrides(const std::string& text, const std::string& name,
   return out + text;
 }
 
-}  // namespace
-
-model::ModelDescription read_model_text(const std::string& text, const std::string& name,
-                                        const std::vector<std::string>& overrides) {
+model::ModelDescription read_with_meshes(const std::string& text, const std::string& name,
+                                         const std::vector<std::string>& overrides,
+                                         StepMeshCache& meshes) {
   YamlNode root = parse_yaml(text, name);
   if (root.kind == YamlNode::Kind::null) {
     throw InputError({name, 0, 0}, "the model file is empty; it begins with \"buckens: 1\"");
@@ -47,6 +47,7 @@ model::ModelDescription read_model_text(const std::string& text, const std::stri
   ReadContext context;
   context.directory = std::filesystem::path(name).parent_path();
   context.model = &out;
+  context.step_meshes = &meshes;
   read_record({root, ""}, context, out);
   check_table_ranges(out);
   out.where = {name, 0, 0};
@@ -54,9 +55,24 @@ model::ModelDescription read_model_text(const std::string& text, const std::stri
   return out;
 }
 
+}  // namespace
+
+model::ModelDescription read_model_text(const std::string& text, const std::string& name,
+                                        const std::vector<std::string>& overrides) {
+  StepMeshCache meshes;
+  return read_with_meshes(text, name, overrides, meshes);
+}
+
 model::ModelDescription read_model_file(const std::filesystem::path& path,
                                         const std::vector<std::string>& overrides) {
-  return read_model_text(read_text_file(path, "model file"), path.string(), overrides);
+  StepMeshCache meshes;
+  return read_model_file(path, overrides, meshes);
+}
+
+model::ModelDescription read_model_file(const std::filesystem::path& path,
+                                        const std::vector<std::string>& overrides,
+                                        StepMeshCache& meshes) {
+  return read_with_meshes(read_text_file(path, "model file"), path.string(), overrides, meshes);
 }
 
 }  // namespace buckens::io

@@ -18,11 +18,14 @@ struct ModelDescription;
 
 namespace buckens::io {
 
+class StepMeshCache;
+
 /// What a value may refer to while a model file is read.
 struct ReadContext {
   base::Parameters parameters;
   std::filesystem::path directory;                 ///< relative file names begin here
   const model::ModelDescription* model = nullptr;  ///< what has been read so far
+  StepMeshCache* step_meshes = nullptr;
 };
 
 /// A value of the model file under a field.

@@ -77,8 +77,10 @@ class FaceSelection {
     Numbers out;
     std::vector<std::string> labels;
     for (const StepFace& face : faces_) {
-      if (face.label == spec.label) out.push_back(face.number);
-      if (!face.label.empty()) labels.push_back(face.label);
+      const bool fits =
+          std::find(face.labels.begin(), face.labels.end(), spec.label) != face.labels.end();
+      if (fits) out.push_back(face.number);
+      labels.insert(labels.end(), face.labels.begin(), face.labels.end());
     }
     if (!out.empty()) return out;
     throw InputError(
@@ -94,14 +96,17 @@ class FaceSelection {
     Numbers out;
     std::set<std::string> colors;
     for (const StepFace& face : faces_) {
-      if (!face.color) continue;
-      bool fits = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        fits = fits && std::abs(linear_color(spec.rgb[k]) - (*face.color)[k]) <= 1.5;
+      bool any_fits = false;
+      for (const std::array<int, 3>& color : face.colors) {
+        bool fits = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+          fits = fits && std::abs(linear_color(spec.rgb[k]) - color[k]) <= 1.5;
+        }
+        any_fits = any_fits || fits;
+        colors.insert(fmt::format("[{}, {}, {}]", shown_color(color[0]), shown_color(color[1]),
+                                  shown_color(color[2])));
       }
-      if (fits) out.push_back(face.number);
-      colors.insert(fmt::format("[{}, {}, {}]", shown_color((*face.color)[0]),
-                                shown_color((*face.color)[1]), shown_color((*face.color)[2])));
+      if (any_fits) out.push_back(face.number);
     }
     if (!out.empty()) return out;
     throw InputError(
@@ -150,8 +155,8 @@ class FaceSelection {
 void add_face_names(fem::ImportedMesh& mesh, const std::vector<StepFace>& faces) {
   std::map<std::string, Numbers> named;
   for (const StepFace& face : faces) {
-    if (face.color) named[color_name(*face.color)].push_back(face.number);
-    if (!face.label.empty()) named[face.label].push_back(face.number);
+    for (const auto& color : face.colors) named[color_name(color)].push_back(face.number);
+    for (const std::string& label : face.labels) named[label].push_back(face.number);
   }
   for (const auto& [name, numbers] : named) add_sets(mesh, name, numbers);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,8 @@ namespace buckens::io {
 /// `face_<number>`.
 struct StepFace {
   int number = 0;
-  std::optional<std::array<int, 3>> color;  ///< linear, 0 … 255
-  std::string label;
+  std::vector<std::array<int, 3>> colors;  ///< linear, 0 … 255; two between glued solids
+  std::vector<std::string> labels;
 };
 
 /// Adds the face sets that colours and labels of the file make: `color_255_0_0`, `bearing seat`.

@@ -18,6 +18,7 @@
 #include "buckens/io/isolated_work.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/step_faces.h"
+#include "buckens/io/step_shapes.h"
 #include "buckens/io/step_text.h"
 #include "buckens/io/text_file.h"
 
@@ -82,27 +83,27 @@ void set_mesh_options(GmshLibrary& gmsh, const Order& order) {
   gmsh.set_number("Mesh.SaveAll", 0);
 }
 
-/// Solids that touch get common faces.
-void load_shapes(GmshLibrary& gmsh, const char* model, const std::string& file) {
-  gmsh.new_model(model);
-  gmsh.import_shapes(file);
-  const auto solids = gmsh.entities(3);
-  if (solids.size() > 1) gmsh.fragment(solids);
+std::string lost_text(const GluedShapes& shapes, const char* what) {
+  if (shapes.lost == 0) return {};
+  return fmt::format(
+      "note {} of {} faces are lost where solids cut them; choose these faces by "
+      "numbers or place\n",
+      what, shapes.lost);
 }
 
 /// Colours of the copy in which they stand for names, one line per face.
 std::string labels(GmshLibrary& gmsh, const Order& order, std::size_t num_faces) {
-  load_shapes(gmsh, "names", order.named_copy);
-  const auto faces = gmsh.entities(2);
+  const GluedShapes shapes = load_glued(gmsh, "names", order.named_copy);
   std::string out;
-  for (const GmshEntity& face : faces) {
-    if (faces.size() != num_faces) break;
-    const auto color = gmsh.color(face);
-    const int name = name_of_color({color.red, color.green, color.blue}, order.num_names);
-    if (color.alpha > 0 && name >= 0) out += fmt::format("label {} {}\n", face.second, name);
+  if (gmsh.entities(2).size() == num_faces) {
+    for (const ColoredShape& face : shapes.colors) {
+      const auto& color = face.color;
+      const int name = name_of_color({color.red, color.green, color.blue}, order.num_names);
+      if (name >= 0) out += fmt::format("label {} {}\n", face.face, name);
+    }
   }
   gmsh.use_model("part");
-  return out;
+  return out + lost_text(shapes, "names");
 }
 
 /// What is done in the other process. @return one line per message, colour or label
@@ -110,21 +111,24 @@ std::string mesh_with_gmsh(const Order& order) {
   try {
     GmshLibrary gmsh;
     set_mesh_options(gmsh, order);
-    load_shapes(gmsh, "part", order.step);
+    const GluedShapes shapes = load_glued(gmsh, "part", order.step);
     const auto volumes = gmsh.entities(3);
     if (volumes.empty()) {
       return fmt::format("error the file has no solid, only {} faces; export the part as a solid",
                          gmsh.entities(2).size());
     }
-    std::string out;
-    for (const GmshEntity& face : gmsh.entities(2)) {
-      const auto color = gmsh.color(face);
-      if (color.alpha == 0) continue;
-      out += fmt::format("color {} {} {} {}\n", face.second, color.red, color.green, color.blue);
+    std::string out = lost_text(shapes, "colours");
+    if (shapes.overlap) {
+      out +=
+          "note solids overlap: what they have in common is counted once and is a solid of its "
+          "own, named after one of them or volume_<number>\n";
+    }
+    for (const auto& [face, color] : shapes.colors) {
+      out += fmt::format("color {} {} {} {}\n", face, color.red, color.green, color.blue);
     }
     if (order.num_names > 0) out += labels(gmsh, order, gmsh.entities(2).size());
     double volume = 0;
-    for (const GmshEntity& solid : volumes) volume += std::abs(gmsh.volume(solid));
+    for (const GmshEntity& solid : volumes) volume += std::abs(gmsh.size(solid));
     const double expected = volume / (kTetrahedron * std::pow(order.size, 3));
     if (!(expected < kMostElements)) {
       return fmt::format(
@@ -175,8 +179,8 @@ std::vector<StepFace> read_faces(const std::string& lines, const std::vector<std
     std::string word;
     int number = 0;
     words >> word;
-    if (word == "message") {
-      mesh.notes.push_back({"Gmsh: " + line.substr(8), 0, 1});
+    if (word == "message" || word == "note") {
+      mesh.notes.push_back({word == "note" ? line.substr(5) : "Gmsh: " + line.substr(8), 0, 1});
       continue;
     }
     words >> number;
@@ -185,11 +189,11 @@ std::vector<StepFace> read_faces(const std::string& lines, const std::vector<std
     if (word == "color") {
       std::array<int, 3> color{};
       words >> color[0] >> color[1] >> color[2];
-      face->second.color = color;
+      face->second.colors.push_back(color);
     } else if (word == "label") {
       std::size_t name = 0;
       words >> name;
-      if (name < names.size()) face->second.label = names[name];
+      if (name < names.size()) face->second.labels.push_back(names[name]);
     }
   }
   std::vector<StepFace> out;
@@ -197,14 +201,10 @@ std::vector<StepFace> read_faces(const std::string& lines, const std::vector<std
   return out;
 }
 
-struct StepMesh {
-  fem::ImportedMesh mesh;
-  std::vector<StepFace> faces;
-};
+}  // namespace
 
-StepMesh mesh_all(const fs::path& path, double size, int order) {
+StepMesh mesh_step(const fs::path& path, const std::string& text, double size, int order) {
   const std::string file = path.string();
-  const std::string text = read_text_file(path, "STEP file");
   check_step(text, file);
   if (order != 1 && order != 2) {
     throw InputError({file, 0, 0},
@@ -246,16 +246,13 @@ StepMesh mesh_all(const fs::path& path, double size, int order) {
   return out;
 }
 
-}  // namespace
-
 fem::ImportedMesh mesh_step(const fs::path& path, double size, int order) {
-  return mesh_all(path, size, order).mesh;
+  return mesh_step(path, read_text_file(path, "STEP file"), size, order).mesh;
 }
 
-fem::ImportedMesh mesh_step(const fs::path& path, const fem::GeometrySpec& spec) {
-  StepMesh out = mesh_all(path, spec.size, spec.order);
-  for (const fem::GeometryFaceSpec& face : spec.faces) name_faces(out.mesh, out.faces, face);
-  return std::move(out.mesh);
+fem::ImportedMesh with_face_names(StepMesh part, const std::vector<fem::GeometryFaceSpec>& names) {
+  for (const fem::GeometryFaceSpec& face : names) name_faces(part.mesh, part.faces, face);
+  return std::move(part.mesh);
 }
 
 }  // namespace buckens::io

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -80,7 +84,61 @@ std::string first_string(const std::string& text, const Entity& entity) {
       if (text[at + 1] != '\'') return out;
       ++at;
     }
-    out += text[at];
+    if (text[at] != '\n' && text[at] != '\r') out += text[at];  // long strings are wrapped
+  }
+  return out;
+}
+
+/// Appends a character in UTF-8.
+void append_utf8(std::string& out, unsigned code) {
+  const auto add = [&out](unsigned byte) { out += static_cast<char>(byte); };
+  if (code < 0x80) return add(code);
+  if (code < 0x800) {
+    add(0xC0 | code >> 6);
+  } else if (code < 0x10000) {
+    add(0xE0 | code >> 12);
+    add(0x80 | (code >> 6 & 0x3F));
+  } else {
+    add(0xF0 | (code >> 18 & 0x07));
+    add(0x80 | (code >> 12 & 0x3F));
+    add(0x80 | (code >> 6 & 0x3F));
+  }
+  add(0x80 | (code & 0x3F));
+}
+
+/// The number of so many hexadecimal digits; empty where others stand.
+std::optional<unsigned> hexadecimal(const std::string& text, std::size_t at, std::size_t digits) {
+  unsigned out = 0;
+  if (at + digits > text.size()) return std::nullopt;
+  const auto result = std::from_chars(text.data() + at, text.data() + at + digits, out, 16);
+  if (result.ec != std::errc() || result.ptr != text.data() + at + digits) return std::nullopt;
+  return out;
+}
+
+/// Characters beyond ASCII as the standard writes them: \X\E4, \S\d, \X2\00E4\X0\, \X4\...\X0\.
+std::string decoded(const std::string& text) {
+  std::string out;
+  std::size_t digits = 0;  // of each character inside \X2\ or \X4\.
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = std::string_view(text).substr(at);
+    if (rest.starts_with("\\X2\\") || rest.starts_with("\\X4\\")) {
+      digits = rest[2] == '2' ? 4 : 8;
+      at += 4;
+    } else if (rest.starts_with("\\X0\\")) {
+      digits = 0;
+      at += 4;
+    } else if (const auto code = hexadecimal(text, at, digits); digits > 0 && code) {
+      append_utf8(out, *code);
+      at += digits;
+    } else if (const auto byte = hexadecimal(text, at + 3, 2); rest.starts_with("\\X\\") && byte) {
+      append_utf8(out, *byte);
+      at += 5;
+    } else if (rest.starts_with("\\S\\") && rest.size() > 3) {
+      append_utf8(out, static_cast<unsigned char>(rest[3]) + 128U);
+      at += 4;
+    } else {
+      out += text[at++];
+    }
   }
   return out;
 }
@@ -144,20 +202,25 @@ int name_of_color(const std::array<int, 3>& linear, std::size_t num_names) {
 ColoredStep color_named_faces(const std::string& step) {
   ColoredStep out;
   std::vector<NamedFace> faces;
+  std::unordered_map<std::string, std::size_t> places;
   std::string context;
   std::size_t largest = 0;
   for_each_entity(step, [&](const Entity& entity) {
     largest = std::max<std::size_t>(largest, std::strtoull(entity.number.c_str() + 1, nullptr, 10));
-    if (entity.type.ends_with("SHAPE_REPRESENTATION")) context = last_reference(step, entity);
-    if (entity.type != "ADVANCED_FACE" && entity.type != "FACE_SURFACE") return;
-    const std::string name = first_string(step, entity);
-    if (name.empty() || name == "NONE" || name == " ") return;
-    auto found = std::find(out.names.begin(), out.names.end(), name);
-    if (found == out.names.end()) {
-      if (out.names.size() == kMostNames) return;
-      found = out.names.insert(out.names.end(), name);
+    if (entity.type.ends_with("SHAPE_REPRESENTATION") &&
+        entity.type != "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION") {
+      context = last_reference(step, entity);
     }
-    faces.push_back({entity.number, static_cast<std::size_t>(found - out.names.begin())});
+    if (entity.type != "ADVANCED_FACE" && entity.type != "FACE_SURFACE") return;
+    const std::string name = decoded(first_string(step, entity));
+    if (name.empty() || name == "NONE" || name == " ") return;
+    auto found = places.find(name);
+    if (found == places.end()) {
+      if (out.names.size() == kMostNames) return;
+      found = places.emplace(name, out.names.size()).first;
+      out.names.push_back(name);
+    }
+    faces.push_back({entity.number, found->second});
   });
   const std::size_t end = step.rfind("ENDSEC;");
   if (faces.empty() || context.empty() || end == std::string::npos) return {};

@@ -11,6 +11,7 @@
 #include "buckens/io/model_file.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
+#include "buckens/io/step_mesh_cache.h"
 #include "buckens/io/summary_json.h"
 #include "buckens/io/text_file.h"
 #include "buckens/linalg/solve_exchange.h"
@@ -44,7 +45,7 @@ class Sweep {
     model_ = model;
     overrides_ = overrides;
     // What is wrong without any variant is no matter of the variants.
-    const model::ModelDescription base = read_model_file(model, overrides);
+    const model::ModelDescription base = read_model_file(model, overrides, step_meshes_);
     if (!base.simulation) {
       throw InputError(base.where,
                        "there is no `simulation:`, so it is not known how far to simulate. Add for "
@@ -83,7 +84,8 @@ class Sweep {
       overrides.push_back(std::move(text));
     }
     try {
-      auto out = std::make_shared<model::ModelDescription>(read_model_file(model_, overrides));
+      auto out = std::make_shared<model::ModelDescription>(
+          read_model_file(model_, overrides, step_meshes_));
       if (!holds_finished_run(directory_of(v), *out)) return out;
       end(v, VariantStatus::kept);
     } catch (const Error& error) {
@@ -155,6 +157,7 @@ class Sweep {
   std::size_t num_ended_ = 0;
   bool stopped_ = false;
   linalg::SolveExchange exchange_;
+  StepMeshCache step_meshes_;
   SweepOutcome outcome_;
 };
 

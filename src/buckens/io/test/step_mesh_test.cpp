@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +14,8 @@
 #include "buckens/base/test/source_directory.h"
 #include "buckens/fem/mesh_report.h"
 #include "buckens/io/isolated_work.h"
+#include "buckens/io/model_file.h"
+#include "buckens/io/step_mesh_cache.h"
 #include "buckens/io/step_text.h"
 #include "buckens/io/text_file.h"
 
@@ -39,7 +42,7 @@ std::string refusal(const fem::GeometrySpec& part, Spec spec) {
   spec.where = {"rod.yaml", 7, 3};
   with.faces = {face("wrong", spec)};
   try {
-    mesh_step(kRod, with);
+    StepMeshCache().mesh(kRod, with);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -61,7 +64,7 @@ TEST(StepMesh, MeshesInMetresAndNamesFaces) {
   ball.radius = 0.013;
   part.faces = {face("red", fem::FaceColorSpec{{}, {255, 0, 0}}),
                 face("end", fem::FaceLabelSpec{{}, "small bore"}), face("ball", ball)};
-  const fem::ImportedMesh mesh = mesh_step(kRod, part);
+  const fem::ImportedMesh mesh = *StepMeshCache().mesh(kRod, part);
   const fem::MeshReport report = fem::report_mesh(mesh, true);
   EXPECT_EQ(report.inverted.size(), 0u);
   EXPECT_EQ(report.pieces, 1);
@@ -81,6 +84,51 @@ TEST(StepMesh, MeshesInMetresAndNamesFaces) {
                                                                        "no face 99"));
   ball.radius = 0.001;
   EXPECT_THAT(refusal(part, ball), HasSubstr("no face of the part lies wholly here"));
+}
+
+/// A plate, a pin that stands on it, and a block that touches neither; see tests/parts.
+TEST(StepMesh, GluesSolidsThatTouchAndKeepsNamesOfFacesThatAreCut) {
+  const std::filesystem::path file =
+      std::filesystem::path(test::kSourceDirectory) / "tests/parts/assembly.step";
+  const fem::ImportedMesh mesh = mesh_step(file, 0.006, 1);
+  const fem::MeshReport report = fem::report_mesh(mesh, true);
+  EXPECT_EQ(report.pieces, 2);
+  EXPECT_THAT(report.duplicate_nodes, testing::IsEmpty());
+  EXPECT_NEAR(report.volume, 11e-6, 1e-15);
+  std::vector<std::string> solids;
+  for (const auto& property : report.properties) solids.push_back(property.name);
+  EXPECT_THAT(solids, testing::UnorderedElementsAre("plate", "pin", "block"));
+  std::map<std::string, double> areas;
+  for (const auto& set : report.face_sets) areas[set.name] = set.area;
+  EXPECT_NEAR(areas.at("wall"), 200e-6, 1e-15);
+  EXPECT_NEAR(areas.at("color_255_0_0"), 200e-6, 1e-15);
+  EXPECT_NEAR(areas.at("seat"), 200e-6, 1e-15) << "cut into three by the pin";
+  EXPECT_NEAR(areas.at("Stirnfl\u00e4che"), 100e-6, 1e-15);
+  EXPECT_NEAR(areas.at("it's below"), 100e-6, 1e-15);
+  EXPECT_NEAR(areas.at("color_0_255_0"), 200e-6, 1e-15);
+  EXPECT_NEAR(areas.at("color_0_0_255"), 100e-6, 1e-15);
+  EXPECT_THAT(mesh.notes, testing::IsEmpty());
+}
+
+TEST(StepMesh, IsMadeOnceForVariantsAndBodiesOfOnePart) {
+  StepMeshCache cache;
+  const std::filesystem::path model = kRod.parent_path() / "connecting_rod.yaml";
+  const auto read = [&](const std::string& change) {
+    return read_model_file(model, {"parameters.size=30 mm", change}, cache);
+  };
+  read("parameters.speed=100");
+  EXPECT_EQ(cache.num_meshed(), 1);
+  const auto other = read("parameters.speed=120");
+  EXPECT_EQ(cache.num_meshed(), 1);
+  const auto& rod = std::get<fem::GeometrySpec>(other.bodies.at(1).kind);
+  EXPECT_EQ(rod.imported->face_sets.back().name, "small")
+      << "faces of the model are named each time";
+  read("bodies.rod.geometry.size=40 mm");
+  EXPECT_EQ(cache.num_meshed(), 2);
+  read("bodies.rod.geometry.order=1");
+  EXPECT_EQ(cache.num_meshed(), 3);
+  read("parameters.r=100 mm");
+  EXPECT_EQ(cache.num_meshed(), 3);
 }
 
 std::string message_of(const std::string& step, double size = 0.01) {
