@@ -13,13 +13,17 @@
 
 namespace buckens::cli {
 
-std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
+std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
+                                         std::vector<std::string>* meshes) {
   std::vector<std::string> notes;
   analysis::choose_modes(description, notes,
                          [](const std::string& text) { base::log(base::LogLevel::info, text); });
   for (const body::BodySpec& body : description.bodies) {
     const MeshNotes of_mesh = mesh_notes(body);
-    if (!of_mesh.summary.empty()) base::log(base::LogLevel::info, of_mesh.summary);
+    if (!of_mesh.summary.empty() && meshes != nullptr) meshes->push_back(of_mesh.summary);
+    if (!of_mesh.summary.empty() && meshes == nullptr) {
+      base::log(base::LogLevel::info, of_mesh.summary);
+    }
     notes.insert(notes.end(), of_mesh.complaints.begin(), of_mesh.complaints.end());
   }
   io::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
@@ -29,8 +33,9 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
 }
 
 std::unique_ptr<model::BuiltModel> read_and_build(const std::string& model,
-                                                  const std::vector<std::string>& overrides) {
-  return build(io::read_model_file(model, overrides));
+                                                  const std::vector<std::string>& overrides,
+                                                  std::vector<std::string>* meshes) {
+  return build(io::read_model_file(model, overrides), meshes);
 }
 
 }  // namespace buckens::cli

@@ -10,10 +10,14 @@
 namespace buckens::cli {
 
 /// Builds the model of a model file: chooses modes where `reduction: auto` asks for it, and keeps
-/// reduced bases in the files that the model names.
-std::unique_ptr<model::BuiltModel> build(model::ModelDescription description);
+/// reduced bases in the files that the model names. What is probably wrong with meshes of files
+/// stands among the notes of the model.
+/// @param meshes gets a line on each mesh of a file; null: the line goes to the log
+std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
+                                         std::vector<std::string>* meshes = nullptr);
 /// The same for a model file with changes.
 std::unique_ptr<model::BuiltModel> read_and_build(const std::string& model,
-                                                  const std::vector<std::string>& overrides);
+                                                  const std::vector<std::string>& overrides,
+                                                  std::vector<std::string>* meshes = nullptr);
 
 }  // namespace buckens::cli

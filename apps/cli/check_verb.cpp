@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "cli/build.h"
-#include "cli/mesh_report_text.h"
 #include "cli/model_report_text.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
@@ -22,12 +21,10 @@ struct CheckArguments {
 };
 
 ExitCode check(const CheckArguments& arguments, bool json) {
-  const auto built = read_and_build(arguments.model, arguments.overrides);
+  std::vector<std::string> meshes;
+  const auto built = read_and_build(arguments.model, arguments.overrides, &meshes);
   analysis::ModelReport report = analysis::report_model(*built);
-  for (const body::BodySpec& body : built->description.bodies) {
-    const std::string summary = mesh_notes(body).summary;
-    if (!summary.empty()) report.notes.push_back(summary);
-  }
+  report.notes.insert(report.notes.end(), meshes.begin(), meshes.end());
   const std::string& title = built->description.title;
   print(json ? report_json(title, report) : report_text(title, report));
   return ExitCode::ok;

@@ -24,6 +24,8 @@ using io::json_of;
 
 constexpr std::size_t kMostNamed = 5;
 constexpr std::size_t kMostSets = 60;
+/// Aspect ratio above which an element is called a sliver, as Nastran does for tetrahedra.
+constexpr double kSliver = 100;
 
 std::string vector_text(const Vector3d& v) {
   // Rounding leaves -0 and 1e-19 where zero is meant.
@@ -68,6 +70,12 @@ std::vector<std::string> complaints(const MeshReport& report) {
     out.push_back(fmt::format("{} turned inside out or flat: {}",
                               report.inverted.size() == 1 ? "an element is" : "elements are",
                               some_of(report.inverted)));
+  }
+  if (report.worst_aspect > kSliver && report.inverted.empty()) {
+    out.push_back(fmt::format(
+        "element {} at {} m is a sliver: its aspect ratio is {:.3g}, and stresses there "
+        "mean little; small faces and edges of the geometry make such elements",
+        report.worst_element, vector_text(report.worst_centre), report.worst_aspect));
   }
   if (!report.duplicate_nodes.empty()) {
     std::vector<std::string> pairs;
@@ -163,11 +171,11 @@ std::string mesh_report_text(const fem::ImportedMesh& mesh, const MeshReport& re
                            vector_text(report.box.max()))}};
   const Entries masses = mass_entries(report);
   entries.insert(entries.end(), masses.begin(), masses.end());
-  entries.emplace_back(
-      "worst aspect ratio",
-      report.worst_element == 0
-          ? "1"
-          : fmt::format("{:.3g} (element {})", report.worst_aspect, report.worst_element));
+  entries.emplace_back("worst aspect ratio",
+                       report.worst_element == 0
+                           ? "1"
+                           : fmt::format("{:.3g} (element {} at {} m)", report.worst_aspect,
+                                         report.worst_element, vector_text(report.worst_centre)));
   entries.emplace_back("pieces", fmt::to_string(report.pieces));
   if (!report.free_nodes.empty()) {
     entries.emplace_back("free nodes",
@@ -217,6 +225,7 @@ Json mesh_report_json(const fem::ImportedMesh& mesh, const MeshReport& report) {
           {"without_density", report.without_density},
           {"worst_aspect_ratio", report.worst_aspect},
           {"worst_element", report.worst_element},
+          {"worst_centre", json_of(report.worst_centre)},
           {"inverted", report.inverted},
           {"duplicate_nodes", std::move(duplicates)},
           {"pieces", report.pieces},

@@ -16,14 +16,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::vector<Vector3d> places(const ImportedMesh& mesh, const ImportedBlock& block, int element) {
-  const int count = num_nodes(block.kind);
-  std::vector<Vector3d> out;
-  for (int k = 0; k < count; ++k) {
-    const int node = block.nodes[static_cast<std::size_t>(element * count + k)];
+void get_places(const ImportedMesh& mesh, const ImportedBlock& block, int element,
+                std::vector<Vector3d>& out) {
+  const auto count = static_cast<std::size_t>(num_nodes(block.kind));
+  out.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    const int node = block.nodes[static_cast<std::size_t>(element) * count + k];
     out.push_back(mesh.positions[static_cast<std::size_t>(node)]);
   }
-  return out;
 }
 
 const MaterialSpec* find_material(const ImportedMesh& mesh, const std::string& name) {
@@ -96,8 +96,9 @@ class Reporter {
       property.material = own->material;
     }
     const double specific = specific_mass(mesh_, block);
+    std::vector<Vector3d> x;
     for (int e = 0; e < block.num_elements(); ++e) {
-      const auto x = places(mesh_, block, e);
+      get_places(mesh_, block, e, x);
       const CellMeasure measure = cell_measure(block.kind, x);
       property.elements += 1;
       property.size += measure.size;
@@ -115,6 +116,8 @@ class Reporter {
     if (!(aspect <= out_.worst_aspect)) {
       out_.worst_aspect = aspect;
       out_.worst_element = number;
+      out_.worst_centre = Vector3d::Zero();
+      for (const Vector3d& node : x) out_.worst_centre += node / static_cast<double>(x.size());
     }
     if (is_inverted(block.kind, x)) out_.inverted.push_back(number);
   }

@@ -53,6 +53,7 @@ struct MeshReport {
   int without_density = 0;                            ///< elements
   double worst_aspect = 1;
   std::int64_t worst_element = 0;
+  Eigen::Vector3d worst_centre = Eigen::Vector3d::Zero();              ///< mean of its nodes [m]
   std::vector<std::int64_t> inverted;                                  ///< numbers of elements
   std::vector<std::pair<std::int64_t, std::int64_t>> duplicate_nodes;  ///< numbers of nodes
   int pieces = 0;                        ///< parts that nothing connects

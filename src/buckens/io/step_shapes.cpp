@@ -9,7 +9,9 @@ namespace buckens::io {
 
 namespace {
 
-// Relative to the size of a face: geometry kernels work with 1e-7 m, integrals with less than that.
+// Relative to the size of a face. Boxes are widened by the tolerance of the kernel, 1e-7 m, which
+// is 1e-4 of a face of a millimetre; areas and centres are integrals of smooth functions.
+constexpr double kBoxMargin = 1e-4;
 constexpr double kSame = 1e-5;
 
 struct Face {
@@ -21,7 +23,7 @@ struct Face {
 
   double width() const { return std::hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]); }
   bool lies_in(const Face& other) const {
-    const double margin = kSame * other.width();
+    const double margin = kBoxMargin * other.width();
     for (std::size_t k = 0; k < 3; ++k) {
       if (box[k] < other.box[k] - margin || box[k + 3] > other.box[k + 3] + margin) return false;
     }
