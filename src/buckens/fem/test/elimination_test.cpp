@@ -36,6 +36,14 @@ struct Parts {
   static RigidLink rigid(int reference, std::vector<int> nodes) {
     return {"link", reference, std::move(nodes)};
   }
+  static AverageLink average(int reference, std::vector<int> nodes, std::vector<double> weights) {
+    AverageLink out;
+    out.label = "mean";
+    out.reference = reference;
+    out.nodes = std::move(nodes);
+    out.weights = std::move(weights);
+    return out;
+  }
 };
 
 /// T leaves rigid motion possible and its independent rows alone.
@@ -115,7 +123,7 @@ TEST(Elimination, KeepsVariablesThatAMaskLeavesFree) {
 
 TEST(Elimination, AveragesAsInterfacesDo) {
   Parts p;
-  p.s.links.averages = {{"mean", p.near, p.face_x1(), {1, 2, 1, 3}}};
+  p.s.links.averages = {Parts::average(p.near, p.face_x1(), {1, 2, 1, 3})};
   p.s.links.rigid = {Parts::rigid(p.near, {p.hub})};  // follows what follows
   const FeModel fe = assemble(p.s);
   const Elimination e = eliminate(fe.nodes, fe.dofs, p.s.links);
@@ -157,7 +165,7 @@ TEST(Elimination, AveragesMoveTheChosenVariablesOnly) {
 
 TEST(Elimination, AveragesOfAllComponentsAreThoseWithoutChoice) {
   Parts p;
-  p.s.links.averages = {{"mean", p.near, p.face_x1(), {1, 2, 1, 3}}};
+  p.s.links.averages = {Parts::average(p.near, p.face_x1(), {1, 2, 1, 3})};
   p.s.links.rigid = {Parts::rigid(p.near, {p.hub})};
   const FeModel fe = assemble(p.s);
   const Elimination plain = eliminate(fe.nodes, fe.dofs, p.s.links);
@@ -195,8 +203,9 @@ TEST(Elimination, AveragesFitTheComponentsThatCount) {
 
   p.s.links.averages[0].variables.fill(true);
   const auto all = [&] { eliminate(fe.nodes, fe.dofs, p.s.links); };
-  EXPECT_THAT(all, ThrowsMessage<ModelError>(AllOf(HasSubstr("mean: the chosen displacements"),
-                                                   HasSubstr("displacement along y of node \"near\""))));
+  EXPECT_THAT(all,
+              ThrowsMessage<ModelError>(AllOf(HasSubstr("mean: the chosen displacements"),
+                                              HasSubstr("displacement along y of node \"near\""))));
 }
 
 TEST(Elimination, SolvesEquationsThatLetRigidMotionBe) {
@@ -239,7 +248,8 @@ TEST(Elimination, RefusesWhatHoldsTheBodyOrDoesNotExist) {
   const auto average_of_two = [] {
     Parts q;
     q.s.links.rigid = {Parts::rigid(q.near, {q.hub})};
-    q.s.links.averages = {{"deck.inp:9: average", q.near, {q.block, q.block + 1}, {1, 1}}};
+    q.s.links.averages = {Parts::average(q.near, {q.block, q.block + 1}, {1, 1})};
+    q.s.links.averages[0].label = "deck.inp:9: average";
     const FeModel fe = assemble(q.s);
     eliminate(fe.nodes, fe.dofs, q.s.links);
   };
