@@ -17,8 +17,8 @@ using test::Recorded;
 
 constexpr double kShear = kE / 2.6;  // G for nu = 0.3
 
-void set_nodes(const body::Body& body, const std::function<Vector3d(const Vector3d&)>& field,
-               linalg::Vector& d) {
+void move_solid_nodes(const body::Body& body, const std::function<Vector3d(const Vector3d&)>& field,
+                      linalg::Vector& d) {
   const fem::FeModel& fe = body.flexible->fe;
   for (std::size_t n = 0; n < fe.nodes.size(); ++n) {
     const Vector3d u = field(fe.nodes[n].position);
@@ -38,7 +38,7 @@ Described sensed_block() {
 TEST(SolidSensors, UniformStrainGivesTheSameStressEverywhere) {
   Recorded run(sensed_block());
   const double strain = 1e-4;
-  set_nodes(
+  move_solid_nodes(
       run.built->model.bodies[0], [&](const Vector3d& s) { return Vector3d(strain * s.x(), 0, 0); },
       run.body().d);
   run.record();
@@ -58,7 +58,7 @@ TEST(SolidSensors, NodesShowTheMeanOfTheElementsAround) {
   const double rate = 1e-3;
   // Shear γ_xy = 2 rate (x − 0.2): opposite on both sides of the middle; the trilinear field takes
   // at the centre of an element the mean of its corner planes.
-  set_nodes(
+  move_solid_nodes(
       run.built->model.bodies[0],
       [&](const Vector3d& s) { return Vector3d(0, rate * std::pow(s.x() - 0.2, 2), 0); },
       run.body().d);
@@ -80,7 +80,7 @@ TEST(SolidSensors, DividedBlocksRecordElementsInTheOrderOfTheWhole) {
   Recorded three(divided);
   for (Recorded* run : {&one, &three}) {
     for (std::size_t b = 0; b < run->built->model.bodies.size(); ++b) {
-      set_nodes(run->built->model.bodies[b], field, run->body(b).d);
+      move_solid_nodes(run->built->model.bodies[b], field, run->body(b).d);
     }
     run->record();
   }
