@@ -157,6 +157,23 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
   }
 }
 
+void Recorder::append_joints_and_loads(const Observation& now, std::vector<double>& values) const {
+  const model::Model& model = now.model;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (model.joints[j].is_tie) continue;
+    const spatial::Wrench& wrench = now.joint_wrenches[j];
+    for (const Vector3d& v : {wrench.force, wrench.torque}) {
+      values.insert(values.end(), {v.x(), v.y(), v.z()});
+    }
+  }
+  for (const std::size_t k : recorded_loads_) {
+    const loads::ForceElement& load = *model.loads[k].element;
+    const double factor = load.is_applied() ? load_factor_ : 1.0;
+    const Vector3d given = factor * load.values(now.state.t);
+    values.insert(values.end(), given.data(), given.data() + load.num_values());
+  }
+}
+
 Record Recorder::record(const model::State& state, WorkBalance work,
                         const std::optional<dynamics::Energy>& energy) {
   const model::Model& model = built_.model;
@@ -192,19 +209,7 @@ Record Recorder::record(const model::State& state, WorkBalance work,
   Record record{state.t, {}};
   record.values.reserve(layout_.num_values());
   append_bodies(now, record.values);
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    if (model.joints[j].is_tie) continue;
-    const spatial::Wrench& wrench = now.joint_wrenches[j];
-    for (const Vector3d& v : {wrench.force, wrench.torque}) {
-      record.values.insert(record.values.end(), {v.x(), v.y(), v.z()});
-    }
-  }
-  for (const std::size_t k : recorded_loads_) {
-    const loads::ForceElement& load = *model.loads[k].element;
-    const double factor = load.is_applied() ? load_factor_ : 1.0;
-    const Vector3d given = factor * load.values(state.t);
-    record.values.insert(record.values.end(), given.data(), given.data() + load.num_values());
-  }
+  append_joints_and_loads(now, record.values);
   const dynamics::Energy& e = now.energy;
   record.values.insert(record.values.end(),
                        {e.kinetic, e.strain, e.gravity, e.springs, e.total(), now.work.external,

@@ -47,6 +47,7 @@ class Recorder {
   void add_channels();
   void add_mesh_channels(const model::WholeBody& whole, const fem::FeModel& mesh);
   void append_bodies(const Observation& now, std::vector<double>& values) const;
+  void append_joints_and_loads(const Observation& now, std::vector<double>& values) const;
 
   const model::BuiltModel& built_;
   const dynamics::MassMetric& metric_;
