@@ -61,8 +61,10 @@ def test_bar_of_tetrahedra_in_free_flight(errors):
 def test_rotating_disc_of_quadratic_elements(errors):
     meshes = 3, 6, 12
     found = [errors("disc", f"[{n},{16 * n // 3},1]", "hex20") for n in meshes]
-    for place in NODES, CENTRES:
-        follows([error[place] for error in found], [3 / n for n in meshes], 2)
+    follows([error[NODES] for error in found], [3 / n for n in meshes], 2)
+    # Elements as long as the radius of the bore are too coarse for the series at centres: the ratio of errors rises to 4.
+    e1, e2, e3 = (error[CENTRES] for error in found)
+    assert 2 < e1 / e2 < e2 / e3 < 4
 
 
 def test_rotating_disc_of_trilinear_elements(errors):
