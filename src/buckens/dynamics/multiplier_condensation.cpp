@@ -149,22 +149,30 @@ void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& complia
 }
 
 bool MultiplierCondensation::factorise_with_exchanges() {
-  std::vector<linalg::Triplet> entries;
-  for (const auto& [i, j] : couples_) {
-    const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
-    const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
-    const int place = block_lu_.place(i, j);
-    const double* const S = block_lu_.block(place);
-    for (int m = 0; m < column.count; ++m) {
-      for (int k = 0; k < row.count; ++k) {
-        entries.emplace_back(row.first_row + k, column.first_row + m,
-                             S[m * block_lu_.stride(place) + k]);
+  const auto for_entries = [&](auto&& take) {
+    for (const auto& [i, j] : couples_) {
+      const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
+      const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
+      const int place = block_lu_.place(i, j);
+      const double* const S = block_lu_.block(place);
+      const int stride = block_lu_.stride(place);
+      for (int m = 0; m < column.count; ++m) {
+        for (int k = 0; k < row.count; ++k) {
+          take(row.first_row + k, column.first_row + m, S[m * stride + k]);
+        }
       }
     }
+  };
+  if (!general_) {
+    std::vector<linalg::Triplet> entries;
+    for_entries(
+        [&](int row, int column, double value) { entries.emplace_back(row, column, value); });
+    S_.resize(size(), size());
+    S_.setFromTriplets(entries.begin(), entries.end());
+    general_.emplace(S_);
+  } else {
+    for_entries([&](int row, int column, double value) { S_.coeffRef(row, column) = value; });
   }
-  S_.resize(size(), size());
-  S_.setFromTriplets(entries.begin(), entries.end());
-  if (!general_) general_.emplace(S_);
   return general_->factorise(S_);
 }
 
