@@ -98,7 +98,7 @@ def test_loads(refuse, load, words):
     ("{face: w0}", 2, ["model.yaml:9:", "no face \"w0\"", "\"x0\""]),
     ("{face: x0, kind: stiff}", 2, ["model.yaml:9:", "\"stiff\"", "average, rigid"]),
     ("{sphere: {center: [9 m, 0, 0], radius: 1 mm}}", 2, ["model.yaml:9:", "no node lies in the sphere", "8 m away", "enlarge"]),
-    ("{sphere: {center: [0, 0, 0], radius: -1 mm}}", 2, ["model.yaml:9:", "-1 mm", "positive"]),
+    ("{sphere: {center: [0, 0, 0], radius: -1 mm}}", 2, ["model.yaml:9:", "-1 mm", "not be negative"]),
     ("{set: [corner_000, corner_001], kind: rigid}", 2, ["model.yaml:9:", "2 nodes", "span a surface"]),
     ("{set: [corner_00]}", 2, ["model.yaml:9:", "no node or set \"corner_00\"", "\"corner_000\""]),
     ("{face: y0, kind: rigid}\n      more: {face: x0, kind: rigid}", 3, ["model.yaml:6:", "\"root\"", "\"more\"", "in common", "average"]),
