@@ -21,7 +21,8 @@ using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
 ImportedMesh read(const std::string& name) {
-  return read_abaqus_deck(std::string(test::kSourceDirectory) + "/tests/decks/abaqus/" + name);
+  return read_abaqus_deck(std::string(buckens::test::kSourceDirectory) + "/tests/decks/abaqus/" +
+                          name);
 }
 
 const fem::ImportedBlock& block_of(const ImportedMesh& mesh, const std::string& source,

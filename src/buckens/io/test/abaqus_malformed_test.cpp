@@ -89,7 +89,7 @@ TEST_F(AbaqusMalformed, HugeNumbersCostNoMemory) {
 }
 
 TEST_F(AbaqusMalformed, OverlappingRangesCostNoMoreThanTheirNodes) {
-  std::string text = std::string(kNodes) + "*NSET, NSET=A, GENERATE\n";
+  std::string text = with_nodes("") + "*NSET, NSET=A, GENERATE\n";
   for (int k = 0; k < 20000; ++k) text += "1, 99999999, 1\n1, 8, 1\n";
   const auto mesh = read_abaqus_deck(write("deck.inp", text));
   EXPECT_EQ(mesh.node_sets.at(0).nodes.size(), 8u);

@@ -26,7 +26,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::filesystem::path kRod =
-    std::filesystem::path(test::kSourceDirectory) / "examples/connecting_rod/rod.step";
+    std::filesystem::path(buckens::test::kSourceDirectory) / "examples/connecting_rod/rod.step";
 
 fem::GeometryFaceSpec face(const std::string& name, decltype(fem::GeometryFaceSpec::selection) by) {
   fem::GeometryFaceSpec out;
@@ -89,7 +89,7 @@ TEST(StepMesh, MeshesInMetresAndNamesFaces) {
 /// A plate, a pin that stands on it, and a block that touches neither; see tests/parts.
 TEST(StepMesh, GluesSolidsThatTouchAndKeepsNamesOfFacesThatAreCut) {
   const std::filesystem::path file =
-      std::filesystem::path(test::kSourceDirectory) / "tests/parts/assembly.step";
+      std::filesystem::path(buckens::test::kSourceDirectory) / "tests/parts/assembly.step";
   const fem::ImportedMesh mesh = mesh_step(file, 0.006, 1);
   const fem::MeshReport report = fem::report_mesh(mesh, true);
   EXPECT_EQ(report.pieces, 2);
