@@ -10,6 +10,7 @@
 #include "buckens/body/dense_free_modes.h"
 #include "buckens/body/iterated_modes.h"
 #include "buckens/body/shift_estimate.h"
+#include "buckens/linalg/tall_products.h"
 
 namespace buckens::body {
 
@@ -68,10 +69,10 @@ FreeFreeModes solve_dense(const FlexiblePart& part) {
 
 void judge(const FlexiblePart& part, const ModeOperator& op, FreeFreeModes& out) {
   const Vector scale = variable_scale(part.fe.M, part.fe.K);
-  const Matrix Mphi = part.fe.M * out.shapes;
+  const Matrix Mphi = linalg::symmetric_product(part.fe.M, out.shapes);
   const Vector squares = out.omega.cwiseAbs2();
   const Matrix inertia = Mphi * squares.asDiagonal();
-  const Matrix left = part.fe.K * out.shapes - inertia;
+  const Matrix left = linalg::symmetric_product(part.fe.K, out.shapes) - inertia;
   out.residual = (scale.asDiagonal() * left)
                      .colwise()
                      .norm()
@@ -81,7 +82,8 @@ void judge(const FlexiblePart& part, const ModeOperator& op, FreeFreeModes& out)
   op.inverse(image);
   out.solves += image.cols();
   image = out.shapes - image * (squares.array() + op.shift).matrix().asDiagonal();
-  out.error = (image.cwiseProduct(part.fe.M * image)).colwise().sum().cwiseMax(0.0).cwiseSqrt();
+  const Matrix of_image = linalg::symmetric_product(part.fe.M, image);
+  out.error = image.cwiseProduct(of_image).colwise().sum().cwiseMax(0.0).cwiseSqrt();
 }
 
 }  // namespace
