@@ -38,6 +38,11 @@ function(buckens_fuzz target seconds)
   # clang knows more warnings than the compiler that the sources are written for.
   target_compile_options(${name} PRIVATE -w -O1 -g0 ${BUCKENS_FUZZ_FLAGS})
   target_link_options(${name} PRIVATE ${BUCKENS_FUZZ_FLAGS})
+  if(BUCKENS_UNITY)
+    # A piece of the library defines readers once more, beside what is wanted of it; those compiled
+    # here stand first and are taken.
+    target_link_options(${name} PRIVATE -Wl,--allow-multiple-definition)
+  endif()
   set_target_properties(
     ${name}
     PROPERTIES CXX_COMPILER_LAUNCHER "${BUCKENS_WITH_CLANG};${fuzz_cache};--"
