@@ -155,6 +155,7 @@ TEST(Elimination, AveragesMoveTheChosenVariablesOnly) {
               testing::ElementsAre(-1, -1, testing::Ge(0), -1, testing::Ge(0), testing::Ge(0)));
   // A node that nothing else turns gets rotations only if the average tells all three.
   Parts q;
+  q.s.links.rigid = {Parts::rigid(q.near, q.face_x1())};  // holds the beam
   q.s.links.averages = {
       {"mean", q.hub, q.face_x1(), {1, 1, 1, 1}, {true, true, true, false, false, false}, {}}};
   const FeModel without = assemble(q.s);
