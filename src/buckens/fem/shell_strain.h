@@ -77,8 +77,7 @@ ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
 ShellStrainField quadrilateral_strain(const ShellElement& element, bool with_corners = false);
 ShellStrainField triangle_strain(const ShellElement& element, bool with_corners = false);
 
-/// Drilling of each node against the triangle, m_i·(θ_i − ω) with m_i halfway between the normal
-/// and the director of the node.
+/// Drilling of each node against the triangle, n·(θ_i − ω).
 struct TriangleDrilling {
   std::array<ShellRow, 3> rows;
   double area = 0;  ///< [m²]

@@ -69,15 +69,14 @@ Matrix3d lumped_strain(const Plane& p) {
   return out / (2 * p.area);
 }
 
-/// Drilling of the nodes against the triangle, m_i·(θ_i − ω). On a curved shell n·(θ_i − ω) would
-/// be of first order where it bends without stretching, and lock; see drilling of quadrilaterals.
+/// Drilling of the nodes against the triangle, n·(θ_i − ω).
 PlaneRows relative_rotation(const ShellElement& element, const Plane& p) {
   PlaneRows out;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const Vector3d m = 0.5 * (p.axes.col(2) + element.directors.col(i));
+    const Vector3d normal = p.axes.col(2);
     ShellRow row = ShellRow::Zero(18);
-    row.segment<3>(6 * i + 3) = m.transpose();
-    subtract_surface_rotation(element, p.axes, p.slope, m, row);
+    row.segment<3>(6 * i + 3) = normal.transpose();
+    subtract_surface_rotation(element, p.axes, p.slope, normal, row);
     out.row(i) = row;
   }
   return out;
