@@ -150,7 +150,7 @@ def test_point_masses_and_links_of_the_model(frequencies, tmp_path):
 WRONG = [
     ("material: steel", ["plate.msh", 'the quadrangle elements of "skin" have no thickness',
                          'sections: {"skin": {thickness: 2 mm}}']),
-    ("material: steel, sections: {skim: {thickness: 2 mm}}", ["model.yaml:8:", 'Did you mean "skin"?']),
+    ("material: steel, sections: {skim: {thickness: 2 mm}}", ["model.yaml:7:", 'Did you mean "skin"?']),
     ("material: steel, sections: {skin: {beam: {circle: {diameter: 2 mm}}}}", ["no lines in \"skin\""]),
     ("material: steel, sections: {skin: {thickness: 2 mm, beam: {circle: {diameter: 2 mm}}}}",
      ["exactly one of the keys thickness, layers, beam and bar"]),

@@ -96,7 +96,9 @@ def test_the_side_car_makes_the_same_body(buckens, tmp_path, name, file, deck):
     (tmp_path / "part.yaml").write_text(
         f"buckens: 1\nbodies: {{part: {{mesh: {{file: {file}, length-unit: mm}}}}}}\n")
     told = buckens("convert", file, "part.msh", "--length-unit", "mm", "--json").must(0).json
-    assert told["model"] == "part.msh.yaml" and told["notes"] == []
+    assert told["model"] == "part.msh.yaml"
+    assert "# Note" not in (tmp_path / "part.msh.yaml").read_text()
+    assert not any("place in a mesh of Gmsh" in note for note in told["notes"])
     first, last = (described(buckens, model) for model in ("part.yaml", "part.msh.yaml"))
     assert first["nodes"] == last["nodes"] and first["elements"] == last["elements"]
     assert first["dof"] == last["dof"]

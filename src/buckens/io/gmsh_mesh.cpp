@@ -49,6 +49,7 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
   const MshVersion version = read_version(text);
   mesh.format = fmt::format("Gmsh {} {}", version.is_4 ? "4.1" : "2.2",
                             version.is_binary ? "binary" : "text");
+  mesh.repeats_elements = !version.is_4;
   GmshReader reader(text, mesh, version.is_binary);
   reader.expect_end("$MeshFormat");
   GmshSections4 sections(reader);

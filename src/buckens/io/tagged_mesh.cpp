@@ -419,7 +419,7 @@ ImportedMesh GroupMesh::made() && {
   mesh_.file = tagged_.file;
   mesh_.format = tagged_.format;
   mesh_.notes = tagged_.notes;
-  merge_repeated();
+  if (tagged_.repeats_elements) merge_repeated();
   list_surfaces_and_lines();
   add_volumes();
   add_surfaces();

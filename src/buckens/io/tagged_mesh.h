@@ -40,6 +40,9 @@ struct TaggedMesh {
   /// and volumes. They vanish unless something else uses them.
   std::vector<int> dropped_nodes;
   std::vector<fem::ImportNote> notes;
+  /// Whether an element stands once for each group that it belongs to. Otherwise elements between
+  /// the same nodes, such as two bars side by side, are several.
+  bool repeats_elements = true;
 
   /// The elements of this shape and these groups, new if there are none yet.
   TaggedCells& cells_of(fem::CellKind kind, const std::string& source, std::vector<int> groups);

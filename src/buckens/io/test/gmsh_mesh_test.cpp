@@ -164,6 +164,22 @@ TEST(GmshMesh, GroupsOnOthersBecomeElementsWhereAModelNamesThem) {
   EXPECT_EQ(mesh.face_sets.at(0).faces.at(0).element, 0);
 }
 
+TEST(GmshMesh, ElementsSideBySideAreSeveralInVersion4) {
+  ImportedMesh mesh;
+  mesh.file = "bars.msh";
+  mesh.node_ids = {1, 2};
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}};
+  mesh.blocks.resize(1);
+  mesh.blocks[0].kind = CellKind::line2;
+  mesh.blocks[0].ids = {1, 2};
+  mesh.blocks[0].nodes = {0, 1, 0, 1};
+  const auto count = [&](GmshFormat format) {
+    return read_gmsh_bytes(gmsh_bytes(mesh, format), "bars.msh").num_elements();
+  };
+  EXPECT_EQ(count(GmshFormat::ascii_4_1), 2);
+  EXPECT_EQ(count(GmshFormat::ascii_2_2), 1) << "there, one element of two groups is written twice";
+}
+
 TEST(GmshMesh, GroupsOfOneNameBelongTogether) {
   const std::string text =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n2 1 \"skin\"\n2 2 \"skin\"\n"
