@@ -44,16 +44,6 @@ ShellShearRows covariant_shear(const ShellElement& element, double r, double s) 
   return rows;
 }
 
-void subtract_surface_rotation(const ShellElement& element, const Matrix3d& axes,
-                               const Slope& slope, const Vector3d& m, ShellRow& row) {
-  const ShellRowBuilder build{element};
-  const Vector3d local = axes.transpose() * m;
-  build.add_surface(row, -local.x() * axes.col(2), slope.row(1));
-  build.add_surface(row, local.y() * axes.col(2), slope.row(0));
-  build.add_surface(row, -0.5 * local.z() * axes.col(1), slope.row(0));
-  build.add_surface(row, 0.5 * local.z() * axes.col(0), slope.row(1));
-}
-
 namespace {
 
 /// Geometry of a quadrilateral at one point.
@@ -120,7 +110,9 @@ void set_inner(const QuadPoint& centre, const QuadPoint& p, double r, double s,
 /// surface at the point and m_i halfway between its normal there and the director of node i. Where
 /// a curved shell bends without stretching, its rotation changes along the surface only, so that
 /// this vanishes to second order in the angle between normals; n·(θ_i − ω) does not, and locks.
+/// With axes x, y, n the surface turns by ω_x = n·U,y, ω_y = −n·U,x, ω_n = ½ (y·U,x − x·U,y).
 ShellRow drilling_row(const ShellElement& element, const QuadPoint& p) {
+  const ShellRowBuilder build{element};
   const Vector3d n = p.axes.col(2);
   ShellRow row = ShellRow::Zero(element.num_variables());
   Vector3d mean = Vector3d::Zero();
@@ -129,7 +121,11 @@ ShellRow drilling_row(const ShellElement& element, const QuadPoint& p) {
     row.segment<3>(6 * i + 3) += p.shape.N[i] * between.transpose();
     mean += p.shape.N[i] * between;
   }
-  subtract_surface_rotation(element, p.axes, p.slope, mean, row);
+  const Vector3d m = p.axes.transpose() * mean;
+  build.add_surface(row, -m.x() * n, p.slope.row(1));
+  build.add_surface(row, m.y() * n, p.slope.row(0));
+  build.add_surface(row, -0.5 * m.z() * p.axes.col(1), p.slope.row(0));
+  build.add_surface(row, 0.5 * m.z() * p.axes.col(0), p.slope.row(1));
   return row;
 }
 

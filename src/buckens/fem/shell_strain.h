@@ -49,6 +49,13 @@ struct ShellRowBuilder {
       row.template segment<3>(6 * i + 3) += f[i] * turned(i, vector);
     }
   }
+  /// vector · Σ f_i θ_i
+  template <class Row, class Factors>
+  void add_rotation(Row&& row, const Eigen::Vector3d& vector, const Factors& f) const {
+    for (Eigen::Index i = 0; i < element.nodes.cols(); ++i) {
+      row.template segment<3>(6 * i + 3) += f[i] * vector.transpose();
+    }
+  }
 
  private:
   Eigen::RowVector3d turned(Eigen::Index node, const Eigen::Vector3d& vector) const {
@@ -63,13 +70,6 @@ void set_curvature(const ShellElement& element, const Eigen::Matrix3d& axes,
                    const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>& slope,
                    ShellStrain& rows);
 
-/// Takes m·ω off a row, ω the rotation of the surface at a point: with axes x, y, n it turns by
-/// ω_x = n·U,y, ω_y = −n·U,x, ω_n = ½ (y·U,x − x·U,y).
-/// @param slope ∂N/∂x, ∂N/∂y in the axes of the point
-void subtract_surface_rotation(const ShellElement& element, const Eigen::Matrix3d& axes,
-                               const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>& slope,
-                               const Eigen::Vector3d& m, ShellRow& row);
-
 /// Covariant transverse shear X,α·W + D·U,α at a point, rows r and s.
 using ShellShearRows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 24>;
 ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
@@ -77,7 +77,7 @@ ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
 ShellStrainField quadrilateral_strain(const ShellElement& element, bool with_corners = false);
 ShellStrainField triangle_strain(const ShellElement& element, bool with_corners = false);
 
-/// Drilling of each node against the triangle, n·(θ_i − ω).
+/// θ_i·n minus the mean rotation of the triangle in its plane.
 struct TriangleDrilling {
   std::array<ShellRow, 3> rows;
   double area = 0;  ///< [m²]

@@ -17,13 +17,16 @@ using Tangents = Eigen::Matrix<double, 3, 2>;
 
 namespace {
 
+using PlaneRows = Eigen::Matrix<double, 3, 9>;  // over u_x, u_y, θ_z of each node
+
 /// A triangle in its plane.
 struct Plane {
   Matrix3d axes;
   Eigen::Matrix<double, 2, 3> place;
-  double area;       // [m²]
-  Matrix2d inverse;  // ∂(r, s)/∂(x, y)
-  Slope slope;       // ∂N/∂x, ∂N/∂y
+  double area;                       // [m²]
+  Matrix2d inverse;                  // ∂(r, s)/∂(x, y)
+  Slope slope;                       // ∂N/∂x, ∂N/∂y
+  Eigen::Matrix<double, 9, 18> map;  // u_x, u_y, θ_z from the nodal variables
 
   explicit Plane(const ShellElement& element) {
     const ShellShape shape = shell_shape(true, 0, 0);
@@ -35,49 +38,46 @@ struct Plane {
     inverse = jacobian.inverse();
     area = 0.5 * jacobian.determinant();
     slope = inverse.transpose() * shape.slope;
+    map.setZero();
+    const ShellRowBuilder build{element};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Vector3d only = Vector3d::Unit(i);
+      build.add_surface(map.row(3 * i), axes.col(0), only);
+      build.add_surface(map.row(3 * i + 1), axes.col(1), only);
+      build.add_rotation(map.row(3 * i + 2), axes.col(2), only);
+    }
   }
   double x(int i, int j) const { return place(0, i) - place(0, j); }
   double y(int i, int j) const { return place(1, i) - place(1, j); }
 };
 
-using PlaneRows = Eigen::Matrix<double, 3, 18>;
-
-/// Strain of the straight sides.
-PlaneRows linear_strain(const ShellElement& element, const Plane& p) {
-  const ShellRowBuilder build{element};
-  PlaneRows out = PlaneRows::Zero();
-  build.add_surface(out.row(0), p.axes.col(0), p.slope.row(0));
-  build.add_surface(out.row(1), p.axes.col(1), p.slope.row(1));
-  build.add_surface(out.row(2), p.axes.col(0), p.slope.row(1));
-  build.add_surface(out.row(2), p.axes.col(1), p.slope.row(0));
-  return out;
-}
-
-/// Constant strain per relative rotations of the nodes: the share that lumps the stress on the
-/// sides (Bergan, Felippa, 1985). Rows add up to zero, so that the rotation of the whole plays no
-/// part.
-Matrix3d lumped_strain(const Plane& p) {
+/// Constant strain with the share of the rotations that lumps the stress on the sides (Bergan,
+/// Felippa, 1985).
+PlaneRows basic_strain(const Plane& p) {
   constexpr double kAlpha = 1.5;
-  Matrix3d out;
+  PlaneRows out = PlaneRows::Zero();
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double y = p.y(j, k), x = p.x(k, j);
-    out(0, i) = kAlpha / 6 * y * (p.y(i, k) - p.y(j, i));
-    out(1, i) = kAlpha / 6 * x * (p.x(k, i) - p.x(i, j));
-    out(2, i) = kAlpha / 3 * (p.x(k, i) * p.y(i, k) - p.x(i, j) * p.y(j, i));
+    out(0, 3 * i) = out(2, 3 * i + 1) = y;
+    out(1, 3 * i + 1) = out(2, 3 * i) = x;
+    out(0, 3 * i + 2) = kAlpha / 6 * y * (p.y(i, k) - p.y(j, i));
+    out(1, 3 * i + 2) = kAlpha / 6 * x * (p.x(k, i) - p.x(i, j));
+    out(2, 3 * i + 2) = kAlpha / 3 * (p.x(k, i) * p.y(i, k) - p.x(i, j) * p.y(j, i));
   }
   return out / (2 * p.area);
 }
 
-/// Drilling of the nodes against the triangle, n·(θ_i − ω).
-PlaneRows relative_rotation(const ShellElement& element, const Plane& p) {
-  PlaneRows out;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const Vector3d normal = p.axes.col(2);
-    ShellRow row = ShellRow::Zero(18);
-    row.segment<3>(6 * i + 3) = normal.transpose();
-    subtract_surface_rotation(element, p.axes, p.slope, normal, row);
-    out.row(i) = row;
+/// Rotations of the nodes against that of the plane.
+PlaneRows relative_rotation(const Plane& p) {
+  PlaneRows out = PlaneRows::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    for (int row = 0; row < 3; ++row) {
+      out(row, 3 * i) = p.x(k, j) / (4 * p.area);
+      out(row, 3 * i + 1) = p.y(k, j) / (4 * p.area);
+    }
+    out(i, 3 * i + 2) = 1;
   }
   return out;
 }
@@ -111,23 +111,22 @@ Matrix3d from_sides(const Plane& p) {
 /// those of its three bending modes, whose energy β0 scales.
 class OptimalMembrane {
  public:
-  OptimalMembrane(const ShellElement& element, const Plane& plane) {
-    const ShellStiffness& stiffness = *element.stiffness;
+  OptimalMembrane(const Plane& plane, const ShellStiffness& stiffness)
+      : basic_(basic_strain(plane) * plane.map) {
     const double nu = stiffness.A(0, 1) / std::sqrt(stiffness.A(0, 0) * stiffness.A(1, 1));
     const double scale = 1.5 * std::sqrt(std::max(0.5 * (1 - 4 * nu * nu), 0.01));
-    const PlaneRows turn = relative_rotation(element, plane);
-    basic_ = linear_strain(element, plane) + lumped_strain(plane) * turn;
+    const Eigen::Matrix<double, 3, 18> turn = relative_rotation(plane) * plane.map;
     const Matrix3d T = from_sides(plane);
     const auto sides = side_strains(plane);
     for (std::size_t k = 0; k < 3; ++k) higher_[k] = scale * T * sides[k] * turn;
   }
-  PlaneRows at(const Vector3d& N) const {
+  Eigen::Matrix<double, 3, 18> at(const Vector3d& N) const {
     return basic_ + N[0] * higher_[0] + N[1] * higher_[1] + N[2] * higher_[2];
   }
 
  private:
-  PlaneRows basic_;
-  std::array<PlaneRows, 3> higher_;
+  Eigen::Matrix<double, 3, 18> basic_;
+  std::array<Eigen::Matrix<double, 3, 18>, 3> higher_;
 };
 
 double bubble(double r, double s) { return 27 * r * s * (1 - r - s); }
@@ -193,7 +192,7 @@ ShellStrainPoint triangle_point(const ShellElement& element, const Plane& plane,
 
 ShellStrainField triangle_strain(const ShellElement& element, bool with_corners) {
   const Plane plane(element);
-  const OptimalMembrane membrane(element, plane);
+  const OptimalMembrane membrane(plane, *element.stiffness);
   const TriangleShear shear(element, plane);
   ShellStrainField out;
   out.num_inner = 2;
@@ -212,7 +211,7 @@ ShellStrainField triangle_strain(const ShellElement& element, bool with_corners)
 
 TriangleDrilling triangle_drilling(const ShellElement& element) {
   const Plane plane(element);
-  const PlaneRows turn = relative_rotation(element, plane);
+  const Eigen::Matrix<double, 3, 18> turn = relative_rotation(plane) * plane.map;
   return {{ShellRow(turn.row(0)), ShellRow(turn.row(1)), ShellRow(turn.row(2))}, plane.area};
 }
 
