@@ -16,9 +16,7 @@ namespace buckens::stepping {
 ///     ‖ΔF‖ / √(‖F‖² + ‖ĉ‖²),      ‖f‖² = Σ fᵢ²/K̂ᵢᵢ,
 ///
 /// ĉ the centrifugal load of the undeformed body. The norm of K̂⁻¹ itself costs the very solve that
-/// is to be decided on. The diagonal stands in for it: both weigh smooth loads alike, and the rough
-/// share, which extrapolation misses most, weighs more by the diagonal, so that rather one solve
-/// too many follows (docs/theory/08-coupling.md).
+/// is to be decided on; the diagonal stands in for it (docs/theory/08-coupling.md).
 class LaggedCoupling {
  public:
   LaggedCoupling(const body::Body& body, const BodyStepOperator& op);
