@@ -42,8 +42,8 @@ class MarkerTable {
   /// Marker on a node where this part is cut from others.
   int cut_marker(int node);
 
-  /// Marker that follows the mean displacement of a part of the mesh; with the axes of the body. Its
-  /// name, which no model file can write, finds it.
+  /// Marker that follows the mean displacement of a part of the mesh; with the axes of the body.
+  /// Its name, which no model file can write, finds it.
   /// @param position mean place, model axes [m]; empty: a marker at the body frame
   /// @param rows of the mean displacement over the nodal variables (0…2, DOF, value)
   int add_region(const std::string& name, const std::optional<Eigen::Vector3d>& position,

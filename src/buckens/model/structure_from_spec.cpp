@@ -79,7 +79,7 @@ class StructureBuilder {
 };
 
 void StructureBuilder::add_beam(const fem::BeamPropertySpec& spec, int first, int last,
-                       const SourceLocation& where) {
+                                const SourceLocation& where) {
   const fem::BeamProperties properties = make_properties(spec);
   try {
     out_.beams.push_back(fem::add_curved_beam(out_.structure, first, last, spec.path, spec.through,
