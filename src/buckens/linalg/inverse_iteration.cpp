@@ -30,6 +30,7 @@ double longest_column(const Matrix& W, const Matrix& MW) {
 }
 // A fresh block says nothing about missing pairs before it has gone through this many sweeps.
 constexpr int kSearchSweeps = 3;
+constexpr int kSmoothing = 2;
 constexpr int kJudgedAfter = 2;
 
 /// The growing basis V with M-orthonormal columns and T = VᵀM A⁻¹M V.
@@ -48,7 +49,7 @@ class Subspace {
   InversePairs run();
 
  private:
-  void start(unsigned seed);
+  void start(unsigned seed, int smoothing);
   void sweep();
   void solve_projected();
   void restart(Eigen::Index keep);
@@ -142,10 +143,12 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
   mass_block_ = std::move(MW);
 }
 
-void Subspace::start(unsigned seed) {
+/// @param smoothing products with A⁻¹M: the first brings the block into the range of A⁻¹M, a second
+/// one next to the largest pairs, where the share of the smallest may be rounding
+void Subspace::start(unsigned seed, int smoothing) {
   const auto columns = std::min<Eigen::Index>(settings_.block, M_.rows());
   Matrix X = scattered_block(M_.rows(), columns, seed);
-  for (int k = 0; k < 2; ++k) {  // twice: into the range of A⁻¹M, and smooth
+  for (int k = 0; k < smoothing; ++k) {
     X = symmetric_product(M_, X);
     inverse_(X);
     solves_ += X.cols();
@@ -261,7 +264,8 @@ bool Subspace::search(bool is_exhausted) {
   restart(is_exhausted ? theta_.size() : wanted());
   found_ = theta_.head(wanted());
   search_from_ = sweeps_;
-  start(1U + static_cast<unsigned>(searches_));
+  // Of a basis that is closed under A⁻¹M the smallest pairs may be missing, not the largest.
+  start(1U + static_cast<unsigned>(searches_), is_exhausted ? 1 : kSmoothing);
   if (block_.cols() > 0) return true;
   coupling_.resize(0, 0);
   solve_projected();
@@ -269,7 +273,7 @@ bool Subspace::search(bool is_exhausted) {
 }
 
 InversePairs Subspace::run() {
-  start(1);
+  start(1, kSmoothing);
   if (block_.cols() == 0) return result(true);
   while (true) {
     sweep();
