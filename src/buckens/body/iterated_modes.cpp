@@ -106,10 +106,12 @@ double cautious_shift(const SparseMatrix& M, const SparseMatrix& K) {
 
 IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOperator op, int count,
                             double tolerance) {
-  // Where many of all modes are wanted the rigid ones of the penalty form may come among them.
-  const int rigid = op.penalty > 0.0 && 20 * count > M.rows() ? static_cast<int>(sieve.rank()) : 0;
+  // Where many of all modes are wanted the rigid ones of the penalty form would come among them,
+  // mixed with vibrations that share their eigenvalue.
+  const bool may_meet_rigid_ones = op.penalty > 0.0 && 20 * count > M.rows();
   const linalg::InversePairs pairs = linalg::largest_inverse_pairs(
-      M, op.inverse, Matrix(M.rows(), 0), settings_for(count + rigid, tolerance));
+      M, op.inverse, may_meet_rigid_ones ? sieve.Phi() : Matrix(M.rows(), 0),
+      settings_for(count, tolerance));
   check_complete(pairs, count);
   IteratedModes out{elastic_modes(pairs, sieve, op, count), std::move(op), pairs.sweeps,
                     pairs.solves, 1};
