@@ -2,7 +2,7 @@
 file(GLOB cli_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/*.cpp")
 if(cli_sources)
   add_executable(buckens_program ${cli_sources})
-  buckens_in_pieces(buckens_program)
+  buckens_in_pieces(buckens_program "${PROJECT_SOURCE_DIR}/apps")
   set_target_properties(buckens_program PROPERTIES OUTPUT_NAME buckens)
   target_include_directories(buckens_program PRIVATE "${PROJECT_SOURCE_DIR}/apps")
   target_link_libraries(

@@ -46,8 +46,8 @@ function(buckens_fuzz target seconds)
   set_target_properties(
     ${name}
     PROPERTIES CXX_COMPILER_LAUNCHER "${BUCKENS_WITH_CLANG};${fuzz_cache};--"
-               UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0
                RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+  buckens_make_pieces(${name} "${PROJECT_SOURCE_DIR}" 0)
   list(JOIN BUCKENS_WITH_CLANG " " launcher)
   set_target_properties(${name} PROPERTIES RULE_LAUNCH_LINK "${launcher} --")
   set(dictionary "${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.dict")

@@ -50,9 +50,50 @@ if(BUCKENS_SANITIZE)
   target_link_options(buckens_options INTERFACE -fsanitize=${BUCKENS_SANITIZE})
 endif()
 
-# Sources of one target in pieces of eight. Names in unnamed namespaces must differ within a module.
-function(buckens_in_pieces target)
+# Replaces sources of a target by pieces: files that include up to `size` of them (0: all). Names in
+# unnamed namespaces must differ within a piece. Sources with flags of their own stay apart, so those are
+# to be set before.
+#
+# CMake's UNITY_BUILD writes absolute paths into its pieces. These hold paths below `base`, which must be
+# an include directory of the target: another checkout makes the same pieces, and the compiler's cache
+# knows them.
+function(buckens_make_pieces target base size)
+  get_target_property(sources ${target} SOURCES)
+  set(left "")
+  set(joined "")
+  foreach(source IN LISTS sources)
+    get_source_file_property(flags "${source}" COMPILE_OPTIONS)
+    get_source_file_property(alone "${source}" SKIP_UNITY_BUILD_INCLUSION)
+    cmake_path(IS_PREFIX base "${source}" is_below)
+    if(flags OR alone OR NOT is_below)
+      list(APPEND left "${source}")
+    else()
+      list(APPEND joined "${source}")
+    endif()
+  endforeach()
+  set(number 0)
+  while(joined)
+    set(text "")
+    list(LENGTH joined count)
+    if(size GREATER 0 AND size LESS count)
+      set(count ${size})
+    endif()
+    foreach(k RANGE 1 ${count})
+      list(POP_FRONT joined source)
+      cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${base}" OUTPUT_VARIABLE path)
+      string(APPEND text "#include \"${path}\"\n")
+    endforeach()
+    math(EXPR number "${number} + 1")
+    set(piece "${PROJECT_BINARY_DIR}/pieces/${target}/${number}.cpp")
+    file(CONFIGURE OUTPUT "${piece}" CONTENT "${text}" @ONLY)
+    list(APPEND left "${piece}")
+  endwhile()
+  set_property(TARGET ${target} PROPERTY SOURCES ${left})
+endfunction()
+
+# Pieces of eight where BUCKENS_UNITY asks for them.
+function(buckens_in_pieces target base)
   if(BUCKENS_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    buckens_make_pieces(${target} "${base}" 8)
   endif()
 endfunction()

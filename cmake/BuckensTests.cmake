@@ -41,7 +41,7 @@ foreach(module IN LISTS modules)
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${module}/test/*.cpp")
   if(sources)
     buckens_test(${module}_test unit buckens_${module} ${sources})
-    buckens_in_pieces(${module}_test)
+    buckens_in_pieces(${module}_test "${PROJECT_SOURCE_DIR}/src")
   endif()
 endforeach()
 
