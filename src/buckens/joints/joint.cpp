@@ -124,7 +124,13 @@ std::vector<ConstraintRow> make_straight_rows(const Placement& placement) {
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement) {
   const Vector3d axis = unit_axis(placement);
   check_axis(type, placement, axis);
-  const Triad f = triad_about(axis, placement);
+  // A weld has no axis of its own. In the plane its one rotation is about the normal, wherever the
+  // axes of its markers point.
+  const bool is_planar_weld = type == JointType::fixed && placement.planar;
+  const Triad f = triad_about(
+      is_planar_weld ? Vector3d(placement.R_WF.transpose() * spatial::normal(*placement.planar))
+                     : axis,
+      placement);
   RowCollector rows(placement);
   switch (type) {
     case JointType::spherical:

@@ -80,6 +80,21 @@ TEST(Joint, HasTheRowsOfItsKind) {
   }
 }
 
+TEST(Joint, AWeldInThePlaneHoldsWhateverTheAxesOfItsMarkers) {
+  for (const double angle : {0.0, 0.3, 0.8, 1.2, 1.6}) {
+    Placed p = placed(JointType::fixed);
+    p.placement.planar = spatial::Plane::xy;
+    p.F.R = p.placement.R_WF =
+        spatial::exp_rotation(angle * Vector3d(0.6, 0.8, 0)).toRotationMatrix();
+    p.placement.axis_F = Vector3d::UnitZ();
+    const auto rows = make_rows(JointType::fixed, p.placement);
+    EXPECT_EQ(rows.size(), 3U) << angle;
+    EXPECT_LE(largest_residual(rows, p, 0.0), 1e-15) << angle;
+    p.M = turned(p.M, Vector3d(0, 0, 0.1));
+    EXPECT_NEAR(largest_residual(rows, p, 0.0), std::sin(0.1), 1e-15) << angle;
+  }
+}
+
 TEST(Joint, AllowsItsOwnMotionOnly) {
   for (const JointType type : kAll) {
     Placed p = placed(type);
