@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/bushing.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::loads {
@@ -8,6 +13,26 @@ namespace buckens::loads {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using spatial::MarkerMotion;
+
+namespace {
+
+// Share of the largest rotational stiffness that counts as resistance against a turn.
+constexpr double kResists = 0.01;
+
+/// The rotation vector changes its sign at half a turn: beyond it the bushing would unwind.
+void require_measurable(const Vector3d& theta, const Vector3d& stiffness) {
+  const double angle = theta.norm();
+  if (angle <= Bushing::kLargestAngle) return;
+  const double resistance = stiffness.dot(theta.cwiseAbs2()) / (angle * angle);
+  if (resistance <= kResists * stiffness.maxCoeff()) return;
+  throw NumericalError(
+      fmt::format("a bushing is turned by {:.4g} rad against its rotational stiffness, more than "
+                  "the {} rad it can measure; limit the motion, or set the stiffness about the "
+                  "axis that turns freely to zero",
+                  angle, Bushing::kLargestAngle));
+}
+
+}  // namespace
 
 Bushing::Bushing(const Coefficients& coefficients, const Matrix3d& R_FM_placed,
                  const Vector3d& r_F_placed)
@@ -21,6 +46,7 @@ Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
   const Vector3d r_dot = R_FW * (second.v - first.v - first.w.cross(arm));
   const Vector3d theta =
       spatial::log_rotation(Eigen::Quaterniond(Matrix3d(R_FW * second.R * R_MF_placed_)));
+  require_measurable(theta, k_.rotational_stiffness);
   const Vector3d w = R_FW * (second.w - first.w);
 
   const Vector3d elastic_force = k_.stiffness.cwiseProduct(r);

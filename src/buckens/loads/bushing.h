@@ -10,9 +10,12 @@ namespace buckens::loads {
 ///
 /// With r the displacement of the second marker in the first one's axes and θ the rotation vector
 /// between them (both zero as placed): force −K r − C ṙ, torque −J_l⁻ᵀ(θ) K_r θ − C_r ω. The
-/// elastic part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is kept at any rotation below π.
+/// elastic part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is kept at any rotation below π. About
+/// axes without stiffness it may turn on and on; against stiffness up to 3 rad.
 class Bushing final : public ForceElement {
  public:
+  static constexpr double kLargestAngle = 3.0;  ///< [rad]; θ changes its sign at π
+
   struct Coefficients {
     Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();             ///< [N/m]
     Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();  ///< [N m/rad]
@@ -25,6 +28,7 @@ class Bushing final : public ForceElement {
   Bushing(const Coefficients& coefficients, const Eigen::Matrix3d& R_FM_placed,
           const Eigen::Vector3d& r_F_placed);
 
+  /// @throws NumericalError beyond 3 rad against stiffness
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
   int num_soft_rows() const override { return 6; }

@@ -199,6 +199,14 @@ TEST(ForceElement, RefusesWhatHasNoDirectionOrNoAngle) {
   wound.R = spatial::exp_rotation({0, 0, 3.1}).toRotationMatrix();
   const TorsionalSpring spring(Vector3d::UnitZ(), Matrix3d::Identity(), 1.0, 0.0, 0.0);
   EXPECT_THAT(message(spring, wound), testing::HasSubstr("3 rad"));
+  const auto bushing = [](const Vector3d& rotational) {
+    return Bushing({{1, 1, 1}, rotational, {}, {}}, Matrix3d::Identity(), Vector3d::Zero());
+  };
+  EXPECT_THAT(message(bushing({50, 50, 1}), wound), testing::HasSubstr("3.1 rad"));
+  EXPECT_THAT(message(bushing({50, 50, 1}), wound), testing::HasSubstr("limit the motion"));
+  EXPECT_EQ(message(bushing({50, 50, 0}), wound), "no error") << "nothing resists the turn";
+  wound.R = spatial::exp_rotation({0, 0, 2.9}).toRotationMatrix();
+  EXPECT_EQ(message(bushing({50, 50, 1}), wound), "no error");
 }
 
 }  // namespace
