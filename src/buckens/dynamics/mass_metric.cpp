@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include "buckens/linalg/conjugate_gradients.h"
+#include "buckens/linalg/least_norm.h"
 
 namespace buckens::dynamics {
 
@@ -134,11 +134,10 @@ Vector least_multipliers(const model::Model& model, const MassMetric& metric,
       D[joint.first_row + static_cast<int>(k)] = joint.rows[k].is_length() ? 1.0 : model.length;
     }
   }
-  const Matrix image = Matrix(metric.weighted_jacobian(rows)).transpose() * D.asDiagonal();
-  Eigen::CompleteOrthogonalDecomposition<Matrix> decomposition;
-  decomposition.setThreshold(kRankTolerance);
-  decomposition.compute(image);
-  return D.cwiseProduct(decomposition.solve(image * lambda.cwiseQuotient(D)));
+  const SparseMatrix J = metric.weighted_jacobian(rows);
+  const SparseMatrix image = SparseMatrix(J.transpose()) * D.asDiagonal();
+  const Vector forces = image * lambda.cwiseQuotient(D);
+  return D.cwiseProduct(linalg::least_norm_solution(image, forces, kRankTolerance));
 }
 
 }  // namespace buckens::dynamics

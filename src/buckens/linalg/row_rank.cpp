@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include <Eigen/QR>
-#include <SuiteSparseQR.hpp>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/spqr_matrix.h"
 
 namespace buckens::linalg {
 
@@ -14,36 +14,6 @@ namespace {
 
 // Up to this size dense QR is quicker and pivots better.
 constexpr double kDenseEntries = 1e5;
-
-/// Copy of a matrix in the long indices that SPQR takes.
-struct SpqrMatrix {
-  explicit SpqrMatrix(const SparseMatrix& A)
-      : starts(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1),
-        rows(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros()),
-        values(A.valuePtr(), A.valuePtr() + A.nonZeros()) {
-    cholmod_l_start(&common);
-    common.print = 0;
-    view.nrow = static_cast<std::size_t>(A.rows());
-    view.ncol = static_cast<std::size_t>(A.cols());
-    view.nzmax = values.size();
-    view.p = starts.data();
-    view.i = rows.data();
-    view.x = values.data();
-    view.itype = CHOLMOD_LONG;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-  }
-  ~SpqrMatrix() { cholmod_l_finish(&common); }
-  SpqrMatrix(const SpqrMatrix&) = delete;
-  SpqrMatrix& operator=(const SpqrMatrix&) = delete;
-
-  std::vector<SuiteSparse_long> starts, rows;
-  std::vector<double> values;
-  cholmod_sparse view{};
-  cholmod_common common{};
-};
 
 double largest_column(const SparseMatrix& A) {
   double largest = 0.0;

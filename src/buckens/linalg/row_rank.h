@@ -15,9 +15,9 @@ struct RowRank {
 
 /// Splits the rows of J by rank-revealing QR of Jᵀ.
 ///
-/// Rows are compared as given: scale them first. Dense column-pivoted QR up to four million
-/// entries, sparse QR above. Among dependent rows an earlier one is preferred where the pivoting
-/// allows.
+/// Rows are compared as given: scale them first. Dense column-pivoted QR up to a hundred
+/// thousand entries, sparse QR above. Among dependent rows an earlier one is preferred where the
+/// pivoting allows.
 /// @param tolerance relative to the largest row norm
 RowRank split_rows(const SparseMatrix& J, double tolerance);
 

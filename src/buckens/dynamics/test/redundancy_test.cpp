@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -100,6 +101,47 @@ TEST_F(Door, MultipliersThatAreUniqueStay) {
   Vector lambda(5);
   lambda << 3, -1, 4, 1, -5;
   EXPECT_LE((least_multipliers(single, single_metric, rows.rows, lambda) - lambda).norm(), 1e-12);
+}
+
+/// Links on a circle of 10 m in the x–y plane, each hinged to the next about z: closed, so that
+/// three equations follow from the others.
+model::Model ring(int links) {
+  test::Mechanism m;
+  m.set_length(20.0);
+  const double half = 10.0 * std::tan(M_PI / links);
+  const auto turn = [&](int k) { return 2.0 * M_PI * k / links; };
+  for (int k = 0; k < links; ++k) {
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(turn(k), Vector3d::UnitZ()));
+    m.add_rigid(0.1, Vector3d(1e-4, 1e-3, 1e-3).asDiagonal(), {q * Vector3d(10, 0, 0), q});
+  }
+  for (int k = 0; k < links; ++k) {
+    m.add_joint(joints::JointType::revolute, m.rigid_marker(k, {0, half, 0}),
+                m.rigid_marker((k + 1) % links, {0, -half, 0}));
+  }
+  return m.take();
+}
+
+TEST(Ring, MultipliersOfManyLinksAreTheLeast) {
+  // 3000 rows. Forces of the same image differ by what is perpendicular to all least ones.
+  const model::Model model = ring(600);
+  const MassMetric metric(model);
+  Constraints constraints;
+  evaluate_constraints(model, motions_of(model, model::placed_state(model)), 0.0, constraints);
+  const linalg::SparseMatrix J = metric.weighted_jacobian(constraints.rows);
+  Vector lambda(J.rows()), other(J.rows()), weight(J.rows());
+  for (Eigen::Index k = 0; k < J.rows(); ++k) {
+    lambda[k] = std::sin(1.0 + 1.7 * static_cast<double>(k));
+    other[k] = std::cos(0.4 * static_cast<double>(k));
+    const bool is_force = k % 5 < 3;  // three forces of a hinge, then two torques
+    weight[k] = is_force ? 1.0 : 1.0 / (model.length * model.length);
+  }
+  const Vector least = least_multipliers(model, metric, constraints.rows, lambda);
+  const Vector least_other = least_multipliers(model, metric, constraints.rows, other);
+  // Rounding times the condition of the ring, the square of its 600 links.
+  EXPECT_LE((J.transpose() * (least - lambda)).norm(), 1e-10 * (J.transpose() * lambda).norm());
+  EXPECT_GT((least - lambda).norm(), 1e-3 * lambda.norm()) << "there was something to leave out";
+  EXPECT_LE(std::abs((lambda - least).dot(weight.cwiseProduct(least_other))),
+            1e-10 * lambda.squaredNorm());
 }
 
 }  // namespace
