@@ -2,53 +2,12 @@
 #include "buckens/linalg/block_lu.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
-#include <set>
+
+#include "buckens/linalg/least_degree.h"
 
 namespace buckens::linalg {
 
 namespace {
-
-/// Blocks still to be eliminated and who is coupled with whom.
-class BlockGraph {
- public:
-  BlockGraph(std::size_t count, const std::vector<std::pair<int, int>>& couples) : coupled_(count) {
-    for (const auto& [i, j] : couples) {
-      if (i == j) continue;
-      coupled_[static_cast<std::size_t>(i)].insert(j);
-      coupled_[static_cast<std::size_t>(j)].insert(i);
-    }
-    for (std::size_t k = 0; k < count; ++k) waiting_.emplace(degree(k), static_cast<int>(k));
-  }
-
-  bool empty() const { return waiting_.empty(); }
-
-  /// Eliminates a block of least degree, the first of them: along a chain one after the other.
-  /// @return the block and what was coupled with it, which is now coupled with each other
-  std::pair<int, std::vector<int>> take() {
-    const int block = waiting_.begin()->second;
-    waiting_.erase(waiting_.begin());
-    const auto& set = coupled_[static_cast<std::size_t>(block)];
-    const std::vector<int> others(set.begin(), set.end());
-    for (const int i : others) {
-      auto& mine = coupled_[static_cast<std::size_t>(i)];
-      waiting_.erase({mine.size(), i});
-      mine.erase(block);
-      for (const int j : others) {
-        if (j != i) mine.insert(j);
-      }
-      waiting_.emplace(mine.size(), i);
-    }
-    return {block, others};
-  }
-
- private:
-  std::size_t degree(std::size_t k) const { return coupled_[k].size(); }
-
-  std::vector<std::set<int>> coupled_;
-  std::set<std::pair<std::size_t, int>> waiting_;  // (degree, block)
-};
 
 // Blocks are stored by columns. R is their number of rows, 0 where it is known at run time only.
 
@@ -164,20 +123,18 @@ BlockLu::BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>&
 }
 
 void BlockLu::order(const std::vector<std::pair<int, int>>& couples) {
-  BlockGraph graph(sizes_.size(), couples);
   const auto add = [&](int i, int j) {
     by_row_[static_cast<std::size_t>(i)].emplace_back(j, static_cast<int>(places_.size()));
     places_.push_back({i, j, 0, 0});
   };
-  while (!graph.empty()) {
-    auto [block, others] = graph.take();
-    add(block, block);
-    for (const int other : others) {
-      add(other, block);
-      add(block, other);
+  for (EliminationStep& step : eliminate_by_least_degree(sizes_.size(), couples)) {
+    add(step.vertex, step.vertex);
+    for (const int other : step.coupled) {
+      add(other, step.vertex);
+      add(step.vertex, other);
     }
-    sequence_.push_back(block);
-    coupled_.push_back(std::move(others));
+    sequence_.push_back(step.vertex);
+    coupled_.push_back(std::move(step.coupled));
   }
   for (auto& row : by_row_) std::sort(row.begin(), row.end());
 }
@@ -215,18 +172,22 @@ void BlockLu::lay_out() {
   const auto first_of = [&](int i, int j) {
     return places_[static_cast<std::size_t>(place(i, j))].first;
   };
+  std::vector<int> turn(sizes_.size());
+  for (std::size_t k = 0; k < sequence_.size(); ++k) {
+    turn[static_cast<std::size_t>(sequence_[k])] = static_cast<int>(k);
+  }
   for (std::size_t k = 0; k < sequence_.size(); ++k) {
     const int block = sequence_[k];
     const std::size_t first = neighbours_.size();
     for (const int other : coupled_[k]) {
-      neighbours_.push_back({stored(other), first_stored_[static_cast<std::size_t>(other)],
-                             first_of(other, block), first_of(block, other)});
+      const auto o = static_cast<std::size_t>(other);
+      neighbours_.push_back({stored(other), turn[o], first_stored_[o], first_of(other, block),
+                             first_of(block, other)});
     }
+    std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(first), neighbours_.end(),
+              [](const Neighbour& a, const Neighbour& b) { return a.turn < b.turn; });
     pivots_.push_back({block, stored(block), first_stored_[static_cast<std::size_t>(block)],
                        first_of(block, block), first, neighbours_.size()});
-    for (const int i : coupled_[k]) {
-      for (const int j : coupled_[k]) updates_.push_back(first_of(i, j));
-    }
   }
   coupled_.clear();
 }
@@ -259,7 +220,6 @@ bool BlockLu::eliminate() {
     }
   }
   double ratio = 1.0;
-  const std::size_t* update = updates_.data();
   double* const values = values_.data();
   for (const Pivot& pivot : pivots_) {
     double* const A = values + pivot.diagonal;
@@ -272,16 +232,33 @@ bool BlockLu::eliminate() {
       solve_lower<R>(A, pivot.stored, values + other.upper, other.stored);
       solve_upper<R>(A, pivot.stored, inverse, values + other.lower, other.stored);
     }
-    for (std::size_t i = pivot.first_neighbour; i < pivot.end_neighbour; ++i) {
-      for (std::size_t j = pivot.first_neighbour; j < pivot.end_neighbour; ++j, ++update) {
-        subtract_product<R>(values + neighbours_[i].lower, values + neighbours_[j].upper,
-                            values + *update, pivot.stored, neighbours_[i].stored,
-                            neighbours_[j].stored);
-      }
-    }
+    update_later<R>(pivot);
   }
   pivot_ratio_ = ratio;
   return true;
+}
+
+/// Takes from the blocks between all neighbours of a pivot what goes through it.
+template <int R>
+void BlockLu::update_later(const Pivot& pivot) {
+  double* const values = values_.data();
+  const auto subtract = [&](const Neighbour& row, const Neighbour& column, std::size_t from) {
+    subtract_product<R>(values + row.lower, values + column.upper, values + from, pivot.stored,
+                        row.stored, column.stored);
+  };
+  for (std::size_t i = pivot.first_neighbour; i < pivot.end_neighbour; ++i) {
+    const Neighbour& one = neighbours_[i];
+    const Pivot& later = pivots_[static_cast<std::size_t>(one.turn)];
+    subtract(one, one, later.diagonal);
+    // Neighbours that come after it are neighbours of its own, in the same order.
+    const Neighbour* own = neighbours_.data() + later.first_neighbour;
+    for (std::size_t j = i + 1; j < pivot.end_neighbour; ++j, ++own) {
+      const Neighbour& other = neighbours_[j];
+      while (own->turn != other.turn) ++own;
+      subtract(other, one, own->lower);
+      subtract(one, other, own->upper);
+    }
+  }
 }
 
 template <int R>

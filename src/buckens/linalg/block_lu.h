@@ -63,9 +63,11 @@ class BlockLu {
     std::size_t diagonal;      // first value of the diagonal block
     std::size_t first_neighbour, end_neighbour;
   };
-  /// A block that is still there and coupled with the pivot.
+  /// A block that is still there and coupled with the pivot. Those of one pivot are in the order in
+  /// which they are eliminated themselves.
   struct Neighbour {
     int stored;
+    int turn;  // its own in pivots_
     std::size_t first_stored;
     std::size_t lower, upper;  // first values of (neighbour, pivot) and (pivot, neighbour)
   };
@@ -74,6 +76,8 @@ class BlockLu {
   void lay_out();
   template <int R>
   bool eliminate();
+  template <int R>
+  void update_later(const Pivot& pivot);
   template <int R>
   void substitute() const;
 
@@ -86,7 +90,6 @@ class BlockLu {
   std::vector<std::vector<int>> coupled_;  // with each of them at that time
   std::vector<Pivot> pivots_;
   std::vector<Neighbour> neighbours_;
-  std::vector<std::size_t> updates_;  // first values of (neighbour, neighbour), pivot by pivot
   std::vector<double> values_;
   std::vector<double> inverse_;    // of pivots
   mutable std::vector<double> x_;  // of a solve, as stored

@@ -150,6 +150,63 @@ TEST(BlockLu, TellsPoorPivots) {
   example.expect_solution(lu);  // and recovers
 }
 
+TEST(BlockLu, CliquesTakeNoMoreMemoryAndOrderingThanTheirBlocks) {
+  // As many springs on one flexible body: all rows are coupled with all. Anything that is kept or
+  // looked up for each of the 7e7 products of the elimination would take most of a gigabyte and
+  // many seconds.
+  const int count = 600;
+  Couples all;
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < i; ++j) all.emplace_back(i, j);
+  }
+  const Example example(std::vector<int>(count, 1), all);
+  BlockLu lu(example.sizes, all);
+  EXPECT_EQ(lu.num_entries(), static_cast<std::size_t>(count * count));
+  example.expect_solution(lu);
+}
+
+TEST(BlockLu, FillsAsTheOrderOfLeastDegreeDoes) {
+  // A wheel: the rim goes first, one block after the other, each time coupling its neighbours; the
+  // hub waits. 8 blocks on the rim: pivots with 3, 3, 3, 3, 3, 3, 2, 1 and 0 neighbours.
+  Couples wheel = chain(8);
+  wheel.emplace_back(7, 0);
+  for (int k = 0; k < 8; ++k) wheel.emplace_back(8, k);
+  const Example example(std::vector<int>(9, 2), wheel);
+  BlockLu lu(example.sizes, wheel);
+  EXPECT_EQ(lu.num_entries(), 4U * (9U + 2U * (6U * 3U + 2U + 1U)));
+  example.expect_solution(lu);
+  // Two cliques of five that have two blocks in common: nothing fills.
+  Couples two;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (i < 5 || j > 2) two.emplace_back(i, j);
+    }
+  }
+  const Example pair(std::vector<int>(8, 3), two);
+  BlockLu of_pair(pair.sizes, two);
+  EXPECT_EQ(of_pair.num_entries(), 9U * (8U + 2U * (10U + 10U - 1U)));
+  pair.expect_solution(of_pair);
+}
+
+TEST(BlockLu, AStarOfTenThousandRaysIsEliminatedFromOutside) {
+  const int count = 10001;
+  Couples rays;
+  for (int k = 1; k < count; ++k) rays.emplace_back(0, k);
+  BlockLu lu(std::vector<int>(count, 1), rays);
+  EXPECT_EQ(lu.num_entries(), static_cast<std::size_t>(3 * count - 2));
+  for (int k = 0; k < count; ++k) lu.diagonal(k) = k == 0 ? 2.0 * count : 1.0;
+  for (int k = 1; k < count; ++k) {
+    *lu.block(lu.place(0, k)) = 1.0;
+    *lu.block(lu.place(k, 0)) = 1.0;
+  }
+  ASSERT_TRUE(lu.factorise());
+  Vector x = Vector::Zero(count);
+  x[0] = 1.0;
+  lu.solve_in_place(x);
+  EXPECT_NEAR(x[0] * (count + 1.0), 1.0, 1e-12);  // 2 count − (count − 1) is left of the centre
+  EXPECT_NEAR(x[count - 1] * (count + 1.0), -1.0, 1e-12);
+}
+
 TEST(BlockLu, AChainOfTenThousandIsOrderedInItsOwnOrder) {
   const int count = 10000;
   BlockLu lu(std::vector<int>(count, 1), chain(count));
