@@ -209,8 +209,4 @@ void MultiplierCondensation::solve_in_place(linalg::Vector& x) const {
   }
 }
 
-double MultiplierCondensation::pivot_ratio() const {
-  return exchanges_rows_ ? general_->pivot_ratio() : block_lu_.pivot_ratio();
-}
-
 }  // namespace buckens::dynamics

@@ -58,9 +58,10 @@ class MultiplierCondensation {
   const RowBlocks& test_rows() const { return test_ ? *test_ : force_; }
 
   int size() const { return force_.num_rows(); }
-  /// Smallest pivot relative to what stood on the diagonal; after an exchange of rows, relative to
-  /// the largest.
-  double pivot_ratio() const;
+  /// Smallest pivot without exchanges of rows, relative to what stood on the diagonal: the least
+  /// share of a row's compliance that those before it leave, the square of the sine of an angle
+  /// between them. 0 … 1 whatever units and masses are; 0 where a pivot is not positive.
+  double pivot_ratio() const { return block_lu_.pivot_ratio(); }
 
  private:
   struct BlockOnBody {

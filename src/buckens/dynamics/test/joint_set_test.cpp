@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joints side by side against the model's own evaluation of them.
+#include "buckens/dynamics/joint_set.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "buckens/dynamics/row_blocks.h"
+#include "buckens/dynamics/test/example_models.h"
+#include "buckens/fem/box_mesh.h"
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::dynamics {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using joints::JointType;
+using linalg::Vector;
+
+double any_number(int k) { return std::sin(0.4 + 1.9 * k + 0.03 * k * k); }
+
+/// Every kind of joint, in space: between rigid bodies, nodes with rotations, nodes without,
+/// ground.
+model::Model all_joints() {
+  test::Mechanism m;
+  test::BeamConstants beam;
+  beam.elements = 2;
+  fem::Structure solid;
+  fem::Box box;
+  box.size = {0.3, 0.1, 0.1};
+  box.divisions = {2, 1, 1};
+  fem::add_box(solid, box, fem::Material::isotropic(1e8, 0.3, 1100));
+  const Eigen::Quaterniond turned = spatial::exp_rotation(Vector3d(0.3, -0.2, 0.5));
+  const int rigid = m.add_rigid(2.0, Eigen::Matrix3d::Identity(), {{0.2, 0.1, 0}, turned});
+  const int rod = m.add_flexible(test::straight_beam(beam), {}, {{1, 0, 0.2}, turned});
+  const int block = m.add_flexible(fem::assemble(solid), {}, {{0, 2, 0}, turned});
+  const auto angle = base::TimeLaw::expression(base::Expression("2*t+0.3", {"t"}, {}, {}));
+  const auto way = base::TimeLaw::expression(base::Expression("t^2+0.1", {"t"}, {}, {}));
+  const auto on_rigid = m.rigid_marker(rigid, {0.1, 0.2, 0.3}, turned);
+  const Vector3d axis(0.2, -0.5, 0.8);
+  m.add_joint(JointType::revolute, test::Mechanism::ground({0.1, 0, 0}), on_rigid, axis);
+  m.add_joint(JointType::prescribed_rotation, test::Mechanism::ground({0.1, 0, 0}), on_rigid, axis,
+              angle);
+  m.add_joint(JointType::fixed, m.node_marker(rod, 0), on_rigid);
+  m.add_joint(JointType::prismatic, on_rigid, m.node_marker(rod, 2), axis);
+  m.add_joint(JointType::prescribed_translation, m.node_marker(rod, 1), on_rigid, axis, way);
+  m.add_joint(JointType::spherical, m.node_marker(block, 3), m.node_marker(rod, 2));
+  m.add_joint(JointType::prescribed_translation, m.node_marker(block, 5),
+              test::Mechanism::ground({0, 2, 0}), axis, way);
+  m.add_joint(JointType::fixed, m.node_marker(rod, 1), m.node_marker(rod, 2));  // of one body
+  return m.take();
+}
+
+/// Bodies as placed, moved and deformed by numbers in general position.
+std::vector<BodyMotion> any_motions(const model::Model& model) {
+  std::vector<BodyMotion> out(model.bodies.size());
+  int k = 0;
+  const auto three = [&] {
+    k += 3;
+    return Vector3d(any_number(k), any_number(k + 1), any_number(k + 2));
+  };
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    out[b].frame.X_WB.p = model.placed[b].p + 0.2 * three();
+    out[b].frame.X_WB.q = model.placed[b].q * spatial::exp_rotation(0.4 * three());
+    out[b].frame.w = 3.0 * three();
+    out[b].frame.v = 2.0 * three();
+    out[b].y.resize(model.bodies[b].num_interface_rows());
+    out[b].y_dot.resize(out[b].y.size());
+    for (Eigen::Index i = 0; i < out[b].y.size(); ++i) {
+      out[b].y[i] = 0.3 * any_number(++k);
+      out[b].y_dot[i] = any_number(++k);
+    }
+  }
+  return out;
+}
+
+constexpr double kInstant = 0.37;
+// Sums of a few products of numbers up to ten, in another order.
+constexpr double kOrder = 1e-13;
+
+TEST(JointSet, EvaluatesAsTheModelDoes) {
+  const model::Model model = all_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Constraints expected;
+  evaluate_constraints(model, motions, kInstant, expected);
+  Vector lambda(model.num_constraint_rows());
+  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = any_number(7 * k);
+  Forces by_model, by_set;
+  for (Forces* forces : {&by_model, &by_set}) forces->reset(model);
+  add_joint_forces(expected, lambda, by_model);
+
+  const JointSet joints(model);
+  JointResiduals found;
+  joints.evaluate(motions, kInstant, found, &lambda, &by_set);
+  ASSERT_EQ(found.g.size(), expected.g.size());
+  EXPECT_LE((found.g - expected.g).cwiseAbs().maxCoeff(), kOrder);
+  EXPECT_LE((found.g_dot - expected.g_dot).cwiseAbs().maxCoeff(), kOrder);
+  EXPECT_LE((found.g_t - expected.g_t).cwiseAbs().maxCoeff(), kOrder);
+  EXPECT_GT(expected.g_t.cwiseAbs().maxCoeff(), 0.1);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    EXPECT_GT(by_model.frame[b].norm(), 0.1);
+    EXPECT_LE((by_set.frame[b] - by_model.frame[b]).norm(), kOrder) << b;
+    EXPECT_LE((by_set.interface[b] - by_model.interface[b]).norm(), kOrder) << b;
+  }
+}
+
+TEST(JointSet, DerivesAsTheModelDoes) {
+  const model::Model model = all_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Constraints expected;
+  evaluate_constraints(model, motions, kInstant, expected);
+  const JointSet joints(model);
+  std::array<SystemRow, JointSet::kMostRows> rows;  // as of another joint before
+  int count = 0;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    joints.derivatives(j, motions, kInstant, rows);
+    for (int k = 0; k < joints.num_rows(j); ++k, ++count) {
+      ASSERT_EQ(joints.first_row(j) + k, count);
+      const SystemRow& row = expected.rows[static_cast<std::size_t>(count)];
+      const SystemRow& found = rows[static_cast<std::size_t>(k)];
+      for (const auto& [a, b] :
+           {std::pair(&row.first, &found.first), std::pair(&row.second, &found.second)}) {
+        ASSERT_EQ(a->body, b->body) << count;
+        if (a->body == model::kGround) continue;
+        EXPECT_EQ(a->translation_row, b->translation_row);
+        EXPECT_EQ(a->rotation_row, b->rotation_row);
+        EXPECT_LE((a->frame - b->frame).norm(), kOrder) << count;
+        if (a->translation_row < 0) continue;
+        EXPECT_LE((a->interface - b->interface).head<3>().norm(), kOrder) << count;
+        if (a->rotation_row < 0) continue;
+        EXPECT_LE((a->interface - b->interface).tail<3>().norm(), kOrder) << count;
+      }
+    }
+  }
+  EXPECT_EQ(count, model.num_constraint_rows());
+}
+
+TEST(RowBlocks, GatherAndChangeAsTheRowsThemselvesDo) {
+  const model::Model model = all_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Constraints constraints;
+  evaluate_constraints(model, motions, kInstant, constraints);
+  RowBlocks blocks(constraints.rows);
+  EXPECT_EQ(blocks.num_rows(), model.num_constraint_rows());
+  EXPECT_LT(blocks.blocks().size(), constraints.rows.size());
+  for (int r = 0; r < blocks.num_rows(); ++r) {
+    blocks.set(r, constraints.rows[static_cast<std::size_t>(r)]);
+  }
+  Vector x(blocks.num_rows());
+  for (int k = 0; k < blocks.num_rows(); ++k) x[k] = any_number(5 * k);
+  Forces expected;
+  expected.reset(model);
+  add_joint_forces(constraints, x, expected);
+  std::vector<BodyResponse> found(model.bodies.size());
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    found[b].interface_load.setZero(model.bodies[b].num_interface_rows());
+  }
+  blocks.gather(x, found);
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    EXPECT_LE((found[b].frame_load - expected.frame[b]).norm(), kOrder) << b;
+    EXPECT_LE((found[b].interface_load - expected.interface[b]).norm(), kOrder) << b;
+  }
+  // Along the rates the rows change by ġ without its explicit part.
+  std::vector<Eigen::Matrix<double, 6, 1>> u;
+  for (const BodyMotion& motion : motions) {
+    u.emplace_back() << motion.frame.w, motion.frame.v;
+  }
+  Vector changes;
+  blocks.changes(changes, [&](int b) {
+    const auto k = static_cast<std::size_t>(b);
+    return Displacement{&u[k], &motions[k].y_dot};
+  });
+  EXPECT_LE((changes - (constraints.g_dot - constraints.g_t)).cwiseAbs().maxCoeff(), kOrder);
+}
+
+}  // namespace
+}  // namespace buckens::dynamics
