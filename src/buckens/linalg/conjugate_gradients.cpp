@@ -25,6 +25,10 @@ Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
   Vector p = z;
   double rz = r.dot(z);
   const double scale = rz;
+  if (!std::isfinite(scale)) {
+    throw NumericalError("a load on a mass matrix of size " + std::to_string(n) +
+                         " is not finite; check loads, velocities and their units");
+  }
   double best = 1.0;
   int since_best = 0;
   const double cap = 50.0 + 20.0 * std::sqrt(static_cast<double>(n)) + static_cast<double>(n);

@@ -2,6 +2,7 @@
 // Sparse solvers against dense ones.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -111,6 +112,20 @@ TEST(ConjugateGradients, SolveAsADenseFactor) {
   EXPECT_EQ(conjugate_gradients(A, Vector::Zero(kSize)).norm(), 0.0);
 }
 
+TEST(ConjugateGradients, RefuseWhatIsNoNumber) {
+  const SparseMatrix A = definite();
+  for (const double value : {std::nan(""), HUGE_VAL, 1e200}) {  // the last overflows when squared
+    Vector b = Vector::Ones(kSize);
+    b[3] = value;
+    try {
+      conjugate_gradients(A, b);
+      FAIL() << value;
+    } catch (const NumericalError& error) {
+      EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(ConjugateGradients, LeaveMasslessRowsOut) {
   const SparseMatrix small = definite(20);
   std::vector<Triplet> entries;
@@ -147,7 +162,7 @@ TEST(RowRank, FindsRowsThatFollowFromOthers) {
 }
 
 TEST(RowRank, LargeMatricesAreSplitAsWell) {
-  // Above four million entries: the sparse route. Row 1500 repeats row 300.
+  // Four million entries: the sparse route. Row 1500 repeats row 300.
   const int n = 2100;
   std::vector<Triplet> entries;
   for (int k = 0; k < n; ++k) {
