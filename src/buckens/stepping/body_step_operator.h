@@ -69,7 +69,7 @@ class BodyStepOperator {
   /// Whether the equations hold where the position correction does not appear: then D = G.
   bool corrects_outside() const { return scheme_.weight != 1.0; }
   /// N d, N ḋ, N d̈ and N times the algorithmic accelerations, in one pass over N; patterns that the
-  /// body's terms do not use are left at zero.
+  /// body's terms do not use may be left at zero.
   /// @param pool shares the rows of large bodies; the result is the same
   void row_values(const model::BodyState& state, linalg::Vector& y, linalg::Vector& y_dot,
                   linalg::Vector& y_ddot, linalg::Vector& y_alg, TaskPool* pool = nullptr) const;
