@@ -92,13 +92,13 @@ Matrix rigid_motions(const BodyMatrices& body, const Vector3d& com) {
 }
 
 /// Refuses matrices that resist a rigid motion.
-void check_free(const BodyMatrices& body, const SparseMatrix& A, const Matrix& Phi,
+/// @param size norm of the matrix from which A was made, that of A where it is as written
+void check_free(const BodyMatrices& body, const SparseMatrix& A, double size, const Matrix& Phi,
                 const char* name) {
   constexpr const char* motions[] = {"displacement along x", "displacement along y",
                                      "displacement along z", "rotation about x",
                                      "rotation about y",     "rotation about z"};
   const Matrix forces = A * Phi;
-  const double size = A.norm();
   int worst = 0;
   double largest = 0.0;
   for (int k = 0; k < 6; ++k) {
@@ -128,17 +128,21 @@ FeModel assemble(const BodyMatrices& body, const RayleighFactors& damping) {
   fe.K = body.K;
   fe.shape = matrix_integrals(body);
   const Matrix Phi = rigid_motions(body, fe.shape.com);
-  check_free(body, body.K, Phi, "stiffness");
+  if (!(body.K.norm() > 0.0)) {
+    throw ModelError("the stiffness matrix is zero; is it the right file?");
+  }
+  check_free(body, body.K, body.K.norm(), Phi, "stiffness");
   fe.mass_damping = damping.mass;
   fe.K_damping.resize(body.dofs.num_dofs, body.dofs.num_dofs);
-  if (body.C.nonZeros() > 0) {
+  if (body.C.nonZeros() > 0 && body.C.norm() > 0.0) {
     check_minors(body, body.C, "damping");
     // What resists translation must be α M.
     const double drag = Phi.col(0).dot(body.C * Phi.col(0));
     const bool is_free = drag <= kStrainTolerance * body.C.norm() * Phi.col(0).squaredNorm();
     fe.mass_damping = is_free ? 0.0 : drag / fe.shape.mass;
     fe.K_damping = body.C - fe.mass_damping * body.M;
-    check_free(body, fe.K_damping, Phi, "damping");
+    // Of C = α M only rounding is left.
+    check_free(body, fe.K_damping, body.C.norm(), Phi, "damping");
   } else if (damping.stiffness > 0.0) {
     fe.K_damping = damping.stiffness * body.K;
   }

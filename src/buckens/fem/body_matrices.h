@@ -31,8 +31,8 @@ struct RayleighFactors {
 ///
 /// The inertia integrals follow from M as matrix_integrals() says. A damping matrix may hold a
 /// share α M; the rest must not resist rigid motion.
-/// @throws ModelError if a matrix is not symmetric, M has negative entries on its diagonal or is
-/// not that of a body free in space, or K resists a rigid motion (naming it)
+/// @throws ModelError if a matrix has negative 2×2 minors, M is not that of a body free in space, K
+/// is zero, or K or the rest of C resists a rigid motion (naming it)
 FeModel assemble(const BodyMatrices& body, const RayleighFactors& damping);
 
 /// The inertia integrals that belong to a mass matrix.

@@ -152,6 +152,25 @@ TEST(BodyMatrices, DampingMayHaveAShareOfTheMass) {
   EXPECT_EQ(difference.norm(), 0.0);
 }
 
+TEST(BodyMatrices, DampingMayBeAShareOfTheMassAlone) {
+  const FeModel fe = assemble(rotor(3, 7850.0, true));
+  for (const double alpha : {0.3, 0.7, 1.1, 2.5}) {  // sums over M round, alpha M does as well
+    BodyMatrices body = matrices_of(fe);
+    body.C = alpha * body.M;
+    const FeModel own = assemble(body, {});
+    EXPECT_NEAR(own.mass_damping, alpha, 1e-13);
+    EXPECT_LT(own.K_damping.norm(), 1e-13 * body.C.norm());
+  }
+}
+
+TEST(BodyMatrices, EmptyMatricesAreRefused) {
+  const FeModel fe = assemble(rotor(3, 7850.0, true));
+  BodyMatrices body = matrices_of(fe);
+  body.K *= 0.0;
+  EXPECT_THAT([&] { assemble(body, {}); },
+              ThrowsMessage<ModelError>(HasSubstr("stiffness matrix is zero")));
+}
+
 TEST(BodyMatrices, MatricesOfHeldBodiesAreRefusedWithTheDirection) {
   const FeModel fe = assemble(rotor(3, 7850.0, true));
   BodyMatrices body = matrices_of(fe);
