@@ -15,6 +15,8 @@ namespace {
 
 // Bytes from which two threads pay: their start costs as much as some 50 kB of reading each.
 constexpr double kShared = 4e6;
+// Values of the source that are given up at a time: enough for the call to cost nothing.
+constexpr std::ptrdiff_t kGivenUp = std::ptrdiff_t{1} << 20;
 
 using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
@@ -65,6 +67,7 @@ class PanelFactor::Layout {
       next_value += kPanelRows * panel.num_lines();
       fill_triangle(s, begin, end, panel, values);
       fill_rows(s, begin, end, panel, values);
+      if (source_.used_up && end == source_.columns(s)) give_up(s);
     });
   }
 
@@ -173,6 +176,17 @@ class PanelFactor::Layout {
     }
   }
 
+  /// Lets the memory of the source go as it has been read, so that both never exist as a whole.
+  void give_up(int s) {
+    const double* begin = source_.values + source_.values_begin[s];
+    const double* end = begin + std::ptrdiff_t{source_.num_rows(s)} * source_.columns(s);
+    if (begin != read_end_) read_begin_ = begin;
+    read_end_ = end;
+    if (read_end_ - read_begin_ < kGivenUp) return;
+    give_up_pages(read_begin_, read_end_);
+    read_begin_ = read_end_;
+  }
+
   /// @param rows present, the others become zero @return past the block
   static double* copy_block(const double* from, Eigen::Index ld, int rows, int columns,
                             double* to) {
@@ -188,6 +202,8 @@ class PanelFactor::Layout {
   SubtreeGroups groups_;
   std::vector<int> place_;  // per column, within its group or the top
   Eigen::MatrixXd inverse_;
+  const double* read_begin_ = nullptr;  // of the source, not given up yet
+  const double* read_end_ = nullptr;
 };
 
 PanelFactor::PanelFactor(const Supernodes& source, SimdLevel level)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/streaming_memory.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace buckens::linalg {
@@ -25,6 +27,20 @@ StreamingMemory::StreamingMemory(std::size_t count) : size_(count) {
 #if defined(MADV_HUGEPAGE)
   // A wish: what does not come true costs time only.
   if (unit == kHugePage) static_cast<void>(madvise(values_.get(), whole, MADV_HUGEPAGE));
+#endif
+}
+
+void give_up_pages(const double* begin, const double* end) {
+#if defined(__linux__)
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
+  const std::uintptr_t last = reinterpret_cast<std::uintptr_t>(end) / page * page;
+  if (first >= last) return;
+  // A wish as well; only memory of this process' own is ever passed here.
+  static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED));
+#else
+  static_cast<void>(begin);
+  static_cast<void>(end);
 #endif
 }
 

@@ -26,4 +26,8 @@ class StreamingMemory {
   std::size_t size_ = 0;
 };
 
+/// Gives the whole pages of [begin, end) back to the system, where it can be asked to; what they
+/// held is lost. The memory stays allocated and is freed as ever.
+void give_up_pages(const double* begin, const double* end);
+
 }  // namespace buckens::linalg

@@ -14,6 +14,7 @@ struct Supernodes {
   const int* values_begin = nullptr;  ///< count
   const int* rows = nullptr;          ///< ascending, own columns first
   const double* values = nullptr;     ///< rows × columns per supernode, column by column
+  bool used_up = false;               ///< values are read once and not needed afterwards
 
   int columns(int s) const { return first_column[s + 1] - first_column[s]; }
   int num_rows(int s) const { return rows_begin[s + 1] - rows_begin[s]; }
