@@ -37,6 +37,11 @@ cholmod_sparse view_of_lower(SparseMatrix& lower) {
   return view;
 }
 
+[[noreturn]] void throw_out_of_memory(Eigen::Index size) {
+  throw NumericalError("there is not enough memory to factorise a matrix of size " +
+                       std::to_string(size) + "; use a coarser mesh");
+}
+
 }  // namespace
 
 struct SparseCholesky::Backend {
@@ -91,13 +96,13 @@ void SparseCholesky::Backend::factorise(const SparseMatrix& A, const CholeskyOpt
   choose_blas_kernels();
   openblas_set_num_threads(1);
   factor = cholmod_analyze(&view, &common);
-  if (factor == nullptr) {
-    throw NumericalError("a sparse factorisation ran out of memory; use a coarser mesh");
-  }
+  if (factor == nullptr) throw_out_of_memory(size);
   cholmod_factorize(&view, factor, &common);
-  if (common.status != CHOLMOD_OK || factor->minor < view.nrow) {
+  if (common.status < CHOLMOD_OK) throw_out_of_memory(size);
+  if (factor->minor < view.nrow) {
+    const int column = static_cast<const int*>(factor->Perm)[factor->minor];
     throw NumericalError("a matrix of size " + std::to_string(size) +
-                         " is not positive definite (column " + std::to_string(factor->minor) +
+                         " is not positive definite (column " + std::to_string(column) +
                          "); check masses and materials of the body");
   }
   entries = common.lnz;
@@ -114,6 +119,7 @@ void SparseCholesky::Backend::lay_out(SimdLevel simd) {
   source.values_begin = static_cast<const int*>(factor->px);
   source.rows = static_cast<const int*>(factor->s);
   source.values = static_cast<const double*>(factor->x);
+  source.used_up = true;
   panels.emplace(source, simd);
   cholmod_free_factor(&factor, &common);
 }
