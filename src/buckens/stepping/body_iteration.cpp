@@ -105,6 +105,12 @@ void BodyIteration::find_residual(const BodyStep& step, const dynamics::BodyMoti
     y_moving.noalias() += op_->correction_answer() * step.correction_load;
 }
 
+double BodyIteration::residual_size(double L) const {
+  const double frame = size_of(residual_u, L);
+  if (op_ == nullptr || y_moving.size() == 0) return frame;
+  return larger(frame, interface_change(*body_, y_moving));
+}
+
 void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyResponse& correction) {
   correction_u = frame_answer(step.compliance, correction.frame_load);
   if (op_ == nullptr) return;

@@ -25,6 +25,9 @@ class BodyIteration {
   /// @param frame_load at the evaluation instant
   void find_residual(const BodyStep& step, const dynamics::BodyMotion& motion,
                      const Vector6& frame_load);
+  /// Size of what find_residual() found [m]. @param L length that turns rotations into
+  /// displacements
+  double residual_size(double L) const;
   /// How the body moves under the row forces that close positions.
   /// @param correction what is of no use to the body is set to zero
   void answer_correction(const BodyStep& step, dynamics::BodyResponse& correction);

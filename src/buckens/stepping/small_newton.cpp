@@ -28,6 +28,8 @@ constexpr double kOpenRow = 1e-9;
 // Convergence is linear with the frozen matrix of the step: what the next iteration would change is
 // known from the last two. It has to be this much smaller than what the tolerance admits.
 constexpr double kForeseen = 0.01;
+// What rounding of positions leaves open, relative to the model's length.
+constexpr double kRounding = 1e-15;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
@@ -138,7 +140,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   StepReport report;
   report.worst_row = rows_in_use_.empty() ? 0 : rows_in_use_.front();
   if (!dependent_.empty()) report.worst_row = dependent_.front();
-  report.position_residual = residuals_.g.cwiseAbs().maxCoeff();
+  if (residuals_.g.size() > 0) report.position_residual = residuals_.g.cwiseAbs().maxCoeff();
   fail(t, report, "joint equations have become dependent (a singular position)");
 }
 
@@ -302,11 +304,11 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
 }
 
 bool SmallNewton::settled(const Change& change, const Change& before) const {
-  // Rounding of positions bounds what any iteration can reach: 1e-15 L, or a change that no longer
+  // Rounding of positions bounds what any iteration can reach, or a change that no longer
   // falls and is within 1e-11 L.
-  const double admitted = settings_.newton_tolerance * change.motion;
-  if (change.size <= admitted + 1e-15 * model_.length) return true;
-  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * admitted) return true;
+  const double enough = admitted(change.motion);
+  if (change.size <= enough + kRounding * model_.length) return true;
+  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
   return before.size > 0.0 && change.size > 0.3 * before.size &&
          change.size <= 1e-11 * model_.length;
 }
@@ -319,32 +321,59 @@ void SmallNewton::record_residuals(StepReport& report) const {
   report.worst_row = static_cast<int>(worst);
 }
 
-void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambda,
-                          StepReport& report) {
-  leave_to_rows_in_use(lambda);
-  Change change;
+double SmallNewton::find_residuals(const std::vector<BodyStep>& bodies) {
+  double open = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    shares_[b].find_residual(bodies[b], at_evaluation()[b], forces_.frame[b]);
+    open = larger(open, shares_[b].residual_size(model_.length));
+  }
+  return open;
+}
+
+SmallNewton::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, Vector& lambda,
+                                      StepReport& report) {
+  solve_correction(bodies);
+  solve_multipliers();
+  const Change change = update(bodies, lambda);
+  ++report.newton_iterations;
+  if (!(change.size < HUGE_VAL)) fail(t, report, "the motion is no longer finite");
+  motion_ = change.motion;
+  return change;
+}
+
+void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda, Change change,
+                         StepReport& report) {
   Change before;
-  for (int iteration = 0;; ++iteration) {
+  for (int iteration = 1;; ++iteration) {
     evaluate(bodies, t, lambda);
     record_residuals(report);
-    if (iteration > 0) {
-      if (before.size > 0.0) contraction_ = change.size / before.size;
-      if (settled(change, before)) break;
-    }
+    if (before.size > 0.0) contraction_ = change.size / before.size;
+    if (settled(change, before)) break;
     before = change;
     if (iteration == settings_.max_newton) {
       fail(t, report, "the step's iteration does not settle");
     }
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      shares_[b].find_residual(bodies[b], at_evaluation()[b], forces_.frame[b]);
-    }
-    solve_correction(bodies);
-    solve_multipliers();
-    change = update(bodies, lambda);
-    ++report.newton_iterations;
-    if (!(change.size < HUGE_VAL)) fail(t, report, "the motion is no longer finite");
+    find_residuals(bodies);
+    change = move(bodies, t, lambda, report);
   }
   watch_rows_not_in_use();
+}
+
+void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambda,
+                          StepReport& report) {
+  leave_to_rows_in_use(lambda);
+  evaluate(bodies, t, lambda);
+  record_residuals(report);
+  find_residuals(bodies);
+  settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
+}
+
+void SmallNewton::iterate_on(std::vector<BodyStep>& bodies, double t, Vector& lambda,
+                             StepReport& report) {
+  // Motions, rows and forces are those of the last evaluation.
+  const double open = find_residuals(bodies);
+  if (open <= kForeseen * admitted(motion_) + kRounding * model_.length) return;
+  settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }
 
 void SmallNewton::fail(double t, const StepReport& report, const char* what) const {

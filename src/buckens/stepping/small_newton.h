@@ -36,6 +36,10 @@ class SmallNewton {
   /// @param lambda first guess and result [N, N m]
   /// @throws NumericalError with the joint that resists, if it does not converge
   void iterate(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
+  /// Goes on from where iterate() ended in this step, after free responses or moments of `bodies`
+  /// changed. A change too small to move anything takes no iteration.
+  void iterate_on(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda,
+                  StepReport& report);
 
   /// Forces at the evaluation instant of the last iteration.
   const dynamics::Forces& forces() const { return forces_; }
@@ -50,10 +54,19 @@ class SmallNewton {
     double motion = 0;  ///< largest motion of the step [m]
   };
   void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda);
+  /// @return size of what the equations of motion of the bodies leave open [m]
+  double find_residuals(const std::vector<BodyStep>& bodies);
+  /// One iteration from what evaluate() and find_residuals() found.
+  Change move(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
+  /// Evaluates and moves until settled. @param change of the iteration before, if there was one
+  void settle(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, Change change,
+              StepReport& report);
   void solve_correction(const std::vector<BodyStep>& bodies);
   void solve_multipliers();
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
   bool settled(const Change& change, const Change& before) const;
+  /// Change that ends the iteration [m].
+  double admitted(double motion) const { return settings_.newton_tolerance * motion; }
   void record_residuals(StepReport& report) const;
   /// Motions at the instant at which the equations hold.
   const std::vector<dynamics::BodyMotion>& at_evaluation() const {
@@ -109,6 +122,7 @@ class SmallNewton {
   std::vector<dynamics::BodyResponse> correction_, response_;  // row forces on them
   linalg::Vector E_, X_, corrected_;
   double contraction_ = 1;         // of the last two changes in this step
+  double motion_ = 0;              // of the step, at the last iteration [m]
   std::size_t restless_body_ = 0;  // whose frame moved most in the last iteration
 };
 

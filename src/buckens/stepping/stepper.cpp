@@ -285,8 +285,12 @@ void Stepper::compute_round(const model::State& state, bool is_first, StepReport
   const auto start = Clock::now();
   if (free_responses(state, is_first)) ++report.large_solve_rounds;
   const auto solved = Clock::now();
-  if (is_first) newton_->prepare(bodies_, state.t);
-  newton_->iterate(bodies_, state.t, lambda_, report);
+  if (is_first) {
+    newton_->prepare(bodies_, state.t);
+    newton_->iterate(bodies_, state.t, lambda_, report);
+  } else {
+    newton_->iterate_on(bodies_, state.t, lambda_, report);
+  }
   const auto iterated = Clock::now();
   complete(state);
   seconds_.large_solves += seconds(solved - start);

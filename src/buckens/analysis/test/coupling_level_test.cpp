@@ -231,6 +231,35 @@ Eigen::Vector2d spinning_bar(double EA, double e0, double w0, double duration) {
   return {x[0], x[2]};
 }
 
+TEST(CouplingLevel, ASecondSolveThatMovesNothingTakesNoIteration) {
+  // So stiff and short that its coupling load bends it by less than rounding of positions, as parts
+  // of a body with many frames are.
+  test::BeamConstants stiff;
+  stiff.EA = 1e10;
+  stiff.EIy = stiff.EIz = 1e8;
+  stiff.elements = 1;
+  const model::Model model = test::planar_beam_pendulum(stiff);
+  const test::Start start = test::consistent_start(model);
+  const auto effort = [&](double outer_tolerance) {
+    StepSettings settings;
+    settings.outer_tolerance = outer_tolerance;
+    Stepper stepper(model, settings, start.rows_in_use);
+    model::State state = start.state;
+    std::array<long, 2> out = {0, 0};
+    for (int k = 0; k < 200; ++k) {
+      const StepReport report = stepper.step(state);
+      out[0] += report.large_solve_rounds;
+      out[1] += report.newton_iterations;
+    }
+    return out;
+  };
+  const auto [one, iterations] = effort(HUGE_VAL);
+  const auto [two, iterations_of_two] = effort(1e-9);
+  EXPECT_EQ(one, 200);
+  EXPECT_GE(two, 300);
+  EXPECT_EQ(iterations_of_two, iterations);
+}
+
 TEST(CouplingLevel, IterationConvergesOnABarStretchedBySixtyPercent) {
   // J(e) is up to 2.56 J₀: with J − J₀ on the right-hand side the iteration would grow by 1.56 each
   // time, whatever the step.
