@@ -14,9 +14,11 @@ namespace {
 body::DeformedMoments inertia(const body::Body& body, const model::BodyState& state) {
   body::DeformedMoments out;
   out.J = body.J0;
-  if (!body.is_flexible() || state.terms == body::CouplingTerms::none()) return out;
+  body::CouplingTerms inertial = state.terms;
+  inertial.stiffening = false;  // a load, no inertia
+  if (!body.is_flexible() || inertial == body::CouplingTerms::none()) return out;
   const auto& invariants = body.flexible->invariants;
-  if (state.terms == body::CouplingTerms::first_order()) {
+  if (inertial == body::CouplingTerms::first_order()) {
     out.J += invariants.linear_inertia(invariants.centrifugal_patterns().transpose() * state.d);
     return out;
   }
