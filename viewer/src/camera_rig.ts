@@ -125,6 +125,22 @@ export class CameraRig {
     this.changed();
   }
 
+  /** Moves the view to the right and up by shares of its height. */
+  move(aside: number, up: number): void {
+    const { camera } = this;
+    const { target } = this.controls;
+    const tangent = Math.tan(THREE.MathUtils.degToRad(kFieldOfView / 2));
+    const away = camera.position.distanceTo(target);
+    const height = this.orthographic ? this.height / this.parallel.zoom : 2 * tangent * away;
+    camera.updateMatrix();
+    const [right, above] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(camera.matrix, k));
+    const way = right!.multiplyScalar(aside * height).addScaledVector(above!, up * height);
+    camera.position.add(way);
+    target.add(way);
+    this.controls.update();
+    this.changed();
+  }
+
   /** Looks from where another camera of the same kind of view looks. */
   follow(other: CameraRig): void {
     this.quiet = true;

@@ -134,7 +134,7 @@ export class Chart {
           gap: 2,
           values: (_u, ticks) => ticks.map((t) => trim(format.number(t))),
         },
-        { ...axis, size: 54, gap: 4, space: 26, values: (_u, ticks) => ticks.map(tick) },
+        { ...axis, size: 54, gap: 4, space: 20, values: (_u, ticks) => ticks.map(tick) },
       ],
       series: [
         {},

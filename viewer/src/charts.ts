@@ -64,7 +64,8 @@ export class Charts {
     private theme: Theme,
     private readonly seek: (t: number) => void,
   ) {
-    this.format = new TimeFormat((times.at(-1) ?? 0) - (times[0] ?? 0));
+    const duration = (times.at(-1) ?? 0) - (times[0] ?? 0);
+    this.format = new TimeFormat(duration, runs[0]?.clock ?? 's');
     this.charts = chartContents(runs).map((content) => new Chart(content, seek));
     // Sensors come first and energies last: show the first three of the former and the latter.
     const isEnergy = (chart: Chart) => chart.content.name.startsWith('Energies');

@@ -22,6 +22,6 @@ export function curveChoice(charts: Charts): HTMLElement {
   document.addEventListener('pointerdown', (event) => {
     if (!list.contains(event.target as Node)) list.open = false;
   });
-  head.append(el('span', { class: 'unit' }, `time in ${charts.timeUnit}`), list);
+  head.append(el('span', { class: 'unit' }, `${charts.timeUnit === 'steps' ? 'path' : 'time'} in ${charts.timeUnit}`), list);
   return head;
 }

@@ -2,7 +2,7 @@ import { el } from './dom';
 
 /** A modal box with a title; closes by its button, by escape and by a click beside it. */
 export function modal(title: string, ...content: (Node | string)[]): HTMLDialogElement {
-  const dialog = el('dialog', { class: 'details' });
+  const dialog = el('dialog', { class: 'details', 'aria-label': title });
   const close = el('button', { class: 'icon', type: 'button', 'aria-label': 'Close' }, '✕');
   close.addEventListener('click', () => dialog.close());
   dialog.addEventListener('click', (event) => event.target === dialog && dialog.close());

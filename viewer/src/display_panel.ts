@@ -4,7 +4,7 @@ import { figure, prefixFor } from './quantity';
 import type { EdgeChoice } from './skin';
 import type { Run } from './run';
 import type { Section } from './section';
-import type { SectionChoice, ViewOptions } from './view_options';
+import type { SectionChoice, TracePoint, ViewOptions } from './view_options';
 
 const kEdges: EdgeChoice[] = ['auto', 'none', 'outline', 'mesh', 'wireframe'];
 const kAxes: SectionChoice['axis'][] = ['off', 'x', 'y', 'z'];
@@ -32,14 +32,12 @@ export class DisplayPanel {
     this.edges.options[0]!.text = 'by size';
     this.edges.options[3]!.text = 'all';
     this.axis = choice('Section across', kAxes, cut.axis, (value) => this.setAxis(value));
-    const names = run.bodies.map((body, i) => ({ name: body.name, i }));
-    const solid = names.filter(({ i }) => run.bodies[i]!.nodes.length > 0);
-    const of = choice('Section through', ['-1', ...solid.map(({ i }) => String(i))], '-1', (value) => {
-      cut.body = Number(value);
+    const solid = run.bodies.filter(({ nodes }) => nodes.length > 0).map(({ name }) => name);
+    const of = choice('Section through', ['', ...solid], '', (value) => {
+      cut.body = value;
       changed();
     });
     of.options[0]!.text = 'everything';
-    solid.forEach(({ name }, k) => (of.options[k + 1]!.text = name));
     this.slider = el('input', { type: 'range', min: 0, max: 1, step: 0.005, 'aria-label': 'Section at' });
     this.slider.addEventListener('input', () => {
       cut.fraction = Number(this.slider.value);
@@ -109,15 +107,15 @@ export class DisplayPanel {
       title: 'Path of a point',
     });
     select.append(el('option', { value: '' }, 'none'));
-    run.bodies.forEach((body, b) => {
-      const points = body.markers.map((marker, m) => ({ m, text: `${body.name}/${marker.name}` }));
-      for (const { m, text } of [...points, { m: -1, text: `${body.name} (mass centre)` }]) {
-        select.append(el('option', { value: `${b}/${m}` }, text));
-      }
+    const points: TracePoint[] = run.bodies.flatMap(({ name, markers }) =>
+      [...markers.map((marker) => marker.name), ''].map((marker) => ({ body: name, marker })),
+    );
+    points.forEach(({ body, marker }, value) => {
+      const text = marker ? `${body}/${marker}` : `${body} (mass centre)`;
+      select.append(el('option', { value }, text));
     });
     select.addEventListener('change', () => {
-      const [body, marker] = select.value.split('/').map(Number);
-      this.options.trace = select.value === '' ? null : { body: body!, marker: marker! };
+      this.options.trace = select.value === '' ? null : points[Number(select.value)]!;
       this.changed();
     });
     return select;
@@ -132,6 +130,8 @@ export class DisplayPanel {
     if (off) return;
     this.slider.value = String(options.section.fraction);
     const { factor, unit } = prefixFor(section.bounds.size, 'm');
-    this.place.textContent = `${figure(section.coordinate(options.section) / factor, 3)} ${unit}`;
+    const place = `${figure(section.coordinate(options.section) / factor, 3)} ${unit}`;
+    this.place.textContent = place;
+    this.slider.setAttribute('aria-valuetext', place);
   }
 }

@@ -109,6 +109,16 @@ export class FieldMaterial extends THREE.MeshLambertMaterial {
     this.own.fieldFlat.value = flat ? 1 : 0;
   }
 
+  /** Whether a limit hides a point between three vertices with these values. */
+  hides(values: number[], weights: number[]): boolean {
+    const { cutMode, cutLow, cutHigh } = this.shading.uniforms;
+    if (this.own.fieldOn.value < 0.5 || cutMode.value < 1.5) return false;
+    // As in the shader: a face has the value of its last vertex, and nothing recorded is not hidden.
+    const mixed = values.reduce((sum, value, k) => sum + weights[k]! * value, 0);
+    const value = this.own.fieldFlat.value > 0.5 ? values[2]! : mixed;
+    return value <= 1e30 && (value < cutLow.value || value > cutHigh.value);
+  }
+
   /** Whether the back can be seen, and if so whether it is the inside of something closed. */
   setBack(seen: boolean, closed: boolean): void {
     const side = seen ? THREE.DoubleSide : THREE.FrontSide;

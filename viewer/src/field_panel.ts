@@ -142,7 +142,14 @@ export class FieldPanel {
   forget(): void {
     this.known.clear();
     const { field } = this.options;
-    if (field.range === 'run') [field.low, field.high] = this.wholeRun();
+    const range = this.wholeRun();
+    if (field.range === 'run') [field.low, field.high] = range;
+    this.choosePrefix(range);
+  }
+
+  private choosePrefix([low, high]: [number, number]): void {
+    const unit = this.itemShown?.unit ?? '';
+    this.prefix = prefixFor(Math.max(Math.abs(low), Math.abs(high)), unit === '1' ? '' : unit);
   }
 
   get itemShown(): FieldItem | undefined {
@@ -167,8 +174,7 @@ export class FieldPanel {
     [field.cutLow, field.cutHigh] = [null, null];
     if (field.range === 'fixed') field.range = 'run';
     this.range.value = field.range;
-    const unit = this.itemShown?.unit ?? '';
-    this.prefix = prefixFor(Math.max(Math.abs(low), Math.abs(high)), unit === '1' ? '' : unit);
+    this.choosePrefix([low, high]);
     this.changed();
   }
 

@@ -4,8 +4,8 @@ import * as THREE from 'three';
 
 export const kAxisColors = [0xd8403a, 0x3f9d45, 0x3b74d8] as const;
 
-export function solid(color: THREE.ColorRepresentation): THREE.MeshStandardMaterial {
-  return new THREE.MeshStandardMaterial({ color, roughness: 0.55, metalness: 0.05 });
+export function solid(color: THREE.ColorRepresentation): THREE.MeshLambertMaterial {
+  return new THREE.MeshLambertMaterial({ color });
 }
 
 /** A cylinder of radius 1 from 0 to 1 along z: stretched between two points by `span`. */
@@ -88,7 +88,7 @@ export function massCentre(color: THREE.ColorRepresentation): THREE.Mesh {
     for (let v = i; v < i + 3; v++) field.toArray(colors, 3 * v);
   }
   geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
-  const material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.5 });
+  const material = new THREE.MeshLambertMaterial({ vertexColors: true });
   return new THREE.Mesh(geometry, material);
 }
 

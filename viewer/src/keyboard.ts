@@ -1,7 +1,8 @@
 import { modal, nameTable } from './dialog';
 
-/** One press of a key turns the camera by this [rad]. */
+/** One press of a key turns the camera by this [rad], or moves it by this share of the view's height. */
 const kTurn = Math.PI / 18;
+const kMove = 0.05;
 
 /** What the keys do, told to the user. */
 const kKeys: [string, string][] = [
@@ -11,7 +12,7 @@ const kKeys: [string, string][] = [
   ['↑ ↓', 'another mode, in pages with modes'],
   ['+ −', 'nearer, further'],
   ['1 2 3 · 0', 'seen along x, y, z · from the corner'],
-  ['q w · page up, page down', 'turn · tilt'],
+  ['q w · page up, page down', 'turn · tilt; with shift: move'],
   ['f · o', 'fit: the whole run in view · parallel or perspective'],
   ['[ ]', 'less, more deformation'],
   ['v, shift v', 'next, previous field'],
@@ -32,6 +33,8 @@ export interface KeyActions {
   fit(): void;
   zoom(factor: number): void;
   turn(aside: number, up: number): void;
+  /** By shares of the view's height. */
+  move(aside: number, up: number): void;
   /** Along axis 0, 1, 2, or from the corner for −1. */
   lookAlong(axis: number): void;
   deform(factor: number): void;
@@ -57,11 +60,13 @@ export class Keyboard {
     const typing = target.matches('input, select, textarea') && !range;
     if (typing || (event.key === ' ' && target.matches('button, summary'))) return;
     if (range && /^(Arrow|Home|End|Page)/.test(event.key)) return;
-    if (this.act(event.key, event.shiftKey ? 10 : 1)) event.preventDefault();
+    if (this.act(event.key, event.shiftKey)) event.preventDefault();
   }
 
-  private act(key: string, frames: number): boolean {
+  private act(key: string, shift: boolean): boolean {
     const { actions } = this;
+    const frames = shift ? 10 : 1;
+    const tilt = (up: number) => (shift ? actions.move(0, up * kMove) : actions.turn(0, up * kTurn));
     const known: Record<string, () => void> = {
       ' ': () => actions.toggle(),
       ArrowLeft: () => actions.stepFrames(-frames),
@@ -74,8 +79,10 @@ export class Keyboard {
       '-': () => actions.zoom(0.8),
       q: () => actions.turn(-kTurn, 0),
       w: () => actions.turn(kTurn, 0),
-      PageUp: () => actions.turn(0, kTurn),
-      PageDown: () => actions.turn(0, -kTurn),
+      Q: () => actions.move(-kMove, 0),
+      W: () => actions.move(kMove, 0),
+      PageUp: () => tilt(1),
+      PageDown: () => tilt(-1),
       '1': () => actions.lookAlong(0),
       '2': () => actions.lookAlong(1),
       '3': () => actions.lookAlong(2),

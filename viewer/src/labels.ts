@@ -58,7 +58,8 @@ export class Labels {
   }
 
   private measure(span: HTMLSpanElement, label: Label): [number, number] {
-    const key = `${label.kind} ${label.text}`;
+    // Values change from picture to picture; all digits are equally wide.
+    const key = `${label.kind} ${label.text.replace(/\d/g, '0')}`;
     let size = this.sizes.get(key);
     if (!size) {
       size = [span.offsetWidth, span.offsetHeight];

@@ -20,8 +20,6 @@ export class LoadView {
   private readonly arrows: { glyph: THREE.Object3D; foot: number }[] = [];
   private readonly largest: number;
   private readonly row: number[] = [];
-  /** Arrows that press end at the surface, those that pull begin there. */
-  private readonly pushes: boolean;
 
   constructor(
     private readonly load: Load,
@@ -35,7 +33,6 @@ export class LoadView {
       if (value > largest && value < Infinity) largest = value;
     }
     this.largest = values ? largest : 1;
-    this.pushes = /pressure|traction/.test(load.kind);
     const turns = load.kind.includes('torque') || load.kind.includes('moment');
     const step = Math.max(1, Math.ceil(load.positions.length / kMostArrows));
     for (let foot = 0; foot < load.positions.length; foot += step) {
@@ -57,8 +54,9 @@ export class LoadView {
     return body.toWorld(rest.map((x, k) => x + moved[k]! - origin[k]!));
   }
 
-  position(scale: number): Triple {
-    return this.place(0, scale);
+  /** Where the first arrow stands; null for what acts on all bodies and has none. */
+  position(scale: number): Triple | null {
+    return this.load.positions.length > 0 ? this.place(0, scale) : null;
   }
 
   update(scale: number): void {
@@ -81,8 +79,19 @@ export class LoadView {
       v.normalize();
       glyph.quaternion.setFromUnitVectors(kZ, v);
       glyph.scale.setScalar(length);
-      glyph.position.set(...this.place(foot, scale));
-      if (this.pushes && factor > 0) glyph.position.addScaledVector(v, -length);
+      const at = new THREE.Vector3(...this.place(foot, scale));
+      glyph.position.copy(at);
+      if (this.presses(v, at, factor)) glyph.position.addScaledVector(v, -length);
     }
+  }
+
+  /** Arrows of what presses onto a surface end there, others begin there: none hides in the body. */
+  private presses(v: THREE.Vector3, at: THREE.Vector3, factor: number): boolean {
+    const { load, motion } = this;
+    if (load.kind === 'pressure') return factor > 0;
+    const body = motion.bodies[load.body];
+    if (load.kind !== 'traction' || !body) return false;
+    const [x, y, z] = body.pose as [number, number, number];
+    return at.sub(new THREE.Vector3(x, y, z)).dot(v) < 0;
   }
 }

@@ -49,8 +49,10 @@ function start(app: HTMLElement): void {
     if (vibrating.length > 0 && vibrating.length < pages.length) {
       throw new PageDataError('a run and vibrations cannot be shown side by side');
     }
-    const shapes = vibrating.map((page, i) => {
-      return new ModeShapes(runs[i]!, checkModes(page.modes!, runs[i]!));
+    const shapes: ModeShapes[] = [];
+    vibrating.forEach((page, i) => {
+      const modes = checkModes(page.modes!, runs[i]!);
+      shapes.push(new ModeShapes(runs[i]!, modes, shapes[0] ?? null));
     });
     new Page(app, runs, shapes);
   } catch (error) {

@@ -55,7 +55,7 @@ export class ModeList {
         'Amplitude',
         this.amplitude,
       ),
-      el('div', { class: 'mode-list', role: 'group' }, ...this.entries),
+      el('div', { class: 'mode-list', role: 'group', 'aria-label': 'Modes' }, ...this.entries),
     );
     this.mark();
   }
@@ -73,6 +73,8 @@ export class ModeList {
   }
 
   private mark(): void {
+    const share = `${figure(100 * this.shapes.amplitude, 3)} % of the model’s size`;
+    this.amplitude.setAttribute('aria-valuetext', share);
     this.entries.forEach((entry, i) =>
       entry.setAttribute('aria-pressed', String(i === this.shapes.index)),
     );

@@ -3,6 +3,7 @@ import { kVariants } from '../tests/fixture.mjs';
 import { checkModes, ModeShapes } from './modes';
 import { Motion } from './motion';
 import { decodeRun, PageDataError } from './run';
+import type { PageMode } from './page_data';
 
 function shapesOf(): ModeShapes {
   const data = kVariants['modes']();
@@ -44,6 +45,24 @@ describe('ModeShapes', () => {
     expect(shapes.period).toBe(1);
     shapes.show(99, 0.1);
     expect(shapes.index).toBe(2);
+  });
+
+  it('swings side by side in phase with the first model, whatever the frequencies', () => {
+    const first = shapesOf();
+    const data = kVariants['modes']();
+    const run = decodeRun(data);
+    const slow = data.modes!.map((mode: PageMode) => ({ ...mode, frequency: mode.frequency / 2 }));
+    const second = new ModeShapes(run, checkModes(slow, run), first);
+    for (const shapes of [first, second]) shapes.show(2, 0.05);
+    for (const shapes of [first, second]) shapes.show(0, 0.05);
+    expect(second.run.times).toBe(first.run.times);
+    const middles = [first, second].map((shapes) => {
+      const motion = new Motion(shapes.run);
+      motion.setTime(0.75 * first.period);
+      return motion.bodies[0]!.node(6, 1)[1];
+    });
+    expect(middles[0]).toBeCloseTo(-0.05 * first.size, 6);
+    expect(middles[1]).toBe(middles[0]);
   });
 
   it('refuses a list that does not fit the frames', () => {

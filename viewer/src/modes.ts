@@ -61,17 +61,19 @@ export class ModeShapes {
   /** Displacement over the shape's, per picture. */
   private readonly factors = new Float64Array(kFrames);
 
-  /** `shapes` holds one mode per frame. */
+  /** `shapes` holds one mode per frame; beside a `leader` they swing in phase with it. */
   constructor(
     private readonly shapes: Run,
     readonly modes: Mode[],
+    private readonly leader: ModeShapes | null = null,
   ) {
     const still = shapes.bodies.map((body) => ({ ...body, displacement: null }));
     this.size = runBounds({ ...shapes, bodies: still }).size;
     this.run = {
       ...shapes,
       loads: [],
-      times: new Float64Array(kFrames),
+      times: leader?.run.times ?? new Float64Array(kFrames),
+      joints: shapes.joints.map((joint) => ({ ...joint, force: null, torque: null })),
       bodies: shapes.bodies.map((body) => ({
         ...body,
         pose: new Float32Array(7 * kFrames),
@@ -98,7 +100,7 @@ export class ModeShapes {
       if (body.displacement instanceof SwingingRows) body.displacement.choose(this.index);
     }
     for (let k = 0; k < kFrames; k++) {
-      this.run.times[k] = (this.period * k) / (kFrames - 1);
+      if (!this.leader) this.run.times[k] = (this.period * k) / (kFrames - 1);
       this.factors[k] = amplitude * this.size * Math.sin(phase(k));
       this.turn(k, this.factors[k]!);
     }

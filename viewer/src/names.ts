@@ -11,9 +11,9 @@ export interface Name extends Omit<Label, 'x' | 'y'> {
   at: Triple;
 }
 
-/** Something drawn that has a name of its own. */
+/** Something drawn that has a name of its own; null for what stands nowhere. */
 export interface NamedGlyph {
-  position(scale: number): Triple;
+  position(scale: number): Triple | null;
 }
 
 /** Texts of bodies, joints, loads and markers, as far as the things themselves are shown. */
@@ -34,7 +34,8 @@ export function namesOf(
   for (const kind of ['joints', 'loads'] as const) {
     if (!options[kind]) continue;
     glyphs[kind].forEach((glyph, i) => {
-      names.push({ text: run[kind][i]!.name, kind: 'joint', at: glyph.position(options.scale) });
+      const at = glyph.position(options.scale);
+      if (at) names.push({ text: run[kind][i]!.name, kind: 'joint', at });
     });
   }
   if (!options.frames) return names;

@@ -113,7 +113,8 @@ export class Page {
     // The amplitude of a mode takes the place of the deformation scale.
     const bodies = runs.flatMap((run) => run.bodies);
     const deformable = !shapes.length && bodies.some((body) => body.displacement);
-    this.transport = new Transport(this.playback, this.options, deformable, changed, () => {
+    const { clock } = runs[0]!;
+    this.transport = new Transport(this.playback, clock, this.options, deformable, changed, () => {
       const most = rangeOfRun(runs, 'displacement/magnitude')[1];
       return most > 0 ? Math.max(1, niceBelow((0.05 * bounds.machine) / most)) : 1;
     });
@@ -174,6 +175,7 @@ export class Page {
       fit: () => this.leader?.fit(),
       zoom: (factor) => this.leader?.rig.zoom(factor),
       turn: (aside, up) => this.leader?.rig.turn(aside, up),
+      move: (aside, up) => this.leader?.rig.move(aside, up),
       lookAlong: (axis) => this.lookAlong(axis),
       deform: (factor) => this.transport.setScale(this.options.scale * factor),
       nextField: (steps) => this.field.step(steps),
@@ -256,6 +258,7 @@ export class Page {
   private restart(): void {
     this.transport.restart(kPeriodWatch);
     this.field.forget();
+    for (const { stage } of this.panes) stage?.forget();
     this.picks.refresh();
     this.changed();
   }
@@ -319,8 +322,9 @@ export class Page {
     if (playback.playing) return;
     const field = options.colors ? this.field.itemShown?.label : '';
     const shown = field ? `, ${field} in colour` : '';
-    this.panes.forEach(({ run, stage }) => {
-      const text = `${run.title} at ${figure(playback.time, 4)} s${shown}. Drag to turn, wheel to zoom, click to follow a node.`;
+    this.panes.forEach(({ run, title, stage }) => {
+      const time = `${figure(playback.time, 4)} ${run.clock}`;
+      const text = `${title || run.title} at ${time}${shown}. Drag to turn, wheel to zoom, click to follow a node.`;
       if (stage!.canvas.ariaLabel !== text) stage!.canvas.ariaLabel = text;
     });
     const said = field ?? '';

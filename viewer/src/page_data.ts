@@ -56,8 +56,8 @@ export interface PageBody {
   /** Number in the run of each node as int32; missing if they are 0, 1, 2 … */
   nodeNumbers?: Base64 | null;
   elements: [number, number][];
-  /** Radius of the drawn tube per element [m]. */
-  radius: number[];
+  /** Radius of the drawn tube at both ends of each element [m]. */
+  radius: [number, number][];
   markers: PageMarker[];
   /** frames × 7: position, then unit quaternion w, x, y, z. */
   pose: Base64;

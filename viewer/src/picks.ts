@@ -3,6 +3,7 @@ import { BodyField } from './body_field';
 import { endOf, history, indexAt, pointOf, type FieldPoint, type FieldSource } from './fields';
 import { nodeNumber, numNodes, type Body, type Run } from './run';
 import type { BodyView } from './body_view';
+import type { Skin } from './skin';
 
 /** A node that the user follows. */
 export interface Pick extends FieldPoint {
@@ -11,27 +12,35 @@ export interface Pick extends FieldPoint {
   body: number;
 }
 
-/** Closest vertex of what is under the ray (scene units) and not cut away; null for nothing. */
+/** Whether what was hit is cut away by a section, or hidden by a limit of the field. */
+function isAway(hit: THREE.Intersection, { mesh }: Skin): boolean {
+  const { material, geometry } = mesh;
+  const planes: THREE.Plane[] = material.clippingPlanes ?? [];
+  if (planes.some((plane) => plane.distanceToPoint(hit.point) < 0)) return true;
+  const field = geometry.getAttribute('fieldValue');
+  const { a, b, c } = hit.face!;
+  const values = [a, b, c].map((vertex) => field.getX(vertex));
+  return material.hides(values, hit.barycoord!.toArray());
+}
+
+/** Closest vertex of what is under the ray (scene units) and can be seen; null for nothing. */
 export function pickAlong(ray: THREE.Raycaster, views: BodyView[]): Omit<Pick, 'pane'> | null {
-  let best: { distance: number; pick: Omit<Pick, 'pane'> } | null = null;
+  let least = Infinity;
+  let best: Omit<Pick, 'pane'> | null = null;
   views.forEach((view, body) => {
     for (const skin of view.skins) {
-      const material = skin.mesh.material as THREE.Material;
-      for (const hit of ray.intersectObject(skin.mesh, false)) {
-        if (best && hit.distance >= best.distance) break;
-        const planes = material.clippingPlanes ?? [];
-        if (planes.some((plane: THREE.Plane) => plane.distanceToPoint(hit.point) < 0)) continue;
-        const vertex = nearestCorner(hit, skin.mesh);
-        const { node, place, line } = skin.vertex(vertex);
-        const known = pointOf(view.field.body, node);
-        const pick = { ...known, body, place: place >= 0 ? place : known.place };
-        const end = endOf(view.field.body, line, node);
-        best = { distance: hit.distance, pick: line >= 0 ? { ...pick, line, end } : pick };
-        break;
-      }
+      const hit = ray.intersectObject(skin.mesh, false).find((one) => !isAway(one, skin));
+      if (!hit || hit.distance >= least) continue;
+      const picked = skin.vertex(nearestCorner(hit, skin.mesh), hit.faceIndex!);
+      const { node, place, element, line } = picked;
+      const known = pointOf(view.field.body, node);
+      best = { ...known, body, place: place >= 0 ? place : known.place };
+      if (element >= 0) best.element = element;
+      if (line >= 0) best = { ...best, line, end: endOf(view.field.body, line, node) };
+      least = hit.distance;
     }
   });
-  return best === null ? null : (best as { pick: Omit<Pick, 'pane'> }).pick;
+  return best;
 }
 
 function nearestCorner(hit: THREE.Intersection, mesh: THREE.Mesh): number {

@@ -55,13 +55,13 @@ export function niceBelow(value: number): number {
   return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
 }
 
-/** Time with the unit and the fixed number of digits that suit the run's duration. */
+/** Time, or length of a path in steps, with the fixed number of digits that suits the run's duration. */
 export class TimeFormat {
   private readonly prefix: Prefix;
   private readonly decimals: number;
 
-  constructor(duration: number) {
-    this.prefix = prefixFor(duration, 's');
+  constructor(duration: number, unit: 's' | 'steps') {
+    this.prefix = prefixFor(duration, unit);
     const shown = duration / this.prefix.factor || 1;
     this.decimals = Math.min(6, Math.max(0, 3 - Math.floor(Math.log10(shown))));
   }

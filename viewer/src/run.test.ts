@@ -41,6 +41,12 @@ describe('decodeRun', () => {
     expect(run.planar).toBe('xy');
   });
 
+  it('counts steps along a static path, not seconds', () => {
+    expect(decodeRun(fresh()).clock).toBe('s');
+    const path = { ...fresh(), summary: { static_path: { load_factor: 1 } } };
+    expect(decodeRun(path).clock).toBe('steps');
+  });
+
   it('takes bars for straight, also where zeros were rounded', () => {
     const data = fresh();
     const bar = data.bodies[1]!;

@@ -48,7 +48,8 @@ export interface Body {
   /** Number in the run of each node; null if it is the same. */
   nodeNumbers: Int32Array | null;
   elements: [number, number][];
-  radius: number[];
+  /** At both ends of each element. */
+  radius: [number, number][];
   /** Null for bodies without a surface. */
   faces: Faces | null;
   markers: PageMarker[];
@@ -88,6 +89,8 @@ export interface Run {
   version: string;
   generated: string;
   times: Float64Array;
+  /** Of `times`: a static path counts the length of the path in steps. */
+  clock: 's' | 'steps';
   bodies: Body[];
   joints: Joint[];
   loads: Load[];
@@ -208,7 +211,7 @@ function decodeBody(body: PageBody, frames: number, where: string): Body {
     nodes,
     nodeNumbers: numbers,
     elements,
-    radius: elements.map((_, e) => body.radius?.[e] ?? 0),
+    radius: elements.map((_, e) => body.radius?.[e] ?? [0, 0]),
     faces,
     markers: body.markers ?? [],
     pose: decodeFloats(body.pose, frames * 7, `${where}.pose`),
@@ -251,11 +254,13 @@ export function decodeRun(data: PageRun): Run {
     values: decodeFloats(text, n * components.length, `${at}.values`),
   });
   const planar = data.planar;
+  const summary = data.summary ?? {};
   return {
     title: data.title || 'Untitled run',
     version: data.version ?? '',
     generated: data.generated ?? '',
     times,
+    clock: 'static_path' in summary ? 'steps' : 's',
     bodies,
     joints: (data.joints ?? []).map((joint, i) => decodeJoint(joint, bodies, n, `joints[${i}]`)),
     loads: (data.loads ?? []).map((load, i) => decodeLoad(load, bodies, n, `loads[${i}]`)),
@@ -268,7 +273,7 @@ export function decodeRun(data: PageRun): Run {
     energies: (data.energies ?? []).map((e, i) =>
       series(e.name, e.unit, [''], e.values, `energies[${i}]`),
     ),
-    summary: data.summary ?? {},
+    summary,
     storage: data.storage ?? { records: n, rounded: false, notes: [] },
   };
 }

@@ -21,30 +21,36 @@ export function extent(motion: BodyMotion): [number, number][] {
 export class Section {
   private readonly plane = new THREE.Plane();
   private readonly list = [this.plane];
-  private readonly extents = new Map<number, [number, number][]>();
+  private readonly extents = new Map<BodyMotion, [number, number][]>();
 
   constructor(
     readonly bounds: Bounds,
     private readonly bodies: BodyMotion[],
   ) {}
 
+  /** The body that alone is cut; undefined for all, or if this run has none of that name. */
+  private only(name: string): BodyMotion | undefined {
+    return name ? this.bodies.find(({ body }) => body.name === name) : undefined;
+  }
+
   /** Where the plane stands: the coordinate along its axis in its frame [m]. */
   coordinate({ axis, body, fraction }: SectionChoice): number {
     if (axis === 'off') return 0;
     const k = kAxes[axis];
-    const motion = this.bodies[body];
+    const motion = this.only(body);
     if (!motion) return this.bounds.center[k] + (2 * fraction - 1) * this.bounds.half[k];
-    let ranges = this.extents.get(body);
-    if (!ranges) this.extents.set(body, (ranges = extent(motion)));
+    let ranges = this.extents.get(motion);
+    if (!ranges) this.extents.set(motion, (ranges = extent(motion)));
     const [low, high] = ranges[k]!;
     return low + fraction * (high - low);
   }
 
   /** The planes that cut the body with this index; null for none. */
   planes(choice: SectionChoice, body: number): THREE.Plane[] | null {
-    if (choice.axis === 'off' || (choice.body >= 0 && choice.body !== body)) return null;
+    if (choice.axis === 'off') return null;
     const { plane, bounds } = this;
-    const motion = this.bodies[choice.body];
+    const motion = this.only(choice.body);
+    if (choice.body && this.bodies[body] !== motion) return null;
     const k = kAxes[choice.axis];
     const normal = new THREE.Vector3().setComponent(k, choice.flip ? 1 : -1);
     const point = new THREE.Vector3().setComponent(k, this.coordinate(choice));

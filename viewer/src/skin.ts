@@ -1,4 +1,5 @@
 import type * as THREE from 'three';
+import type { FieldMaterial } from './field_material';
 import type { Painted } from './surface_values';
 
 export type EdgeChoice = 'auto' | 'none' | 'outline' | 'mesh' | 'wireframe';
@@ -12,22 +13,25 @@ export interface SkinLook {
   seeThrough: boolean;
 }
 
-/** What a vertex of the picture stands for; −1 for nothing. */
+/** What a place of the picture stands for; −1 for nothing. */
 export interface PickedVertex {
   node: number;
   place: number;
+  /** Of the face under it. */
+  element: number;
   line: number;
 }
 
 /** What a body consists of when it is drawn: tubes, or the surface of a solid. */
 export interface Skin {
   readonly root: THREE.Group;
-  readonly mesh: THREE.Mesh;
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, FieldMaterial>;
   deform(displacement: Float32Array, scale: number): void;
   /** Colours by values (`byFace`: one per element), or plainly for null. */
   paint(painted: Painted | null, byFace: boolean): void;
   look(look: SkinLook): void;
-  vertex(index: number): PickedVertex;
+  /** What a corner of a triangle stands for, both by their numbers in the mesh. */
+  vertex(index: number, triangle: number): PickedVertex;
   /** The undeformed shape. */
   ghost(material: THREE.Material): THREE.Mesh;
   dispose(): void;

@@ -162,9 +162,8 @@ export class Stage {
   render(options: ViewOptions, picks: { pick: Pick; color: string }[]): void {
     const began = performance.now();
     const { index, fraction } = this.motion.place;
-    const color = options.trace
-      ? this.theme.bodies[options.trace.body % this.theme.bodies.length]!
-      : '';
+    const traced = this.run.bodies.findIndex(({ name }) => name === options.trace?.body);
+    const color = this.theme.bodies[Math.max(0, traced) % this.theme.bodies.length]!;
     this.trace.update(options.trace, options.scale, index + (fraction > 0.5 ? 1 : 0), color);
     this.trace.resize(this.width, this.height);
     this.showDots(picks, options.scale);
@@ -173,6 +172,11 @@ export class Stage {
     this.corner.render(this.renderer, this.rig.camera, kCorner);
     this.showLabels(options, picks);
     this.cost.render = performance.now() - began;
+  }
+
+  /** The motion has changed, as another mode's has. */
+  forget(): void {
+    this.trace.forget();
   }
 
   private aimHeadlight(): void {

@@ -26,7 +26,7 @@ export function startOptions(items: FieldItem[]): ViewOptions {
       cutHigh: null,
     },
     edges: 'auto',
-    section: { axis: 'off', body: -1, fraction: 0.5, flip: false },
+    section: { axis: 'off', body: '', fraction: 0.5, flip: false },
     scale: 1,
     trace: null,
   };

@@ -101,6 +101,12 @@ describe('Surface', () => {
     }
   });
 
+  it('knows the face of a triangle among faces of three and four corners', () => {
+    const faces = ints([0, 2, 3, 1, 4, 5, 7, -1, 0, 1, 5, 4]);
+    const surface = new Surface(bodyOf({ faces, faceElements: ints([0, 1, 2]) }));
+    expect([0, 1, 2, 3, 4].map((triangle) => surface.faceOf(triangle))).toEqual([0, 0, 1, 2, 2]);
+  });
+
   it('parts vertices where a node has two places', () => {
     const places = kFaces.map((face, f) => face.map((node) => (f === 0 ? node : 8 + node)));
     const surface = new Surface(bodyOf({ facePlaces: ints(places.flat()) }));

@@ -113,6 +113,13 @@ export class Surface {
     return Uint32Array.from(triangles.values.subarray(0, triangles.length));
   }
 
+  /** The face that a triangle is part of: faces follow one another, each with one or two of them. */
+  faceOf(triangle: number): number {
+    let [face, after] = [-1, 0];
+    while (after <= triangle) after += this.corners[4 * ++face + 3]! < 0 ? 1 : 2;
+    return face;
+  }
+
   private makeEdges() {
     const { corners, nodeOf } = this;
     const edges = new Growing();

@@ -34,7 +34,7 @@ function picture(positions: Float32Array, normals: Float32Array, indices: Uint32
 /** The surface of a body of solids or shells in the scene, with the edges of its elements. */
 export class SurfaceMesh implements Skin {
   readonly root = new THREE.Group();
-  readonly mesh: THREE.Mesh;
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, FieldMaterial>;
   private readonly surface: Surface;
   private readonly smooth: Picture;
   private readonly vertexValues: VertexValues;
@@ -132,9 +132,11 @@ export class SurfaceMesh implements Skin {
     this.material.setBack(back, !surface.isOpen);
   }
 
-  vertex(index: number): PickedVertex {
+  vertex(index: number, triangle: number): PickedVertex {
+    const { surface } = this;
     const vertex = this.split && this.byFace ? this.split.faces.vertexOf[index]! : index;
-    return { node: this.surface.nodeOf[vertex]!, place: this.surface.placeOf[vertex]!, line: -1 };
+    const element = this.motion.body.faces!.elements[surface.faceOf(triangle)]!;
+    return { node: surface.nodeOf[vertex]!, place: surface.placeOf[vertex]!, element, line: -1 };
   }
 
   ghost(material: THREE.Material): THREE.Mesh {

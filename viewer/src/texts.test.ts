@@ -22,9 +22,10 @@ describe('quantities', () => {
     expect(figure(3.1e-14, 2)).toBe('3.1e−14');
     expect(figure(NaN)).toBe('–');
     expect(niceBelow(0.07)).toBeCloseTo(0.05, 12);
-    expect(new TimeFormat(0.02).number(0.0123)).toBe('12.30');
-    expect(new TimeFormat(0.02).unit).toBe('ms');
-    expect(new TimeFormat(0).number(0)).toBe('0.000');
+    expect(new TimeFormat(0.02, 's').number(0.0123)).toBe('12.30');
+    expect(new TimeFormat(0.02, 's').unit).toBe('ms');
+    expect(new TimeFormat(0, 's').number(0)).toBe('0.000');
+    expect(new TimeFormat(0.5, 'steps').unit).toBe('steps');
   });
 
   it('colour runs from blue to red and is clamped', () => {

@@ -35,6 +35,11 @@ export class Trace {
     if (this.passed) this.passed.geometry.instanceCount = index;
   }
 
+  /** The motion has changed: the path is made anew when it is drawn next. */
+  forget(): void {
+    this.shown = '';
+  }
+
   private rebuild(point: TracePoint | null, scale: number, color: string): void {
     for (const child of this.root.children) (child as Line2).geometry.dispose();
     this.root.clear();
@@ -42,9 +47,9 @@ export class Trace {
     this.passed = null;
     const frames = this.motion.run.times.length;
     if (!point || frames < 2) return;
-    const body = this.motion.bodies[point.body];
-    if (!body) return;
-    const marker = body.body.markers[point.marker];
+    const body = this.motion.bodies.find((motion) => motion.body.name === point.body);
+    const marker = body?.body.markers.find(({ name }) => name === point.marker);
+    if (!body || (point.marker && !marker)) return;
     const path: number[] = [];
     for (let index = 0; index < frames; index++) {
       this.motion.setPlace({ index, fraction: 0 });

@@ -22,7 +22,7 @@ export class Transport {
     step: 'any',
     'aria-label': 'Time',
   });
-  private readonly clock = el('output', { class: 'clock' });
+  private readonly present = el('output', { class: 'clock' });
   private readonly speed = el('input', {
     type: 'range',
     min: -1,
@@ -49,14 +49,16 @@ export class Transport {
   private format: TimeFormat;
   private usualSpeed: number;
 
+  /** @param clock unit of the time shown */
   constructor(
     private readonly playback: Playback,
+    private readonly clock: 's' | 'steps',
     private readonly options: ViewOptions,
     deformable: boolean,
     private readonly changed: () => void,
     private readonly visibleScale: () => number,
   ) {
-    this.format = new TimeFormat(playback.duration);
+    this.format = new TimeFormat(playback.duration, clock);
     this.usualSpeed = playback.speed;
     this.play.addEventListener('click', () => this.toggle());
     this.scrub.addEventListener('input', () => {
@@ -82,7 +84,7 @@ export class Transport {
 
     const speedField = el(
       'label',
-      { class: 'field', title: 'Simulated time per second of watching; double click resets' },
+      { class: 'field', title: 'Simulated time, or steps, per second of watching; double click resets' },
       'Speed',
       this.speed,
       this.speedText,
@@ -113,7 +115,7 @@ export class Transport {
     this.root = el(
       'footer',
       { class: 'transport' },
-      el('div', { class: 'line' }, this.play, this.scrub, this.clock),
+      el('div', { class: 'line' }, this.play, this.scrub, this.present),
       el('div', { class: 'line fields' }, speedField, ...(deformable ? [scaleField] : [])),
     );
     if (!playback.canPlay) {
@@ -126,7 +128,7 @@ export class Transport {
   restart(seconds: number): void {
     const { playback } = this;
     const factor = playback.speed / this.usualSpeed;
-    this.format = new TimeFormat(playback.duration);
+    this.format = new TimeFormat(playback.duration, this.clock);
     this.usualSpeed = Number((playback.duration / seconds).toPrecision(2));
     playback.speed = factor * this.usualSpeed;
     playback.setTime(playback.time);
@@ -156,10 +158,14 @@ export class Transport {
     this.scrub.value = String(playback.fraction);
     this.scrub.style.setProperty('--done', `${100 * playback.fraction}%`);
     const time = this.format.number(playback.time);
-    this.clock.textContent = `${time} / ${this.format.number(playback.end)} ${this.format.unit}`;
+    this.present.textContent = `${time} / ${this.format.number(playback.end)} ${this.format.unit}`;
     this.scrub.setAttribute('aria-valuetext', `${time} ${this.format.unit}`);
-    this.speedText.textContent = `${figure(playback.speed, 2)}× real time`;
+    const speed = figure(playback.speed, 2);
+    const rate = this.clock === 's' ? `${speed}× real time` : `${speed} steps per second`;
+    this.speedText.textContent = rate;
+    this.speed.setAttribute('aria-valuetext', rate);
     this.scale.value = String(Math.log(options.scale) / Math.log(kMostScale));
+    this.scale.setAttribute('aria-valuetext', `${figure(options.scale, 3)} times`);
     if (document.activeElement !== this.scaleNumber) {
       this.scaleNumber.value = String(Number(options.scale.toPrecision(3)));
     }

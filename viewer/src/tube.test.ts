@@ -9,6 +9,7 @@ function beam(
   nodes: Triple[],
   elements: [number, number][],
   displacement: Float32Array | null,
+  radius = elements.map((): [number, number] => [0.1, 0.1]),
 ): Body {
   return {
     name: 'b',
@@ -16,7 +17,7 @@ function beam(
     nodes: Float32Array.from(nodes.flat()),
     nodeNumbers: null,
     elements,
-    radius: elements.map(() => 0.1),
+    radius,
     faces: null,
     markers: [],
     pose: new Float32Array(7),
@@ -113,7 +114,32 @@ describe('Tube', () => {
       0.2,
     );
     expect(corner.kinks).toEqual([1]);
-    expect(corner.radius).toEqual([0.2, 0.2]);
+    expect(corner.radius).toEqual([
+      [0.2, 0.2],
+      [0.2, 0.2],
+    ]);
+  });
+
+  it('is a closed cone where it tapers, with normals at right angles to its side', () => {
+    const tube = new Tube(beam([[0, 0, 0], [3, 0, 0]], [[0, 1]], null, [[0.4, 0.1]]), 0);
+    tube.deform(new Float32Array(12), 0);
+    const prism = (16 / 2) * Math.sin((2 * Math.PI) / 16);
+    // Frustum: h/3 (A + sqrt(A B) + B).
+    expect(volume(tube)).toBeCloseTo(prism * (0.4 ** 2 + 0.4 * 0.1 + 0.1 ** 2), 5);
+    const side = [0, 1, 2].map((k) => tube.positions[48 + k]! - tube.positions[k]!);
+    const normal = tube.normals.subarray(0, 3);
+    expect(side[0]! * normal[0]! + side[1]! * normal[1]! + side[2]! * normal[2]!).toBeCloseTo(0, 6);
+    expect(Math.hypot(...normal)).toBeCloseTo(1, 6);
+  });
+
+  it('closes a step between two radii, and only there', () => {
+    const elements: [number, number][] = [[0, 1], [1, 2]];
+    const smooth = new Tube(beam(chain, elements, null, [[0.3, 0.2], [0.2, 0.1]]), 0);
+    const step = new Tube(beam(chain, elements, null, [[0.3, 0.3], [0.1, 0.1]]), 0);
+    step.deform(new Float32Array(18), 0);
+    expect(step.positions.length - smooth.positions.length).toBe(2 * 3 * 17);
+    const prism = (16 / 2) * Math.sin((2 * Math.PI) / 16);
+    expect(volume(step)).toBeCloseTo(prism * (0.3 ** 2 + 0.1 ** 2), 5);
   });
 
   it('stays within its budget for long models', () => {

@@ -5,30 +5,40 @@ import type { Triple } from './page_data';
 /** Vertices that one body may spend; long models get coarser tubes instead of a slow page. */
 const kVertexBudget = 60000;
 
+/** Radii that differ by more than this share make a step. */
+const kStep = 1e-6;
+
 interface Cap {
   element: number;
   atEnd: boolean;
   firstVertex: number;
 }
 
-/** Nodes at which tubes do not run smoothly into each other. */
-function nodeEnds(body: Body, curves: BeamCurve[]): { free: Set<number>; kinks: number[] } {
+/** Nodes at which tubes end or change their radius, and those at which they do not go straight on. */
+function nodeEnds(body: Body, curves: BeamCurve[]): { open: Set<number>; kinks: number[] } {
   const at = new Map<number, number[]>();
-  body.elements.forEach(([a, b], e) => {
-    for (const node of [a, b]) at.set(node, [...(at.get(node) ?? []), e]);
+  const thickness = new Map<number, number[]>();
+  body.elements.forEach((ends, e) => {
+    ends.forEach((node, end) => {
+      at.set(node, [...(at.get(node) ?? []), e]);
+      thickness.set(node, [...(thickness.get(node) ?? []), body.radius[e]![end]!]);
+    });
   });
-  const free = new Set<number>();
+  const open = new Set<number>();
   const kinks: number[] = [];
   for (const [node, elements] of at) {
-    if (elements.length === 1) free.add(node);
-    else if (
+    const radii = thickness.get(node)!;
+    const least = Math.min(...radii);
+    if (elements.length === 1 || Math.max(...radii) - least > kStep * least) open.add(node);
+    if (elements.length === 1) continue;
+    if (
       elements.length > 2 ||
       Math.abs(dot(curves[elements[0]!]!.axis, curves[elements[1]!]!.axis)) < 0.9999
     ) {
       kinks.push(node);
     }
   }
-  return { free, kinks };
+  return { open, kinks };
 }
 
 /** Triangles of the tubes that draw a beam body; the topology is fixed, vertices follow the nodes. */
@@ -42,7 +52,8 @@ export class Tube {
   readonly alongOf: Float32Array;
   /** Nodes with a bend or a branch, where a ball closes the gap between tubes. */
   readonly kinks: number[];
-  readonly radius: number[];
+  /** At both ends of each element. */
+  readonly radius: [number, number][];
   private readonly curves: BeamCurve[];
   private readonly reference: Triple[];
   private readonly caps: Cap[] = [];
@@ -61,7 +72,7 @@ export class Tube {
       ([a, b]) => new BeamCurve(nodeAt(body, a), nodeAt(body, b), body.hasRotations),
     );
     this.reference = this.curves.map((curve) => perpendicular(curve.axis));
-    this.radius = body.radius.map((r) => Math.max(r, leastRadius));
+    this.radius = body.radius.map(([a, b]) => [Math.max(a, leastRadius), Math.max(b, leastRadius)]);
     const share = kVertexBudget / Math.max(1, count);
     this.sides = share > 150 ? 16 : share > 40 ? 10 : 6;
     this.circle = new Float64Array(2 * this.sides).map((_, i) => {
@@ -72,12 +83,12 @@ export class Tube {
     const most = Math.max(1, Math.floor(share / this.sides) - 1);
     this.segments = curved ? Math.min(most, count > 40 ? 4 : 10) : 1;
 
-    const { free, kinks } = nodeEnds(body, this.curves);
+    const { open, kinks } = nodeEnds(body, this.curves);
     this.kinks = kinks;
     let vertices = count * (this.segments + 1) * this.sides;
     body.elements.forEach(([a, b], element) => {
       for (const atEnd of [false, true]) {
-        if (!free.has(atEnd ? b : a)) continue;
+        if (!open.has(atEnd ? b : a)) continue;
         this.caps.push({ element, atEnd, firstVertex: vertices });
         vertices += this.sides + 1;
       }
@@ -121,23 +132,27 @@ export class Tube {
       const curve = this.curves[e]!;
       curve.deform(d, 6 * a, 6 * b, scale);
       for (let s = 0; s < rings; s++) {
-        curve.at(s / this.segments);
-        this.ring((e * rings + s) * this.sides, e, 0);
+        this.ring((e * rings + s) * this.sides, e, s / this.segments, 0);
       }
     });
     for (const cap of this.caps) {
       const curve = this.curves[cap.element]!;
       const [a, b] = this.body.elements[cap.element]!;
       curve.deform(d, 6 * a, 6 * b, scale);
-      curve.at(cap.atEnd ? 1 : 0);
-      this.ring(cap.firstVertex, cap.element, cap.atEnd ? 1 : -1);
+      const end = cap.atEnd ? 1 : 0;
+      this.ring(cap.firstVertex, cap.element, end, end ? 1 : -1);
     }
   }
 
-  /** Writes one ring around the curve's present point; `capSign` ≠ 0 makes it the rim of a cap. */
-  private ring(first: number, element: number, capSign: number): void {
-    const { point, tangent } = this.curves[element]!;
-    const r = this.radius[element]!;
+  /** Writes one ring around the curve at ξ in [0, 1]; `capSign` ≠ 0 makes it the rim of a cap. */
+  private ring(first: number, element: number, xi: number, capSign: number): void {
+    const curve = this.curves[element]!;
+    curve.at(xi);
+    const { point, tangent } = curve;
+    const [from, to] = this.radius[element]!;
+    const r = from + xi * (to - from);
+    // A cone's normals lean towards its thin end.
+    const lean = (from - to) / (curve.length || 1);
     const t = unit(tangent);
     const ref = this.reference[element]!;
     const along = dot(ref, t);
@@ -150,7 +165,7 @@ export class Tube {
         const out = c * u[k]! + s * v[k]!;
         const at = 3 * (first + i) + k;
         positions[at] = point[k]! + r * out;
-        normals[at] = capSign === 0 ? out : capSign * t[k]!;
+        normals[at] = capSign === 0 ? (out + lean * t[k]!) / Math.hypot(1, lean) : capSign * t[k]!;
       }
     }
     if (capSign === 0) return;

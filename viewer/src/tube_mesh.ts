@@ -10,7 +10,7 @@ import type { PickedVertex, Skin, SkinLook } from './skin';
 /** The triangles of a Tube and the balls at its kinks. */
 export class TubeMesh implements Skin {
   readonly root = new THREE.Group();
-  readonly mesh: THREE.Mesh;
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, FieldMaterial>;
   private readonly tube: Tube;
   private readonly geometry = new THREE.BufferGeometry();
   private readonly values: Float32Array;
@@ -44,7 +44,7 @@ export class TubeMesh implements Skin {
     this.plain = new THREE.MeshLambertMaterial({ color: material.color });
     const radii = new Float64Array(numNodes(body));
     body.elements.forEach(([a, b], e) => {
-      for (const n of [a, b]) radii[n] = Math.max(radii[n]!, this.tube.radius[e]!);
+      [a, b].forEach((n, end) => (radii[n] = Math.max(radii[n]!, this.tube.radius[e]![end]!)));
     });
     this.balls = this.tube.kinks.map((node) => {
       const joint = ball(this.plain);
@@ -94,7 +94,7 @@ export class TubeMesh implements Skin {
   vertex(index: number): PickedVertex {
     const line = this.tube.elementOf[index]!;
     const node = this.motion.body.elements[line]![this.tube.alongOf[index]! < 0.5 ? 0 : 1];
-    return { node, place: -1, line };
+    return { node, place: -1, element: -1, line };
   }
 
   ghost(material: THREE.Material): THREE.Mesh {

@@ -24,8 +24,8 @@ export interface FieldChoice {
 /** A plane that cuts bodies open. */
 export interface SectionChoice {
   axis: 'off' | 'x' | 'y' | 'z';
-  /** Body whose axes count and which alone is cut; −1 for the world and all bodies. */
-  body: number;
+  /** Name of the body whose axes count and which alone is cut; empty for the world and all bodies. */
+  body: string;
   /** 0 … 1 through the extent along the axis. */
   fraction: number;
   /** Keeps the other side. */
@@ -52,8 +52,9 @@ export interface ViewOptions {
   trace: TracePoint | null;
 }
 
+/** By name, so that it means the same in two runs side by side. */
 export interface TracePoint {
-  body: number;
-  /** Index into the body's markers, −1 for the mass centre. */
-  marker: number;
+  body: string;
+  /** Of the body, empty for the mass centre. */
+  marker: string;
 }

@@ -1,10 +1,11 @@
-// A page with vibrations: three modes of a beam, one of them with a moving frame, one unstable.
+// Vibrations: three modes of a beam, one of them with a moving frame, one unstable.
 import { base64, rows } from './encoding.mjs';
 
 const kElements = 12;
 const kLength = 0.8;
 
-export function vibrations() {
+/** @param pitch factor of the frequencies */
+export function vibrations(pitch = 1) {
   const nodes = [...Array(kElements + 1)].map((_, i) => [kLength * (i / kElements - 0.5), 0, 0]);
   const half = (x) => Math.sin(Math.PI * (x / kLength + 0.5));
   const slope = (x) => (Math.PI / kLength) * Math.cos(Math.PI * (x / kLength + 0.5));
@@ -23,7 +24,7 @@ export function vibrations() {
         kind: 'beam',
         nodes: base64(nodes.flat()),
         elements: [...Array(kElements)].map((_, i) => [i, i + 1]),
-        radius: Array(kElements).fill(0.01),
+        radius: Array(kElements).fill([0.01, 0.01]),
         markers: [],
         pose: base64([...pose, ...pose, ...pose]),
         displacement: rows([...bent, ...rigid, ...stretched]),
@@ -36,8 +37,8 @@ export function vibrations() {
     sensors: [],
     energies: [],
     modes: [
-      { label: 'beam 1', frequency: 53.2, mass: 0.4 },
-      { label: 'system 1', frequency: 1.25, mass: 0.9 },
+      { label: 'beam 1', frequency: 53.2 * pitch, mass: 0.4 },
+      { label: 'system 1', frequency: 1.25 * pitch, mass: 0.9 },
       { label: 'system 2', frequency: 0, mass: 0.3 },
     ],
     summary: { title: 'Vibrations of a beam', analyses: [{ kind: 'free', rigid_modes: 6 }] },

@@ -1,11 +1,12 @@
 // Following nodes, the keys, and the colours of the page.
 import assert from 'node:assert/strict';
-import { colors, difference, open, pixels, setTime, settle, state } from './browser_page.mjs';
+import { colors, difference, open, openRange, pixels, setTime, settle, state } from './browser_page.mjs';
+import { asOpened, openCube } from './cube_page.mjs';
 
 export async function pickSpecs({ test, browser, variant }) {
+  const { tab, complaints } = await openCube(browser, variant);
+
   await test('a click on a body follows the nearest node, another lets it go', async () => {
-    const { tab, complaints } = await open(browser, variant('solid'));
-    await setTime(tab, 1);
     const box = await tab.locator('.view').boundingBox();
     const [x, y] = [box.x + 0.5 * box.width - 40, box.y + 0.55 * box.height];
     await tab.mouse.click(x, y);
@@ -25,12 +26,10 @@ export async function pickSpecs({ test, browser, variant }) {
     await tab.mouse.click(box.x + 40, box.y + 0.6 * box.height);
     assert.equal((await state(tab)).picks.length, 0, 'the background has a node');
     assert.deepEqual(complaints, []);
-    await tab.close();
   });
 
   await test('nodes are followed by number; value and curve are those of the field', async () => {
-    const { tab } = await open(browser, variant('solid'));
-    await setTime(tab, 1);
+    await asOpened(tab);
     await tab.getByLabel('Field', { exact: true }).selectOption({ label: 'Stress xx' });
     const number = tab.getByLabel('Number of the node');
     await number.fill('126');
@@ -53,6 +52,39 @@ export async function pickSpecs({ test, browser, variant }) {
     await number.press('Enter');
     await settle(tab);
     assert.match(await tab.locator('.pick-message').innerText(), /cube has no node 5 on its surface/);
+  });
+
+  await test('with one colour per element it is the element clicked; what a limit hides cannot be', async () => {
+    await asOpened(tab);
+    await openRange(tab);
+    await tab.getByText('one colour per element').click();
+    await tab.locator('.view canvas').focus();
+    await tab.keyboard.press('3');
+    await settle(tab);
+    const box = await tab.locator('.view').boundingBox();
+    const { x, y } = (await state(tab)).bodies[0].screen;
+    const click = async (right, up) => {
+      await tab.mouse.click(box.x + x + 12 * right, box.y + y - 12 * up);
+      await settle(tab);
+      return tab.locator('.picks li').allInnerTexts();
+    };
+    // The node in the middle of the upper face belongs to four elements of 5, 6, 7 and 8 MPa.
+    for (const [right, up, value] of [
+      [-1, -1, 5],
+      [1, -1, 6],
+      [-1, 1, 7],
+      [1, 1, 8],
+    ]) {
+      assert.match((await click(right, up))[0], new RegExp(`node cube 122\\s+${value}\\.00\\d? MPa`));
+      assert.deepEqual(await click(right, up), []);
+    }
+    await tab.getByLabel('Lower limit').fill('7.5');
+    await tab.keyboard.press('Enter');
+    await tab.getByLabel('Values beyond the limits').selectOption('hide');
+    await settle(tab);
+    assert.deepEqual(await click(-1, -1), [], 'a hidden element was picked');
+    assert.equal((await click(1, 1)).length, 1);
+    assert.deepEqual(complaints, []);
     await tab.close();
   });
 
@@ -94,6 +126,12 @@ export async function pickSpecs({ test, browser, variant }) {
     await tab.keyboard.press('PageUp');
     const turned = await camera();
     assert.ok(Math.hypot(...turned.map((x, i) => x - from[i])) > 0.2);
+    const before = (await state(tab)).bodies[0].screen;
+    await tab.keyboard.press('Shift+W');
+    await tab.keyboard.press('Shift+PageDown');
+    const moved = (await state(tab)).bodies[0].screen;
+    assert.ok(moved.x < before.x - 10 && moved.y < before.y - 10, 'the view does not move');
+    assert.ok(Math.hypot(...(await camera()).map((x, i) => x - turned[i])) < 1e-9, 'moving turns');
     await tab.keyboard.press(']');
     assert.equal((await state(tab)).scale, 1.5);
     await tab.keyboard.press('[');
@@ -134,14 +172,18 @@ export async function pickSpecs({ test, browser, variant }) {
     const { tab } = await open(browser, variant('solid'));
     await tab.locator('.display summary').click();
     const nameless = await tab.evaluate(() =>
-      [...document.querySelectorAll('button, input, select, canvas, aside, summary')]
+      [...document.querySelectorAll('button, input, select, canvas, aside, summary, dialog')]
         .filter((part) => {
           const label = part.getAttribute('aria-label') ?? part.closest('label')?.textContent;
-          return !(label?.trim() || part.textContent.trim());
+          // A dialog is not called by all that it says.
+          return !(label?.trim() || (part.tagName !== 'DIALOG' && part.textContent.trim()));
         })
         .map((part) => part.outerHTML.slice(0, 80)),
     );
     assert.deepEqual(nameless, []);
+    // A slider between 0 and 1 says nothing: it reads what is shown beside it.
+    const silent = 'input[type=range]:not([aria-valuetext])';
+    assert.equal(await tab.locator(`${silent}:visible`).count(), 0);
     await tab.close();
   });
 }

@@ -3,8 +3,9 @@ import assert from 'node:assert/strict';
 import { difference, open, overflows, pixels, setTime, settle, state } from './browser_page.mjs';
 
 export async function sideBySideSpecs({ test, browser, variant }) {
+  const { tab, complaints } = await open(browser, variant('side-by-side'));
+
   await test('two runs share time, camera, scale and curves', async () => {
-    const { tab, complaints } = await open(browser, variant('side-by-side'));
     assert.equal(await tab.locator('.pane canvas').count(), 2);
     assert.deepEqual(await tab.locator('.pane-title').allInnerTexts(), [
       'A: Flexible slider-crank',
@@ -40,12 +41,10 @@ export async function sideBySideSpecs({ test, browser, variant }) {
       await settle(tab);
       assert.deepEqual(await overflows(tab), [], String(width));
     }
-    assert.deepEqual(complaints, []);
-    await tab.close();
+    await tab.setViewportSize({ width: 1000, height: 640 });
   });
 
   await test('a node of the second run is told from the first', async () => {
-    const { tab } = await open(browser, variant('side-by-side'));
     await setTime(tab, 0.01);
     await tab.getByLabel('Body of the node').selectOption({ label: 'rod B' });
     await tab.getByLabel('Number of the node').fill('6');
@@ -57,6 +56,7 @@ export async function sideBySideSpecs({ test, browser, variant }) {
     assert.match(lines[0], /rod 6 B/);
     assert.match(lines[1], /rod 6 A/);
     assert.deepEqual((await state(tab)).picks.map(({ pane }) => pane), [1, 0]);
+    assert.deepEqual(complaints, []);
     await tab.close();
   });
 }

@@ -3,26 +3,23 @@ import assert from 'node:assert/strict';
 import { colors, difference, open, overflows, pixels, setTime, settle, state } from './browser_page.mjs';
 
 export async function variantSpecs({ test, browser, variant }) {
-  await test('planar models start parallel along the normal, spatial ones in perspective', async () => {
-    const flat = await open(browser, variant('slider-crank'));
-    assert.equal((await state(flat.tab)).orthographic, true);
-    await flat.tab.close();
-    const space = await open(browser, variant('slider-crank-3d'));
-    assert.equal((await state(space.tab)).orthographic, false);
-    assert.deepEqual(space.complaints, []);
-    await space.tab.close();
-  });
-
-  await test('a model of 0.6 mm looks like one of 0.6 m, one far away too', async () => {
+  await test('a model of 0.6 mm looks like one of 0.6 m, one far away too; planar ones start parallel', async () => {
     const shots = [];
-    for (const name of ['slider-crank', 'tiny', 'far', 'slider-crank-3d']) {
+    for (const [name, planar] of [
+      ['slider-crank', true],
+      ['tiny', true],
+      ['far', false],
+      ['slider-crank-3d', false],
+    ]) {
       const opened = await open(browser, variant(name));
       await opened.tab.locator('.scrub').evaluate((input) => {
         input.value = 0.2;
         input.dispatchEvent(new Event('input'));
       });
       // Texts and grids may differ: compare where the bodies are on the screen.
-      shots.push((await state(opened.tab)).bodies.map(({ screen }) => screen));
+      const { bodies, orthographic } = await state(opened.tab);
+      shots.push(bodies.map(({ screen }) => screen));
+      assert.equal(orthographic, planar, name);
       assert.deepEqual(opened.complaints, []);
       await opened.tab.close();
     }
@@ -72,6 +69,17 @@ export async function variantSpecs({ test, browser, variant }) {
     await setTime(opened.tab, 0.25 / 1.25);
     const after = await state(opened.tab);
     assert.ok(after.bodies[0].pose[1] - before[1] > 0.05 * after.size, 'the frame stays');
+    // A path is that of the mode shown, also if another one was shown when it was chosen.
+    await modes.first().click();
+    await opened.tab.locator('.display summary').click();
+    await opened.tab.locator('.trace').selectOption({ label: 'beam (mass centre)' });
+    await opened.tab.locator('.display summary').click();
+    await modes.nth(1).click();
+    const traced = await pixels(opened.tab);
+    await opened.tab.locator('.display summary').click();
+    await opened.tab.locator('.trace').selectOption('');
+    await opened.tab.locator('.display summary').click();
+    assert.ok(difference(traced, await pixels(opened.tab)) > 40, 'the path of the first mode');
     await opened.tab.getByLabel('Amplitude').evaluate((input) => {
       input.value = 0;
       input.dispatchEvent(new Event('input'));
@@ -81,6 +89,17 @@ export async function variantSpecs({ test, browser, variant }) {
     await opened.tab.keyboard.press('ArrowDown');
     assert.match(await opened.tab.locator('[aria-pressed=true][data-mode]').innerText(), /unstable/);
     assert.deepEqual(await overflows(opened.tab), []);
+    assert.deepEqual(opened.complaints, []);
+    await opened.tab.close();
+  });
+
+  await test('vibrations side by side have one clock', async () => {
+    const opened = await open(browser, variant('modes-side-by-side'));
+    assert.match(await opened.tab.locator('[data-mode]').first().innerText(), /53\.2 Hz \| 26\.6 Hz/);
+    assert.match(await opened.tab.locator('.clock').innerText(), / \/ 18\.80 ms/);
+    await opened.tab.keyboard.press('ArrowDown');
+    await settle(opened.tab);
+    assert.match(await opened.tab.locator('.clock').innerText(), / \/ 0\.800\d* s/);
     assert.deepEqual(opened.complaints, []);
     await opened.tab.close();
   });

@@ -41,7 +41,9 @@ std::vector<LineElement> line_elements(const FeModel& fe) {
   for (const auto& block : fe.blocks) {
     for (int e = 0; block->is_line() && e < block->num_elements(); ++e) {
       const auto [a, b] = block->ends(e);
-      lines.push_back({a, b, block->section(e)->outer_radius, block->has_rotations()});
+      const double first = block->end_section(e, 0)->outer_radius;
+      const double last = block->end_section(e, 1)->outer_radius;
+      lines.push_back({a, b, {first, last}, block->has_rotations()});
     }
   }
   return lines;

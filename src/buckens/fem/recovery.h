@@ -13,8 +13,8 @@ namespace buckens::fem {
 struct LineElement {
   int a = 0;  ///< nodes
   int b = 0;
-  double radius = 0;   ///< outer radius of the section [m]
-  bool bends = false;  ///< beam (true) or bar
+  std::array<double, 2> radius{};  ///< outer radius of the section at both ends [m]
+  bool bends = false;              ///< beam (true) or bar
 };
 
 /// All line elements in the order of their numbers: beams, then bars.

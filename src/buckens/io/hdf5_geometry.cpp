@@ -166,7 +166,9 @@ void write_body(const Hdf5File& file, int index, const GeometryBody& body) {
     elements.insert(elements.end(), element.begin(), element.end());
   }
   write_dataset(file, path + "/elements", {body.elements.size(), 2}, elements);
-  write_dataset(file, path + "/radius", {body.radius.size()}, body.radius);
+  std::vector<double> radius;
+  for (const auto& ends : body.radius) radius.insert(radius.end(), ends.begin(), ends.end());
+  write_dataset(file, path + "/radius", {body.radius.size(), 2}, radius);
   write_attribute(file, path + "/radius", "unit", std::string("m"));
   write_faces(file, path, body);
   write_cells(file, path, body);
@@ -261,8 +263,12 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
   body.kind = kind_of(read_string(file, path, "kind"));
   const std::vector<double> nodes = read_double_dataset(file, path + "/nodes");
   const std::vector<int> elements = read_int_dataset(file, path + "/elements");
-  body.radius = read_double_dataset(file, path + "/radius");
+  const std::vector<double> radius = read_double_dataset(file, path + "/radius");
   expect(file, path, nodes.size() % 3 == 0 && elements.size() % 2 == 0);
+  expect(file, path, radius.size() == elements.size());
+  for (std::size_t e = 0; e < radius.size(); e += 2) {
+    body.radius.push_back({radius[e], radius[e + 1]});
+  }
   const auto num_nodes = static_cast<int>(nodes.size() / 3);
   body.nodes.resize(num_nodes, 3);
   std::copy(nodes.begin(), nodes.end(), body.nodes.data());

@@ -10,7 +10,7 @@ namespace buckens::io {
 ///
 ///     /geometry                        attributes gravity [m/s²], planar
 ///     /geometry/bodies/<body>          attributes index, kind
-///         nodes [N×3], elements [E×2], radius [E]            body frame, m; beams and bars
+///         nodes [N×3], elements [E×2], radius [E×2]          body frame, m; beams and bars
 ///         faces [F×4], face_elements [F]       surface of solids only; fourth node −1 in triangles
 ///         cell_kinds [S], cell_nodes           solid elements; attribute `kinds` names the kinds
 ///         field_nodes [P], field_elements [S'], face_places [F×4], cell_places       fields, if

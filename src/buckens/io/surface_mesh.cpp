@@ -74,9 +74,9 @@ class SurfaceBuilder {
     std::array<std::uint32_t, kSides> near{}, far{};
     for (std::size_t k = 0; k < kSides; ++k) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kSides;
-      const Vector3d out = body_.radius[e] * (std::cos(angle) * y + std::sin(angle) * z);
-      near[k] = add_vertex(from + out, a);
-      far[k] = add_vertex(to + out, b);
+      const Vector3d out = std::cos(angle) * y + std::sin(angle) * z;
+      near[k] = add_vertex(from + body_.radius[e][0] * out, a);
+      far[k] = add_vertex(to + body_.radius[e][1] * out, b);
     }
     for (std::size_t k = 0; k < kSides; ++k) {
       const std::size_t next = (k + 1) % kSides;

@@ -31,7 +31,7 @@ struct GeometryBody {
   BodyKind kind = BodyKind::rigid;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> nodes;  ///< N×3 [m]; none if rigid
   std::vector<std::array<int, 2>> elements;                         ///< E pairs of nodes: lines
-  std::vector<double> radius;                                       ///< E, of the drawn tube [m]
+  std::vector<std::array<double, 2>> radius;  ///< E, of the drawn tube at both ends [m]
   /// F faces on the surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for
   /// triangles.
   std::vector<std::array<int, 4>> faces;

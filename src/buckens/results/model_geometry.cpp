@@ -91,7 +91,8 @@ void add_lines(const fem::FeModel& mesh, GeometryBody& shape) {
   for (const fem::Node& node : mesh.nodes) box.extend(node.position);
   for (const auto& pair : fem::coupled_nodes(mesh)) {
     shape.elements.push_back(pair);
-    shape.radius.push_back(kLineRadius * box.diagonal().norm());
+    const double radius = kLineRadius * box.diagonal().norm();
+    shape.radius.push_back({radius, radius});
   }
 }
 

@@ -68,6 +68,18 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
+TEST(TaperedBeam, IsDrawnWithTheRadiiOfItsEnds) {
+  SkewBeam beam(tapered(cone(0.05, 0.02)), 3);
+  const auto lines = line_elements(assemble(beam.structure));
+  ASSERT_EQ(lines.size(), 3U);
+  for (std::size_t e = 0; e < 3; ++e) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double s = static_cast<double>(e + end) / 3.0;
+      EXPECT_NEAR(lines[e].radius[end], 0.5 * ((1 - s) * 0.05 + s * 0.02), 1e-15);
+    }
+  }
+}
+
 TEST(TaperedBeam, WithOneSectionIsUniform) {
   for (const BeamTheory theory : {BeamTheory::euler_bernoulli, BeamTheory::timoshenko}) {
     const Section section = Section::rectangle(0.05, 0.02);

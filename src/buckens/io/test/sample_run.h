@@ -46,7 +46,7 @@ inline results::Geometry sample_geometry() {
   rod.nodes.resize(3, 3);
   rod.nodes << -0.5, 0, 0, 0, 0, 0, 0.5, 0, 0;
   rod.elements = {{0, 1}, {1, 2}};
-  rod.radius = {0.01, 0.02};
+  rod.radius = {{0.01, 0.01}, {0.02, 0.005}};
   rod.markers.push_back({"start", 0, {{-0.5, 0, 0}, Eigen::Quaterniond::Identity()}});
   rod.markers.push_back({"end", 2, {{0.5, 0, 0}, Eigen::Quaterniond::Identity()}});
   geometry.bodies = {slider, rod};  // not in alphabetical order

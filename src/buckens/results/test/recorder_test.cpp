@@ -107,7 +107,7 @@ TEST(Recorder, GeometryShowsBodiesAndConnections) {
   EXPECT_NEAR((geometry.bodies[0].nodes.row(0).transpose() - Vector3d(-1, 0, 0)).norm(), 0, 1e-15);
   EXPECT_EQ(geometry.bodies[0].elements.size(), 2U);
   EXPECT_EQ(geometry.bodies[0].radius.size(), 2U);
-  EXPECT_GT(geometry.bodies[0].radius[0], 0.0);
+  for (const double radius : geometry.bodies[0].radius[0]) EXPECT_GT(radius, 0.0);
   EXPECT_EQ(geometry.bodies[1].kind, BodyKind::rigid);
   EXPECT_EQ(geometry.bodies[1].nodes.rows(), 0);
   ASSERT_EQ(geometry.joints.size(), 2U);
