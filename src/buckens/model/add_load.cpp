@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/add_load.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -13,7 +14,15 @@
 
 namespace buckens::model {
 
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
 namespace {
+
+// Sine of the angle up to which a direction counts as lying in the plane of a planar model.
+constexpr double kInPlane = 1e-6;
+// The same for axes, as of joints.
+constexpr double kAlignment = 2e-4;
 
 class LoadBuilder {
  public:
@@ -37,13 +46,23 @@ class LoadBuilder {
 
  private:
   /// Forces act in the plane, torques about its normal; anything else would be dropped silently.
-  void require_in_plane(const std::array<base::TimeLaw, 3>& value, bool moment, const Load& load,
-                        const SourceLocation& where) {
-    const int normal = spatial::normal_index(*find_.model().planar);
+  /// @param R_WA axes of the load; those of a marker keep their angles with the normal
+  void require_in_plane(const std::array<base::TimeLaw, 3>& value, const Matrix3d& R_WA,
+                        bool moment, const Load& load, const SourceLocation& where) {
+    const Vector3d normal_A = R_WA.transpose() * spatial::normal(*find_.model().planar);
+    const auto lost = [&](const Vector3d& v) {
+      return moment ? Vector3d(v - normal_A * normal_A.dot(v)).norm() : std::abs(normal_A.dot(v));
+    };
+    const auto is_constant = [](const base::TimeLaw& law) { return law.is_constant(); };
+    if (std::all_of(value.begin(), value.end(), is_constant)) {
+      // Components across the plane may cancel.
+      const Vector3d whole(value[0].value(0), value[1].value(0), value[2].value(0));
+      if (lost(whole) <= kInPlane * whole.norm()) return;
+    }
     for (int axis = 0; axis < 3; ++axis) {
       const base::TimeLaw& law = value[static_cast<std::size_t>(axis)];
-      const bool may_act = (axis == normal) == moment;
-      if (may_act || (law.is_constant() && law.value(0) == 0.0)) continue;
+      if (lost(Vector3d::Unit(axis)) <= kInPlane) continue;
+      if (law.is_constant() && law.value(0) == 0.0) continue;
       throw InputError(
           where,
           fmt::format(
@@ -69,8 +88,10 @@ class LoadBuilder {
     if (moment || kind.axes == loads::LoadAxes::following) {
       find_.require_moment(load.first, fmt::format("load \"{}\"", load.name), where);
     }
-    if (find_.model().planar && kind.axes == loads::LoadAxes::fixed) {
-      require_in_plane(kind.value, moment, load, where);
+    if (find_.model().planar) {
+      const bool follows = kind.axes == loads::LoadAxes::following;
+      const Matrix3d R_WA = follows ? find_.placed(load.first).R() : Matrix3d::Identity();
+      require_in_plane(kind.value, R_WA, moment, load, where);
     }
     load.element = std::make_unique<loads::AppliedLoad>(what, kind.axes, kind.value);
   }
@@ -100,6 +121,15 @@ class LoadBuilder {
     find_.require_moment(load.second, what, where);
     joints::Placement p = find_.placement(load.first, load.second);
     p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
+    if (find_.model().planar) {
+      const Vector3d axis_W = p.R_WF * joints::unit_axis(p);
+      if (axis_W.cross(spatial::normal(*find_.model().planar)).norm() > kAlignment) {
+        throw InputError(where, fmt::format("{}: the axis of a torsional spring of a planar model "
+                                            "must be normal to the plane; leave `axis` out or turn "
+                                            "it",
+                                            what));
+      }
+    }
     if (std::abs(kind.angle) >= loads::TorsionalSpring::kLargestAngle) {
       throw InputError(where,
                        fmt::format("{}: a torsional spring measures up to {} rad from the "

@@ -165,6 +165,57 @@ TEST(ModelBuilder, PlanarModelsRefuseWhatLeavesThePlane) {
   EXPECT_EQ(built->model.bodies[0].translation_basis.cols(), 2);
 }
 
+TEST(ModelBuilder, PlanarModelsRefuseLoadsThatLeaveThePlane) {
+  const auto with = [](bool moment, loads::LoadAxes axes, const Vector3d& value) {
+    Described m;
+    m.d.planar = spatial::Plane::xy;
+    auto& rod = m.rigid("rod", 1, {0, 0, 0}, {0, 0, 1});
+    rod.markers.push_back(Described::marker("tip", {1, 0, 0}));
+    rod.markers[0].orientation.emplace();
+    rod.markers[0].orientation->axis = Vector3d::UnitX();
+    rod.markers[0].orientation->angle = M_PI / 4;  // y and z both half out of the plane
+    if (moment) {
+      m.torque("load", "rod/tip", value);
+      std::get<loads::TorqueSpec>(m.d.loads[0].kind).axes = axes;
+    } else {
+      m.force("load", "rod/tip", value);
+      std::get<loads::ForceSpec>(m.d.loads[0].kind).axes = axes;
+    }
+    return m;
+  };
+  using loads::LoadAxes;
+  const auto refused = [](const char* component) {
+    return ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:60:1"), HasSubstr("\"load\""),
+                                           HasSubstr("in a planar model"), HasSubstr(component)));
+  };
+  EXPECT_THAT([&] { with(false, LoadAxes::fixed, {1, 2, 5}).build(); }, refused("component z"));
+  EXPECT_THAT([&] { with(false, LoadAxes::following, {1, 2, 0}).build(); }, refused("component y"));
+  EXPECT_THAT([&] { with(true, LoadAxes::following, {3, 0, 0}).build(); }, refused("component x"));
+  EXPECT_THAT([&] { with(true, LoadAxes::following, {0, 0, 3}).build(); }, refused("component z"));
+  EXPECT_NO_THROW(with(false, LoadAxes::fixed, {1, 2, 0}).build());
+  EXPECT_NO_THROW(with(false, LoadAxes::following, {1, 2, -2}).build()) << "along y of the world";
+  EXPECT_NO_THROW(with(true, LoadAxes::following, {0, 2, 2}).build()) << "about the normal";
+  // A law of time is not added up with others.
+  Described m = with(false, LoadAxes::following, {1, 0, 0});
+  std::get<loads::ForceSpec>(m.d.loads[0].kind).value[1] =
+      base::TimeLaw::expression(base::Expression("t", {"t"}, {}, {}));
+  EXPECT_THAT([&] { m.build(); }, refused("component y"));
+}
+
+TEST(ModelBuilder, PlanarTorsionalSpringsTurnAboutTheNormal) {
+  Described m;
+  m.d.planar = spatial::Plane::xy;
+  m.rigid("rod", 1, {0, 0, 0}, {0, 0, 1});
+  auto& spring = m.load<loads::TorsionalSpringSpec>("coil");
+  spring.between = {test::at_marker("ground"), test::at_marker("rod")};
+  spring.axis = Vector3d::UnitX();
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:60:1"), HasSubstr("\"coil\""),
+                                              HasSubstr("normal to the plane"))));
+  std::get<loads::TorsionalSpringSpec>(m.d.loads[0].kind).axis = -Vector3d::UnitZ();
+  EXPECT_NO_THROW(m.build());
+}
+
 TEST(ModelBuilder, AxesMustBeGivenInSpace) {
   Described m;
   m.rigid("rod", 1, {0, 0, 0}, {1, 1, 1});
