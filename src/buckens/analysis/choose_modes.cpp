@@ -47,6 +47,7 @@ class ModeChoice {
     run.duration = run.has_step_control() ? kTrialShare * run.duration
                                           : std::min(run.duration, kTrialSteps * step);
     trial_.output.every = run.duration / kTrialRecords;
+    trial_.output.field_output.reset();  // their clock fits that of the run, and nobody looks
     for (body::BodySpec& spec : trial_.bodies) {
       if (spec.reduction.is_automatic()) automatic_.push_back(&spec);
     }
@@ -116,7 +117,9 @@ class ModeChoice {
   std::vector<Eigen::Vector3d> run() const {
     SensorValues sink;
     const auto built = model::build_model(trial_);
-    simulate(*built, sink, {});
+    SimulationOptions options;
+    options.tells_warnings = false;  // those of the run itself will be told
+    simulate(*built, sink, options);
     return std::move(sink.values);
   }
 

@@ -45,8 +45,14 @@ double nodal_rotation(const fem::FeModel& fe, const Vector& d) {
   return std::sqrt(largest);
 }
 
-/// Displacement gradient that fits the nodes of an element best; along the line only for lines.
-Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
+/// Sums over the nodes of an element, about their means: x xᵀ of positions, u xᵀ with
+/// displacements.
+struct Moments {
+  Matrix3d xx = Matrix3d::Zero();
+  Matrix3d ux = Matrix3d::Zero();
+};
+
+Moments moments_of(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
   Vector3d mean_x = Vector3d::Zero();
   Vector3d mean_u = Vector3d::Zero();
   for (const int node : nodes) {
@@ -54,19 +60,41 @@ Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, con
     mean_u += displacement(fe, node, d);
   }
   const double count = static_cast<double>(nodes.size());
-  Matrix3d xx = Matrix3d::Zero();
-  Matrix3d ux = Matrix3d::Zero();
+  Moments out;
   for (const int node : nodes) {
     const Vector3d x = fe.nodes[static_cast<std::size_t>(node)].position - mean_x / count;
-    xx += x * x.transpose();
-    ux += (displacement(fe, node, d) - mean_u / count) * x.transpose();
+    out.xx += x * x.transpose();
+    out.ux += (displacement(fe, node, d) - mean_u / count) * x.transpose();
   }
-  if (nodes.size() == 2) return ux / xx.trace();
-  return ux * xx.inverse();
+  return out;
+}
+
+/// Displacement gradient that fits the nodes of an element best; along the line only for lines.
+Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
+  const Moments m = moments_of(fe, nodes, d);
+  if (nodes.size() == 2) return m.ux / m.xx.trace();
+  return m.ux * m.xx.inverse();
+}
+
+/// Of a shell what its middle surface does: strain in its plane, slope out of it.
+DeformationMeasure of_shell(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
+  const Moments m = moments_of(fe, nodes, d);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(m.xx);
+  const Eigen::Matrix<double, 3, 2> plane = spread.eigenvectors().rightCols<2>();
+  const Eigen::Matrix<double, 3, 2> slopes =
+      m.ux * plane * spread.eigenvalues().tail<2>().cwiseInverse().asDiagonal();
+  const Eigen::Matrix2d G = plane.transpose() * slopes;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> strain(0.5 * (G + G.transpose()),
+                                                              Eigen::EigenvaluesOnly);
+  DeformationMeasure out;
+  out.strain = strain.eigenvalues().cwiseAbs().maxCoeff();
+  out.rotation = (spread.eigenvectors().col(0).transpose() * slopes).norm();
+  return out;
 }
 
 DeformationMeasure of_element(const fem::FeModel& fe, const fem::ElementBlock& block, int e,
                               const Vector& d) {
+  if (block.is_shell()) return of_shell(fe, block.nodes(e), d);
   DeformationMeasure out;
   const Matrix3d G = fitted_gradient(fe, block.nodes(e), d);
   if (block.is_line()) {
@@ -145,7 +173,7 @@ DeformationMeasure DeformationLimits::measure(const Vector& d) const {
   DeformationMeasure out;
   out.rotation = nodal_rotation(fe_, d);
   for (const auto& block : fe_.blocks) {
-    if (!block->is_line() && !block->is_solid()) continue;
+    if (!block->is_line() && !block->is_solid() && !block->is_shell()) continue;
     for (int e = 0; e < block->num_elements(); ++e) out.include(of_element(fe_, *block, e, d));
   }
   if (buckling_load_.empty()) return out;

@@ -21,7 +21,8 @@ struct DeformationMeasure {
 /// Measures the deformation of one flexible body, at records.
 ///
 /// Rotations are those of nodes that have them and of elements: the skew part of the displacement
-/// gradient that fits an element's nodes best; its symmetric part is the strain. A member is a
+/// gradient that fits an element's nodes best; its symmetric part is the strain, of shells that of
+/// the middle surface. A member is a
 /// chain of beams that meet at nodes without a kink; EI is its smaller bending stiffness.
 class DeformationLimits {
  public:

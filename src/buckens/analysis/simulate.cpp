@@ -177,7 +177,7 @@ class Simulation {
     }
     watch_->start(march_->stepper(), prepared_->state);
     for (const std::string& warning : summary_.warnings) {
-      base::log(base::LogLevel::warning, warning);
+      if (options_.tells_warnings) base::log(base::LogLevel::warning, warning);
     }
     results::Geometry geometry = recorder_->geometry();
     if (!fields_->is_empty()) {

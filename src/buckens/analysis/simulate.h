@@ -23,6 +23,8 @@ struct SimulationOptions {
   /// Why on_progress said no, for the summary: "interrupted by the user".
   std::string stop_reason = "stopped";
   int threads = 1;  ///< ≥ 1; has no influence on results
+  /// Whether warnings of the set-up go to the log; they stand in the summary anyhow.
+  bool tells_warnings = true;
   /// Shares factors and solves with other simulations that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
 };

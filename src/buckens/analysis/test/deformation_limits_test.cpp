@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/test/example_models.h"
+#include "buckens/fem/assemble.h"
 
 namespace buckens::analysis {
 namespace {
@@ -52,6 +53,36 @@ TEST(DeformationLimits, TurnedAndBentBeam) {
   EXPECT_NEAR(found.rotation, 0.2, 1e-15);  // at the end; slopes of elements are 0.175 at most
   EXPECT_NEAR(found.strain, 0.0, 1e-15);
   EXPECT_NEAR(found.axial_load, 0.0, 1e-12);
+}
+
+TEST(DeformationLimits, StretchedAndTurnedShells) {
+  fem::Structure plate;
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(0, 2.5, 1),
+        Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 4, 0)}) {
+    fem::add_node(plate, "", p);
+  }
+  const int section = plate.shells.add_section(
+      fem::ShellSection::homogeneous(fem::Material::isotropic(1e9, 0.3, 1000), 0.01));
+  plate.shells.add(std::vector<int>{0, 1, 2, 3}, section);
+  plate.shells.add(std::vector<int>{1, 4, 2}, section);
+  body::Body body;
+  body.name = "plate";
+  body.flexible = std::make_unique<body::FlexiblePart>("plate", fem::assemble(plate),
+                                                       body::CouplingLevel::full);
+  const DeformationLimits limits(body);
+  // Strains 2e-3 along y and −1e-3 along z with a shear of 4e-3, and a slope of 5e-3 out of the
+  // plane: the principal strains are 5e-4 ± √(1.5e-3² + 2e-3²).
+  const fem::FeModel& fe = body.flexible->fe;
+  linalg::Vector d = linalg::Vector::Zero(fe.dofs.num_dofs);
+  for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
+    const Eigen::Vector3d& x = fe.nodes[node].position;
+    const Eigen::Vector3d u(5e-3 * x.z(), 2e-3 * x.y() + 4e-3 * x.z(), -1e-3 * x.z());
+    for (std::size_t k = 0; k < 3; ++k) d[fe.dofs.node_dofs[node][k]] = u[static_cast<int>(k)];
+  }
+  const DeformationMeasure found = limits.measure(d);
+  EXPECT_NEAR(found.strain, 3e-3, 1e-15);
+  EXPECT_NEAR(found.rotation, 5e-3, 1e-15);
 }
 
 TEST(DeformationLimits, SaysWhatToDo) {
