@@ -55,7 +55,7 @@ FullStiffness full_stiffness(const ShellElement& element, const ShellStrainField
     K.mixed.noalias() += at.inner.transpose() * stress;
     K.inner.noalias() += at.inner.transpose() * inner_stress;
     if (at.drilling.size() == 0) continue;
-    const double tie = at.area * element.stiffness->shear();
+    const double tie = at.area * field.drilling_share * element.stiffness->shear();
     K.outer.noalias() += tie * at.drilling.transpose() * at.drilling;
     K.mixed.noalias() += tie * at.inner_drilling.transpose() * at.drilling;
     K.inner.noalias() += tie * at.inner_drilling.transpose() * at.inner_drilling;

@@ -44,6 +44,12 @@ ShellShearRows covariant_shear(const ShellElement& element, double r, double s) 
   return rows;
 }
 
+double drilling_share(const ShellElement& element, const Vector3d& normal, double square) {
+  const double apart = (element.directors.colwise() - normal).colwise().squaredNorm().maxCoeff();
+  const double h = element.stiffness->thickness;
+  return 1 / (1 + apart * square / (h * h));
+}
+
 namespace {
 
 /// Geometry of a quadrilateral at one point.
@@ -150,6 +156,7 @@ ShellStrainField quadrilateral_strain(const ShellElement& element, bool with_cor
   const QuadShear shear(element);
   ShellStrainField out;
   out.num_inner = 4;
+  out.drilling_share = drilling_share(element, centre.axes.col(2), 4 * centre.area);
   for (const ShellRulePoint& at : shell_rule(false, 2)) {
     out.points.push_back(quad_point(element, centre, shear, at));
   }

@@ -22,7 +22,8 @@ struct ShellStrainPoint {
 /// The strains of an element at its integration points and its centre.
 struct ShellStrainField {
   std::vector<ShellStrainPoint> points;
-  int num_inner = 0;  ///< variables to be condensed
+  int num_inner = 0;          ///< variables to be condensed
+  double drilling_share = 1;  ///< of the stiffness of ShellStrainPoint::drilling
   ShellStrainPoint centre;
   Eigen::Matrix3d centre_axes = Eigen::Matrix3d::Identity();
   std::vector<ShellStrainPoint> corners;  ///< none unless asked for
@@ -74,10 +75,18 @@ void set_curvature(const ShellElement& element, const Eigen::Matrix3d& axes,
 using ShellShearRows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 24>;
 ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
 
+/// Share of its stiffness against drilling rotations that a curved element keeps,
+/// 1/(1 + (|n_i − n| l/h)²). Where the normals n_i of the nodes differ from that of the element by
+/// l/2R, a curvature κ of the shell shows as drilling rotations of the order |n_i − n| l κ. Their
+/// energy is bounded so by that of bending, h² κ²; with smaller elements the share comes back to 1
+/// with l⁴. Flat elements keep all.
+/// @param square l², the area of a quadrilateral, twice that of a triangle [m²]
+double drilling_share(const ShellElement& element, const Eigen::Vector3d& normal, double square);
+
 ShellStrainField quadrilateral_strain(const ShellElement& element, bool with_corners = false);
 ShellStrainField triangle_strain(const ShellElement& element, bool with_corners = false);
 
-/// θ_i·n minus the mean rotation of the triangle in its plane.
+/// Rotations of the nodes about the normal against that of the triangle in its plane.
 struct TriangleDrilling {
   std::array<ShellRow, 3> rows;
   double area = 0;  ///< [m²]

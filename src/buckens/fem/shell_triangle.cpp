@@ -69,7 +69,7 @@ PlaneRows basic_strain(const Plane& p) {
 }
 
 /// Rotations of the nodes against that of the plane.
-PlaneRows relative_rotation(const Plane& p) {
+PlaneRows rotation_against_plane(const Plane& p) {
   PlaneRows out = PlaneRows::Zero();
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -78,6 +78,20 @@ PlaneRows relative_rotation(const Plane& p) {
       out(row, 3 * i + 1) = p.y(k, j) / (4 * p.area);
     }
     out(i, 3 * i + 2) = 1;
+  }
+  return out;
+}
+
+/// The same in space, n·(θ_i − ω) + ½ (n_i − n)·(θ_i − θ) with the mean θ of the nodes: taken about
+/// m_i, halfway between the normal n and the director n_i. On a curved shell n·θ_i alone holds part
+/// of its bending.
+Eigen::Matrix<double, 3, 18> relative_rotation(const ShellElement& element, const Plane& p) {
+  Eigen::Matrix<double, 3, 18> out = rotation_against_plane(p) * p.map;
+  const ShellRowBuilder build{element};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Vector3d beside = 0.5 * (element.directors.col(i) - p.axes.col(2));
+    build.add_rotation(out.row(i), beside, Vector3d::Unit(i));
+    build.add_rotation(out.row(i), beside, Vector3d::Constant(-1.0 / 3));
   }
   return out;
 }
@@ -111,11 +125,14 @@ Matrix3d from_sides(const Plane& p) {
 /// those of its three bending modes, whose energy β0 scales.
 class OptimalMembrane {
  public:
-  OptimalMembrane(const Plane& plane, const ShellStiffness& stiffness)
+  OptimalMembrane(const ShellElement& element, const Plane& plane)
       : basic_(basic_strain(plane) * plane.map) {
-    const double nu = stiffness.A(0, 1) / std::sqrt(stiffness.A(0, 0) * stiffness.A(1, 1));
-    const double scale = 1.5 * std::sqrt(std::max(0.5 * (1 - 4 * nu * nu), 0.01));
-    const Eigen::Matrix<double, 3, 18> turn = relative_rotation(plane) * plane.map;
+    const Matrix3d& A = element.stiffness->A;
+    const double nu = A(0, 1) / std::sqrt(A(0, 0) * A(1, 1));
+    const double beta = std::max(0.5 * (1 - 4 * nu * nu), 0.01) *
+                        drilling_share(element, plane.axes.col(2), 2 * plane.area);
+    const double scale = 1.5 * std::sqrt(beta);
+    const Eigen::Matrix<double, 3, 18> turn = relative_rotation(element, plane);
     const Matrix3d T = from_sides(plane);
     const auto sides = side_strains(plane);
     for (std::size_t k = 0; k < 3; ++k) higher_[k] = scale * T * sides[k] * turn;
@@ -192,7 +209,7 @@ ShellStrainPoint triangle_point(const ShellElement& element, const Plane& plane,
 
 ShellStrainField triangle_strain(const ShellElement& element, bool with_corners) {
   const Plane plane(element);
-  const OptimalMembrane membrane(plane, *element.stiffness);
+  const OptimalMembrane membrane(element, plane);
   const TriangleShear shear(element, plane);
   ShellStrainField out;
   out.num_inner = 2;
@@ -211,7 +228,7 @@ ShellStrainField triangle_strain(const ShellElement& element, bool with_corners)
 
 TriangleDrilling triangle_drilling(const ShellElement& element) {
   const Plane plane(element);
-  const Eigen::Matrix<double, 3, 18> turn = relative_rotation(plane) * plane.map;
+  const Eigen::Matrix<double, 3, 18> turn = relative_rotation(element, plane);
   return {{ShellRow(turn.row(0)), ShellRow(turn.row(1)), ShellRow(turn.row(2))}, plane.area};
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shells against the reference problems of MacNeal and Harder (1985) and NAFEMS FV12.
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
@@ -71,10 +73,11 @@ double pinched_cylinder(ShellKind kind, int n) {
   return -value(fe, d, grid.node(0, 0), 2) / 1.8248e-5;
 }
 
-/// Displacement under one of the loads over 0.0940.
-double hemisphere(ShellKind kind, int n) {
+/// Displacement under one of the loads over 0.0940. Of another thickness than 0.04: made comparable
+/// by the third power that bending stiffness has.
+double hemisphere(ShellKind kind, int n, double thickness = 0.04) {
   const Material m = Material::isotropic(6.825e7, 0.3, 1.0);
-  ShellGrid grid(kind, n, n, ShellSection::homogeneous(m, 0.04), [](double x, double y) {
+  ShellGrid grid(kind, n, n, ShellSection::homogeneous(m, thickness), [](double x, double y) {
     const double azimuth = x * kPi / 2, height = y * 72 * kPi / 180;
     return Vector3d(10 * std::cos(height) * std::cos(azimuth),
                     10 * std::cos(height) * std::sin(azimuth), 10 * std::sin(height));
@@ -88,7 +91,7 @@ double hemisphere(ShellKind kind, int n) {
   held.hold(grid.node(n / 2, 0), {2});
   const Vector f =
       point_force(fe, grid.node(0, 0), {1, 0, 0}) + point_force(fe, grid.node(n, 0), {0, -1, 0});
-  return value(fe, solve(fe, f, held), grid.node(0, 0), 0) / 0.0940;
+  return value(fe, solve(fe, f, held), grid.node(0, 0), 0) / 0.0940 * std::pow(thickness / 0.04, 3);
 }
 
 /// Tip displacements in and out of the plane of the tip over 5.424e-3 and 1.754e-3.
@@ -128,43 +131,89 @@ class ShellProblems : public testing::TestWithParam<ShellKind> {
   bool is_quad() const { return GetParam() == ShellKind::quad4; }
 };
 
+/// Ratios to the references with 8, 16, 32 elements per side: until they are as near as the
+/// reference is certain, twice as many elements leave half of the error at most.
+void expect_first_order(const std::vector<double>& ratios, double uncertainty) {
+  for (std::size_t k = 1; k < ratios.size(); ++k) {
+    const double before = std::abs(ratios[k - 1] - 1), now = std::abs(ratios[k] - 1);
+    EXPECT_LE(now, std::max(uncertainty, 0.5 * before)) << "refinement " << k;
+  }
+}
+
 // The lines are read by docs/figures/shell_benchmarks.py.
 TEST_P(ShellProblems, ConvergeToTheReferences) {
-  const std::string kind = test::shell_name(GetParam());
-  for (const int n : {4, 8, 16}) {
+  std::array<std::vector<double>, 5> ratios;
+  for (const int n : {4, 8, 16, 32}) {
     const double roof = scordelis_lo(GetParam(), n), cylinder = pinched_cylinder(GetParam(), n);
     const double sphere = hemisphere(GetParam(), n);
     const auto [in_plane, across] = twisted_beam(GetParam(), 3 * n, n / 2);
     fmt::print(
         "shell {} n={} Scordelis-Lo={:.4f} cylinder={:.4f} hemisphere={:.4f} twist-in={:.4f} "
         "twist-across={:.4f}\n",
-        kind, n, roof, cylinder, sphere, in_plane, across);
-    if (n < 16) continue;
-    // Measured 0.9977, 0.9318, 0.9885, 0.9983, 0.9991 (quad4) and 0.9977, 0.8962, 0.9231, 0.9982,
-    // 1.0000 (tri3): the point load needs a fine mesh, the triangle locks on the thin hemisphere.
-    EXPECT_NEAR(roof, 1.0, 0.005);
-    EXPECT_NEAR(cylinder, is_quad() ? 0.932 : 0.896, 0.005);
-    EXPECT_NEAR(sphere, is_quad() ? 0.9885 : 0.923, 0.005);
-    EXPECT_NEAR(in_plane, 1.0, 0.005);
-    EXPECT_NEAR(across, 1.0, 0.005);
+        test::shell_name(GetParam()), n, roof, cylinder, sphere, in_plane, across);
+    // Drilling rotations hold no more energy than bending, however coarse the mesh.
+    EXPECT_GE(sphere, 0.5) << n;
+    if (n < 8) continue;
+    const std::array found = {roof, cylinder, sphere, in_plane, across};
+    for (std::size_t k = 0; k < found.size(); ++k) ratios[k].push_back(found[k]);
+  }
+  // Uncertainties: 0.3024 against 0.3008 of deep shell theory; the thin cylinder's series knows no
+  // shear below the point load; 0.0924 and 0.0940 are both in use; beam theory with three digits.
+  const std::array uncertainties = {0.006, 0.01, 0.017, 0.0025, 0.0025};
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    SCOPED_TRACE(k);
+    expect_first_order(ratios[k], uncertainties[k]);
   }
 }
 
+// A shell that locks gets stiffer with 1/h² besides.
+TEST_P(ShellProblems, BendThinShellsWithoutLocking) {
+  for (const int n : {4, 8}) {
+    const double thick = hemisphere(GetParam(), n), thin = hemisphere(GetParam(), n, 0.004);
+    EXPECT_GE(thin, 0.5 * thick) << n;
+  }
+}
+
+/// Wave number of bending waves of FV12: k² = ω √(ρh/D) [1/m²].
+double squared_wave_number(double frequency) {
+  const double D = 200e9 * std::pow(0.05, 3) / (12 * (1 - 0.09));
+  return 2 * kPi * frequency * std::sqrt(8000 * 0.05 / D);
+}
+
+/// How much too high the frequency of a standing wave comes out on a line of elements of length l:
+/// slopes that are tied to the deflection by (w_2 − w_1)/l = (θ_1 + θ_2)/2 and consistent mass give
+/// ω_h/ω = (sin x tan x/x²) √(3/(2 + cos 2x)) with x = kl/2, that is 1 + (kl)²/8 + 0.0123 (kl)⁴.
+double dispersion(double frequency, double l) {
+  const double x = 0.5 * l * std::sqrt(squared_wave_number(frequency));
+  return std::sin(x) * std::tan(x) / (x * x) * std::sqrt(3 / (2 + std::cos(2 * x)));
+}
+
 TEST_P(ShellProblems, HaveTheFrequenciesOfAFreePlate) {
+  // Converged for thin plates (Leissa: 13.468 … 63.687). Rotary inertia and shear lower them by
+  // k²h²/12 · ½ (1 + 3.43), 3e-4 of the highest.
   const Eigen::VectorXd nafems =
       (Eigen::VectorXd(8) << 1.622, 2.360, 2.922, 4.190, 4.190, 7.356, 7.356, 7.668).finished();
+  const auto shortened = [](double f) { return 0.185 * squared_wave_number(f) * 0.05 * 0.05; };
+  Eigen::VectorXd coarse;
   for (const int n : {4, 8}) {
-    const Eigen::VectorXd ratio = free_plate(GetParam(), n).cwiseQuotient(nafems);
+    const Eigen::VectorXd found = free_plate(GetParam(), n);
+    const Eigen::VectorXd ratio = found.cwiseQuotient(nafems);
     fmt::print("shell {} n={}", test::shell_name(GetParam()), n);
     for (Eigen::Index k = 0; k < 8; ++k) fmt::print(" FV12-{}={:.4f}", k + 1, ratio[k]);
     fmt::print("\n");
-    if (n < 8) continue;
-    // Measured up to 1.092 (quad4) and 1.077 (tri3), always above, falling with h²: with 16
-    // elements 1.023 and 1.020 (tests/test_shells.py).
     for (Eigen::Index k = 0; k < 8; ++k) {
-      EXPECT_GE(ratio[k], 1.0) << k;
-      EXPECT_LE(ratio[k], is_quad() ? 1.094 : 1.079) << k;
+      const double certain = 0.0005 / nafems[k];  // half a unit of the last digit
+      EXPECT_GE(ratio[k], 1 - certain - shortened(nafems[k])) << n << ", " << k;
+      EXPECT_LE(ratio[k], dispersion(nafems[k], 10.0 / n) + certain) << n << ", " << k;
+      // Quadrilaterals are in the range of their order: of (f_h − f) ∝ h² the next power remains.
+      // Modes 6 to 8 change places between the meshes.
+      if (!is_quad() || n < 8 || k > 4) continue;
+      const double next =
+          4 * 0.0123 * std::pow(10.0 / n, 4) * std::pow(squared_wave_number(nafems[k]), 2);
+      const double extrapolated = (4 * found[k] - coarse[k]) / 3 / nafems[k];
+      EXPECT_NEAR(extrapolated, 1.0, next + certain + shortened(nafems[k])) << k;
     }
+    coarse = found;
   }
 }
 

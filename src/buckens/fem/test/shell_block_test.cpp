@@ -2,6 +2,8 @@
 // What holds for every shell: patch tests, rigid motions, inertia, messages.
 #include "buckens/fem/shell_block.h"
 
+#include <limits>
+
 #include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -89,9 +91,12 @@ TEST_P(Shells, PassTheMembraneAndBendingPatchTests) {
   for (const auto& field : {stretched, bent}) {
     const Vector d = nodal_values(fe, R, field);
     const Vector force = fe.K * d;
+    // Rounding of the numbers that cancel: bending is 1e-5 of what membranes would resist.
+    const Vector rounding =
+        std::numeric_limits<double>::epsilon() * (fe.K.cwiseAbs() * d.cwiseAbs());
     for (const int node : inner_nodes(grid)) {
       const int first = fe.dofs.node_dofs[static_cast<std::size_t>(node)][0];
-      EXPECT_LE(force.segment<6>(first).norm(), 1e-11 * force.norm()) << "node " << node;
+      EXPECT_LE(force.segment<6>(first).norm(), 2 * rounding.segment<6>(first).norm()) << node;
     }
   }
   // Hooke's stress on both sides.
