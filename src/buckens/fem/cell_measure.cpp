@@ -108,6 +108,7 @@ double aspect_ratio(CellKind kind, const Points& x) {
     longest = std::max(longest, length);
   }
   if (dimension_of(kind) < 2) return 1.0;
+  if (longest == 0.0) return std::numeric_limits<double>::infinity();  // all nodes at one place
   const int corners = num_corners(kind);
   if (dimension_of(kind) == 2 && corners == 3) {
     const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();

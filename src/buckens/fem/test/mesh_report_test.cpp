@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/mesh_report.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,6 +77,22 @@ TEST(CellMeasure, GivesOneToTheBestShapes) {
   auto flat = kTetrahedron;
   flat[3] = {0.3, 0.3, 0};
   EXPECT_GT(aspect_ratio(CellKind::tet4, flat), 1e12);
+  for (const CellKind kind : {CellKind::tri3, CellKind::quad4, CellKind::tet4, CellKind::hex8}) {
+    const std::vector<Vector3d> point(static_cast<std::size_t>(num_nodes(kind)), {1, 2, 3});
+    EXPECT_EQ(aspect_ratio(kind, point), std::numeric_limits<double>::infinity());
+  }
+}
+
+TEST(MeshReport, RemembersAnElementWithoutSize) {
+  ImportedMesh mesh;
+  for (const double x : {0.0, 0.0, 0.0, 1.0, 2.0}) mesh.positions.emplace_back(x, x * x, 0);
+  mesh.node_ids = {1, 2, 3, 4, 5};
+  ImportedBlock block;
+  block.kind = CellKind::tri3;
+  block.ids = {11, 12};
+  block.nodes = {0, 1, 2, 0, 3, 4};  // the first one is a point
+  mesh.blocks = {block};
+  EXPECT_EQ(report_mesh(mesh, true).worst_element, 11);
 }
 
 /// A steel block of 2 m x 1 m x 1 m with a point mass and a node that nothing uses.
