@@ -100,7 +100,7 @@ export class Page {
     this.picks = new PickPanel(
       runs,
       {
-        position: (pick) => this.panes[pick.pane]!.stage!.placeOf(pick, 1),
+        position: (pick) => this.panes[pick.pane]!.stage?.placeOf(pick, 1) ?? [NaN, NaN, NaN],
         history: (pick) =>
           historyAt(runs[pick.pane]!, pick, this.options.field.item, this.options.field.perElement),
         item: () => this.field.itemShown,
@@ -282,14 +282,14 @@ export class Page {
     this.charts.setTime(playback.time);
     if (!leader) return;
     this.camera.update(leader.rig.orthographic, themeChoice());
-    for (const { stage } of this.panes) stage!.update(playback.time, options);
+    for (const { stage } of this.panes) stage?.update(playback.time, options);
     this.field.update(this.present());
     this.panes.forEach(({ stage }, pane) => {
       const colors = this.theme.curves;
       const own = this.picks.picks
         .map((pick, i) => ({ pick, color: colors[i % colors.length]! }))
         .filter(({ pick }) => pick.pane === pane);
-      stage!.render(options, own);
+      stage?.render(options, own);
     });
     const { size } = leader.bounds;
     this.picks.update((curve) => valueAt(curve, playback.time), this.theme.curves, size);
@@ -308,7 +308,7 @@ export class Page {
 
   /** Range of the field in all views. */
   private present(): [number, number] {
-    const all = this.panes.flatMap(({ stage }) => stage!.present).filter(Number.isFinite);
+    const all = this.panes.flatMap(({ stage }) => stage?.present ?? []).filter(Number.isFinite);
     return all.length ? [Math.min(...all), Math.max(...all)] : [NaN, NaN];
   }
 
@@ -324,8 +324,8 @@ export class Page {
     const shown = field ? `, ${field} in colour` : '';
     this.panes.forEach(({ run, title, stage }) => {
       const time = `${figure(playback.time, 4)} ${run.clock}`;
-      const text = `${title || run.title} at ${time}${shown}. Drag to turn, wheel to zoom, click to follow a node.`;
-      if (stage!.canvas.ariaLabel !== text) stage!.canvas.ariaLabel = text;
+      const text = `${title || run.title} at ${time}${shown}. Drag to turn, wheel to zoom, click to follow a node; ? lists the keys.`;
+      if (stage && stage.canvas.ariaLabel !== text) stage.canvas.ariaLabel = text;
     });
     const said = field ?? '';
     if (this.status.textContent !== said) this.status.textContent = said;
@@ -351,13 +351,14 @@ export class Page {
       amplitude: this.shapes[0]?.amplitude ?? null,
       present: Number.isFinite(present[0]) ? (present as [number, number]) : null,
       cost: leader?.cost ?? { update: 0, render: 0 },
-      picks: this.picks.picks.map((pick) => {
-        const stage = this.panes[pick.pane]!.stage!;
+      picks: this.picks.picks.flatMap((pick) => {
+        const { stage } = this.panes[pick.pane]!;
+        if (!stage) return [];
         const body = this.runs[pick.pane]!.bodies[pick.body]!.name;
         const screen = stage.project(stage.placeOf(pick, this.options.scale));
         return { pane: pick.pane, body, node: pick.node, screen };
       }),
-      cameras: this.panes.map(({ stage }) => stage!.rig.direction),
+      cameras: this.panes.flatMap(({ stage }) => (stage ? [stage.rig.direction] : [])),
       bodies: (leader?.motion.bodies ?? []).map((motion) => ({
         name: motion.body.name,
         pose: [...motion.pose],

@@ -1,5 +1,6 @@
 // Models of other kinds and sizes, vibrations, and pages that lack something.
 import assert from 'node:assert/strict';
+import { pathToFileURL } from 'node:url';
 import { colors, difference, open, overflows, pixels, setTime, settle, state } from './browser_page.mjs';
 
 export async function variantSpecs({ test, browser, variant }) {
@@ -102,6 +103,33 @@ export async function variantSpecs({ test, browser, variant }) {
     assert.match(await opened.tab.locator('.clock').innerText(), / \/ 0\.800\d* s/);
     assert.deepEqual(opened.complaints, []);
     await opened.tab.close();
+  });
+
+  await test('without WebGL the page says so and shows the curves', async () => {
+    const tab = await browser.newPage({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce' });
+    await tab.addInitScript(() => {
+      HTMLCanvasElement.prototype.getContext = (
+        (usual) =>
+        function (kind, ...rest) {
+          return kind === '2d' ? usual.call(this, kind, ...rest) : null;
+        }
+      )(HTMLCanvasElement.prototype.getContext);
+    });
+    const faults = [];
+    tab.on('pageerror', (error) => faults.push(String(error)));
+    await tab.goto(pathToFileURL(variant('side-by-side')).href);
+    assert.match(await tab.locator('.notice').innerText(), /needs WebGL, which this browser does not offer/);
+    await setTime(tab, 0.05);
+    const { cursors, cameras } = await state(tab);
+    assert.ok(cursors.length >= 4 && cursors.every(({ x }) => x > 10), 'the curves do not follow');
+    assert.deepEqual(cameras, []);
+    await tab.getByLabel('Number of the node').fill('6');
+    await tab.getByRole('button', { name: 'Follow', exact: true }).click();
+    await tab.locator('h1').click();
+    await tab.keyboard.press('l');
+    await settle(tab);
+    assert.deepEqual(faults, []);
+    await tab.close();
   });
 
   const messages = {
