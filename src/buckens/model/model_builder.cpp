@@ -120,6 +120,8 @@ class Builder {
                                                spec.name));
     }
     meshes_[w] = std::make_unique<NamedStructure>(structure_from_spec(spec));
+    // Loads on offset shells find the directors that their inertia has.
+    meshes_[w]->structure.shells.choose_directors(meshes_[w]->structure.nodes);
     whole.interfaces = meshes_[w]->interfaces;
     if (spec.frames.is_one()) return;
     // The whole mesh comes first: it finds what is wrong with nodes and elements.
