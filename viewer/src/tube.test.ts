@@ -120,6 +120,33 @@ describe('Tube', () => {
     ]);
   });
 
+  it('mitres a gentle bend, whichever way its elements run', () => {
+    const [c, s] = [Math.cos(0.3), Math.sin(0.3)];
+    const bent: Triple[] = [
+      [-c, -s, 0],
+      [0, 0, 0],
+      [c, -s, 0],
+    ];
+    for (const elements of [
+      [[0, 1], [1, 2]],
+      [[0, 1], [2, 1]],
+      [[1, 0], [2, 1]],
+    ] as [number, number][][]) {
+      const tube = new Tube(beam(bent, elements, null), 0);
+      tube.deform(new Float32Array(18), 0);
+      expect(tube.kinks).toEqual([]);
+      elements.forEach((ends, e) => {
+        const first = 3 * 16 * (2 * e + ends.indexOf(1));
+        const ring = tube.positions.subarray(first, first + 48);
+        for (let i = 0; i < 48; i += 3) {
+          // In the plane between the two, one radius from the node.
+          expect(ring[i]).toBeCloseTo(0, 6);
+          expect(Math.hypot(ring[i + 1]!, ring[i + 2]!)).toBeCloseTo(0.1, 6);
+        }
+      });
+    }
+  });
+
   it('is a closed cone where it tapers, with normals at right angles to its side', () => {
     const tube = new Tube(beam([[0, 0, 0], [3, 0, 0]], [[0, 1]], null, [[0.4, 0.1]]), 0);
     tube.deform(new Float32Array(12), 0);

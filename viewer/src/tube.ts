@@ -7,6 +7,8 @@ const kVertexBudget = 60000;
 
 /** Radii that differ by more than this share make a step. */
 const kStep = 1e-6;
+/** Up to this bend two tubes are mitred, beyond it a ball closes the gap: cos 60°. */
+const kMitred = 0.5;
 
 interface Cap {
   element: number;
@@ -14,31 +16,45 @@ interface Cap {
   firstVertex: number;
 }
 
-/** Nodes at which tubes end or change their radius, and those at which they do not go straight on. */
-function nodeEnds(body: Body, curves: BeamCurve[]): { open: Set<number>; kinks: number[] } {
-  const at = new Map<number, number[]>();
-  const thickness = new Map<number, number[]>();
-  body.elements.forEach((ends, e) => {
-    ends.forEach((node, end) => {
-      at.set(node, [...(at.get(node) ?? []), e]);
-      thickness.set(node, [...(thickness.get(node) ?? []), body.radius[e]![end]!]);
+/** An end of an element: 2 · element for the first, one more for the second. */
+type End = number;
+
+/** Out of the element at this end. */
+function outwards(end: End): number {
+  return end % 2 ? 1 : -1;
+}
+
+interface NodeEnds {
+  /** Nodes at which tubes end or change their radius. */
+  open: Set<number>;
+  /** Nodes with a branch or a sharp bend. */
+  kinks: number[];
+  /** Pairs of ends at which one tube goes on as the other. */
+  joins: [End, End][];
+}
+
+function nodeEnds(body: Body, curves: BeamCurve[]): NodeEnds {
+  const at = new Map<number, End[]>();
+  body.elements.forEach((nodes, e) => {
+    nodes.forEach((node, k) => {
+      const known = at.get(node);
+      if (known) known.push(2 * e + k);
+      else at.set(node, [2 * e + k]);
     });
   });
-  const open = new Set<number>();
-  const kinks: number[] = [];
-  for (const [node, elements] of at) {
-    const radii = thickness.get(node)!;
+  const found: NodeEnds = { open: new Set(), kinks: [], joins: [] };
+  for (const [node, ends] of at) {
+    const radii = ends.map((end) => body.radius[end >> 1]![end % 2]!);
     const least = Math.min(...radii);
-    if (elements.length === 1 || Math.max(...radii) - least > kStep * least) open.add(node);
-    if (elements.length === 1) continue;
-    if (
-      elements.length > 2 ||
-      Math.abs(dot(curves[elements[0]!]!.axis, curves[elements[1]!]!.axis)) < 0.9999
-    ) {
-      kinks.push(node);
-    }
+    if (ends.length === 1 || Math.max(...radii) - least > kStep * least) found.open.add(node);
+    if (ends.length === 1) continue;
+    const [a, b] = [ends[0]!, ends[1]!];
+    const along = dot(curves[a >> 1]!.axis, curves[b >> 1]!.axis);
+    const straight = -outwards(a) * outwards(b) * along;
+    if (ends.length === 2 && straight > kMitred) found.joins.push([a, b]);
+    else found.kinks.push(node);
   }
-  return { open, kinks };
+  return found;
 }
 
 /** Triangles of the tubes that draw a beam body; the topology is fixed, vertices follow the nodes. */
@@ -50,8 +66,11 @@ export class Tube {
   readonly elementOf: Int32Array;
   /** Where each vertex is along its element, 0 … 1. */
   readonly alongOf: Float32Array;
-  /** Nodes with a bend or a branch, where a ball closes the gap between tubes. */
+  /** Nodes with a sharp bend or a branch, where a ball closes the gap between tubes. */
   readonly kinks: number[];
+  private readonly joins: [End, End][];
+  /** By end: direction of the tube there, midway between two tubes that are joined. */
+  private readonly mitres: (Triple | null)[];
   /** At both ends of each element. */
   readonly radius: [number, number][];
   private readonly curves: BeamCurve[];
@@ -83,8 +102,9 @@ export class Tube {
     const most = Math.max(1, Math.floor(share / this.sides) - 1);
     this.segments = curved ? Math.min(most, count > 40 ? 4 : 10) : 1;
 
-    const { open, kinks } = nodeEnds(body, this.curves);
-    this.kinks = kinks;
+    const { open, kinks, joins } = nodeEnds(body, this.curves);
+    [this.kinks, this.joins] = [kinks, joins];
+    this.mitres = new Array<Triple | null>(2 * count).fill(null);
     let vertices = count * (this.segments + 1) * this.sides;
     body.elements.forEach(([a, b], element) => {
       for (const atEnd of [false, true]) {
@@ -128,20 +148,28 @@ export class Tube {
   /** Moves the vertices to the nodal values d (nodes × 6) magnified by `scale`. */
   deform(d: ArrayLike<number>, scale: number): void {
     const rings = this.segments + 1;
-    this.body.elements.forEach(([a, b], e) => {
-      const curve = this.curves[e]!;
-      curve.deform(d, 6 * a, 6 * b, scale);
+    this.body.elements.forEach(([a, b], e) => this.curves[e]!.deform(d, 6 * a, 6 * b, scale));
+    for (const [a, b] of this.joins) this.mitre(a, b);
+    for (let e = 0; e < this.curves.length; e++) {
       for (let s = 0; s < rings; s++) {
         this.ring((e * rings + s) * this.sides, e, s / this.segments, 0);
       }
-    });
-    for (const cap of this.caps) {
-      const curve = this.curves[cap.element]!;
-      const [a, b] = this.body.elements[cap.element]!;
-      curve.deform(d, 6 * a, 6 * b, scale);
-      const end = cap.atEnd ? 1 : 0;
-      this.ring(cap.firstVertex, cap.element, end, end ? 1 : -1);
     }
+    for (const { element, atEnd, firstVertex } of this.caps) {
+      this.ring(firstVertex, element, atEnd ? 1 : 0, atEnd ? 1 : -1);
+    }
+  }
+
+  private mitre(a: End, b: End): void {
+    const [out, into] = [a, b].map((end) => {
+      const curve = this.curves[end >> 1]!;
+      curve.at(end % 2);
+      return unit(curve.tangent);
+    }) as [Triple, Triple];
+    const turn = -outwards(a) * outwards(b);
+    const mean = unit(out.map((x, k) => x + turn * into[k]!));
+    this.mitres[a] = mean;
+    this.mitres[b] = mean.map((x) => turn * x) as Triple;
   }
 
   /** Writes one ring around the curve at ξ in [0, 1]; `capSign` ≠ 0 makes it the rim of a cap. */
@@ -153,7 +181,8 @@ export class Tube {
     const r = from + xi * (to - from);
     // A cone's normals lean towards its thin end.
     const lean = (from - to) / (curve.length || 1);
-    const t = unit(tangent);
+    const end = xi === 0 ? 2 * element : xi === 1 ? 2 * element + 1 : -1;
+    const t = this.mitres[end] ?? unit(tangent);
     const ref = this.reference[element]!;
     const along = dot(ref, t);
     const u = unit([ref[0] - along * t[0], ref[1] - along * t[1], ref[2] - along * t[2]]);
