@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 
@@ -57,6 +58,14 @@ FreeModes solve_with_massless(const Matrix& M, const Matrix& K) {
 }
 
 }  // namespace
+
+void refuse_too_many_modes(Eigen::Index num_dofs, Eigen::Index count) {
+  if (num_dofs <= kLargestDense || !is_dense_better(num_dofs, count)) return;
+  throw ModelError(
+      fmt::format("{} vibrations of a mesh of {} variables need full matrices, which are made for "
+                  "up to {} variables; ask for at most {}, or for a lower cutoff",
+                  count, num_dofs, kLargestDense, num_dofs / 4));
+}
 
 Vector variable_scale(const SparseMatrix& M, const SparseMatrix& K) {
   const Vector m = M.diagonal();

@@ -103,6 +103,7 @@ FreeModes fixed_interface_modes(const FlexiblePart& part, int count) {
   const Eigen::Index most = part.num_dofs();
   const Eigen::Index wanted = std::clamp<Eigen::Index>(count, 0, most);
   if (wanted == 0) return {Vector(0), Matrix(part.num_dofs(), 0)};
+  refuse_too_many_modes(part.num_dofs(), wanted);
   if (is_dense_better(part.num_dofs(), wanted)) return solve_fixed_dense(part, columns, wanted);
   return iterate_fixed(part, columns, static_cast<int>(wanted));
 }

@@ -13,6 +13,7 @@ namespace buckens::body {
 /// (1 − G (N G)⁺N)(K + μM)⁻¹M with G = (K + μM)⁻¹Nᵀ.
 /// @param count modes wanted; fewer come back where there are fewer
 /// @throws NumericalError if the iteration does not converge
+/// @throws ModelError if a third of all modes of more than 4000 variables is asked for
 FreeModes fixed_interface_modes(const FlexiblePart& part, int count);
 
 }  // namespace buckens::body

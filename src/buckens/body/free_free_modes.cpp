@@ -19,8 +19,6 @@ using linalg::Vector;
 
 namespace {
 
-constexpr Eigen::Index kLargestDense = 4000;  // two minutes and half a gigabyte
-
 /// μ somewhat below the estimate, which is an upper bound.
 double first_shift(const FlexiblePart& part) {
   const double bound = lowest_square_estimate(part);
@@ -98,6 +96,7 @@ FreeFreeModes free_free_modes(const FlexiblePart& part, const FreeModesSettings&
   FreeFreeModes out;
   out.method = settings.method;
   if (out.method == FreeModeMethod::automatic) {
+    refuse_too_many_modes(part.num_dofs(), wanted);
     out.method =
         is_dense_better(part.num_dofs(), wanted) ? FreeModeMethod::dense : FreeModeMethod::subspace;
   }

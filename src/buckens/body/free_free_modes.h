@@ -62,7 +62,9 @@ struct FreeFreeModes : FreeModes {
 /// Good for thousands of DOF and more: one sparse Cholesky factor as a rule, about seven to ten
 /// solves per mode, no mode missing from a multiple frequency. Theory:
 /// docs/theory/04-free-vibration.md.
-/// @throws ModelError if a method that works with full matrices is asked for a body too large
+/// @throws ModelError if a method that works with full matrices is asked for a body too large, or
+/// so
+///         many modes of one that there is no other
 /// @throws NumericalError if the iteration does not converge or M is not positive definite on
 ///         {d : Pᵀd = 0} where the method needs that
 FreeFreeModes free_free_modes(const FlexiblePart& part, const FreeModesSettings& settings);

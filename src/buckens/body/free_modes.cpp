@@ -35,6 +35,7 @@ FreeModes free_modes(const SparseMatrix& M, const SparseMatrix& K, const Matrix&
   const Eigen::Index elastic = M.rows() - sieve.rank();
   const Eigen::Index wanted = std::clamp<Eigen::Index>(count, 0, elastic);
   if (wanted == 0) return {Vector(0), Matrix(M.rows(), 0)};
+  refuse_too_many_modes(M.rows(), wanted);
   FreeModes modes;
   if (is_dense_better(M.rows(), wanted)) {
     modes = dense_free_modes(M, K, Phi, sieve);

@@ -20,6 +20,7 @@ struct FreeModes {
 /// @param Phi rigid modes, n×r; zero and dependent columns allowed
 /// @param count modes wanted; fewer come back where the body has fewer
 /// @throws NumericalError if the iteration does not converge or M is not positive definite
+/// @throws ModelError if a third of all modes of more than 4000 DOF is asked for
 FreeModes free_modes(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                      const linalg::Matrix& Phi, int count);
 

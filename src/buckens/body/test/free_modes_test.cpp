@@ -3,8 +3,12 @@
 
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "buckens/base/errors.h"
+#include "buckens/body/fixed_interface_modes.h"
+#include "buckens/body/free_free_modes.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/fem/assemble.h"
 
@@ -14,6 +18,9 @@ namespace {
 using linalg::Matrix;
 using linalg::SparseMatrix;
 using linalg::Vector;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 fem::FeModel straight_beam(int divisions, double rho = 7850.0) {
   fem::Structure s;
@@ -107,6 +114,17 @@ TEST(FreeModes, NothingElasticGivesNothing) {
   ASSERT_EQ(modes.omega.size(), 1);  // six variables, five rigid motions of a line
   EXPECT_NEAR(modes.omega[0], std::sqrt(12 * 2.1e11 / 7850.0), 1e-9 * modes.omega[0]);
   EXPECT_EQ(free_modes(fe.M, fe.K, rigid(fe), 0).omega.size(), 0);
+}
+
+TEST(FreeModes, SoManyOfALargeBodyThatOnlyFullMatricesGiveThemAreRefused) {
+  // 4806 variables: full matrices would take 185 MB each; of 60 000 variables they take 29 GB.
+  FlexiblePart part("long", straight_beam(800), CouplingLevel::full);
+  part.rows.resize(0, part.num_dofs());
+  const auto refused = ThrowsMessage<ModelError>(
+      AllOf(HasSubstr("2000 vibrations of a mesh of 4806 variables"), HasSubstr("at most 1201")));
+  EXPECT_THAT([&] { free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), 2000); }, refused);
+  EXPECT_THAT([&] { free_free_modes(part, 2000); }, refused);
+  EXPECT_THAT([&] { fixed_interface_modes(part, 2000); }, refused);
 }
 
 }  // namespace
