@@ -13,6 +13,8 @@ namespace buckens::io {
 
 namespace {
 
+constexpr std::size_t kLargestMesh = std::size_t{2} << 30;
+
 struct MshVersion {
   bool is_4 = false;
   bool is_binary = false;
@@ -99,7 +101,7 @@ fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& fil
 
 fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path,
                                  const std::vector<std::string>& members) {
-  return read_gmsh_bytes(read_text_file(path, "mesh"), path.string(), members);
+  return read_gmsh_bytes(read_text_file(path, "mesh", kLargestMesh), path.string(), members);
 }
 
 }  // namespace buckens::io

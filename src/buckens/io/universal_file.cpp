@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "buckens/io/text_lines.h"
+
 namespace buckens::io {
 
 using fem::CellKind;
@@ -23,7 +25,8 @@ struct UniversalElement {
 const std::vector<UniversalElement>& universal_elements() {
   static const std::vector<UniversalElement> all = {
       {{11, 21, 22, 23}, "linear beam", CellKind::line2, {}},
-      {{24}, "parabolic beam", CellKind::line3, {0, 2, 1}},
+      // Salome writes edges with a node in their middle as tapered beams.
+      {{22, 23, 24, 25}, "parabolic beam", CellKind::line3, {0, 2, 1}},
       {{41, 51, 61, 74, 81, 91}, "linear triangle", CellKind::tri3, {}},
       {{42, 52, 62, 72, 82, 92}, "parabolic triangle", CellKind::tri6, {0, 2, 4, 1, 3, 5}},
       {{44, 54, 64, 71, 84, 94}, "linear quadrilateral", CellKind::quad4, {}},
@@ -45,12 +48,24 @@ const std::vector<UniversalElement>& universal_elements() {
   return all;
 }
 
-const UniversalElement* element_of(std::int64_t descriptor) {
+/// The shape with a descriptor, of several the one with so many nodes; null if there is none.
+const UniversalElement* element_of(std::int64_t descriptor, std::size_t nodes) {
+  const UniversalElement* out = nullptr;
   for (const UniversalElement& element : universal_elements()) {
     const auto& own = element.descriptors;
-    if (std::find(own.begin(), own.end(), descriptor) != own.end()) return &element;
+    if (std::find(own.begin(), own.end(), descriptor) == own.end()) continue;
+    if (static_cast<std::size_t>(fem::num_nodes(element.kind)) == nodes) return &element;
+    if (out == nullptr) out = &element;
   }
-  return nullptr;
+  return out;
+}
+
+constexpr std::int64_t kRod = 11;
+
+std::size_t num_words(std::string_view line) {
+  std::vector<std::string_view> words;
+  split_words(line, words);
+  return words.size();
 }
 
 class UniversalReader {
@@ -106,10 +121,13 @@ void UniversalReader::read_elements() {
     const std::int64_t descriptor = text_.integer("the descriptor of an element", 0);
     for (int i = 0; i < 3; ++i) text_.integer("a property, material or colour");
     const std::size_t count = text_.count("the number of nodes of an element", 2);
-    // Beams have a line more, with their orientation node and sections.
-    const bool is_beam = descriptor >= 21 && descriptor <= 24;
+    text_.next_line("the nodes of an element");
+    // Beams have a line more, with their orientation node and sections; rods have it in files of
+    // some programs, Salome among them.
+    const bool is_beam = (descriptor >= 21 && descriptor <= 25) ||
+                         (descriptor == kRod && count == 2 && num_words(text_.peek_line()) == 3);
     for (int i = 0; is_beam && i < 3; ++i) text_.integer("an orientation or section of a beam");
-    const UniversalElement* shape = element_of(descriptor);
+    const UniversalElement* shape = element_of(descriptor, count);
     std::vector<std::int64_t> ids(count);
     for (std::int64_t& node : ids) node = text_.integer("a node of an element", 0);
     if (shape == nullptr) {
@@ -181,7 +199,7 @@ void UniversalReader::read_groups() {
     text_.next_line("the name of a group");
     std::string name(trimmed(text_.next_line("the name of a group")));
     read_group_members(number, name.empty() ? fmt::format("group {}", number) : name, count);
-    text_.next_line("the next group");
+    if (count > 0) text_.next_line("the next group");
   }
 }
 
@@ -242,6 +260,7 @@ TaggedMesh read_universal_file(MeshText& text, const std::string& file) {
   TaggedMesh mesh;
   mesh.file = file;
   mesh.format = "universal file";
+  mesh.repeats_elements = false;  // groups name their members
   UniversalReader(text, mesh).read();
   return mesh;
 }

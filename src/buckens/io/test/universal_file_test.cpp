@@ -112,6 +112,54 @@ TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
       HasSubstr("part.unv:12:"));
 }
 
+/// Three nodes on a line, then these elements and groups.
+std::string line_of(const std::string& elements, const std::string& groups = "") {
+  std::string text = "    -1\n  2411\n";
+  for (int k = 1; k <= 3; ++k) {
+    text += std::to_string(k) + " 1 1 11\n" + std::to_string(k) + ".0D+00 0.0D+00 0.0D+00\n";
+  }
+  text += "    -1\n    -1\n  2412\n" + elements + "    -1\n";
+  return groups.empty() ? text : text + "    -1\n  2467\n" + groups + "    -1\n";
+}
+
+TEST(UniversalFile, RodsMayHaveTheRecordOfBeams) {
+  // Salome writes it, the format has it for beams only.
+  for (const char* rod : {"7 11 1 1 7 2\n0 1 1\n1 3\n", "7 11 1 1 7 2\n1 3\n"}) {
+    const ImportedMesh mesh = read_gmsh_bytes(line_of(rod), "part.unv");
+    ASSERT_EQ(mesh.num_elements(), 1) << rod;
+    EXPECT_EQ(mesh.blocks[0].kind, fem::CellKind::line2);
+    EXPECT_THAT(mesh.blocks[0].nodes, ElementsAre(0, 2)) << rod;
+  }
+}
+
+TEST(UniversalFile, EdgesOfSalomeMayHaveANodeInTheirMiddle) {
+  for (const char* descriptor : {"22", "24"}) {
+    const ImportedMesh mesh = read_gmsh_bytes(
+        line_of(std::string("7 ") + descriptor + " 1 1 7 3\n0 1 1\n1 2 3\n"), "part.unv");
+    ASSERT_EQ(mesh.num_elements(), 1);
+    EXPECT_EQ(mesh.blocks[0].kind, fem::CellKind::line3);
+    EXPECT_THAT(mesh.blocks[0].nodes, ElementsAre(0, 2, 1));  // ends first
+  }
+}
+
+TEST(UniversalFile, GroupsMayBeEmpty) {
+  const std::string beams = "7 21 1 1 7 2\n0 1 1\n1 2\n8 21 1 1 7 2\n0 1 1\n2 3\n";
+  const ImportedMesh mesh =
+      read_gmsh_bytes(line_of(beams,
+                              "1 0 0 0 0 0 0 0\nnothing\n2 0 0 0 0 0 0 1\nfirst\n8 7 0 0\n"
+                              "3 0 0 0 0 0 0 0\nnothing either\n"),
+                      "part.unv");
+  ASSERT_EQ(mesh.element_sets.size(), 1u);
+  EXPECT_EQ(mesh.element_sets[0].name, "first");
+  EXPECT_EQ(mesh.element_sets[0].elements.size(), 1u);
+}
+
+TEST(UniversalFile, ElementsBetweenTheSameNodesAreSeveral) {
+  const ImportedMesh mesh =
+      read_gmsh_bytes(line_of("7 21 1 1 7 2\n0 1 1\n1 2\n8 21 1 1 7 2\n0 1 1\n1 2\n"), "part.unv");
+  EXPECT_EQ(mesh.num_elements(), 2);
+}
+
 TEST(UniversalFile, SurvivesEveryTruncation) {
   const std::string text = kPart;
   const std::size_t groups = text.find("  2467");
