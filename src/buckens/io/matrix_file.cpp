@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,7 +31,8 @@ std::string lower(std::string_view text) {
 class MatrixReader {
  public:
   explicit MatrixReader(const std::filesystem::path& path)
-      : text_(read_text_file(path, "matrix", kLargestFile)), lines_(text_) {
+      : text_(without_byte_order_mark(read_text_file(path, "matrix", kLargestFile))),
+        lines_(text_) {
     out_.file = path.string();
   }
 
@@ -225,13 +229,38 @@ class MatrixReader {
     bool has_upper = false;
     bool has_lower = false;
     for (const MatrixEntry& entry : out_.entries) {
-      const auto row = std::pair(entry.row, entry.row_variable);
-      const auto column = std::pair(entry.column, entry.column_variable);
-      has_upper = has_upper || row < column;
-      has_lower = has_lower || row > column;
+      has_upper = has_upper || row_of(entry) < column_of(entry);
+      has_lower = has_lower || row_of(entry) > column_of(entry);
       if (!out_.is_labelled) out_.size = std::max({out_.size, entry.row, entry.column});
     }
-    out_.is_triangle = !(has_upper && has_lower);
+    out_.is_triangle = !(has_upper && has_lower && has_mirrored());
+  }
+
+  using Variable = std::pair<std::int64_t, signed char>;
+  static Variable row_of(const MatrixEntry& entry) { return {entry.row, entry.row_variable}; }
+  static Variable column_of(const MatrixEntry& entry) {
+    return {entry.column, entry.column_variable};
+  }
+
+  /// Whether any entry stands on both sides of the diagonal. One triangle in the program's own
+  /// order of nodes lies on both sides by their numbers.
+  bool has_mirrored() const {
+    struct Pair {
+      Variable least, most;
+      bool is_upper;
+    };
+    std::vector<Pair> pairs;
+    pairs.reserve(out_.entries.size());
+    for (const MatrixEntry& entry : out_.entries) {
+      const auto [least, most] = std::minmax({row_of(entry), column_of(entry)});
+      if (least != most) pairs.push_back({least, most, row_of(entry) == least});
+    }
+    const auto place = [](const Pair& pair) { return std::tie(pair.least, pair.most); };
+    std::sort(pairs.begin(), pairs.end(),
+              [&](const Pair& a, const Pair& b) { return place(a) < place(b); });
+    return std::adjacent_find(pairs.begin(), pairs.end(), [&](const Pair& a, const Pair& b) {
+             return place(a) == place(b) && a.is_upper != b.is_upper;
+           }) != pairs.end();
   }
 
   std::string text_;

@@ -37,9 +37,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 class TableReader {
  public:
   explicit TableReader(const std::filesystem::path& path)
-      : text_(read_text_file(path, "table of nodes")), lines_(text_) {
+      : text_(without_byte_order_mark(read_text_file(path, "table of nodes"))), lines_(text_) {
     out_.file = path.string();
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   }
 
   MatrixNodeTable run() {

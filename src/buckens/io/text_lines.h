@@ -10,10 +10,16 @@
 
 namespace buckens::io {
 
+/// The text without the three bytes with which some editors begin UTF-8.
+inline std::string without_byte_order_mark(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
 /// The lines of a text, one after the other, with their numbers.
 class TextLines {
  public:
-  /// @param text must outlive this
+  /// @param text must outlive this and stay as it is
   explicit TextLines(const std::string& text) : text_(text) {}
 
   /// The next line without blanks around it; false at the end.

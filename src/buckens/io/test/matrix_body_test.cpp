@@ -110,6 +110,37 @@ TEST_F(MatrixBody, MatricesOfAbaqusAreToldByTheirContent) {
   EXPECT_EQ((read().K - body.K).norm(), 0.0);
 }
 
+TEST_F(MatrixBody, ATriangleInTheOrderOfTheProgramIsATriangle) {
+  // Numbers of nodes rise and fall along the rows of the lower triangle.
+  write("nodes.csv", "node,x,y,z,ux,uy,uz\n7,0,0,0,1,2,3\n3,1,0,0,4,5,6\n5,2,0,0,7,8,9\n");
+  std::string mass;
+  for (const char* node : {"7", "3", "5"}) {
+    for (const char* dof : {"1", "2", "3"}) {
+      mass += std::string(node) + "," + dof + "," + node + "," + dof + ",2.\n";
+    }
+  }
+  write("m.mtx", mass);
+  write("k.mtx", "7,1,7,1,2.\n3,1,7,1,-1.\n3,1,3,1,2.\n5,1,3,1,-1.\n5,1,5,1,2.\n");
+  const fem::BodyMatrices body = read();
+  EXPECT_EQ(body.K.coeff(0, 3), -1.0);
+  EXPECT_EQ(body.K.coeff(3, 0), -1.0);
+  EXPECT_EQ(body.K.coeff(3, 6), -1.0);
+  EXPECT_EQ(body.K.coeff(6, 3), -1.0);
+  // One entry on the other side makes it a full matrix, in which another one is missing.
+  write("k.mtx", "7,1,7,1,2.\n3,1,7,1,-1.\n7,1,3,1,-1.\n3,1,3,1,2.\n5,1,3,1,-1.\n5,1,5,1,2.\n");
+  refuses({"k.mtx", "not symmetric", "-1"});
+}
+
+TEST_F(MatrixBody, FilesMayBeginWithAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  const fem::BodyMatrices body = read();
+  write("nodes.csv", mark + kNodeTable);
+  write("k.mtx", mark + kStiffness);
+  const fem::BodyMatrices marked = read();
+  EXPECT_EQ(marked.numbers, body.numbers);
+  EXPECT_EQ((marked.K - body.K).norm(), 0.0);
+}
+
 TEST_F(MatrixBody, UnitsOfLengthAndMassAreTurnedIntoMetresAndKilograms) {
   write("nodes.csv", "node,x,y,z,ux,uy,uz,rx,ry,rz\n7,1000,0,0,1,2,3,4,5,6\n");
   spec_.length_unit = fem::LengthUnit::mm;
