@@ -58,9 +58,11 @@ void for_each_entity(const std::string& text, Visit visit) {
     if (end == std::string::npos) return;
     const std::size_t begin = skip_blanks(text, at);
     at = end + 1;
-    const std::size_t equals = text.find('=', begin);
-    const std::size_t open = text.find('(', begin);
-    if (text[begin] != '#' || equals > end || open > end) continue;
+    if (text[begin] != '#') continue;
+    const std::string_view own = std::string_view(text).substr(0, end);
+    const std::size_t equals = own.find('=', begin);
+    const std::size_t open = own.find('(', begin);
+    if (equals == std::string_view::npos || open == std::string_view::npos) continue;
     Entity entity;
     std::size_t number_end = equals;
     while (number_end > begin && text[number_end - 1] == ' ') --number_end;
@@ -175,10 +177,13 @@ std::string style_of(const NamedFace& face, std::size_t& next) {
       n + 6, n + 5, n + 7, n + 6, face.number);
 }
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
+// As long as each other: to move the rest of a large file for each of them would take minutes.
+constexpr std::string_view kStyled = "STYLED_ITEM", kIgnored = "IGNORED_ONE";
+static_assert(kStyled.size() == kIgnored.size());
+
+void ignore_styles(std::string& text) {
+  for (std::size_t at = text.find(kStyled); at != std::string::npos; at = text.find(kStyled, at)) {
+    text.replace(at, kStyled.size(), kIgnored);
   }
 }
 
@@ -226,7 +231,7 @@ ColoredStep color_named_faces(const std::string& step) {
   if (faces.empty() || context.empty() || end == std::string::npos) return {};
   out.text = step.substr(0, end);
   // The colours that the file has itself would stand above those of names.
-  replace_all(out.text, "STYLED_ITEM", "BUCKENS_IGNORED");
+  ignore_styles(out.text);
   std::size_t next = largest + 1;
   std::string items;
   for (const NamedFace& face : faces) {
