@@ -170,6 +170,11 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
                                            "and LINK are. Write it as *EQUATION",
                                            type.substr(0, 40)));
     }
+    if (kind == AbaqusLinkKind::mpc_beam) {
+      in.note(row.place,
+              "*MPC, BEAM: a rigid beam, as in Abaqus; CalculiX keeps the distance alone, so write "
+              "LINK in a deck of CalculiX");
+    }
     if (row.cells.size() != 3) {
       in.lines.fail(row.place, fmt::format("an *MPC {} has two nodes or node sets, here are {}",
                                            type, row.cells.size() - 1));

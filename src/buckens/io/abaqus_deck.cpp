@@ -130,7 +130,12 @@ class DeckReader {
                                                     "EMBEDDEDELEMENT",
                                                     "NONSTRUCTURALMASS",
                                                     "SHELLTOSOLIDCOUPLING",
-                                                    "FASTENER"};
+                                                    "FASTENER",
+                                                    "RELEASE",
+                                                    "NORMAL",
+                                                    "BEAMSECTIONOFFSET",
+                                                    "CENTROID",
+                                                    "SHEARCENTER"};
     if (is_among(kFromModel, keyword.name)) {
       return fmt::format(
           "{} is left out: loads, supports and initial values come from the model "
@@ -139,8 +144,9 @@ class DeckReader {
     }
     if (is_among(kHolding, keyword.name)) {
       return fmt::format(
-          "{} is left out, although it changes how the parts hold together or what "
-          "they weigh",
+          "{} is left out, although it changes how the parts hold together, where they are stiff "
+          "or "
+          "what they weigh",
           keyword.written);
     }
     return fmt::format("{} is ignored", keyword.written);

@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Nodes in links and terms of equations together: lines may name large sets again and again.
+constexpr std::size_t kMostLinked = 20'000'000;
 // Share of a direction that is rounding of sines and cosines.
 constexpr double kNoShare = 1e-14;
 
@@ -120,6 +122,19 @@ class LinkMaker {
          place.file == 0 ? place.line : 0, 1});
   }
 
+  void count_linked(std::size_t nodes, DeckPlace place) {
+    num_linked_ += nodes;
+    check_linked(num_linked_, place);
+  }
+
+  void check_linked(std::size_t nodes, DeckPlace place) const {
+    if (nodes <= kMostLinked) return;
+    lines_.fail(place,
+                fmt::format("with this line the links join more than {} nodes; do several of "
+                            "them name the same large set?",
+                            kMostLinked));
+  }
+
   void add(const AbaqusLink& link) {
     if (link.kind != AbaqusLinkKind::kinematic && link.kind != AbaqusLinkKind::distributing &&
         link.kind != AbaqusLinkKind::rigid_body) {
@@ -133,6 +148,7 @@ class LinkMaker {
       weights.push_back(weight);
     }
     check_axes(link);
+    count_linked(nodes.size(), link.place);
     if (link.kind == AbaqusLinkKind::distributing) {
       out_.averages.push_back({link.name,
                                reference,
@@ -147,16 +163,17 @@ class LinkMaker {
     }
   }
 
-  /// Nodes of two sets in the order of their numbers, or all of one set with a single node.
+  /// Nodes of two sets in their order, or all of one set with a single node.
   void add_pairs(const AbaqusLink& link) {
-    std::vector<int> first = by_number(names_.nodes(scope_, link.nodes.front(), link.place));
-    std::vector<int> second = by_number(names_.nodes(scope_, link.reference, link.place));
+    std::vector<int> first = names_.nodes_in_order(scope_, link.nodes.front(), link.place);
+    std::vector<int> second = names_.nodes_in_order(scope_, link.reference, link.place);
     if (second.size() == 1) second.resize(first.size(), second.front());
     if (first.size() != second.size() || first.empty()) {
       lines_.fail(link.place, fmt::format("the sets of the *MPC have {} and {} nodes; they must "
                                           "have as many, or the second a single one",
                                           first.size(), second.size()));
     }
+    count_linked(6 * first.size(), link.place);
     for (std::size_t k = 0; k < first.size(); ++k) {
       if (first[k] == second[k]) {
         lines_.fail(link.place, "the *MPC joins a node to itself");
@@ -196,28 +213,25 @@ class LinkMaker {
     }
   }
 
-  std::vector<int> by_number(std::vector<int> nodes) const {
-    const auto& labels = names_.labels();
-    std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) {
-      return labels[static_cast<std::size_t>(a)] < labels[static_cast<std::size_t>(b)];
-    });
-    return nodes;
-  }
-
   void add(const AbaqusEquation& equation) {
     std::vector<std::vector<int>> nodes;
+    std::size_t listed = 0;
     for (const AbaqusEquation::Term& term : equation.terms) {
-      nodes.push_back(by_number(names_.nodes(scope_, term.reference, equation.place)));
+      nodes.push_back(names_.nodes_in_order(scope_, term.reference, equation.place));
+      listed += nodes.back().size();
+      check_linked(num_linked_ + listed, equation.place);
     }
-    const std::size_t count = nodes.front().size();
+    const std::size_t num_equations = nodes.front().size();
     for (const auto& list : nodes) {
-      if (count > 0 && (list.size() == count || list.size() == 1)) continue;
+      const bool fits = list.size() == num_equations || list.size() == 1;
+      if (num_equations > 0 && fits) continue;
       lines_.fail(equation.place, fmt::format("the sets of the equation have {} and {} nodes; they "
                                               "must have as many, or a single one",
-                                              count, list.size()));
+                                              num_equations, list.size()));
     }
     note_turned(equation.place);
-    for (std::size_t k = 0; k < count; ++k) {
+    count_linked(num_equations * nodes.size(), equation.place);
+    for (std::size_t k = 0; k < num_equations; ++k) {
       fem::ImportedEquation& out = out_.equations.emplace_back();
       out.line = equation.place.line;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -277,6 +291,7 @@ class LinkMaker {
   AbaqusNames& names_;
   fem::ImportedMesh& out_;
   int scope_ = 0;
+  std::size_t num_linked_ = 0;
   bool has_noted_ = false;
   std::vector<bool> turns_;
   /// Per node its *TRANSFORM and the placed scope where it stands.

@@ -130,6 +130,11 @@ void read_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
   while (in.lines.next_row(row)) {
     const std::int64_t id = in.lines.label(row.cell(0), row.place, "number of the node");
     const Vector3d given = read_vector(in.lines, row, 1, "coordinate");
+    if (!row.cell(4).empty() || !row.cell(5).empty() || !row.cell(6).empty()) {
+      in.note(row.place,
+              "*NODE: normals behind the coordinates are left out; beams have the directions of "
+              "their sections, shells the normals of their elements");
+    }
     nodes.ids.push_back(id);
     nodes.positions.push_back(rectangular(system, given));
     nodes.places.push_back(row.place);
@@ -175,6 +180,7 @@ void read_elements(AbaqusReading& in, const DeckKeyword& keyword) {
 void read_node_set(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusSet& set = set_called(in.scope->node_sets, in.parameter(keyword, "NSET"));
   set.is_internal = set.is_internal || keyword.has("INTERNAL");
+  set.is_unsorted = set.is_unsorted || keyword.has("UNSORTED");
   enter_file(in, keyword);
   AbaqusSetPart& part = set.parts.emplace_back();
   part.place = keyword.place;

@@ -66,6 +66,9 @@ class AbaqusNames {
 
   /// Nodes of a reference, ascending. @throws InputError if there is no such thing
   std::vector<int> nodes(int scope, const std::string& reference, DeckPlace place);
+  /// Nodes of a reference in the order in which those of two sets make pairs: by their numbers, of
+  /// sets with UNSORTED as they are written.
+  std::vector<int> nodes_in_order(int scope, const std::string& reference, DeckPlace place);
   /// The one node of a reference. @throws InputError also if there are several
   int node(int scope, const std::string& reference, DeckPlace place);
   /// Elements of a reference, ascending.

@@ -53,6 +53,7 @@ struct AbaqusSetPart {
 struct AbaqusSet {
   std::string name;
   bool is_internal = false;
+  bool is_unsorted = false;  ///< in pairs of sets its nodes count in the order of the deck
   std::vector<AbaqusSetPart> parts;
 };
 

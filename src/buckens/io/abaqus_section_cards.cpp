@@ -84,6 +84,22 @@ void refuse_other_thickness(AbaqusReading& in, const DeckKeyword& keyword) {
   }
 }
 
+/// What CalculiX knows beside the measures of a section.
+void refuse_beams_off_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
+  for (const char* key : {"OFFSET1", "OFFSET2"}) {
+    const std::string text = in.optional_parameter(keyword, key);
+    if (text.empty() || deck_number(text) == 0.0) continue;
+    in.lines.fail(keyword.place,
+                  fmt::format("{}={}: beams beside their nodes are not supported; give them nodes "
+                              "of their own and join these by *MPC, BEAM",
+                              key, text.substr(0, 40)));
+  }
+  if (!keyword.has("NODALTHICKNESS")) return;
+  in.lines.fail(keyword.place,
+                "*BEAM SECTION with NODAL THICKNESS: measures that vary over a section are not "
+                "supported; give each a section");
+}
+
 fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
   const double a = positive(in, row, 0, "width of the box");
   const double b = positive(in, row, 1, "height of the box");
@@ -117,6 +133,23 @@ fem::SectionSpec read_general(AbaqusReading& in, const DeckRow& row) {
   return out;
 }
 
+/// One value is the radius, as Abaqus has it; two are the diameters of CalculiX.
+fem::CircleSpec read_circle(AbaqusReading& in, const DeckRow& row) {
+  const double first = positive(in, row, 0, "measure of the circle");
+  if (row.cell(1).empty()) {
+    in.note(row.place,
+            "SECTION=CIRC: the one value is the radius, as in Abaqus; CalculiX takes it for the "
+            "diameter, so write it twice in a deck of CalculiX");
+    return {2.0 * first};
+  }
+  if (in.lines.number(row, 1, "second diameter of the circle") != first) {
+    in.lines.fail(row.place,
+                  "the two diameters of CIRC differ; give an ellipse as SECTION=GENERAL");
+  }
+  in.note(row.place, "SECTION=CIRC: two values are the diameters, as in CalculiX");
+  return {first};
+}
+
 /// The shape on a data line. Direction 1 of the section becomes local y, direction 2 local z.
 fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row) {
   fem::SectionSpec out;
@@ -124,11 +157,7 @@ fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const De
     const double a = positive(in, row, 0, "width of the rectangle");
     out.shape = fem::RectangleSpec{a, positive(in, row, 1, "height of the rectangle")};
   } else if (name == "CIRC") {
-    const double radius = positive(in, row, 0, "radius of the circle");
-    if (in.lines.number_or(row, 1, radius, "second radius") != radius) {
-      in.lines.fail(row.place, "the two radii of CIRC differ; give an ellipse as SECTION=GENERAL");
-    }
-    out.shape = fem::CircleSpec{2.0 * radius};
+    out.shape = read_circle(in, row);
   } else if (name == "PIPE") {
     const double radius = positive(in, row, 0, "radius of the pipe");
     const double wall = positive(in, row, 1, "wall of the pipe");
@@ -190,6 +219,7 @@ void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword) {
 
 void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
+  refuse_beams_off_nodes(in, keyword);
   read_shape_rows(in, upper(in.parameter(keyword, "SECTION")), section);
 }
 

@@ -145,6 +145,33 @@ const std::vector<Entry>& AbaqusNames::members(int scope, const AbaqusSet& set,
   return known[{scope, &set}] = std::move(out);
 }
 
+std::vector<int> AbaqusNames::nodes_in_order(int scope, const std::string& reference,
+                                             DeckPlace place) {
+  std::vector<int> out = nodes(scope, reference, place);
+  if (out.size() < 2) return out;
+  const Scoped scoped = in_instance(scope, reference, "", place);
+  const AbaqusSet& set =
+      scopes_[static_cast<std::size_t>(scoped.scope)].scope->node_sets.at(upper(scoped.name));
+  if (!set.is_unsorted) {
+    std::stable_sort(out.begin(), out.end(), [&](int a, int b) {
+      return labels_[static_cast<std::size_t>(a)] < labels_[static_cast<std::size_t>(b)];
+    });
+    return out;
+  }
+  out.clear();
+  for (const AbaqusSetPart& part : set.parts) {
+    if (!part.ranges.empty() || !part.names.empty() || !part.of_elements.empty()) {
+      lines_.fail(part.place,
+                  fmt::format("*NSET, UNSORTED: the order of set \"{}\" counts where it "
+                              "is used in pairs; list its nodes one by one",
+                              set.name));
+    }
+    const int own = in_instance(scoped.scope, "", part.instance, part.place).scope;
+    for (const std::int64_t label : part.ids) add_entry(own, label, out);
+  }
+  return out;
+}
+
 template const std::vector<int>& AbaqusNames::members(int, const AbaqusSet&, KnownSets<int>&);
 template const std::vector<AbaqusElementAt>& AbaqusNames::members(int, const AbaqusSet&,
                                                                   KnownSets<AbaqusElementAt>&);

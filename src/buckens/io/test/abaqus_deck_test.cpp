@@ -2,6 +2,7 @@
 #include "buckens/io/abaqus_deck.h"
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 
 #include "buckens/base/field.h"
 #include "buckens/base/test/source_directory.h"
+#include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
@@ -332,6 +334,7 @@ TEST(AbaqusConstraints, MultiPointConstraintsJoinSetsByNumber) {
   };
   EXPECT_EQ(node(0), 2);
   EXPECT_EQ(mesh.node_ids[static_cast<std::size_t>(mesh.rigid_links[0].reference)], 1);
+  EXPECT_THAT(note(mesh, "a rigid beam, as in Abaqus").text, HasSubstr("write LINK"));
   // TIE of two nodes with rotations: six equations; PIN of two pairs: six, the pairs by number.
   ASSERT_GE(mesh.equations.size(), 12u);
   EXPECT_EQ(mesh.equations[5].terms[0].variable, 5);
@@ -339,6 +342,60 @@ TEST(AbaqusConstraints, MultiPointConstraintsJoinSetsByNumber) {
   EXPECT_EQ(mesh.equations[6].terms[1].node, 2);
   EXPECT_EQ(mesh.equations[9].terms[1].node, 3);
   EXPECT_EQ(mesh.equations[9].terms[1].coefficient, -1.0);
+}
+
+ImportedMesh read_text(const std::string& deck) {
+  const test::TemporaryDirectory folder;
+  std::ofstream(folder / "deck.inp") << deck;
+  return read_abaqus_deck(folder / "deck.inp");
+}
+
+TEST(AbaqusConstraints, UnsortedSetsMakePairsAsTheyAreWritten) {
+  const std::string nodes =
+      "*NODE\n1,0,0,0\n2,1,0,0\n11,0,1,0\n12,1,1,0\n*NSET, NSET=A\n2, 1\n*NSET, NSET=B";
+  const auto partners = [](const ImportedMesh& mesh) {
+    std::vector<std::pair<std::int64_t, std::int64_t>> out;
+    for (const auto& equation : mesh.equations) {
+      const auto number = [&](std::size_t k) {
+        return mesh.node_ids[static_cast<std::size_t>(equation.terms[k].node)];
+      };
+      out.emplace_back(number(0), number(1));
+    }
+    return out;
+  };
+  using Pair = std::pair<std::int64_t, std::int64_t>;
+  const std::string equation = "*EQUATION\n2\nA,1,1.,B,1,-1.\n";
+  EXPECT_THAT(partners(read_text(nodes + "\n12, 11\n" + equation)),
+              ElementsAre(Pair(1, 11), Pair(2, 12)));
+  EXPECT_THAT(partners(read_text(nodes + ", UNSORTED\n12, 11\n" + equation)),
+              ElementsAre(Pair(1, 12), Pair(2, 11)));
+  const ImportedMesh beams = read_text(nodes + ", UNSORTED\n12,\n11\n*MPC\nBEAM, B, A\n");
+  ASSERT_EQ(beams.rigid_links.size(), 2u);
+  EXPECT_THAT(labels(beams, beams.rigid_links[0].nodes), ElementsAre(12));
+  EXPECT_THAT(labels(beams, {beams.rigid_links[0].reference}), ElementsAre(1));
+}
+
+TEST(AbaqusBeams, CirclesAreRadiiOfAbaqusOrDiametersOfCalculix) {
+  const std::string beam =
+      "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT, TYPE=B31, ELSET=E\n1,1,2\n"
+      "*BEAM SECTION, ELSET=E, SECTION=CIRC\n";
+  const auto diameter = [](const ImportedMesh& mesh) {
+    return std::get<fem::CircleSpec>(mesh.properties.at(0).section->shape).diameter;
+  };
+  const ImportedMesh one = read_text(beam + "0.03\n0,0,-1\n");
+  EXPECT_EQ(diameter(one), 0.06);
+  EXPECT_THAT(note(one, "the one value is the radius").text, HasSubstr("write it twice"));
+  const ImportedMesh two = read_text(beam + "0.03, 0.03\n0,0,-1\n");
+  EXPECT_EQ(diameter(two), 0.03);
+  EXPECT_EQ(note(two, "two values are the diameters").line, 7);
+}
+
+TEST(AbaqusNotes, WhatChangesHowPartsHoldTogetherIsSaid) {
+  const ImportedMesh mesh = read_text(
+      "*NODE\n1,0,0,0,0,0,1\n2,1,0,0\n*ELEMENT, TYPE=B31, ELSET=E\n1,1,2\n"
+      "*BEAM SECTION, ELSET=E, SECTION=RECT\n1,1\n*RELEASE\n1,S1,M1\n");
+  EXPECT_THAT(note(mesh, "*RELEASE").text, HasSubstr("hold together"));
+  EXPECT_EQ(note(mesh, "normals behind the coordinates").line, 2);
 }
 
 TEST(AbaqusConstraints, LinksKeepTheDistanceOfTheirNodes) {

@@ -230,6 +230,11 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1\n1,0,0\n",
           {"deck.inp:11:1", "lies along the beam"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=PIPE\n1, 2\n", {"thicker than the radius"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1, 2\n",
+          {"deck.inp:13:1", "two diameters of CIRC differ"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, OFFSET2=0.5\n1, 2\n",
+          {"deck.inp:12:1", "OFFSET2=0.5", "beside their nodes"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, NODAL THICKNESS\n", {"NODAL THICKNESS"});
   refuses(beam + "*BEAM GENERAL SECTION, ELSET=E\n1,1,0.5,1,1\n", {"I12 must be zero"});
   refuses(with_nodes("*ELASTIC\n1,0\n"), {"belongs below a *MATERIAL"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n1\n"), {"needs 2 constants, here are 1"});
@@ -266,12 +271,22 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(with_nodes("*KINEMATIC\n1,3\n"), {"below a *COUPLING"});
   refuses(with_nodes("*NSET, NSET=A\n*EQUATION\n2\nA,1,1.,2,1,-1.\n"), {"have 0 and 0 nodes"});
   refuses(with_nodes("*NSET, NSET=A\n*MPC\nPIN, A, A\n"), {"have 0 and 0 nodes"});
+  refuses(with_nodes("*NSET, NSET=A, UNSORTED, GENERATE\n1, 3\n*MPC\nPIN, A, A\n"),
+          {"deck.inp:10:1", "UNSORTED", "one by one"});
   const std::string surface = with_nodes("*SURFACE, NAME=S, TYPE=NODE\n2\n3\n4\n");
   refuses(with_nodes("*SURFACE, NAME=S, TYPE=NODE\n2, -1.\n"), {"deck.inp:11:1", "positive"});
   const std::string turned =
       surface + "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=S, ORIENTATION=O\n";
   refuses(turned + "*KINEMATIC\n1, 2\n", {"deck.inp:14:1", "give ORIENTATION up"});
   refuses(turned + "*KINEMATIC\n3, 1\n", {"deck.inp:16:1", "lies before the first"});
+}
+
+TEST_F(AbaqusMalformed, LargeSetsInManyTermsCostNoMemory) {
+  std::string text = "*NODE, NSET=ALL\n";
+  for (int k = 1; k <= 20000; ++k) text += fmt::format("{},{},0,0\n", k, k);
+  text += "*EQUATION\n90000\n";
+  for (int k = 0; k < 90000; ++k) text += "ALL,1,1.\n";
+  refuses(text, {"deck.inp:20003:1", "join more than 20000000 nodes"});
 }
 
 }  // namespace
