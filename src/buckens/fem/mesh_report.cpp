@@ -45,7 +45,8 @@ double specific_mass(const ImportedMesh& mesh, const ImportedBlock& block) {
   if (dimension_of(block.kind) != 2) return 0.0;
   double out = density(mesh, property.material) * property.thickness.value_or(0.0);
   for (const ImportedLayer& layer : property.layers) {
-    out += density(mesh, layer.material) * layer.thickness;
+    const std::string& own = layer.material.empty() ? property.material : layer.material;
+    out += density(mesh, own) * layer.thickness;
   }
   return out;
 }
@@ -59,7 +60,7 @@ class Reporter {
     out_.elements = mesh_.num_elements();
     for (const Vector3d& position : mesh_.positions) out_.box.extend(position);
     for (const ImportedBlock& block : mesh_.blocks) add_block(block);
-    for (const auto& [name, property] : properties_) out_.properties.push_back(property);
+    for (const auto& [number, property] : properties_) add_property(property);
     add_masses();
     finish_mass();
     add_sets();
@@ -108,6 +109,20 @@ class Reporter {
       if (specific == 0.0) ++out_.without_density;
       judge(block, e, x);
     }
+  }
+
+  /// Shells of one property that differ in thickness or direction stand in one line.
+  void add_property(const MeshReport::Property& property) {
+    const auto [known, is_new] =
+        lines_.try_emplace({property.name, property.material}, out_.properties.size());
+    if (is_new) {
+      out_.properties.push_back(property);
+      return;
+    }
+    MeshReport::Property& all = out_.properties[known->second];
+    all.elements += property.elements;
+    all.size += property.size;
+    all.mass += property.mass;
   }
 
   void judge(const ImportedBlock& block, int element, const std::vector<Vector3d>& x) {
@@ -167,7 +182,8 @@ class Reporter {
 
   const ImportedMesh& mesh_;
   MeshReport out_;
-  std::map<int, MeshReport::Property> properties_;  // by number; −1: none
+  std::map<int, MeshReport::Property> properties_;                    // by number; −1: none
+  std::map<std::pair<std::string, std::string>, std::size_t> lines_;  // by name and material
   CellMeasure volume_, mass_;
 };
 

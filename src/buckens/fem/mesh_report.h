@@ -40,7 +40,8 @@ struct MeshReport {
   int nodes = 0, elements = 0;
   int variables = 0;  ///< three per node, six per node of shells and beams
   std::vector<Kind> kinds;
-  std::vector<Property> properties;  ///< elements without one under the name ""
+  /// Those of one name and material together; elements without one under the name "".
+  std::vector<Property> properties;
   std::vector<NamedCount> node_sets, element_sets;
   std::vector<Faces> face_sets;
   Eigen::AlignedBox3d box;                                  ///< [m]

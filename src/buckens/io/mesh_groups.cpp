@@ -51,20 +51,19 @@ class MeshGroups {
 
   const ImportedMesh& mesh_;
   TaggedMesh out_;
+  std::map<std::pair<int, std::string>, int> group_numbers_;  // by dimension and name
   std::vector<ElementPlace> places_;
   std::int64_t last_id_ = 0;
 };
 
 int MeshGroups::group(int dimension, const std::string& text) {
-  const std::string name = group_name(text);
-  for (std::size_t i = 0; i < out_.groups.size(); ++i) {
-    if (out_.groups[i].dimension == dimension && out_.groups[i].name == name) {
-      return static_cast<int>(i);
-    }
+  const auto [known, is_new] = group_numbers_.try_emplace({dimension, group_name(text)},
+                                                          static_cast<int>(out_.groups.size()));
+  if (is_new) {
+    const auto tag = static_cast<std::int64_t>(out_.groups.size()) + 1;
+    out_.groups.push_back({dimension, tag, known->first.second});
   }
-  const auto tag = static_cast<std::int64_t>(out_.groups.size()) + 1;
-  out_.groups.push_back({dimension, tag, name});
-  return static_cast<int>(out_.groups.size()) - 1;
+  return known->second;
 }
 
 void MeshGroups::add_elements() {
@@ -238,10 +237,13 @@ TaggedMesh MeshGroups::made() && {
   out_.node_ids = mesh_.node_ids;
   out_.positions = mesh_.positions;
   const std::vector<std::string> names = property_groups(mesh_);
+  std::vector<std::set<int>> dimensions(names.size());
+  for (const fem::ImportedBlock& block : mesh_.blocks) {
+    if (block.property < 0) continue;
+    dimensions[static_cast<std::size_t>(block.property)].insert(fem::dimension_of(block.kind));
+  }
   for (std::size_t p = 0; p < names.size(); ++p) {
-    for (const fem::ImportedBlock& block : mesh_.blocks) {
-      if (block.property == static_cast<int>(p)) group(fem::dimension_of(block.kind), names[p]);
-    }
+    for (const int dimension : dimensions[p]) group(dimension, names[p]);
   }
   add_elements();
   add_faces();
@@ -261,27 +263,33 @@ std::string group_name(const std::string& name) {
 }
 
 std::vector<std::string> property_groups(const ImportedMesh& mesh) {
-  std::vector<std::set<int>> members(mesh.properties.size());
+  std::vector<std::vector<int>> members(mesh.properties.size());  // ascending, like those of sets
   int element = 0;
   for (const fem::ImportedBlock& block : mesh.blocks) {
     for (int e = 0; e < block.num_elements(); ++e, ++element) {
-      if (block.property >= 0) members[static_cast<std::size_t>(block.property)].insert(element);
+      if (block.property >= 0) {
+        members[static_cast<std::size_t>(block.property)].push_back(element);
+      }
     }
   }
+  std::multimap<std::string, const fem::ImportedElementSet*> sets;
+  for (const fem::ImportedElementSet& set : mesh.element_sets) {
+    sets.emplace(group_name(set.name), &set);
+  }
   std::set<std::string> taken;
+  std::map<std::string, int> last_number;  // behind names that several properties want
   std::vector<std::string> out;
   for (std::size_t p = 0; p < mesh.properties.size(); ++p) {
     const std::string wanted = group_name(mesh.properties[p].name);
     const auto is_free = [&](const std::string& name) {
-      if (taken.contains(name)) return false;
-      for (const fem::ImportedElementSet& set : mesh.element_sets) {
-        if (group_name(set.name) != name) continue;
-        if (members[p] != std::set<int>(set.elements.begin(), set.elements.end())) return false;
-      }
-      return true;
+      const auto [first, last] = sets.equal_range(name);
+      return !taken.contains(name) && std::all_of(first, last, [&](const auto& entry) {
+        return entry.second->elements == members[p];
+      });
     };
     std::string name = wanted.empty() ? "property" : wanted;
-    for (int k = 2; !is_free(name); ++k) name = fmt::format("{} ({})", wanted, k);
+    int& k = last_number.try_emplace(wanted, 1).first->second;
+    while (!is_free(name)) name = fmt::format("{} ({})", wanted, ++k);
     taken.insert(name);
     out.push_back(name);
   }

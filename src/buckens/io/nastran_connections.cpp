@@ -109,7 +109,10 @@ void ConnectionBuilder::add_rbar(const NastranCard& card) {
   card.id(0);
   const std::array<int, 2> ends = {node(card, 1), node(card, 2)};
   if (ends[0] == ends[1]) card.fail(2, "both ends are one node");
-  const std::array<Variables, 2> independent = {read_variables(card, 3), read_variables(card, 4)};
+  const auto read_end = [&card](int field) {  // zero stands for none
+    return card.text(field) == "0" ? Variables{} : read_variables(card, field);
+  };
+  const std::array<Variables, 2> independent = {read_end(3), read_end(4)};
   const auto all = [](const Variables& v) { return all_of(v, 0) && all_of(v, 3); };
   const auto none = [](const Variables& v) { return none_of(v, 0) && none_of(v, 3); };
   std::size_t first = 0;
@@ -122,7 +125,8 @@ void ConnectionBuilder::add_rbar(const NastranCard& card) {
   link.reference = ends[first];
   link.nodes = {ends[second]};
   const int dependent_field = 5 + static_cast<int>(second);
-  if (!card.blank(dependent_field)) link.variables = read_variables(card, dependent_field);
+  const Variables dependent = read_end(dependent_field);
+  if (!none_of(dependent, 0) || !none_of(dependent, 3)) link.variables = dependent;
   check_axes(card, link.variables, ends[second]);
   mesh_.rigid_links.push_back(std::move(link));
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -55,8 +56,14 @@ class NastranProperties {
     bool has_directions = false;
   };
 
-  /// Card, thickness, offset, first axis.
-  using ShellKey = std::tuple<const NastranCard*, double, double, std::array<double, 3>>;
+  /// Of material direction 1 of a shell.
+  struct Direction {
+    std::optional<Eigen::Matrix3d> axes;  ///< none: it is that of the first side
+    double angle = 0;                     ///< by which it is turned from there [rad]
+  };
+
+  /// Card, thickness, offset, first axis (zero: the first side), angle.
+  using ShellKey = std::tuple<const NastranCard*, double, double, std::array<double, 3>, double>;
 
   const More& more(int property) const { return more_[static_cast<std::size_t>(property)]; }
   const NastranCard& card_of(const NastranElement& element, Family family) const;
@@ -72,8 +79,8 @@ class NastranProperties {
   Shell convert_pcomp(const NastranCard& card);
   std::vector<fem::ImportedLayer> read_layers(const NastranCard& card);
   double thickness_of(const NastranElement& element, const Shell& shell);
-  Eigen::Matrix3d shell_axes(const NastranElement& element,
-                             const std::vector<Eigen::Vector3d>& nodes) const;
+  Direction shell_direction(const NastranElement& element,
+                            const std::vector<Eigen::Vector3d>& nodes) const;
 
   const NastranBulk* bulk_;
   const NastranNames* names_;

@@ -27,6 +27,16 @@ std::array<double, 3> rounded(const Vector3d& direction) {
   return out;
 }
 
+/// Turns the layers of a shell about its normal; a shell of one material becomes a layer of it.
+void turn_layers(fem::ImportedProperty& property, double angle) {
+  if (angle == 0.0) return;
+  if (property.layers.empty()) {
+    property.layers.push_back({"", property.thickness.value_or(0.0), 0.0});
+    property.thickness.reset();
+  }
+  for (fem::ImportedLayer& layer : property.layers) layer.angle += angle;
+}
+
 }  // namespace
 
 NastranProperties::Shell NastranProperties::convert_pshell(const NastranCard& card) {
@@ -72,7 +82,10 @@ std::vector<fem::ImportedLayer> NastranProperties::read_layers(const NastranCard
   std::vector<fem::ImportedLayer> layers;
   for (int field = 8; field < card.size(); field += stride) {
     const int first = is_global ? field + 1 : field;
-    if (card.blank(first) && card.blank(first + 1) && card.blank(first + 2)) continue;
+    // A layer is there if any of its fields is: material, thickness, angle, SOUT.
+    bool is_there = false;
+    for (int i = 0; i < 4; ++i) is_there = is_there || !card.blank(first + i);
+    if (!is_there) continue;
     if (layers.empty() && (card.blank(first) || card.blank(first + 1))) {
       card.fail(first, "the first layer needs a material and a thickness");
     }
@@ -149,39 +162,32 @@ double NastranProperties::thickness_of(const NastranElement& element, const Shel
   return mean;
 }
 
-Matrix3d NastranProperties::shell_axes(const NastranElement& element,
-                                       const std::vector<Vector3d>& nodes) const {
-  const NastranShellDetails* const details =
-      element.details < 0 ? nullptr : &bulk_->shells[static_cast<std::size_t>(element.details)];
+/// Without MCID the direction is that of the first side, turned by THETA: curved shells have one
+/// property then, not one per element.
+NastranProperties::Direction NastranProperties::shell_direction(
+    const NastranElement& element, const std::vector<Vector3d>& nodes) const {
+  if (element.details < 0) return {};
+  const NastranShellDetails& details = bulk_->shells[static_cast<std::size_t>(element.details)];
+  if (!details.has_system) return {std::nullopt, details.theta * kDegree};
   Vector3d centre = Vector3d::Zero();
   for (const Vector3d& node : nodes) centre += node / static_cast<double>(nodes.size());
-  if (details && details->has_system &&
-      coordinates_->is_rectangular(details->system, element.place)) {
-    return coordinates_->axes_at(details->system, centre, element.place);
-  }
+  const Matrix3d system = coordinates_->axes_at(details.system, centre, element.place);
+  if (coordinates_->is_rectangular(details.system, element.place)) return {system, 0.0};
   // Diagonals of four corners, sides of three.
   const std::size_t last = nodes.size() - 1;
-  const Vector3d normal = (nodes[2] - nodes[0]).cross(nodes[last] - nodes[1]);
-  Vector3d along = nodes[1] - nodes[0];
-  double angle = 0;
-  if (details && details->has_system) {
-    along = coordinates_->axes_at(details->system, centre, element.place).col(0);
-  } else if (details) {
-    angle = details->theta * kDegree;
-  }
-  const Vector3d n = normal.normalized();
-  const Vector3d flat = along - along.dot(n) * n;
-  if (!(normal.norm() > 0) || !(flat.norm() > 1e-6 * along.norm())) {
+  const Vector3d n = (nodes[2] - nodes[0]).cross(nodes[last] - nodes[1]).normalized();
+  const Vector3d flat = system.col(0) - system.col(0).dot(n) * n;
+  if (!(n.norm() > 0) || !(flat.norm() > 1e-6)) {
     throw InputError(element.place.where(),
                      fmt::format("{} {}: it has no area, or the direction of its material is along "
                                  "its normal",
                                  name_of(element.kind), element.id));
   }
   Matrix3d axes;
-  axes.col(0) = Eigen::AngleAxisd(angle, n) * flat.normalized();
+  axes.col(0) = flat.normalized();
   axes.col(1) = n.cross(axes.col(0));
   axes.col(2) = n;
-  return axes;
+  return {axes, 0.0};
 }
 
 int NastranProperties::shell(const NastranElement& element, const std::vector<Vector3d>& nodes) {
@@ -200,15 +206,18 @@ int NastranProperties::shell(const NastranElement& element, const std::vector<Ve
   const double thickness = thickness_of(element, general);
   const double offset =
       element.details < 0 ? 0.0 : bulk_->shells[static_cast<std::size_t>(element.details)].offset;
-  Matrix3d axes = Matrix3d::Identity();
-  if (general.has_directions) axes = shell_axes(element, nodes);
+  Direction direction;
+  if (general.has_directions) direction = shell_direction(element, nodes);
+  std::array<double, 3> axis = {0, 0, 0};
+  if (direction.axes) axis = rounded(direction.axes->col(0));
   const auto [entry, is_new] =
-      shell_variants_.try_emplace(ShellKey{&card, thickness, offset, rounded(axes.col(0))}, 0);
+      shell_variants_.try_emplace(ShellKey{&card, thickness, offset, axis, direction.angle}, 0);
   if (is_new) {
     fem::ImportedProperty property = general.property;
     if (property.layers.empty()) property.thickness = thickness;
     property.offset += offset;
-    if (general.has_directions) property.axes = axes;
+    property.axes = direction.axes;
+    turn_layers(property, direction.angle);
     entry->second = add(std::move(property), {general.mass, 0.0});
   }
   return entry->second;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "buckens/fem/mesh_report.h"
 #include "buckens/io/nastran_number.h"
 #include "buckens/io/test/nastran_sample.h"
 
@@ -134,6 +135,49 @@ TEST(NastranCards, material_direction_by_coordinate_system) {
   EXPECT_LT((mesh.properties[1].axes->col(0) - diagonal).norm(), 1e-14);
   // The centre of this triangle lies above the x axis: radial there.
   EXPECT_LT((mesh.properties[2].axes->col(0) - Vector3d::UnitX()).norm(), 1e-14);
+}
+
+TEST(NastranCards, directions_along_the_sides_of_a_curved_shell_are_one_property) {
+  // Two triangles whose first sides lie in other directions, and one with THETA.
+  const std::string deck = kTetra + "MAT8,2,1.+5,1.+4,.3,5.+3,,,1500.\nPSHELL,2,2,.1,2\n" +
+                           "CTRIA3,2,2,1,2,3\nCTRIA3,3,2,2,3,4\nCTRIA3,4,2,3,1,4,30.\n";
+  const auto mesh = read_deck(deck);
+  ASSERT_EQ(mesh.properties.size(), 3u);  // that of the tetrahedron, too
+  EXPECT_EQ(mesh.blocks[1].ids, (std::vector<std::int64_t>{2, 3}));
+  EXPECT_TRUE(mesh.properties[1].layers.empty());
+  EXPECT_TRUE(mesh.properties[1].along_first_side);
+  ASSERT_EQ(mesh.properties[2].layers.size(), 1u);
+  EXPECT_EQ(mesh.properties[2].layers[0].thickness, 0.1);
+  EXPECT_NEAR(mesh.properties[2].layers[0].angle, std::acos(-1.0) / 6, 1e-15);
+  // In a report they are one, with the mass of all.
+  const fem::MeshReport report = fem::report_mesh(mesh, true);
+  ASSERT_EQ(report.properties.size(), 2u);
+  EXPECT_EQ(report.properties[1].name, "PSHELL 2");
+  EXPECT_EQ(report.properties[1].elements, 3);
+  const double area = 0.5 + std::sqrt(3.0) / 2 + 0.5;
+  EXPECT_NEAR(report.properties[1].mass, 1500 * 0.1 * area, 1e-12);
+}
+
+TEST(NastranCards, a_layer_is_there_if_any_of_its_fields_is) {
+  const auto layers = [](const std::string& rows, const char* card = "PCOMP,2\n") {
+    return read_deck(kTetra + "CTRIA3,2,2,1,2,3\n" + card + rows).properties.at(1).layers;
+  };
+  EXPECT_EQ(layers(",1,.1,,YES,,,,YES\n,,,90.\n").size(), 3u);
+  EXPECT_EQ(layers(",1,.1,,YES,,,,YES\n,,,90.\n").at(1).thickness, 0.1);
+  EXPECT_EQ(layers(",1,.1,,YES\n,,,,,1,.2\n").size(), 2u);
+  EXPECT_EQ(layers(",5,1,.1,,YES\n,6,,,,NO\n", "PCOMPG,2\n").size(), 2u);
+}
+
+TEST(NastranCards, ends_of_bars_may_have_a_zero_for_no_components) {
+  const auto link = [](const std::string& fields) {
+    return read_deck(kTetra + "RBAR,9,1,2," + fields + "\n").rigid_links.at(0);
+  };
+  for (const char* fields : {"123456", "123456,0", "123456,0,0,0", "123456,,,123456"}) {
+    EXPECT_EQ(link(fields).reference, 0) << fields;
+    EXPECT_TRUE(link(fields).variables[5]) << fields;
+  }
+  EXPECT_EQ(link("0,123456").reference, 1);
+  EXPECT_FALSE(link("123456,0,0,123").variables[5]);
 }
 
 TEST(NastranCards, two_of_three_moduli_are_enough) {

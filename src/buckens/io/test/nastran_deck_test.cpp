@@ -172,10 +172,12 @@ TEST(NastranDeck, shells_have_thickness_offset_layers) {
   EXPECT_EQ(laminate.layers[3].angle, 0.0);
   EXPECT_EQ(laminate.layers[3].material, "MAT8 2");
   EXPECT_EQ(laminate.offset, 0.5);
-  // THETA of 30 degrees from the side along x.
-  ASSERT_TRUE(property_of(13).axes.has_value());
-  const Vector3d first(std::cos(std::numbers::pi / 6), 0.5, 0);
-  EXPECT_LT((property_of(13).axes->col(0) - first).norm(), kRounding);
+  // THETA of 30 degrees from the first side: a layer of the whole thickness.
+  EXPECT_FALSE(property_of(13).axes.has_value());
+  EXPECT_TRUE(property_of(13).along_first_side);
+  ASSERT_EQ(property_of(13).layers.size(), 1u);
+  EXPECT_EQ(property_of(13).layers[0].thickness, 2.0);
+  EXPECT_NEAR(property_of(13).layers[0].angle, std::numbers::pi / 6, kRounding);
 }
 
 TEST(NastranDeck, beams_have_sections_and_directions) {
