@@ -178,6 +178,19 @@ std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element) {
   return out;
 }
 
+std::vector<Matrix3d> shell_corner_axes(const ShellElement& element) {
+  constexpr std::array<std::array<double, 2>, 4> square = {
+      {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
+  std::vector<Matrix3d> out;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(element.nodes.cols()); ++k) {
+    // The tangents of a triangle are the same everywhere.
+    const ShellShape shape = shell_shape(element.is_triangle(), square[k][0], square[k][1]);
+    const Tangents tangents = element.middle() * shape.slope.transpose();
+    out.push_back(shell_axes(element, tangents));
+  }
+  return out;
+}
+
 ShellMatrix shell_drilling_inertia(const ShellElement& element) {
   const double h = element.stiffness->thickness;
   const double inertia = element.stiffness->inertia[0] * h * h / 12;

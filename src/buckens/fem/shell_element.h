@@ -70,6 +70,8 @@ struct ShellStrainRows {
 ShellStrainRows shell_centre_strain(const ShellElement& element);
 /// The same at the corners, one after the other.
 std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element);
+/// The axes alone.
+std::vector<Eigen::Matrix3d> shell_corner_axes(const ShellElement& element);
 
 /// ∫ (ρ h³/12) (drilling rotation against that of the surface)² dA: inertia of spurious rotations
 /// about the normal, none of rigid motion.

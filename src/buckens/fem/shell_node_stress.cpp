@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include <Eigen/Geometry>
 
@@ -87,7 +88,7 @@ class ShellNodeStresses::Grouping {
   };
   struct Member {
     Corner at;
-    ShellStrainRows strain;
+    Matrix3d axes;  // of the element there
   };
 
   explicit Grouping(const FeModel& fe) : fe_(fe), at_node_(fe.nodes.size()) {
@@ -113,7 +114,7 @@ class ShellNodeStresses::Grouping {
     for (const Corner& corner : at_node_[static_cast<std::size_t>(node)]) {
       const Shell& shell = shells[static_cast<std::size_t>(corner.shell)];
       const ShellElement element = shell_element(*shell.block, fe_.nodes, shell.index);
-      members.push_back({corner, shell_corner_strains(element)[corner.corner]});
+      members.push_back({corner, shell_corner_axes(element)[corner.corner]});
     }
     std::vector<std::size_t> root(members.size());
     std::iota(root.begin(), root.end(), std::size_t{0});
@@ -160,9 +161,9 @@ class ShellNodeStresses::Grouping {
   bool are_alike(const Member& a, const Member& b) const {
     const std::size_t section = shells[static_cast<std::size_t>(a.at.shell)].section;
     if (section != shells[static_cast<std::size_t>(b.at.shell)].section) return false;
-    if (a.strain.axes.col(2).dot(b.strain.axes.col(2)) < kSameSurface) return false;
+    if (a.axes.col(2).dot(b.axes.col(2)) < kSameSurface) return false;
     return !has_direction(*sections[section]) ||
-           std::abs(turn_between(a.strain.axes, b.strain.axes)) < kSameDirection;
+           std::abs(turn_between(a.axes, b.axes)) < kSameDirection;
   }
 
   const FeModel& fe_;
@@ -176,13 +177,29 @@ namespace {
 template <class Members>
 Matrix3d mean_axes(const Members& members) {
   Vector3d normal = Vector3d::Zero();
-  for (const auto& member : members) normal += member.strain.axes.col(2);
+  for (const auto& member : members) normal += member.axes.col(2);
   normal.normalize();
-  const Matrix3d& first = members.front().strain.axes;
+  const Matrix3d& first = members.front().axes;
   const Vector3d x = Eigen::Quaterniond::FromTwoVectors(first.col(2), normal) * first.col(0);
   Matrix3d out;
   out << x, normal.cross(x), normal;
   return out;
+}
+
+using SurfaceRows = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 24>;
+
+/// Rows over the six variables of each node as entries of a sparse matrix.
+void add_rows(const SurfaceRows& rows, const DofMap& dofs, std::span<const int> nodes,
+              int first_row, std::vector<Triplet>& entries) {
+  Eigen::Index column = 0;
+  for (const int node : nodes) {
+    for (const int dof : dofs.node_dofs[static_cast<std::size_t>(node)]) {
+      for (int row = 0; row < 6 && dof >= 0; ++row) {
+        if (rows(row, column) != 0.0) entries.emplace_back(first_row + row, dof, rows(row, column));
+      }
+      ++column;
+    }
+  }
 }
 
 }  // namespace
@@ -198,33 +215,33 @@ ShellNodeStresses::ShellNodeStresses(const FeModel& fe, const std::vector<int>& 
     const auto own = shell.block->nodes(shell.index);
     std::copy(own.begin(), own.end(), corner_node_.back().begin());
   }
-  std::vector<Triplet> entries;
+  std::vector<double> shares;  // of one element in each place
   for (const int node : nodes) {
     for (const auto& group : grouping.groups(node)) {
-      const ShellPlace place{node, mean_axes(group)};
-      const int first_row = 6 * static_cast<int>(places_.size());
       for (const Grouping::Member& member : group) {
-        const auto shell = static_cast<std::size_t>(member.at.shell);
-        corner_place_[shell][member.at.corner] = static_cast<int>(places_.size());
-        const Matrix3d turn = turned_back(turn_between(member.strain.axes, place.axes)) /
-                              static_cast<double>(group.size());
-        ShellStrain rows = member.strain.rows;
-        rows.topRows<3>() = turn * member.strain.rows.topRows<3>();
-        rows.middleRows<3>(3) = turn * member.strain.rows.middleRows<3>(3);
-        Eigen::Index column = 0;
-        for (const int other : grouping.shells[shell].block->nodes(grouping.shells[shell].index)) {
-          for (const int dof : fe.dofs.node_dofs[static_cast<std::size_t>(other)]) {
-            for (int row = 0; row < 6 && dof >= 0; ++row) {
-              if (rows(row, column) == 0.0) continue;
-              entries.emplace_back(first_row + row, dof, rows(row, column));
-            }
-            ++column;
-          }
-        }
+        corner_place_[static_cast<std::size_t>(member.at.shell)][member.at.corner] =
+            static_cast<int>(places_.size());
       }
-      places_.push_back(place);
+      places_.push_back({node, mean_axes(group)});
+      shares.push_back(1.0 / static_cast<double>(group.size()));
       sections_.push_back(
           grouping.shells[static_cast<std::size_t>(group.front().at.shell)].section);
+    }
+  }
+  std::vector<Triplet> entries;
+  for (std::size_t k = 0; k < grouping.shells.size(); ++k) {
+    const auto& own = corner_place_[k];
+    if (std::all_of(own.begin(), own.end(), [](int place) { return place < 0; })) continue;
+    const Grouping::Shell& shell = grouping.shells[k];
+    const auto strains = shell_corner_strains(shell_element(*shell.block, fe.nodes, shell.index));
+    for (std::size_t corner = 0; corner < strains.size(); ++corner) {
+      if (own[corner] < 0) continue;
+      const auto place = static_cast<std::size_t>(own[corner]);
+      const auto& [rows, axes] = strains[corner];
+      const Matrix3d turn = shares[place] * turned_back(turn_between(axes, places_[place].axes));
+      SurfaceRows turned(6, rows.cols());
+      turned << turn * rows.topRows<3>(), turn * rows.middleRows<3>(3);
+      add_rows(turned, fe.dofs, shell.block->nodes(shell.index), 6 * own[corner], entries);
     }
   }
   rows_.resize(6 * static_cast<Eigen::Index>(places_.size()), fe.dofs.num_dofs);

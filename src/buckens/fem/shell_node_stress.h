@@ -25,7 +25,7 @@ struct ShellPlace {
 /// order at its border. Theory: docs/theory/18-stresses.md.
 class ShellNodeStresses {
  public:
-  /// @param nodes at which stresses are wanted
+  /// @param nodes at which stresses are wanted, each once
   ShellNodeStresses(const FeModel& fe, const std::vector<int>& nodes);
 
   const std::vector<ShellPlace>& places() const { return places_; }
