@@ -59,6 +59,16 @@ def test_view_writes_a_page(buckens, models, installed, tmp_path):
     buckens("run", models / "beam.yaml", "-o", "out").must(0)
 
 
+def test_curves_stand_in_the_order_of_the_model(buckens, models, installed, tmp_path):
+    sensors = "{zenith: {position: rod/tip}, force: {joint-force: hinge}, all: {energy: total}}"
+    buckens("run", models / "pendulum.yaml", "-o", "out", "--set", f"output.sensors={sensors}").must(0)
+    add_viewer(installed)
+    view(installed, "out", cwd=tmp_path).must(0)
+    text = (tmp_path / "out" / "view.html").read_text()
+    run = json.loads(text.split("const run = ")[1].split(";</script>")[0])["runs"][0]
+    assert [sensor["name"] for sensor in run["sensors"]] == ["zenith", "force", "all"]
+
+
 def test_view_of_two_runs(buckens, models, installed, tmp_path):
     buckens("run", models / "beam.yaml", "-o", "out").must(0)
     buckens("run", models / "pendulum.yaml", "-o", "other").must(0)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -101,6 +102,20 @@ std::vector<std::string> component_names(const Channel& channel) {
   std::vector<std::string> names;
   for (std::size_t i = 1; i <= channel.size(); ++i) names.push_back(fmt::format("{}", i));
   return names;
+}
+
+/// Sorts curves of sensors as the model file has them, which is the order of the table's columns;
+/// HDF5 lists them by their names.
+void sort_as_table(Json& curves, const std::filesystem::path& table) {
+  std::ifstream file(table);
+  std::string heading;
+  std::getline(file, heading);
+  const auto column = [&heading](const Json& curve) {
+    const auto name = "," + curve["name"].get<std::string>();
+    return std::min(heading.find(name + " ["), heading.find(name + "."));
+  };
+  std::stable_sort(curves.begin(), curves.end(),
+                   [&](const Json& a, const Json& b) { return column(a) < column(b); });
 }
 
 /// The channels right below `group`, as curves.
@@ -226,6 +241,8 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
   }
   Json modes = modes_json(run, reader);
   Json summary = parse_summary(run.summary_text());
+  Json sensors = curves_json(run, reader, "sensors/", true);
+  sort_as_table(sensors, directory / kSensorsName);
   const std::filesystem::path shapes = directory / kModesName;
   std::error_code ignored;
   if (!modes.is_null() && std::filesystem::exists(shapes, ignored)) {
@@ -240,7 +257,7 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
           {"loads", loads_json(run, reader, shown)},
           {"gravity", json_of(geometry.gravity)},
           {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
-          {"sensors", curves_json(run, reader, "sensors/", true)},
+          {"sensors", std::move(sensors)},
           {"energies", curves_json(run, reader, "energies/", false)},
           {"modes", std::move(modes)},
           {"summary", std::move(summary)},
