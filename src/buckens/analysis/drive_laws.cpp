@@ -71,9 +71,10 @@ std::vector<std::string> DriveLaws::corners(double duration) const {
         std::find_if(times.begin(), times.end(), [&](double t) { return t > 0.0 && t < duration; });
     if (inside == times.end()) continue;
     out.push_back(fmt::format(
-        "joint \"{}\": its table is interpolated linearly, so its velocity jumps (first at "
-        "t = {:.4g} s) and joint forces have spikes there that grow with shorter steps; use "
-        "`interpolation: spline`",
+        "joint \"{}\": its velocity jumps where its table has a corner (first at t = {:.4g} s), "
+        "and "
+        "joint forces have spikes there that grow with shorter steps; use `interpolation: spline`, "
+        "and let a table that is held begin and end at rest",
         drive.joint, *inside));
   }
   return out;

@@ -84,10 +84,7 @@ class Table final : public TimeLaw::Body {
   double rate(double t) const override {
     require(t);
     if (is_held_ && (t < t_.front() || t >= t_.back())) return 0.0;
-    const auto [i, h, a, b] = interval(std::clamp(t, t_.front(), t_.back()));
-    return (y_[i + 1] - y_[i]) / h +
-           ((1.0 - 3.0 * a * a) * curvature_[i] + (3.0 * b * b - 1.0) * curvature_[i + 1]) * h /
-               6.0;
+    return rate_within(std::clamp(t, t_.front(), t_.back()));
   }
 
   double acceleration(double t) const override {
@@ -104,11 +101,16 @@ class Table final : public TimeLaw::Body {
 
   std::vector<double> corners() const override {
     std::vector<double> out;
-    if (interpolation_ != Interpolation::linear) return out;
-    double slope = is_held_ ? 0.0 : slope_of(0);
     double largest = 0;
     for (std::size_t i = 0; i + 1 < t_.size(); ++i)
       largest = std::max(largest, std::abs(slope_of(i)));
+    if (interpolation_ == Interpolation::spline) {
+      for (const double end : {t_.front(), t_.back()}) {
+        if (is_held_ && std::abs(rate_within(end)) > 1e-9 * largest) out.push_back(end);
+      }
+      return out;
+    }
+    double slope = is_held_ ? 0.0 : slope_of(0);
     for (std::size_t i = 0; i < t_.size(); ++i) {
       const double outside = is_held_ ? 0.0 : slope;
       const double next = i + 1 < t_.size() ? slope_of(i) : outside;
@@ -136,6 +138,14 @@ class Table final : public TimeLaw::Body {
         where_, fmt::format("the table goes from t = {:.9g} s to {:.9g} s and is asked for its "
                             "value at t = {:.9g} s; add points, or write `extrapolation: hold`",
                             t_.front(), t_.back(), t));
+  }
+
+  /// Rate at a time of the range, at its ends from within.
+  double rate_within(double t) const {
+    const auto [i, h, a, b] = interval(t);
+    return (y_[i + 1] - y_[i]) / h +
+           ((1.0 - 3.0 * a * a) * curvature_[i] + (3.0 * b * b - 1.0) * curvature_[i + 1]) * h /
+               6.0;
   }
 
   double slope_of(std::size_t i) const { return (y_[i + 1] - y_[i]) / (t_[i + 1] - t_[i]); }

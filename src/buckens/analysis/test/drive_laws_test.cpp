@@ -71,6 +71,10 @@ TEST(DriveLaws, WarnsOfTheCornersOfALinearTable) {
       AllOf(HasSubstr("\"motor\""), HasSubstr("t = 0.02 s"), HasSubstr("interpolation: spline")));
   EXPECT_TRUE(warnings(base::Interpolation::linear, 0.01).empty()) << "before the first corner";
   EXPECT_TRUE(warnings(base::Interpolation::spline, 0.1).empty());
+  const TimeLaw held =
+      TimeLaw::table(times, angles, base::Interpolation::spline, base::Extrapolation::hold);
+  EXPECT_THAT(DriveLaws(wheel(held).d).corners(0.3),
+              testing::ElementsAre(AllOf(HasSubstr("t = 0.2 s"), HasSubstr("at rest"))));
   EXPECT_TRUE(DriveLaws(wheel(TimeLaw::constant(1)).d).corners(1).empty());
   // Points on one line have no corner between them.
   const TimeLaw line = TimeLaw::table({0, 0.03, 0.3}, {0, 0.3, 3}, base::Interpolation::linear);

@@ -141,6 +141,16 @@ TEST(TimeLaw, TablesRefuseToGoOnBeyondTheirRange) {
   EXPECT_EQ(TimeLaw::table({1}, {5}, Interpolation::linear).value(9), 5);
 }
 
+TEST(TimeLaw, ASplineThatIsHeldHasCornersWhereItDoesNotRestAtItsEnds) {
+  const std::vector<double> times = {0.5, 1, 2, 3};
+  const auto corners = [&](const std::vector<double>& values, Extrapolation outside) {
+    return TimeLaw::table(times, values, Interpolation::spline, outside).corners();
+  };
+  EXPECT_THAT(corners({0, 1, 3, 4}, Extrapolation::hold), testing::ElementsAre(0.5, 3));
+  EXPECT_THAT(corners({0, 1, 3, 4}, Extrapolation::refuse), testing::IsEmpty());
+  EXPECT_THAT(corners({2, 2, 2, 2}, Extrapolation::hold), testing::IsEmpty());
+}
+
 TEST(TimeLaw, SplineIsNaturalAndSmooth) {
   const TimeLaw spline = TimeLaw::table({0, 1, 2.5, 3}, {0, 1, -1, 2}, Interpolation::spline,
                                         Extrapolation::hold);  // differences go beyond its end
