@@ -141,7 +141,9 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   report.worst_row = rows_in_use_.empty() ? 0 : rows_in_use_.front();
   if (!dependent_.empty()) report.worst_row = dependent_.front();
   if (residuals_.g.size() > 0) report.position_residual = residuals_.g.cwiseAbs().maxCoeff();
-  fail(t, report, "joint equations have become dependent (a singular position)");
+  fail(t, report,
+       rows_in_use_.empty() ? "stiffnesses of parallel springs or bushings exceed all proportion"
+                            : "joint equations have become dependent (a singular position)");
 }
 
 void SmallNewton::number_rows_in_use() {
