@@ -33,6 +33,7 @@ TABLES = {
     "one.csv": "0\n1\n",
     "empty.csv": "",
     "binary.csv": "".join(chr(k) for k in range(1, 127)),
+    "first.csv": "0s,1\n1,2\n",
     "short.csv": "t,p\n0,1\n0.5e-3,2\n",
 }
 
@@ -71,6 +72,73 @@ def refuse(buckens, tmp_path):
 ])
 def test_values_of_loads(refuse, value, words):
     refuse("value: 1 MPa", f"value: {value}", 2, *words)
+
+
+@pytest.mark.parametrize("value, words", [
+    ("1e400 Pa", ["model.yaml:15:", "1e400 is beyond", "range of numbers"]),
+    ("1e300 Pa", ["model.yaml:15:", "1e300 Pa is not allowed", "not exceed 1e+60"]),
+    ("\"1e305*1 GPa\"", ["model.yaml:15:", "has the value inf"]),
+    ("\"10*sin(2*pi*t)kPa\"", ["model.yaml:15:", "unknown name \"kPa\"", "at the end after a blank"]),
+    ("\"2 pi*t Pa\"", ["model.yaml:15:", "unknown unit \"pi*t Pa\""]),
+    ("\"5\u00b7t Pa\"", ["model.yaml:15:", "U+00B7", "write * in its place"]),
+    ("\u22125 Pa", ["model.yaml:15:", "U+2212", "write - in its place"]),
+    ("5\u00a0Pa", ["model.yaml:15:", "U+00A0", "write a blank in its place"]),
+    ("\"t = 3\"", ["model.yaml:15:", "equality is =="]),
+    ("\"random(t)\"", ["model.yaml:15:", "unknown name \"random\""]),
+    ("{table: []}", ["model.yaml:15:", "loads.gas.pressure.value", "at least one point"]),
+    ("{table: [[0, 1], [1, 2]], column: 2}", ["model.yaml:15:", "value.column", "belongs to files"]),
+    ("{table: [[0 s, 1], [1 s, 2]]}", ["model.yaml:15:", "table.0.0", "\"0 s\" is a time"]),
+    ("{table: first.csv}", ["first.csv:1:1:", "\"0s\" is not a number"]),
+    ("{table: short.csv, extrapolation: linear}", ["model.yaml:15:", "none of refuse, hold"]),
+    ("", ["model.yaml:15:", "no value stands here"]),
+])
+def test_more_values_of_loads(refuse, value, words):
+    refuse("value: 1 MPa", f"value: {value}", 2, *words)
+
+
+@pytest.mark.parametrize("body, words", [
+    ("{like: stone, geometric-stiffness: on}", ["bodies.two.geometric-stiffness", "a rigid body has no stiffness"]),
+    ("{like: bar, geometric-stiffness: on}", ["bodies.two.geometric-stiffness", "belongs to beams and bars"]),
+    ("{like: two}", ["unknown body \"two\"", "above this one"]),
+    ("{rigid: {mass: 1e300 kg}}", ["two.rigid.mass", "not exceed 1e+60"]),
+    ("{rigid: {mass: 1 kg, com: [1e200 m, 0, 0]}}", ["two.rigid.com.0", "not exceed"]),
+    ("{rigid: {mass: 1 kg, inertia: [1, 1]}}", ["two.rigid.inertia", "2 values", "3", "6"]),
+    ("{rigid: {mass: 1 kg, inertia: [1, 1, 3]}}", ["two.rigid.inertia", "exceeds the sum"]),
+    ("{rigid: {mass: 0.2-0.5}}", ["two.rigid.mass: 0.2-0.5 = -0.3 is not allowed"]),
+    ("{rigid: {mass: 1 kg}, at: {orientation: {quaternion: [0, 1e-200, 0, 0]}}}", ["quaternion", "cannot be zero"]),
+    ("{rigid: {mass: 1 kg}, at: {orientation: [1, 0, 0]}}", ["two.at.orientation", "axis, angle, euler, quaternion"]),
+    ("{rigid: {mass: 1 kg}, frames: 1/2}", ["two.frames: 1/2 = 0.5 is not a whole number"]),
+    ("", ["model.yaml:12:3: bodies.two: no value stands here"]),
+])
+def test_bodies(refuse, body, words):
+    stone = "  stone: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}"
+    refuse(stone, f"{stone}\n  two: {body}", 2, "model.yaml:12:", *words)
+
+
+@pytest.mark.parametrize("assignment, words", [
+    ("gravity.1=0", ["nothing at \"gravity\"", "gravity=[0, -9.81 m/s^2, 0]"]),
+    ("bodies.bar.mesh.material.E=1", ["holds \"steel\"", "entry of that name"]),
+    ("bodies.bar.mesh.box.divisions.3=1", ["no item of bodies.bar.mesh.box.divisions", "3 items"]),
+    ("bodies..x=1", ["no \"\" in bodies", "bar, stone"]),
+    ("title=", ["--set title", "missing"]),
+    ("title=&a b", ["anchors"]),
+    ("joints.wall.revolute.between=[ground, stone]", ["joints.wall", "only one of these keys"]),
+    ("simulation.step=1e-20 s", ["1e+17 steps"]),
+    ("simulation.max-iterations=2.5", ["2.5 is not a whole number"]),
+])
+def test_changes_from_the_command_line(buckens, tmp_path, assignment, words):
+    (tmp_path / "model.yaml").write_text(MODEL)
+    buckens("check", "model.yaml", "--set", assignment).must(2, *words)
+
+
+def test_files_of_other_systems(buckens, tmp_path):
+    """A byte order mark and lines that end as on Windows do no harm, nor does a model that is changed."""
+    (tmp_path / "model.yaml").write_bytes(b"\xef\xbb\xbf" + MODEL.replace("\n", "\r\n").encode())
+    buckens("run", "model.yaml", "-o", "out", "--set", "simulation.step=0.5 ms").must(0)
+    buckens("check", "out/model.yaml").must(0)
+    for text in (b"\xff\xfe" + MODEL.encode("utf-16le"), MODEL.encode() + b"title: \xed\xa0\x80\n"):
+        (tmp_path / "model.yaml").write_bytes(text)
+        buckens("check", "model.yaml").must(2, "model.yaml:", "not UTF-8")
 
 
 def test_files_of_tables(refuse):

@@ -33,7 +33,7 @@ constexpr std::array<KnownDimension, 19> kKnown = {{
     {kStress, "Pa", "a stress"},
     {kDensity, "kg/m^3", "a density"},
     {kInertia, "kg m^2", "a moment of inertia"},
-    {kStiffness, "N/m", "a stiffness"},
+    {kStiffness, "N/m", "a stiffness or force per length"},
     {kDamping, "N s/m", "a damping constant"},
 }};
 constexpr std::array<KnownDimension, 2> kKnownRotational = {{

@@ -12,6 +12,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
+#include "buckens/base/units.h"
 
 namespace buckens::base {
 
@@ -62,6 +63,13 @@ void refuse_unknown_names(const std::string& text, const std::vector<std::string
     while (end < text.size() && is_word(text[end])) ++end;
     const std::string word = text.substr(i, end - i);
     if (is_identifier(word) && std::find(names.begin(), names.end(), word) == names.end()) {
+      if (parse_unit(word)) {
+        throw InputError(
+            shifted(where, static_cast<int>(i)),
+            fmt::format("expression \"{}\": unknown name \"{}\"; if the unit is meant, "
+                        "it stands at the end after a blank",
+                        text, word));
+      }
       throw InputError(shifted(where, static_cast<int>(i)),
                        fmt::format("expression \"{}\": unknown name \"{}\".{}", text, word,
                                    nearest(word, names).empty() ? suggestion(word, own)

@@ -60,8 +60,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) {
     list += (i == 0 ? "" : ", ") + candidates[i];
   }
-  if (candidates.size() > kMostListed) list += ", ...";
-  return " Known are: " + list + ".";
+  return " Known are: " + list + (candidates.size() > kMostListed ? ", ..." : ".");
 }
 
 }  // namespace buckens::base

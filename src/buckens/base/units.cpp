@@ -218,7 +218,12 @@ std::size_t literal_length(std::string_view text) {
 std::optional<Unit> parse_unit(std::string_view text) {
   text = trim(text);
   if (text.empty() || text.size() > kLongestUnit) return std::nullopt;
-  return UnitReader(text).read();
+  std::string known(text);
+  // Greek keyboards and Unicode's own normalisation write the letter μ, not the prefix µ.
+  for (std::size_t i = 0; (i = known.find("\u03bc", i)) != std::string::npos;) {
+    known.replace(i, 2, "\u00b5");
+  }
+  return UnitReader(known).read();
 }
 
 const std::vector<std::string>& unit_names() {

@@ -110,8 +110,10 @@ Finding problem(const body::OrientationSpec& spec, const ReadContext&) {
     return Problem{"", "give the orientation in one way: axis and angle, euler, or quaternion"};
   }
   if (spec.axis) return axis_problem(*spec.axis);
+  // Squares of smaller parts vanish, and with them the rotation.
+  constexpr double kLeastPart = 1e-100;
   if (spec.quaternion && std::all_of(spec.quaternion->begin(), spec.quaternion->end(),
-                                     [](double q) { return q == 0.0; })) {
+                                     [](double q) { return std::abs(q) < kLeastPart; })) {
     return Problem{"quaternion", "a quaternion cannot be zero"};
   }
   return std::nullopt;

@@ -125,8 +125,15 @@ Finding under(const char* key, const Finding& finding) {
 }
 
 Finding problem(const TableLawSpec& spec, const ReadContext&) {
-  if (spec.table.empty() != spec.file.empty()) return std::nullopt;
-  return Problem{"", "exactly one of the keys table and file is needed"};
+  if (spec.table.empty() == spec.file.empty()) {
+    return Problem{"",
+                   "exactly one of the keys table and file is needed, and a table has at least one "
+                   "point [time in s, value]"};
+  }
+  if (spec.file.empty() && spec.column) {
+    return Problem{"column", "it belongs to files; a table has one column of values. Remove it"};
+  }
+  return std::nullopt;
 }
 
 Finding problem(const joints::JointSpec& spec, const ReadContext& context) {

@@ -10,6 +10,7 @@
 #include "buckens/base/nearest.h"
 #include "buckens/fem/generate_mesh.h"
 #include "buckens/io/body_mesh.h"
+#include "buckens/io/model_file_checks.h"
 
 namespace buckens::io {
 
@@ -99,7 +100,7 @@ void fail_unknown(const ReadPlace& place, const std::string& kind, const std::st
                   const std::vector<std::string>& known) {
   const std::string rest =
       known.empty() ? fmt::format(" The model has no {}.", kind) : base::suggestion(name, known);
-  fail(place, fmt::format("unknown {} \"{}\".{}", kind, name, rest));
+  fail(place, fmt::format("unknown {} \"{}\".{}", kind, shortened(name), rest));
 }
 
 std::vector<std::string> marker_names(const body::BodySpec& body) {
@@ -198,6 +199,10 @@ void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& con
     if (!body.damping) body.damping = other->damping;
     // The variant's old content is destroyed here; nothing of it is used from now on.
     body.kind = std::variant(other->kind);
+    // What the keys of this body ask for was judged before it was known what it is made of.
+    if (const Finding found = problem(body, context)) {
+      fail({place.node.deepest(found->key), join_path(place.path, found->key)}, found->text);
+    }
   }
   load_body_mesh(body, context);
   if (body.is_rigid() && body.damping) {

@@ -25,7 +25,10 @@ std::vector<std::string> split_row(const std::string& line) {
   const bool skips_empty = !has_semicolons && !has_commas;
   while (begin <= text.size()) {
     const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-    const std::string cell = text.substr(begin, end - begin);
+    std::string cell = text.substr(begin, end - begin);
+    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') {
+      cell = cell.substr(1, cell.size() - 2);
+    }
     if (!skips_empty || !cell.empty()) cells.push_back(cell);
     begin = end + 1;
   }
@@ -56,6 +59,12 @@ double cell_value(const std::vector<std::string>& cells, int column, const Sourc
                                shown_cell(cell)));
 }
 
+/// Whether a cell is meant as a number, even one that cannot be read.
+bool begins_like_number(const std::string& cell) {
+  const std::size_t first = cell.find_first_not_of(" \t+-.");
+  return first != std::string::npos && cell[first] >= '0' && cell[first] <= '9';
+}
+
 /// The map with the name of a file under `file`, where it may stand under `table`, too.
 YamlNode with_file_key(YamlNode node) {
   for (YamlEntry& entry : node.entries) {
@@ -80,7 +89,7 @@ CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
     const std::size_t begin = line.find_first_not_of(" \t");
     if (begin == std::string::npos || line[begin] == '#') continue;
     const std::vector<std::string> cells = split_row(line);
-    const bool is_heading = may_be_heading && !base::parse_number(cells[0]);
+    const bool is_heading = may_be_heading && !begins_like_number(cells[0]);
     may_be_heading = false;
     if (is_heading) continue;
     if (static_cast<int>(cells.size()) < column) {
@@ -114,7 +123,7 @@ base::TimeLaw read_table_law(const ReadPlace& given, const base::FieldNote& note
     }
   } else {
     try {
-      columns = read_csv_columns(context.directory / spec.file, spec.column);
+      columns = read_csv_columns(context.directory / spec.file, spec.column.value_or(2));
     } catch (const IoError& error) {
       throw IoError(place.node.find("file")->where,
                     fmt::format("{}: {}", place.path, error.what()));
@@ -125,7 +134,8 @@ base::TimeLaw read_table_law(const ReadPlace& given, const base::FieldNote& note
     const ReadPlace unit_place{*place.node.find("unit"), place.path + ".unit"};
     if (!unit || !base::accepts(note.dimension, unit->dimension)) {
       fail(unit_place,
-           fmt::format("\"{}\" is no unit of {}", spec.unit, base::dimension_name(note.dimension)));
+           fmt::format("\"{}\" is no unit of {}, such as {}", spec.unit,
+                       base::dimension_name(note.dimension), base::si_unit(note.dimension)));
     }
     for (double& value : columns.values) value *= unit->factor;
   }

@@ -18,7 +18,7 @@ namespace buckens::io {
 struct TableLawSpec {
   std::vector<std::array<double, 2>> table;
   std::string file;
-  int column = 2;
+  std::optional<int> column;  ///< of a file, counted from 1; 2 unless given
   std::string unit;
   base::Interpolation interpolation = base::Interpolation::linear;
   base::Extrapolation extrapolation = base::Extrapolation::refuse;
@@ -32,7 +32,9 @@ struct TableLawSpec {
                       "CSV file with the time in s in its first column; relative to the model file")
               .like("torque.csv")
               .otherwise("give this or `table`"));
-    visit(base::field("column", column, "column of the values, counted from 1").positive());
+    visit(base::field("column", column, "of a file: column of the values, counted from 1")
+              .positive()
+              .otherwise("2"));
     visit(base::field("unit", unit, "unit of the values").like("N m").otherwise("SI"));
     visit(base::field("interpolation", interpolation, "between the points"));
     visit(base::field("extrapolation", extrapolation,

@@ -10,6 +10,7 @@
 #include "buckens/base/nearest.h"
 #include "buckens/base/units.h"
 #include "buckens/io/model_file_table.h"
+#include "buckens/io/number_look_alikes.h"
 
 namespace buckens::io {
 
@@ -20,6 +21,9 @@ using base::FieldNote;
 
 // Elements, iterations and columns beyond this are slips, and int must hold them.
 constexpr double kLargestInteger = 1e7;
+// No measure in SI units is larger, and fourth powers of it, such as second moments of area, are
+// still numbers.
+constexpr double kLargestNumber = 1e60;
 
 std::string example_of(const Dimension& dimension) {
   static const std::vector<std::pair<Dimension, const char*>> examples = {
@@ -85,11 +89,21 @@ double unit_scale(const ReadPlace& place, const FieldNote& note, const std::stri
                           base::dimension_name(unit->dimension), advice, expectation(note)));
 }
 
+/// The text of a number; an expression does not show its value, which is put behind it.
+std::string shown(const ReadPlace& place, double value) {
+  const std::string& text = place.node.text;
+  const bool is_plain = base::parse_number(base::split_quantity(text).formula).has_value();
+  return is_plain ? text : fmt::format("{} = {:g}", text, value);
+}
+
 void check_range(const ReadPlace& place, const FieldNote& note, double value) {
-  const auto refuse = [&](const char* rule) {
-    fail(place, fmt::format("{} is not allowed: the value must {}", place.node.text, rule));
+  const auto refuse = [&](const std::string& rule) {
+    fail(place, fmt::format("{} is not allowed: the value must {}", shown(place, value), rule));
   };
   if (!std::isfinite(value)) refuse("be a finite number");
+  if (std::abs(value) > kLargestNumber) {
+    refuse(fmt::format("not exceed {:g} in SI units, or calculations overflow", kLargestNumber));
+  }
   switch (note.range) {
     case base::Range::any:
       break;
@@ -108,28 +122,12 @@ void check_range(const ReadPlace& place, const FieldNote& note, double value) {
   }
 }
 
-/// Words and look-alikes of numbers that another program would read its own way.
+/// Texts that another program would read its own way.
 void refuse_look_alikes(const ReadPlace& place, const FieldNote& note,
                         const base::Parameters& parameters) {
   const std::string& text = place.node.text;
   if (parameters.contains(text)) return;
-  const std::string digits = text.substr(text.find_first_not_of("+-") == 1 ? 1 : 0);
-  const bool is_all_digits =
-      !digits.empty() && digits.find_first_not_of("0123456789.eE+-") == std::string::npos;
-  if (is_all_digits && digits.size() > 1 && digits[0] == '0' && !base::parse_number(text)) {
-    const std::size_t significant = std::min(digits.find_first_not_of('0'), digits.size() - 1);
-    fail(place, fmt::format("{} could be meant as an octal number; write {}", text,
-                            digits.substr(significant)));
-  }
-  static const std::vector<std::string> words = {"yes",   "no",   "on",   "off",  "true",
-                                                 "false", "null", "~",    "nan",  ".nan",
-                                                 "inf",   ".inf", "-inf", "-.inf"};
-  std::string lower = text;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(words.begin(), words.end(), lower) != words.end()) {
-    fail(place, fmt::format("\"{}\" is not a number; expected is {}", text, expectation(note)));
-  }
+  if (const auto found = look_alike_problem(text, expectation(note))) fail(place, *found);
 }
 
 void expect_scalar(const ReadPlace& place, const std::string& expected) {
@@ -169,11 +167,14 @@ Formula read_formula(const ReadPlace& place, const FieldNote& note,
   expect_scalar(place, expectation(note));
   refuse_look_alikes(place, note, context.parameters);
   const base::QuantityText split = base::split_quantity(place.node.text);
+  if (const auto found = size_problem(split.formula)) fail(place, *found);
+  if (const auto found = foreign_character_problem(split.formula, true)) fail(place, *found);
   const double scale = unit_scale(place, note, split.unit);
   if (split.unit.empty()) {
     const std::string unit = unknown_unit(place.node.text);
     if (!unit.empty()) fail_unit(place, note, unit);
   }
+  if (const auto found = foreign_character_problem(split.formula, false)) fail(place, *found);
   SourceLocation where = place.node.where;
   if (where.line > 0 && place.node.is_quoted) where.column += 1;
   try {
@@ -221,7 +222,7 @@ body::FrameDivision read_frames(const ReadPlace& place, const FieldNote& note,
 int read_integer(const ReadPlace& place, const FieldNote& note, const ReadContext& context) {
   const double value = read_quantity(place, note, context);
   if (value != std::round(value) || std::abs(value) > kLargestInteger) {
-    fail(place, fmt::format("{} is not a whole number of reasonable size", place.node.text));
+    fail(place, fmt::format("{} is not a whole number of reasonable size", shown(place, value)));
   }
   return static_cast<int>(value);
 }
@@ -264,12 +265,12 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
                             place.node.description(), expectation(note)));
   }
   if (const auto plain = plain_quantity(place, note)) {
-    if (!std::isfinite(*plain)) fail(place, place.node.text + " is beyond the range of numbers");
+    check_range(place, {}, *plain);
     return base::TimeLaw::constant(*plain);
   }
   Formula formula = read_formula(place, note, {"t"}, context);
   // Every run needs the value at its beginning, so a bad one is bad input.
-  const double first = formula.expression.unchecked({0.0});
+  const double first = formula.scale * formula.expression.unchecked({0.0});
   if (!std::isfinite(first)) {
     fail(place, fmt::format("\"{}\" has the value {} at t = 0; a finite number is needed "
                             "(division by zero?)",

@@ -24,6 +24,7 @@ class OverrideWalk {
   YamlNode& node() { return *node_; }
 
   void enter(const std::string& key) {
+    names_entry_ = shape_ != nullptr && shape_->kind == Shape::Kind::reference;
     while (shape_ != nullptr &&
            (shape_->kind == Shape::Kind::reference || shape_->kind == Shape::Kind::time_law)) {
       shape_ = shape_->element.data();
@@ -61,8 +62,9 @@ class OverrideWalk {
   YamlNode* child(const std::string& key) {
     if (node_->kind == YamlNode::Kind::null) node_->kind = YamlNode::Kind::map;
     if (!node_->is_map()) {
-      fail(fmt::format("\"{}\" holds {} in the model file; set it as a whole", path_,
-                       node_->description()));
+      fail(fmt::format("\"{}\" holds {} in the model file; set {}it as a whole", path_,
+                       node_->description(),
+                       names_entry_ ? "a value of the entry of that name, or " : ""));
     }
     return node_->find(key);
   }
@@ -83,6 +85,7 @@ class OverrideWalk {
     }
     node_ = found;
     shape_ = &field->shape;
+    example_ = field->note.example;
   }
 
   void enter_named(const std::string& key) {
@@ -98,6 +101,12 @@ class OverrideWalk {
   }
 
   void enter_list(const std::string& key) {
+    if (!node_->is_list()) {
+      const bool is_missing = node_->kind == YamlNode::Kind::null;
+      fail(fmt::format("the model file has {} at \"{}\", no list; set it as a whole{}",
+                       is_missing ? "nothing" : node_->description(), path_,
+                       example_.empty() ? "" : fmt::format(": {}={}", path_, example_)));
+    }
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
     const bool is_number = error == std::errc() && end == key.data() + key.size() && !key.empty();
@@ -113,6 +122,8 @@ class OverrideWalk {
   const Shape* shape_;
   std::string where_;
   std::string path_;
+  std::string example_;       // of the field entered last
+  bool names_entry_ = false;  // the value may be the name of an entry elsewhere
 };
 
 }  // namespace

@@ -35,7 +35,11 @@ std::size_t character_length(const std::string& text, std::size_t i) {
   for (std::size_t k = 1; k < length; ++k) {
     if ((byte(i + k) & 0xC0) != 0x80) return 0;
   }
-  return length;
+  // Longer than need be, a half of a pair of UTF-16, or beyond U+10FFFF.
+  const unsigned second = byte(i + 1);
+  const bool is_refused = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                          (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+  return is_refused ? 0 : length;
 }
 
 void check_encoding(const std::string& text, const std::string& name) {
@@ -183,7 +187,11 @@ class TreeBuilder final : public YAML::EventHandler {
       return;
     }
     if (!level.has_key) throw InputError(node.where, "a key is missing before the colon");
-    level.node.entries.back().value = std::move(node);
+    YamlEntry& entry = level.node.entries.back();
+    // The parser puts a missing value where the next key is.
+    const bool is_missing = node.kind == YamlNode::Kind::null;
+    if (is_missing && node.where.line != entry.where.line) node.where = entry.where;
+    entry.value = std::move(node);
     level.has_key = false;
   }
 
@@ -245,8 +253,15 @@ std::string YamlNode::description() const {
     case Kind::scalar:
       break;
   }
+  return "\"" + shortened(text) + "\"";
+}
+
+std::string shortened(const std::string& text) {
   constexpr std::size_t kLongest = 60;
-  return "\"" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "\"";
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character
+  return text.substr(0, end) + "...";
 }
 
 YamlNode parse_yaml(const std::string& text, const std::string& name, bool single_line) {

@@ -39,6 +39,9 @@ struct YamlEntry {
   YamlNode value;
 };
 
+/// A text as far as a message can show it.
+std::string shortened(const std::string& text);
+
 /// Reads one YAML (or JSON) document.
 ///
 /// Duplicate keys, anchors, aliases, merge keys, tags, several documents, text that is not UTF-8

@@ -64,6 +64,13 @@ TEST(Units, TheRadianMattersOnlyWithoutMass) {
   EXPECT_FALSE(accepts(kForce, kTorque));
 }
 
+TEST(Units, TheGreekLetterStandsForMicro) {
+  ASSERT_TRUE(parse_unit("\u03bcm"));  // Greek
+  EXPECT_EQ(parse_unit("\u03bcm")->factor, parse_unit("\u00b5m")->factor);
+  EXPECT_EQ(parse_unit("N/\u03bcm")->factor, 1e6);
+  EXPECT_FALSE(parse_unit("\u03bc"));
+}
+
 TEST(Units, NamesOfDimensions) {
   EXPECT_EQ(si_unit(kRotationalDamping), "N m s/rad");
   EXPECT_EQ(dimension_name(kForce), "a force");
@@ -145,6 +152,8 @@ TEST(Nearest, FindsSlipsOfThePen) {
   EXPECT_EQ(suggestion("q", {"left", "right"}), " Known are: left, right.");
   EXPECT_EQ(suggestion("lefft", {"left", "right"}), " Did you mean \"left\"?");
   EXPECT_EQ(suggestion("x", {}), "");
+  const std::string many = suggestion("x", std::vector<std::string>(20, "abcdef"));
+  EXPECT_TRUE(many.ends_with("abcdef, ...") && !many.ends_with("....")) << many;
 }
 
 }  // namespace
