@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Verbs that need no simulation, help, and the command line itself."""
 
+import csv
+import json
 import os
 import re
+import subprocess
 
+import h5py
 import pytest
 
-from conftest import SOURCE
+from conftest import PROGRAM, SOURCE
 
 VERBS = ["run", "sweep", "static", "check", "modes", "compare", "mesh-info", "convert", "view", "export",
          "plot", "schema", "reference", "version"]
@@ -72,6 +76,14 @@ def test_without_a_verb_the_help_is_shown(buckens):
     (["check", "a.yaml", "b.yaml"], ["b.yaml"]),
     (["view"], ["OUT"]),
     (["view", "x", "--frames", "1"], ["--frames"]),
+    (["compare", "a", "b", "--tolerance", "0"], ["--tolerance: 0 is not a positive number. See"]),
+    (["compare", "a", "b", "--tolerance", "nan"], ["nan is not a positive number"]),
+    (["modes", "a.yaml", "--tolerance", "nan"], ["nan is not a number from 1e-14 to 0.01"]),
+    (["export", "a", "--glb", "--exaggerate", "inf"], ["inf is not a number from 0"]),
+    (["export", "a", "--vtk", "--count", "-1"], ["-1 is not a number from 0"]),
+    (["plot", "a", "b", "--from", "nan"], ["--from: nan is not a number"]),
+    (["plot", "a", "b", "--size", "9000", "9000"], ["9000 is not a number from 150 to 4000"]),
+    (["mesh-info", "a.step", "--size", "1 mm", "--order", "3"], ["--order", "3", "1 to 2"]),
 ])
 def test_wrong_command_line(buckens, arguments, words):
     buckens(*arguments).must(2, "buckens: error:", *words)
@@ -92,6 +104,30 @@ def test_closed_pipe_is_an_error_not_a_crash(buckens):
         buckens("schema", stdout=writer).must(5, "standard output", "Broken pipe")
     finally:
         os.close(writer)
+
+
+@pytest.mark.parametrize("stream", ["full", "closed"])
+def test_messages_that_nobody_can_read_do_not_end_the_program(models, tmp_path, stream):
+    """A run under nohup goes on when the disk of its messages is full; without a standard error stream
+    no file takes its number and gets the messages."""
+    def call(*arguments):
+        with open("/dev/full", "w") as full:
+            options = {"stderr": full} if stream == "full" else {"preexec_fn": lambda: os.close(2)}
+            return subprocess.run([PROGRAM, *map(str, arguments)], cwd=tmp_path, timeout=60,
+                                  stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, **options).returncode
+    assert call("check", "nowhere.yaml") == 5
+    assert call("run", models / "pendulum.yaml", "-o", "out") == 0
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["finished"]
+    rows = list(csv.reader((tmp_path / "out" / "sensors.csv").read_text().splitlines()))
+    assert len(rows) > 2 and all(len(row) == len(rows[0]) for row in rows)
+    with h5py.File(tmp_path / "out" / "results.h5", "r") as file:
+        assert len(file["time"]) == len(rows) - 1
+
+
+def test_help_into_a_full_disk(buckens):
+    for arguments in (["--help"], ["run", "--help"], ["--version"]):
+        with open("/dev/full", "w") as full:
+            buckens(*arguments, stdout=full).must(5, "standard output", "No space left")
 
 
 def test_check_tells_what_the_model_is(buckens, models):

@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/number_range.h"
 #include "cli/output.h"
 #include "cli/text_table.h"
 #include "cli/verbs.h"
 
+#include "buckens/base/errors.h"
 #include "buckens/io/run_comparison.h"
 
 namespace buckens::cli {
@@ -32,6 +34,14 @@ io::RunComparison compared(const CompareArguments& arguments) {
   if (arguments.sensors_only) {
     std::erase_if(out.quantities,
                   [](const auto& q) { return !q.quantity.starts_with("sensors/"); });
+  }
+  if (out.quantities.empty()) {
+    throw InputError(fmt::format(
+        "{} and {} have no {} of one name and shape in common, so there is nothing to "
+        "compare; {}",
+        arguments.first, arguments.second, arguments.sensors_only ? "sensor" : "quantity",
+        arguments.sensors_only ? "leave `--sensors` out, or record the same sensors"
+                               : "compare runs of one model"));
   }
   std::stable_sort(out.quantities.begin(), out.quantities.end(),
                    [](const auto& a, const auto& b) { return a.relative > b.relative; });
@@ -125,7 +135,7 @@ void add_compare_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("B", arguments->second, "Run directory")->required();
   verb.add_option("--tolerance", arguments->tolerance,
                   "Largest relative difference that is accepted; beyond it the exit code is 6")
-      ->check(CLI::PositiveNumber);
+      ->check(any_number(true));
   verb.add_flag("--sensors", arguments->sensors_only, "Sensors only");
   add_json_option(verb, invocation);
   verb.footer(kCompareFooter);

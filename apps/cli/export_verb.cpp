@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/number_range.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 
@@ -128,13 +129,15 @@ void add_export_verb(CLI::App& program, Invocation& invocation) {
       ->type_name("T")
       ->allow_extra_args(false);
   verb.add_option("--count", arguments->count, "Most instants, evenly spread; 0: all")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(number_between(0, 1e9));
   verb.add_option("--exaggerate", arguments->exaggeration, "--glb: factor of deformations")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(number_between(0, 1e9));
   verb.add_option("--playback", arguments->playback,
                   "--glb: seconds that the animation lasts; without it as long as\n"
                   "the run, but 2 to 30 s")
-      ->check(CLI::PositiveNumber);
+      ->check(any_number(true));
   add_json_option(verb, invocation);
   verb.footer(kExportFooter);
   verb.callback([arguments, &invocation] {

@@ -57,7 +57,7 @@ std::string failure_json(const Failure& failure) {
 }
 
 int report_failure(const Failure& failure, bool json) {
-  fmt::print(stderr, "buckens: error: {}\n", failure.message);
+  tell(stderr, fmt::format("buckens: error: {}\n", failure.message));
   // If the output is what cannot be written, this fails, too; the exit code tells it already.
   if (json) try_print(failure_json(failure));
   return static_cast<int>(failure.code);

@@ -78,7 +78,8 @@ void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {
       "with millimetres, else kg");
   verb.add_option("--size", arguments.size, "Of a STEP file: length of the edges of the elements")
       ->type_name("LENGTH");
-  verb.add_option("--order", arguments.order, "Of a STEP file: order of the elements, 1 or 2");
+  verb.add_option("--order", arguments.order, "Of a STEP file: order of the elements, 1 or 2")
+      ->check(CLI::Range(1, 2));
 }
 
 }  // namespace buckens::cli

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/build.h"
+#include "cli/number_range.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 #include "cli/vibration_text.h"
@@ -146,7 +147,7 @@ void add_modes_verb(CLI::App& program, Invocation& invocation) {
       ->needs(system);
   system->excludes(body)->excludes(method)->excludes(condition);
   verb.add_option("--tolerance", arguments->tolerance, "Relative error of the shapes, 1e-9")
-      ->check(CLI::Range(1e-14, 1e-2));
+      ->check(number_between(1e-14, 1e-2));
   verb.add_option("-o,--out", arguments->out, "Directory for the shapes")->type_name("OUT");
   add_json_option(verb, invocation);
   verb.footer(kModesFooter);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,14 @@ void print(std::string_view text);
 
 /// The same without an exception. @return whether all was written
 bool try_print(std::string_view text) noexcept;
+
+/// Writes to a stream of messages, such as the standard error, and flushes it. What cannot be
+/// written there is lost: a simulation does not end because nobody can read how far it is.
+void tell(std::FILE* stream, std::string_view text) noexcept;
+
+/// Where the program was started without standard streams (`2>&-`), puts something in their places
+/// that cannot be written: files opened later would take these numbers, and messages would go into
+/// results.
+void hold_standard_streams() noexcept;
 
 }  // namespace buckens::cli

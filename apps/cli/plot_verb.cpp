@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/curve_plot.h"
+#include "cli/number_range.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 
@@ -22,6 +23,9 @@ namespace buckens::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A picture of points has twice as many in each direction, four bytes each.
+constexpr double kLargestPicture = 4000;
 
 struct PlotArguments {
   std::vector<std::string> places;   // run directories, then sensors
@@ -67,6 +71,13 @@ std::vector<std::size_t> records_between(const io::RunReader& run, const PlotArg
     if (arguments.from && t < *arguments.from) continue;
     if (arguments.to && t > *arguments.to) continue;
     out.push_back(i);
+  }
+  if (out.empty()) {
+    throw InputError(fmt::format("no record lies between --from and --to; {}",
+                                 run.num_records() == 0
+                                     ? "the run has none yet"
+                                     : fmt::format("they go from {:.6g} to {:.6g} s",
+                                                   run.times().front(), run.times().back())));
   }
   return out;
 }
@@ -177,13 +188,13 @@ void add_plot_verb(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   verb.add_option("--x", arguments->x, "Sensor along the horizontal axis in place of time")
       ->type_name("NAME");
-  verb.add_option("--from", arguments->from, "Begin in seconds");
-  verb.add_option("--to", arguments->to, "End in seconds");
+  verb.add_option("--from", arguments->from, "Begin in seconds")->check(any_number(false));
+  verb.add_option("--to", arguments->to, "End in seconds")->check(any_number(false));
   verb.add_option("--title", arguments->title, "Title; without it that of the model");
   verb.add_option("--size", arguments->size, "Width and height in points of 1/96 inch")
       ->expected(2)
       ->type_name("W H")
-      ->check(CLI::Range(150.0, 10000.0));
+      ->check(number_between(150, kLargestPicture));
   add_json_option(verb, invocation);
   verb.footer(kPlotFooter);
   verb.callback([arguments, &invocation] {

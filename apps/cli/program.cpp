@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,7 @@ Exit codes:
   3    the model can be read but not built, assembled or solved
   4    numerical failure, or not enough memory; results up to it are kept
   5    a file cannot be read or written
+  6    two runs differ by more than was accepted (`buckens compare`)
   130  interrupted by Ctrl-C, SIGTERM or SIGHUP; results up to it are complete
 
 Documentation: docs/ in the source tree; docs/reference/model-file.md is what `buckens reference`
@@ -73,7 +75,8 @@ Failure usage_failure(const CLI::App& app, const CLI::ParseError& error,
     message = fmt::format("there is no verb \"{}\".{}", arguments.front(),
                           verb_suggestion(app, arguments.front()));
   }
-  message += fmt::format(" See `buckens{} --help`.", verb);
+  const bool is_sentence = message.ends_with('.') || message.ends_with('?');
+  message += fmt::format("{} See `buckens{} --help`.", is_sentence ? "" : ".", verb);
   return {ExitCode::input, "usage", message, {}};
 }
 
@@ -106,7 +109,10 @@ int run_program(int argc, const char* const* argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& request) {  // --help, --version
-      return app.exit(request);
+      std::ostringstream page;
+      const int code = app.exit(request, page, page);
+      print(page.str());
+      return code;
     } catch (const CLI::ParseError& error) {
       return report_failure(usage_failure(app, error, arguments), json);
     }

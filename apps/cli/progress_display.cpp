@@ -10,6 +10,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/output.h"
+
 namespace buckens::cli {
 
 namespace {
@@ -82,32 +84,29 @@ void ProgressDisplay::show(const analysis::Progress& progress, double seconds) {
   const std::lock_guard lock(mutex_);
   if (style_ == Style::bar) {
     wipe();
-    fmt::print(stream_, "{}", progress_bar(progress, seconds, columns_of(stream_)));
+    tell(stream_, progress_bar(progress, seconds, columns_of(stream_)));
     bar_stands_ = true;
     next_ = seconds + kBarInterval;
   } else {
     // Nothing at the very beginning: short runs stay silent.
-    if (next_ > 0) fmt::print(stream_, "{}\n", progress_line(progress, seconds));
+    if (next_ > 0) tell(stream_, progress_line(progress, seconds) + '\n');
     next_ = seconds + kLineInterval;
   }
-  std::fflush(stream_);
 }
 
 void ProgressDisplay::message(const std::string& line) {
   const std::lock_guard lock(mutex_);
   wipe();
-  fmt::print(stream_, "{}\n", line);
-  std::fflush(stream_);
+  tell(stream_, line + '\n');
 }
 
 void ProgressDisplay::clear() {
   const std::lock_guard lock(mutex_);
   wipe();
-  std::fflush(stream_);
 }
 
 void ProgressDisplay::wipe() {
-  if (bar_stands_) fmt::print(stream_, "\r\033[K");
+  if (bar_stands_) tell(stream_, "\r\033[K");
   bar_stands_ = false;
 }
 

@@ -74,10 +74,7 @@ class SweepDisplay {
   static bool is_failure(const io::VariantOutcome& variant) {
     return variant.status == io::VariantStatus::failed;
   }
-  static void say(const std::string& line) {
-    std::fprintf(stderr, "%s\n", line.c_str());
-    std::fflush(stderr);
-  }
+  static void say(const std::string& line) { tell(stderr, line + '\n'); }
   std::string time_to_go(double share) const {
     return clock_text(share > 0 ? seconds() * (1 - share) / share : -1);
   }
