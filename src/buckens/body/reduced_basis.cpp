@@ -11,6 +11,7 @@
 #include "buckens/body/elastic_inverse.h"
 #include "buckens/body/fixed_interface_modes.h"
 #include "buckens/body/free_modes.h"
+#include "buckens/body/mode_groups.h"
 
 namespace buckens::body {
 
@@ -45,6 +46,11 @@ Matrix orthonormalised(const SparseMatrix& M, const Matrix& columns) {
     out.rightCols<1>() = scaled * eigen.eigenvectors().col(k) / std::sqrt(eigen.eigenvalues()[k]);
   }
   return out;
+}
+
+/// As many modes, but no more than variables, so that others can be added.
+int at_most(const FlexiblePart& part, int modes) {
+  return static_cast<int>(std::min<Eigen::Index>(modes, part.num_dofs()));
 }
 
 /// Unit loads on the interface rows, Nᵀ, those along patterns included.
@@ -150,6 +156,13 @@ Matrix held_by(const FlexiblePart& part, const Matrix& patterns, const Matrix& l
   return patterns - loads * amounts;
 }
 
+/// The lowest free vibrations, without leaving out partners of equal frequency.
+FreeModes free_groups(const FlexiblePart& part, int modes) {
+  return lowest_groups(at_most(part, modes), [&part](int count) {
+    return free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), count);
+  });
+}
+
 /// Elastic vibrations with held interface, sieved.
 struct HeldModes {
   Matrix shapes;
@@ -161,18 +174,12 @@ HeldModes held_modes(const FlexiblePart& part, const CraigBamptonChoice& choice)
   Eigen::ColPivHouseholderQR<Matrix> held(N * part.sieve.Phi());
   held.setThreshold(kStraining);
   const auto loose = static_cast<int>(part.sieve.rank() - held.rank());
-  int count = choice.modes.value_or(kFirstTrial) + loose;
-  FreeModes found = fixed_interface_modes(part, count);
-  while (!choice.modes && found.omega.size() == count &&
-         found.omega[found.omega.size() - 1] <= choice.cutoff) {
-    count *= 2;
-    found = fixed_interface_modes(part, count);
-  }
-  Eigen::Index last = found.omega.size();
-  while (!choice.modes && last > 0 && found.omega[last - 1] > choice.cutoff) --last;
-  const Eigen::Index first = std::min<Eigen::Index>(loose, last);
-  HeldModes out{found.shapes.middleCols(first, last - first),
-                found.omega.segment(first, last - first)};
+  const auto lowest = [&part](int count) { return fixed_interface_modes(part, count); };
+  const FreeModes found = choice.modes ? lowest_groups(at_most(part, *choice.modes) + loose, lowest)
+                                       : groups_up_to(choice.cutoff, kFirstTrial + loose, lowest);
+  const Eigen::Index first = std::min<Eigen::Index>(loose, found.omega.size());
+  const Eigen::Index count = found.omega.size() - first;
+  HeldModes out{found.shapes.rightCols(count), found.omega.tail(count)};
   part.sieve.apply(out.shapes);
   return out;
 }
@@ -181,7 +188,7 @@ HeldModes held_modes(const FlexiblePart& part, const CraigBamptonChoice& choice)
 
 ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, int modes,
                              bool static_correction, double length) {
-  const FreeModes free = free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), modes);
+  const FreeModes free = free_groups(part, modes);
   ReducedBasis out;
   out.num_modes = static_cast<int>(free.omega.size());
   Matrix columns = free.shapes;
@@ -228,7 +235,7 @@ ReducedBasis quasi_static_basis(const std::string& body, const FlexiblePart& par
   ReducedBasis out;
   Matrix shapes(part.num_dofs(), 0);
   if (modes > 0) {
-    const FreeModes free = free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), modes);
+    const FreeModes free = free_groups(part, modes);
     shapes = free.shapes;
     out.num_modes = static_cast<int>(shapes.cols());
     if (out.num_modes > 0) out.highest_mode = free.omega[free.omega.size() - 1];

@@ -23,14 +23,15 @@ struct ReducedBasis {
 ///
 /// Modes and residuals carry no rigid motion, so a body reduced to them needs no sieve. Residuals
 /// make the answer to slow interface loads that of the full mesh whatever the number of modes.
-/// @param modes wanted; fewer come back where the body has fewer
+/// @param modes wanted; fewer come back where the body has fewer, more where the last one has
+///        neighbours of the same frequency (to 1e-3), of which a basis needs all or none
 /// @param length scale that makes rotations and translations comparable [m]
 /// @throws ModelError naming the body if its mesh is a mechanism
 ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, int modes,
                              bool static_correction, double length);
 
 /// Which vibrations with held interfaces a Craig–Bampton basis takes: the lowest ones, as many as
-/// `modes` says or all up to `cutoff`.
+/// `modes` says or all up to `cutoff`, and those that have the frequency of the last one (to 1e-3).
 struct CraigBamptonChoice {
   std::optional<int> modes;
   double cutoff = 0;  ///< [rad/s], used where `modes` is empty

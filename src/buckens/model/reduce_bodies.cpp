@@ -18,11 +18,13 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// The choice of a basis in words: part of the key under which it is kept.
+/// The choice of a basis in words: part of the key under which it is kept. It tells of everything
+/// that a basis depends on, rules that have changed included.
 std::string describe(const body::BodySpec& spec) {
   const body::ReductionSpec& r = spec.reduction;
   std::string out =
       spec.flexibility == body::Flexibility::quasi_static ? "quasi-static" : "elastic";
+  out += " whole-groups";
   if (r.free_free) {
     out += fmt::format(" free-free {} {}", r.free_free->modes, r.free_free->static_correction);
   }
@@ -98,6 +100,23 @@ void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore*
   body.flexible->reduction.basis = basis_name(spec);
 }
 
+/// Says where a basis has fewer or more vibrations than were asked for.
+void note_other_count(const body::BodySpec& spec, const body::ReductionFigures& found,
+                      std::vector<std::string>& notes) {
+  const int asked = asked_modes(spec.reduction);
+  if (found.modes < asked) {
+    notes.push_back(fmt::format(
+        "body \"{}\": {} modes are asked for; its mesh has no more than {}, all are in the basis",
+        spec.name, asked, found.modes));
+  }
+  if (asked > 0 && found.modes > asked) {
+    notes.push_back(fmt::format(
+        "body \"{}\": {} modes are asked for; {} are in the basis, because those at {:.6g} Hz have "
+        "one frequency and belong together",
+        spec.name, asked, found.modes, found.highest_mode / kTurn));
+  }
+}
+
 }  // namespace
 
 void reduce_bodies(const ModelDescription& description, Model& model, body::BasisStore* store) {
@@ -116,12 +135,7 @@ void reduce_bodies(const ModelDescription& description, Model& model, body::Basi
     }
     body::Body& body = model.bodies[static_cast<std::size_t>(model.wholes[w].first)];
     reduce_body(spec, body, store);
-    const int asked = asked_modes(spec.reduction), found = body.flexible->reduction.modes;
-    if (found < asked) {
-      model.notes.push_back(fmt::format(
-          "body \"{}\": {} modes are asked for; its mesh has no more than {}, all are in the basis",
-          spec.name, asked, found));
-    }
+    note_other_count(spec, body.flexible->reduction, model.notes);
     if (!is_quasi_static) continue;
     model.notes.push_back(fmt::format(
         "body \"{}\" is quasi-static: it does not vibrate, and work that goes into its deformation "
