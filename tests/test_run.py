@@ -141,6 +141,22 @@ def test_a_model_with_a_mistake_leaves_the_earlier_run(buckens, models, tmp_path
     assert (tmp_path / "out" / "summary.json").read_bytes() == before
 
 
+def test_a_set_up_that_fails_leaves_the_earlier_run(buckens, models, tmp_path):
+    buckens("run", models / "pendulum.yaml", "-o", "out").must(0)
+    before = {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()}
+    # The tip cannot be that far out: found when the mechanism is assembled, after OUT was taken.
+    model = (models / "pendulum.yaml").read_text().replace(
+        "joints:", "joints:\n  far: {fixed: {between: [{ground: [9 m, 0, 0]}, rod/tip]}}")
+    (tmp_path / "far.yaml").write_text(model)
+    buckens("run", "far.yaml", "-o", "out").must(3, "cannot be assembled", "earlier run in out is as it was")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
+    buckens("static", "far.yaml", "-o", "out").must(3, "earlier run in out is as it was")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
+    # Where there is none, the reason stands in the directory.
+    buckens("run", "far.yaml", "-o", "new").must(3, "cannot be assembled")
+    assert "cannot be assembled" in summary_of(tmp_path / "new")["interrupted"]
+
+
 def test_json_is_the_summary_and_nothing_else(buckens, models, tmp_path):
     result = buckens("run", models / "pendulum.yaml", "-o", "out", "--json").must(0)
     assert result.json == summary_of(tmp_path / "out")

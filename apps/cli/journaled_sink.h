@@ -30,6 +30,8 @@ class JournaledSink : public results::RecordSink {
   /// what its summary names. Never throws; the failure itself is what the user has to learn.
   void abandon(const std::string& reason) noexcept;
 
+  /// The run ended before its first record, and an earlier one in the directory is back.
+  bool has_earlier_run_back() const { return directory_.has_earlier_run_back(); }
   long num_records() const { return num_records_; }
   double last_time() const { return last_time_; }  ///< of a record [s]
 

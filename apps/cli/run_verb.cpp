@@ -103,6 +103,10 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
   } catch (...) {
     display.clear();
     sink.abandon(describe_failure(std::current_exception()).message);
+    if (sink.has_earlier_run_back()) {
+      journal.say(LogLevel::warning, fmt::format("the earlier run in {} is as it was",
+                                                 arguments.directory().string()));
+    }
     if (sink.num_records() > 0) {
       journal.say(
           LogLevel::warning,
@@ -148,8 +152,8 @@ Example:
 
 The directory OUT holds results.h5 (everything recorded), sensors.csv (the sensors of the model
 file), summary.json (effort, residuals, energy, trust), model.yaml (the model as it was read) and
-log.txt. It can be read while the run goes on. An earlier run in OUT is replaced; a directory that
-holds anything else is refused.
+log.txt. It can be read while the run goes on. An earlier run in OUT is replaced once the set-up of
+this one has succeeded; a directory that holds anything else is refused.
 
 Ctrl-C (or SIGTERM) finishes the current step and completes the files; a second one ends the program
 at once, and then at most the last second of results is missing.

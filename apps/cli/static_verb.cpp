@@ -54,6 +54,10 @@ results::RunSummary trace(const model::BuiltModel& built, JournaledSink& sink,
     return analysis::trace_static_path(built, sink, options);
   } catch (...) {
     sink.abandon(describe_failure(std::current_exception()).message);
+    if (sink.has_earlier_run_back()) {
+      journal.say(LogLevel::warning,
+                  fmt::format("the earlier run in {} is as it was", directory.string()));
+    }
     if (sink.num_records() > 0) {
       journal.say(LogLevel::warning,
                   fmt::format("the path ended early; its {} points are kept in {}",

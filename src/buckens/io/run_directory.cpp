@@ -84,6 +84,17 @@ void RunDirectory::take_directory() {
                     "or choose another directory (-o).",
                     path_.string()));
   }
+  earlier_ = EarlierRun(path_, log_);
+  try {
+    write_first_files();
+  } catch (const IoError&) {
+    if (earlier_.is_aside()) earlier_.bring_back(log_);
+    throw;
+  }
+  if (earlier_.is_aside() && !options_.keeps_earlier_run) earlier_.discard();
+}
+
+void RunDirectory::write_first_files() {
   // The new summary comes first: it needs room on the disk, and from here on the directory counts
   // as that of a run whatever happens.
   write_status(status_json(RunStatus::starting, options_.title, kVersion, started_));
@@ -124,6 +135,7 @@ void RunDirectory::begin(const results::RecordLayout& layout, const results::Geo
                                              kVersion, options_.flush);
   sensors_ = SensorsCsv(path_ / kSensorsName, layout);
   write_status(status_json(RunStatus::running, options_.title, kVersion, started_));
+  if (earlier_.is_aside()) earlier_.discard();
 }
 
 void RunDirectory::begin_fields(const results::FieldLayout& layout) { fields_ = layout; }
@@ -168,6 +180,13 @@ void RunDirectory::write_extremes(const std::vector<double>& values) {
 void RunDirectory::finish(const results::RunSummary& summary) {
   if (finished_) return;
   finished_ = true;
+  if (earlier_.is_aside()) {
+    recorder_.reset();
+    sensors_.close();
+    earlier_.bring_back(log_);
+    has_earlier_run_back_ = true;
+    return log_.close();
+  }
   results::RunSummary told = summary;
   if (told.version.empty()) told.version = kVersion;
   if (told.title.empty()) told.title = options_.title;

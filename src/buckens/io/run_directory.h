@@ -9,25 +9,21 @@
 #include <string_view>
 #include <vector>
 
+#include "buckens/io/earlier_run.h"
 #include "buckens/io/hdf5_recorder.h"
 #include "buckens/io/output_file.h"
+#include "buckens/io/run_files.h"
 #include "buckens/io/sensors_csv.h"
 #include "buckens/results/record_sink.h"
 
 namespace buckens::io {
 
-/// Names of the files in a run directory.
-inline constexpr char kResultsName[] = "results.h5";
-inline constexpr char kSensorsName[] = "sensors.csv";
-inline constexpr char kSummaryName[] = "summary.json";
-inline constexpr char kModelName[] = "model.yaml";
-inline constexpr char kLogName[] = "log.txt";
-inline constexpr char kModesName[] = "modes.json";  ///< of `buckens modes` only
-
 struct RunDirectoryOptions {
   std::string title;       ///< of the model
   std::string model_text;  ///< content of model.yaml: the model as it was read
   FlushRule flush;
+  /// Whether an earlier run comes back where this one ends before begin().
+  bool keeps_earlier_run = true;
 };
 
 /// The directory that holds everything a run leaves behind. Layout:
@@ -37,8 +33,8 @@ struct RunDirectoryOptions {
 /// those of the last second are then missing. One process at a time writes into a directory.
 class RunDirectory : public results::RecordSink {
  public:
-  /// Creates the directory and its parents, or takes over that of an earlier run, whose files are
-  /// removed once it is known that new ones can be written. Files of others stay.
+  /// Creates the directory and its parents, or takes over that of an earlier run. Its results are
+  /// removed by begin(), or come back if this run ends without it. Files of others stay.
   /// @throws IoError if the directory holds other things than a run, another run is writing into
   ///   it, or it cannot be written
   explicit RunDirectory(std::filesystem::path path, RunDirectoryOptions options = {});
@@ -49,7 +45,8 @@ class RunDirectory : public results::RecordSink {
   void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
   /// @throws IoError: from then on nothing is recorded any more, what was written stays readable
   void write(const results::Record& record) override;
-  /// Completes all files; summary.json even if completing another one fails.
+  /// Completes all files; summary.json even if completing another one fails. Before begin() an
+  /// earlier run with results is put back in its place instead.
   /// @throws IoError unless `write` has thrown the same before
   void finish(const results::RunSummary& summary) override;
   void begin_fields(const results::FieldLayout& layout) override;
@@ -62,16 +59,20 @@ class RunDirectory : public results::RecordSink {
 
   const std::filesystem::path& path() const { return path_; }
   bool is_complete() const { return finished_; }  ///< `finish` has been called
+  /// An earlier run is back, because this one ended before begin().
+  bool has_earlier_run_back() const { return has_earlier_run_back_; }
 
  private:
   void take_directory();
+  void write_first_files();
   void write_status(std::string_view json) const;
   void guarded(const std::function<void()>& work);
 
   std::filesystem::path path_;
   RunDirectoryOptions options_;
   std::string started_;
-  OutputFile log_;       // its lock marks the directory as taken
+  OutputFile log_;  // its lock marks the directory as taken
+  EarlierRun earlier_;
   WriteProcess writer_;  // outlives the recorder
   SensorsCsv sensors_;
   std::unique_ptr<Hdf5Recorder> recorder_;
@@ -80,6 +81,7 @@ class RunDirectory : public results::RecordSink {
   double last_time_ = 0;
   std::string failure_;  // why recording ended early
   bool finished_ = false;
+  bool has_earlier_run_back_ = false;
 };
 
 }  // namespace buckens::io

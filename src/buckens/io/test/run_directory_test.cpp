@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -161,6 +162,64 @@ TEST(RunDirectory, ReplacesAnEarlierRunAndNothingElse) {
   write_run(directory / "out", 3);
   EXPECT_EQ(RunReader(directory / "out").num_records(), 3U);
   EXPECT_EQ(read_text_file(directory / "out" / "notes.txt"), "mine");
+}
+
+/// All files of a run with their contents.
+std::map<std::string, std::string> contents_of(const std::filesystem::path& run) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(run)) {
+    out[entry.path().filename().string()] = read_text_file(entry.path());
+  }
+  return out;
+}
+
+TEST(RunDirectory, LeavesAnEarlierRunAsItWasUntilItHasResults) {
+  const TemporaryDirectory directory;
+  write_run(directory / "out", 50);
+  std::ofstream(directory / "out" / kLogName) << "what was said then\n";
+  const auto before = contents_of(directory / "out");
+  {
+    RunDirectory run(directory / "out", {.title = "new", .model_text = "other\n", .flush = {}});
+    EXPECT_EQ(summary_of(run.path())["status"], "starting");
+    EXPECT_EQ(read_text_file(run.path() / kModelName), "other\n");
+    EXPECT_FALSE(std::filesystem::exists(run.path() / kResultsName));
+    run.log("what is said now");
+    run.finish({});
+    EXPECT_TRUE(run.has_earlier_run_back());
+  }
+  EXPECT_EQ(contents_of(directory / "out"), before);
+  { const RunDirectory run(directory / "out"); }  // without finish()
+  EXPECT_EQ(contents_of(directory / "out"), before);
+  {
+    RunDirectory run(directory / "out");
+    run.begin(sample_layout(), sample_geometry());
+    run.finish({});
+    EXPECT_FALSE(run.has_earlier_run_back());
+  }
+  EXPECT_EQ(RunReader(directory / "out").num_records(), 0U);
+  EXPECT_FALSE(std::filesystem::exists(directory / "out" / ".earlier"));
+}
+
+TEST(RunDirectory, BringsAnEarlierRunBackAfterAKill) {
+  const TemporaryDirectory directory;
+  write_run(directory / "out", 50);
+  const auto before = contents_of(directory / "out");
+  RunDirectory run(directory / "out");
+  // What lies there now is what SIGKILL would leave.
+  std::filesystem::copy(directory / "out", directory / "left",
+                        std::filesystem::copy_options::recursive);
+  RunDirectory(directory / "left").finish({});
+  EXPECT_EQ(contents_of(directory / "left"), before);
+}
+
+TEST(RunDirectory, KeepsNoEarlierRunIfThatIsNotWanted) {
+  const TemporaryDirectory directory;
+  write_run(directory / "out", 50);
+  RunDirectory(directory / "out",
+               {.title = "", .model_text = "", .flush = {}, .keeps_earlier_run = false})
+      .finish({});
+  EXPECT_EQ(summary_of(directory / "out")["status"], "interrupted");
+  EXPECT_FALSE(std::filesystem::exists(directory / "out" / kResultsName));
 }
 
 TEST(RunDirectory, RefusesADirectoryOfOthers) {
