@@ -91,6 +91,68 @@ def test_continues_after_an_interruption(buckens, models, tmp_path):
     assert [v["status"] for v in result.json["variants"]] == ["kept", "done", "kept"]
 
 
+DECK = """*INCLUDE, INPUT=nodes.inp
+*ELEMENT, TYPE=C3D8, ELSET=ALL
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7850.
+*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL
+"""
+NODES = "*NODE\n" + "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(
+    (x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))))
+CUBE = """
+buckens: 1
+bodies: {cube: {mesh: {file: cube.inp, length-unit: m}}}
+loads: {push: {force: {on: cube/n7, value: [{table: push.csv}, 0, 0]}}}
+simulation: {duration: 2 ms, step: 1 ms}
+"""
+
+
+def test_changed_files_are_noticed(buckens, tmp_path):
+    """Decks, what they include, and tables belong to a variant as its values do."""
+    (tmp_path / "parts").mkdir()
+    files = {"cube.yaml": CUBE, "cube.inp": DECK, "nodes.inp": NODES, "push.csv": "0, 0\n1, 1\n"}
+    for name, text in files.items():
+        (tmp_path / "parts" / name).write_text(text)
+    call = ("sweep", "parts/cube.yaml", "-o", "out", "--json", "--vary", "simulation.duration=[2 ms, 3 ms]")
+
+    def status():
+        return [variant["status"] for variant in buckens(*call).must(0).json["variants"]]
+
+    assert status() == ["done", "done"]
+    assert status() == ["kept", "kept"]
+    model = (tmp_path / "out" / "001" / "model.yaml").read_text()
+    assert all(f"#   {name} " in model for name in ("cube.inp", "nodes.inp", "push.csv"))
+    for name in ("cube.inp", "nodes.inp", "push.csv"):
+        (tmp_path / "parts" / name).write_text(files[name].replace("1, 1\n", "1, 2\n").replace("7850.", "7800.")
+                                               .replace("7, 1, 1, 1", "7, 1, 1, 1.1"))
+        assert status() == ["done", "done"], name
+        assert status() == ["kept", "kept"], name
+
+
+def test_bases_and_modes_chosen_by_trial(buckens, models, tmp_path):
+    """A variant is reduced as a run of its own would be."""
+    model = models / "beam.yaml"
+    (tmp_path / "beam.yaml").write_text(model.read_text())
+    basis = "bodies.beam.reduction={craig-bampton: 3, file: beam.h5}"
+    buckens("run", "beam.yaml", "-o", "alone", "-q", "--set", basis).must(0)
+    made = (tmp_path / "beam.h5").read_bytes()
+    # The second variant has another mesh; the file that belongs to the first is left alone.
+    buckens("sweep", "beam.yaml", "-o", "out", "--set", basis,
+            "--vary", "bodies.beam.beam.elements=[8, 16]").must(0)
+    assert (tmp_path / "beam.h5").read_bytes() == made
+    assert numpy.array_equal(sensors_of(tmp_path / "out" / "001"), sensors_of(tmp_path / "alone"))
+    auto = "bodies.beam.reduction={auto: 5 %}"
+    buckens("run", "beam.yaml", "-o", "alone", "-q", "--set", auto).must(0)
+    buckens("sweep", "beam.yaml", "-o", "chosen", "--set", auto, "--vary", "simulation.rho-inf=[0.9]").must(0)
+    assert numpy.array_equal(sensors_of(tmp_path / "chosen" / "001"), sensors_of(tmp_path / "alone"))
+    summary = json.loads((tmp_path / "chosen" / "001" / "summary.json").read_text())
+    assert any("in a trial run" in text for text in summary["warnings"])
+
+
 def test_says_what_is_wrong(buckens, models, tmp_path):
     model = models / "pendulum.yaml"
     buckens("sweep", model).must(2, "--vary")

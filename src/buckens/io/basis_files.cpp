@@ -46,6 +46,7 @@ std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std:
   }
   const Hdf5File in = Hdf5File::open_for_reading(path);
   if (read_string(in, "/", "key") != text_of(key)) {
+    if (others_ == Others::leave) return std::nullopt;
     throw InputError(fmt::format(
         "{}: this reduced basis belongs to another mesh, material, interface or choice of modes; "
         "remove the file to have it made anew, or name another one (`reduction.file`)",
@@ -74,6 +75,8 @@ std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std:
 
 void BasisFiles::keep(const std::string& file, std::uint64_t key, const body::ReducedBasis& basis) {
   const fs::path path = directory_ / file;
+  std::error_code error;
+  if (others_ == Others::leave && fs::exists(path, error)) return;
   fs::path part = path;
   part += ".part";
   WriteProcess writer;
@@ -92,7 +95,6 @@ void BasisFiles::keep(const std::string& file, std::uint64_t key, const body::Re
   write_dataset(out, "/Z", {columns, rows},
                 std::span<const double>(basis.Z.data(), basis.Z.size()));
   out.close();
-  std::error_code error;
   fs::rename(part, path, error);
   if (error) {
     throw IoError(

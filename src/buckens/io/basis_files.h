@@ -15,17 +15,26 @@ namespace buckens::io {
 /// belong to.
 class BasisFiles : public body::BasisStore {
  public:
-  /// @param directory where relative names begin: that of the model file
-  explicit BasisFiles(std::filesystem::path directory) : directory_(std::move(directory)) {}
+  /// What to do about a file that belongs to another mesh, interface or choice.
+  enum class Others {
+    refuse,
+    leave,  ///< as it is and unused: variants of a model name the same file
+  };
 
-  /// @throws InputError if the file belongs to another mesh, interface or choice, IoError if it
-  ///         cannot be read
+  /// @param directory where relative names begin: that of the model file
+  explicit BasisFiles(std::filesystem::path directory, Others others = Others::refuse)
+      : directory_(std::move(directory)), others_(others) {}
+
+  /// @throws InputError if the file is no basis or, unless those are left, belongs to another mesh,
+  ///         interface or choice, IoError if it cannot be read
   std::optional<body::ReducedBasis> find(const std::string& file, std::uint64_t key) override;
-  /// Writes under another name first, so that no half a file is ever found. @throws IoError
+  /// Writes under another name first, so that no half a file is ever found; not over others that
+  /// are left. @throws IoError
   void keep(const std::string& file, std::uint64_t key, const body::ReducedBasis& basis) override;
 
  private:
   std::filesystem::path directory_;
+  Others others_;
 };
 
 }  // namespace buckens::io

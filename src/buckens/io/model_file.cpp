@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/model_file.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -9,6 +11,7 @@
 #include "buckens/io/step_mesh_cache.h"
 #include "buckens/io/table_ranges.h"
 #include "buckens/io/text_file.h"
+#include "buckens/io/text_lines.h"
 #include "buckens/io/yaml_tree.h"
 
 namespace buckens::io {
@@ -29,6 +32,21 @@ std::string with_overrides(const std::string& text, const std::string& name,
   return out + text;
 }
 
+/// The files that a model names and those that they include, as a comment: a run directory tells
+/// which meshes and tables it belongs to, and a sweep that one has changed.
+std::string comment_on(const FilesRead& files, const std::filesystem::path& directory) {
+  if (files.hashes().empty()) return {};
+  std::string out = "# Files read with it, and the hash of their contents:\n";
+  for (const auto& [path, hash] : files.hashes()) {
+    const std::filesystem::path near = path.lexically_relative(directory);
+    std::string name = (near.empty() ? path : near).string();
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return c < ' '; }, '?');
+    out += fmt::format("#   {} {:016x}\n", name, hash);
+  }
+  return out;
+}
+
 model::ModelDescription read_with_meshes(const std::string& text, const std::string& name,
                                          const std::vector<std::string>& overrides,
                                          StepMeshCache& meshes) {
@@ -43,6 +61,7 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
   }
   for (const std::string& assignment : overrides) apply_override(root, assignment);
 
+  FilesRead files;
   model::ModelDescription out;
   ReadContext context;
   context.directory = std::filesystem::path(name).parent_path();
@@ -51,7 +70,8 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
   read_record({root, ""}, context, out);
   check_table_ranges(out);
   out.where = {name, 0, 0};
-  out.source = with_overrides(text, name, overrides);
+  out.source = comment_on(files, context.directory) +
+               with_overrides(without_byte_order_mark(text), name, overrides);
   return out;
 }
 

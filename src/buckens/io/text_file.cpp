@@ -18,7 +18,20 @@ namespace {
   throw IoError(fmt::format("{}: cannot read the {}: {}", name, kind, reason));
 }
 
+thread_local FilesRead* files_read = nullptr;
+
 }  // namespace
+
+FilesRead::FilesRead() : outer_(files_read) { files_read = this; }
+
+FilesRead::~FilesRead() { files_read = outer_; }
+
+void FilesRead::add(const std::filesystem::path& path, std::string_view content) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  hashes_[path] = hash;
+  if (outer_ != nullptr) outer_->add(path, content);
+}
 
 std::string read_text_file(const std::filesystem::path& path, const std::string& kind,
                            std::size_t largest) {
@@ -43,6 +56,7 @@ std::string read_text_file(const std::filesystem::path& path, const std::string&
     }
   }
   if (stream.bad()) fail(name, kind, errno != 0 ? std::strerror(errno) : "reading failed");
+  if (files_read != nullptr) files_read->add(path, text);
   return text;
 }
 

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/choose_modes.h"
 #include "buckens/analysis/simulate.h"
 #include "buckens/base/errors.h"
+#include "buckens/io/basis_files.h"
 #include "buckens/io/model_file.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
@@ -99,9 +101,9 @@ class Sweep {
     results::RunSummary failure;
     try {
       directory = std::make_unique<RunDirectory>(
-          directory_of(v), RunDirectoryOptions{description.title, description.source, {}});
+          directory_of(v), RunDirectoryOptions{description.title, description.source, {}, false});
       directory->log("variant " + table_.variants[v].name + " of a sweep");
-      const auto built = model::build_model(std::move(description));
+      const auto built = build(std::move(description), *directory);
       analysis::SimulationOptions options;
       options.exchange = &exchange_;
       options.stop_reason = "interrupted by the user";
@@ -113,6 +115,18 @@ class Sweep {
     }
     if (directory) complete(*directory, failure);
     end(v, VariantStatus::failed, failure.interrupted);
+  }
+
+  /// Modes chosen by trial are those of the variant; a basis in a file serves those it fits.
+  std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
+                                           RunDirectory& directory) {
+    std::vector<std::string> notes;
+    analysis::choose_modes(description, notes,
+                           [&directory](const std::string& text) { directory.log(text); });
+    BasisFiles bases(model_.parent_path(), BasisFiles::Others::leave);
+    auto built = model::build_model(std::move(description), &bases);
+    built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());
+    return built;
   }
 
   /// Puts the reason into the directory of a run that failed, unless it is there already.

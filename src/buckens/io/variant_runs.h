@@ -48,8 +48,9 @@ struct SweepOutcome {
 /// Runs the variants of a model, each into a run directory of its own, `out`/NAME.
 ///
 /// Those that share a body's matrices share its factor, and their solves go together, see
-/// linalg::SolveExchange. Variants that an earlier sweep finished are kept if the model file and
-/// their values are what they were. A variant that fails does not stop the others.
+/// linalg::SolveExchange. Variants that an earlier sweep finished are kept if the model file, the
+/// files it names and their values are what they were. A variant that fails does not stop the
+/// others.
 /// @param overrides apply to all variants, before their own values
 /// @throws IoError if `out` cannot be made; whatever reading the model without variants throws
 SweepOutcome run_variants(const std::filesystem::path& model,
