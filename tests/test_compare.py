@@ -70,6 +70,8 @@ def test_frequencies_of_modes_are_compared(buckens):
 
 def test_what_cannot_be_compared_is_refused(crank, buckens):
     crank("a")
+    crank("other", "output.sensors={}")
+    buckens("compare", "a", "other", "--sensors", "--tolerance", "1").must(2, "no sensor", "--sensors")
     buckens("modes", CRANK, "--count", "3", "-o", "m").must(0)
     buckens("compare", "a", "m").must(2, "vibrations", "motion")
     buckens("compare", "a", "nothing").must(5, "nothing")

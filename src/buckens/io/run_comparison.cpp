@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -71,8 +72,11 @@ std::string unit_of(const results::Channel& channel, const std::string& kind) {
 
 class Comparison {
  public:
-  Comparison(const RunReader& first, const RunReader& second)
-      : first_(first), second_(second), common_(common_records(first.times(), second.times())) {}
+  Comparison(const RunReader& first, const RunReader& second, std::size_t numbers_at_once)
+      : first_(first),
+        second_(second),
+        numbers_at_once_(numbers_at_once),
+        common_(common_records(first.times(), second.times())) {}
 
   RunComparison run() {
     out_.is_of_modes = first_.layout().find("modes/frequency") >= 0;
@@ -116,34 +120,47 @@ class Comparison {
       out_.of_other_shape.push_back(channel.path);
       return;
     }
-    const std::vector<double> a = first_.read(channel.path, common_.first);
-    std::vector<double> b = second_.read(channel.path, common_.second);
-    if (channel.path.ends_with("/pose")) align_quaternions(channel.size(), a, b);
-    for (const auto& [kind, components] : groups_of(channel)) {
-      QuantityDifference found = differ(channel.size(), components, a, b);
-      found.quantity = channel.path + (kind.empty() ? "" : " " + kind);
-      found.unit = unit_of(channel, kind);
-      out_.quantities.push_back(std::move(found));
+    const auto groups = groups_of(channel);
+    std::vector<QuantityDifference> found(groups.size());
+    const std::size_t rows = std::max<std::size_t>(1, numbers_at_once_ / channel.size());
+    for (std::size_t begin = 0; begin < common_.first.size(); begin += rows) {
+      const std::size_t count = std::min(rows, common_.first.size() - begin);
+      const auto records = std::span(common_.first).subspan(begin, count);
+      const std::vector<double> a = first_.read(channel.path, records);
+      std::vector<double> b =
+          second_.read(channel.path, std::span(common_.second).subspan(begin, count));
+      if (channel.path.ends_with("/pose")) align_quaternions(channel.size(), a, b);
+      std::size_t group = 0;
+      for (const auto& [kind, components] : groups) {
+        compare(records, components, channel.size(), a, b, found[group++]);
+      }
+    }
+    std::size_t group = 0;
+    for (const auto& [kind, components] : groups) {
+      QuantityDifference& one = found[group++];
+      one.quantity = channel.path + (kind.empty() ? "" : " " + kind);
+      one.unit = unit_of(channel, kind);
+      if (one.difference > 0.0) {
+        one.relative = one.largest > 0.0 ? one.difference / one.largest : HUGE_VAL;
+      }
+      out_.quantities.push_back(std::move(one));
     }
   }
 
-  QuantityDifference differ(std::size_t width, const std::vector<std::size_t>& components,
-                            const std::vector<double>& a, const std::vector<double>& b) const {
-    QuantityDifference out;
-    for (std::size_t record = 0; record < common_.first.size(); ++record) {
+  /// Adds some records to a difference.
+  void compare(std::span<const std::size_t> records, const std::vector<std::size_t>& components,
+               std::size_t width, const std::vector<double>& a, const std::vector<double>& b,
+               QuantityDifference& out) const {
+    for (std::size_t row = 0; row < records.size(); ++row) {
       for (const std::size_t k : components) {
-        const std::size_t at = record * width + k;
+        const std::size_t at = row * width + k;
         out.largest = std::max(out.largest, std::abs(a[at]));
         const double difference = std::abs(a[at] - b[at]);
         if (difference <= out.difference) continue;
         out.difference = std::isnan(difference) ? HUGE_VAL : difference;
-        out.at = first_.times()[common_.first[record]];
+        out.at = first_.times()[records[row]];
       }
     }
-    if (out.difference > 0.0) {
-      out.relative = out.largest > 0.0 ? out.difference / out.largest : HUGE_VAL;
-    }
-    return out;
   }
 
   /// Energies are differences of one another, their balance is rounding at best.
@@ -159,6 +176,7 @@ class Comparison {
 
   const RunReader& first_;
   const RunReader& second_;
+  std::size_t numbers_at_once_;
   CommonRecords common_;
   RunComparison out_;
 };
@@ -171,8 +189,9 @@ double RunComparison::largest() const {
   return out;
 }
 
-RunComparison compare_runs(const RunReader& first, const RunReader& second) {
-  return Comparison(first, second).run();
+RunComparison compare_runs(const RunReader& first, const RunReader& second,
+                           std::size_t numbers_at_once) {
+  return Comparison(first, second, numbers_at_once).run();
 }
 
 }  // namespace buckens::io

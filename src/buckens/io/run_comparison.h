@@ -34,9 +34,11 @@ struct RunComparison {
 };
 
 /// Compares what two runs recorded at common times, nothing interpolated.
+/// @param numbers_at_once of a channel that are in memory at the same time
 /// @throws InputError if they have no record time in common, or one holds vibrations and the other
 /// a
 ///         motion
-RunComparison compare_runs(const RunReader& first, const RunReader& second);
+RunComparison compare_runs(const RunReader& first, const RunReader& second,
+                           std::size_t numbers_at_once = std::size_t{1} << 22U);
 
 }  // namespace buckens::io
