@@ -131,6 +131,13 @@ def test_changes_from_the_command_line(buckens, tmp_path, assignment, words):
     buckens("check", "model.yaml", "--set", assignment).must(2, *words)
 
 
+def test_a_sweep_of_a_bad_model_leaves_no_directory(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(MODEL.replace("1 MPa", "1 kg"))
+    buckens("sweep", "model.yaml", "--vary", "simulation.step=[0.1 ms, 0.2 ms]", "-o", "out").must(
+        2, "model.yaml:15:", "\"1 kg\" is a mass")
+    assert not (tmp_path / "out").exists()
+
+
 def test_files_of_other_systems(buckens, tmp_path):
     """A byte order mark and lines that end as on Windows do no harm, nor does a model that is changed."""
     (tmp_path / "model.yaml").write_bytes(b"\xef\xbb\xbf" + MODEL.replace("\n", "\r\n").encode())

@@ -9,6 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/io/csv_row.h"
+#include "buckens/io/sweep_summary.h"
 #include "buckens/io/text_file.h"
 
 namespace buckens::io {
@@ -36,6 +37,11 @@ void check_name(const std::string& name, const SourceLocation& where) {
       std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == '+' || c == '=';
       });
+  if (name == kSweepName) {
+    throw InputError(where, fmt::format("\"{}\" is the name of the table that the sweep writes; "
+                                        "choose another for the run directory",
+                                        name));
+  }
   if (is_plain) return;
   throw InputError(where, fmt::format("\"{}\" cannot name a run directory; use letters, digits and "
                                       "- _ + = . (not in front)",

@@ -53,6 +53,7 @@ class Sweep {
                        "there is no `simulation:`, so it is not known how far to simulate. Add for "
                        "instance `simulation: {duration: 1 s, step: 1 ms}`.");
     }
+    make_directory();
     for (std::size_t begin = 0; begin < table_.variants.size() && !stopped_;) {
       begin = run_wave(begin);
     }
@@ -63,6 +64,15 @@ class Sweep {
   }
 
  private:
+  void make_directory() const {
+    std::error_code error;
+    fs::create_directories(out_, error);
+    if (error) {
+      throw IoError(fmt::format("{}: cannot create the directory of the sweep: {}.", out_.string(),
+                                error.message()));
+    }
+  }
+
   /// Runs the next variants that are not there yet side by side.
   /// @return the first variant after them
   std::size_t run_wave(std::size_t begin) {
@@ -194,12 +204,6 @@ std::string to_string(VariantStatus status) {
 SweepOutcome run_variants(const fs::path& model, const std::vector<std::string>& overrides,
                           const SweepTable& table, const fs::path& out,
                           const SweepOptions& options) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) {
-    throw IoError(fmt::format("{}: cannot create the directory of the sweep: {}.", out.string(),
-                              error.message()));
-  }
   return Sweep(table, out, options).run(model, overrides);
 }
 

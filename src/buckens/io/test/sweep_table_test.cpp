@@ -67,6 +67,7 @@ TEST_F(SweepTableFile, RefusesWhatCannotBe) {
   refuses("name,a\nx,1\nx,2\n", ".csv:3", "\"x\" stands twice");
   refuses("name,a\n../x,1\n", ".csv:2", "cannot name a run directory");
   refuses("name,a\n,1\n", ".csv:2", "cannot name a run directory");
+  refuses("name,a\nsweep.csv,1\n", ".csv:2", "the name of the table that the sweep writes");
   refuses("a\n\"1\n", ".csv:2", "not closed");
   EXPECT_THROW(read_sweep_table("no/such/file.csv"), IoError);
 }
