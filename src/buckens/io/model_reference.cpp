@@ -34,8 +34,8 @@ output: {every: 10 ms, sensors: {com: {position: rod}}}
 
 ## Values
 
-**Numbers** are plain decimals (`75`, `-2.5e3`); they are SI. Anything that programs read in different
-ways is refused: `010`, `0x10`, `yes` for a number, `.inf`, duplicate keys, anchors, merge keys.
+**Numbers** are plain decimals (`75`, `-2.5e3`), at most 1e60; they are SI. Anything that programs read in
+different ways is refused: `010`, `0x10`, `yes` for a number, `.inf`, duplicate keys, anchors, merge keys.
 
 **Quantities** carry a unit after white space: `75 mm`, `9.81 m/s^2`, `-2.727e-3 kg m^2`. Units are
 multiplied by a blank, `*` or `·`, divided by `/` (each slash divides by the one unit that follows:
@@ -61,7 +61,7 @@ outside of its range. Where a law drives a joint its first
 and second derivatives are used: formulas are differentiated numerically to about eleven digits and
 must be defined on both sides of every time that occurs (write `max(t, 0)` where they are not), tables
 should be splines. CSV columns are separated by commas, semicolons or blanks; lines that begin with `#`
-and one heading line are skipped.
+and one heading line, whose first cell does not begin like a number, are skipped.
 
 **Markers** are written `ground` (the world), `rod` (the body frame, at the mass centre), `rod/origin`
 (origin of the model axes), `rod/com`, `rod/start`, `rod/mid`, `rod/end` (beams), `rod/<node>`
