@@ -47,8 +47,8 @@ base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note
                              const ReadContext& context);
 
 /// Time and one more column of a text file with numbers separated by commas, semicolons, blanks or
-/// tabs. Lines that begin with # and one heading line, whose first cell does not begin like a number,
-/// are skipped. Numbers may stand in double quotes.
+/// tabs. Lines that begin with # and one heading line, whose first cell does not begin like a
+/// number, are skipped. Numbers may stand in double quotes.
 /// @throws IoError if the file cannot be read, InputError with file and line for its content
 struct CsvColumns {
   std::vector<double> times, values;
