@@ -100,6 +100,31 @@ output: {{every: 1 ms, sensors: {{at: {{position: block}}, x: {{position: block/
         assert numpy.abs(small_turns[axis] - exact).max() < close(omega, 1e-6 / omega) + 1e-14, axis
 
 
+WHEEL = """
+buckens: 1
+title: A wheel on a hinge with a bushing
+planar: xy
+bodies:
+  wheel: {rigid: {mass: 1 kg, inertia: [0, 0, 0.1 kg m^2]}}
+joints:
+  pin: {revolute: {between: [ground, wheel]}}
+  coil: {bushing: {between: [ground, wheel], rotational-stiffness: [0, 0, STIFFNESS]}}
+initial: {bodies: {wheel: {angular-velocity: [0, 0, 20]}}}
+simulation: {duration: 0.4 s, step: 1 ms}
+output: {every: 10 ms, sensors: {w: {angular-velocity: wheel}}}
+"""
+
+
+def test_bushing_wound_too_far_stops_the_run(buckens, tmp_path):
+    """Beyond half a turn the rotation vector changes its sign, and the spring would unwind."""
+    model = tmp_path / "wheel.yaml"
+    model.write_text(WHEEL.replace("STIFFNESS", "1 N m/rad"))
+    buckens("run", model, "-o", tmp_path / "out").must(
+        4, 'joint "coil": a bushing is turned by 3.0', "limit the motion")
+    model.write_text(WHEEL.replace("STIFFNESS", "0"))
+    buckens("run", model, "-o", tmp_path / "free").must(0)
+
+
 def test_prescribed_translation(sensors):
     out = sensors("""
 bodies:

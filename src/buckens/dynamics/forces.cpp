@@ -69,7 +69,9 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     try {
       action = load.element->evaluate(t, first.motion, second.motion);
     } catch (const NumericalError& error) {
-      throw NumericalError(error.where(), fmt::format("load \"{}\": {}", load.name, error.text()));
+      const char* what = load.kind == "bushing" ? "joint" : "load";  // as the model file has it
+      throw NumericalError(error.where(),
+                           fmt::format("{} \"{}\": {}", what, load.name, error.text()));
     }
     if (load_factor != 1.0 && load.element->is_applied()) {
       for (spatial::Wrench* wrench : {&action.on_first, &action.on_second}) {
