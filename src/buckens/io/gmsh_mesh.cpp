@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/io/gmsh_mesh.h"
 
+#include <algorithm>
+#include <cctype>
 #include <set>
 
 #include <fmt/format.h>
@@ -43,6 +45,15 @@ MshVersion read_version(MeshText& text) {
     text.fail("the order of bytes is that of another machine; save the mesh as text");
   }
   return out;
+}
+
+bool is_universal_name(std::string_view file) {
+  constexpr std::string_view kEnding = ".unv";
+  if (file.size() < kEnding.size()) return false;
+  const std::string_view ending = file.substr(file.size() - kEnding.size());
+  return std::equal(ending.begin(), ending.end(), kEnding.begin(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  });
 }
 
 TaggedMesh read_msh(MeshText& text, const std::string& file) {
@@ -91,9 +102,8 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
 fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file,
                                   const std::vector<std::string>& members) {
   MeshText text(bytes, file);
-  TaggedMesh mesh = file.ends_with(".unv") || file.ends_with(".UNV")
-                        ? read_universal_file(text, file)
-                        : read_msh(text, file);
+  TaggedMesh mesh =
+      is_universal_name(file) ? read_universal_file(text, file) : read_msh(text, file);
   fem::ImportedMesh out = mesh_of_groups(std::move(mesh), members);
   if (out.num_elements() == 0) text.fail("the mesh has no elements");
   return out;

@@ -88,6 +88,12 @@ TEST(UniversalFile, ReadsNodesElementsAndGroups) {
   EXPECT_THAT(mesh.notes[0].text, HasSubstr("1 m is 1000 of its units"));
 }
 
+TEST(UniversalFile, IsKnownByItsEndingInAnyLetters) {
+  for (const char* name : {"part.unv", "PART.UNV", "Part.Unv"}) {
+    EXPECT_EQ(read_gmsh_bytes(kPart, name).num_elements(), 1) << name;
+  }
+}
+
 TEST(UniversalFile, LeavesOutMembersThatAreNotThere) {
   const ImportedMesh mesh = read_gmsh_bytes(
       test::replaced(kPart, "         8         7         0", "         8        70         0"),
