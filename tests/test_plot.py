@@ -129,7 +129,7 @@ def test_long_runs_are_thinned_out(buckens, run):
     (["out", "tip.w"], 2, ["no \"tip.w\"", "tip.x"]),
     (["out"], 2, ["say what to plot", "tip.x", "energy"]),
     (["out", "tip", "-o", "tip.gif"], 2, ["tip.gif", ".svg"]),
-    
+    (["out", "tip", "--from", "0.15", "--to", "0.05"], 2, ["no record", "from 0 to 0.2 s"]),
     (["out", "tip.y", "--x", "tip"], 2, ["--x tip", "tip.x"]),
     (["nowhere", "tip"], 5, ["nowhere", "not a run directory"]),
     (["out", "tip", "-o", "missing/tip.svg"], 5, ["missing/tip.svg"]),
