@@ -36,8 +36,9 @@ export class Toolbar {
     const useful: Partial<Record<Toggle, boolean>> = {
       undeformed: bodies.some((body) => body.displacement),
       colors: bodies.some((body) => body.displacement || body.fields.length > 0),
-      loads: runs.some((run) => run.loads.length > 0),
-      reactions: runs.some((run) => run.joints.some(({ force }) => force)),
+      // Loads on all bodies have no place where arrows could stand.
+      loads: runs.some((run) => run.loads.some(({ positions }) => positions.length > 0)),
+      reactions: runs.some((run) => run.joints.some(({ force, torque }) => force || torque)),
     };
     const offered = kToggles.filter(({ name }) => useful[name] ?? true);
     for (const { name, text, key, title } of offered) {

@@ -67,6 +67,20 @@ export function spatial() {
         ],
       },
     ],
+    loads: [
+      {
+        name: 'shake',
+        kind: 'base-acceleration',
+        body: -1,
+        follows: false,
+        unit: 'm/s^2',
+        positions: [],
+        nodes: [],
+        directions: [],
+        values: null,
+        width: 0,
+      },
+    ],
     gravity: [0, 0, -9.81],
     planar: null,
     sensors: [

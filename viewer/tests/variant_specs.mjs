@@ -37,6 +37,8 @@ export async function variantSpecs({ test, browser, variant }) {
       'Pendulum and spinning body </script> "&',
     );
     assert.equal(await opened.tab.locator('.chip.warn').count(), 2);
+    // Its only load acts on all bodies and has no arrows.
+    assert.equal(await opened.tab.locator('[data-toggle="loads"]').count(), 0);
     await opened.tab.locator('.chips').click();
     assert.match(await opened.tab.locator('dialog[open]').innerText(), /step too large/);
     await opened.tab.keyboard.press('Escape');
