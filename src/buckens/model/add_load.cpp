@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 namespace {
 
 // Sine of the angle up to which a direction counts as lying in the plane of a planar model.
-constexpr double kInPlane = 1e-6;
+constexpr double kOutOfPlane = 1e-6;
 // The same for axes, as of joints.
-constexpr double kAlignment = 2e-4;
+constexpr double kTurnedAxis = 2e-4;
 
 class LoadBuilder {
  public:
@@ -57,11 +57,11 @@ class LoadBuilder {
     if (std::all_of(value.begin(), value.end(), is_constant)) {
       // Components across the plane may cancel.
       const Vector3d whole(value[0].value(0), value[1].value(0), value[2].value(0));
-      if (lost(whole) <= kInPlane * whole.norm()) return;
+      if (lost(whole) <= kOutOfPlane * whole.norm()) return;
     }
     for (int axis = 0; axis < 3; ++axis) {
       const base::TimeLaw& law = value[static_cast<std::size_t>(axis)];
-      if (lost(Vector3d::Unit(axis)) <= kInPlane) continue;
+      if (lost(Vector3d::Unit(axis)) <= kOutOfPlane) continue;
       if (law.is_constant() && law.value(0) == 0.0) continue;
       throw InputError(
           where,
@@ -123,7 +123,7 @@ class LoadBuilder {
     p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
     if (find_.model().planar) {
       const Vector3d axis_W = p.R_WF * joints::unit_axis(p);
-      if (axis_W.cross(spatial::normal(*find_.model().planar)).norm() > kAlignment) {
+      if (axis_W.cross(spatial::normal(*find_.model().planar)).norm() > kTurnedAxis) {
         throw InputError(where, fmt::format("{}: the axis of a torsional spring of a planar model "
                                             "must be normal to the plane; leave `axis` out or turn "
                                             "it",

@@ -28,17 +28,17 @@ using model::test::constant_law;
 using model::test::Described;
 using testing::ElementsAre;
 
-constexpr double kG = 9.81;
+constexpr double kGravity = 9.81;
 
 /// Asks for the loads on bodies, or on those places alone.
-void ask(Described& m, const std::vector<std::string>& on) {
+void ask_for_loads(Described& m, const std::vector<std::string>& on) {
   m.d.output.field_output.emplace();
   m.d.output.field_output->where = at_line(80);
   m.d.output.field_output->record = {model::FieldQuantity::interface_load};
   m.d.output.field_output->on = on;
 }
 
-Vector some_multipliers(const model::Model& model) {
+Vector multipliers_of(const model::Model& model) {
   Vector out(model.num_constraint_rows());
   for (Eigen::Index k = 0; k < out.size(); ++k) {
     out[k] = 30 * std::sin(1.0 + 2.3 * static_cast<double>(k));
@@ -55,7 +55,7 @@ struct Loaded {
 
   explicit Loaded(const Described& described)
       : built(described.build()), recorder(*built), state(model::placed_state(built->model)) {
-    state.lambda = some_multipliers(built->model);
+    state.lambda = multipliers_of(built->model);
   }
   const model::Model& model() const { return built->model; }
 
@@ -136,9 +136,9 @@ struct Loaded {
 
 /// A beam of three frames on two hinges about its length, which say some things twice, with a
 /// spring, a force, a torque and a load per length over all of its parts.
-Described divided_beam() {
+Described loaded_beam() {
   Described m;
-  m.d.gravity = {0, 0, -kG};
+  m.d.gravity = {0, 0, -kGravity};
   m.beam("rod", Vector3d::Zero(), Vector3d::UnitX(), 6).frames = 3;
   m.joint<joints::RevoluteSpec>("left", "ground", "rod/start").axis = Vector3d::UnitX();
   m.joint<joints::RevoluteSpec>("right", "rod/end", "ground").axis = Vector3d::UnitX();
@@ -155,7 +155,7 @@ Described divided_beam() {
   auto& load = m.load<loads::LineLoadSpec>("snow");
   load.on = {at_line(60), "rod"};
   load.value = constant_law({5, 12, -30});
-  ask(m, {});
+  ask_for_loads(m, {});
   return m;
 }
 
@@ -171,7 +171,7 @@ void move_rigidly(Loaded& run) {
 }
 
 TEST(InterfaceLoads, OfADividedBodyAreAllThatActsOnItsPartsFromOutside) {
-  Loaded run(divided_beam());
+  Loaded run(loaded_beam());
   EXPECT_THAT(run.paths(), testing::UnorderedElementsAre("fields/bodies/rod/interfaces/start",
                                                          "fields/bodies/rod/interfaces/end",
                                                          "fields/bodies/rod/interfaces/mid",
@@ -190,7 +190,7 @@ TEST(InterfaceLoads, OfADividedBodyAreAllThatActsOnItsPartsFromOutside) {
 }
 
 TEST(InterfaceLoads, TheLoadFactorMultipliesAppliedLoadsOnly) {
-  Loaded run(divided_beam());
+  Loaded run(loaded_beam());
   run.record(1.0);
   const spatial::Wrench end = run.wrench("fields/bodies/rod/interfaces/end");
   run.record(2.5);
@@ -207,8 +207,8 @@ TEST(InterfaceLoads, TheLoadFactorMultipliesAppliedLoadsOnly) {
 }
 
 TEST(InterfaceLoads, OfTheNamedPlacesOnly) {
-  Described m = divided_beam();
-  ask(m, {"rod/end"});
+  Described m = loaded_beam();
+  ask_for_loads(m, {"rod/end"});
   const Loaded run(m);
   EXPECT_THAT(run.paths(), ElementsAre("fields/bodies/rod/interfaces/end"));
 }
@@ -223,7 +223,7 @@ TEST(InterfaceLoads, OfPressureAndTractionOverAllPartsAreThoseOfTheWholeFace) {
   auto& traction = m.load<loads::TractionSpec>("wind");
   traction.on = {at_line(62), "block/z1"};
   traction.value = constant_law({1e3, -2e3, 500});
-  ask(m, {"block"});
+  ask_for_loads(m, {"block"});
   Loaded run(m);
   run.record();
   run.expect_all_is_there("block");
@@ -242,7 +242,7 @@ TEST(InterfaceLoads, OfRedundantJointsAreSharedAsTheirMultipliersAre) {
   // A door on two hinges: five of ten equations follow from the others. One hinge alone is said to
   // carry the door; least multipliers give each its half.
   Described m;
-  m.d.gravity = {0, 0, -kG};
+  m.d.gravity = {0, 0, -kGravity};
   m.rigid("door", 20, {0.5, 0, 0}, {7, 8.4, 1.7});
   for (const double z : {-1.0, 1.0}) {
     const std::string name = z < 0 ? "lower" : "upper";
@@ -251,16 +251,16 @@ TEST(InterfaceLoads, OfRedundantJointsAreSharedAsTheirMultipliersAre) {
     hinge.axis = Vector3d::UnitZ();
     hinge.between[0].point = Vector3d(0, 0, z);
   }
-  ask(m, {"door"});
+  ask_for_loads(m, {"door"});
   Loaded run(m);
   const dynamics::MassMetric metric(run.model());
   Recorder recorder(*run.built, metric, true);
   run.state.lambda.setZero();
-  run.state.lambda[2] = 20 * kG;  // rows of a hinge: x, y, z, then two torques
+  run.state.lambda[2] = 20 * kGravity;  // rows of a hinge: x, y, z, then two torques
   run.state.lambda[3] = 7;
   run.record();
   const spatial::Wrench before = run.recorded_sum("door");
-  EXPECT_LT((before.force - Vector3d(0, 0, 20 * kG)).norm(), 1e-12);
+  EXPECT_LT((before.force - Vector3d(0, 0, 20 * kGravity)).norm(), 1e-12);
   EXPECT_EQ(run.wrench("fields/bodies/door/interfaces/upper").force.norm(), 0);
   run.expect_all_is_there("door");
 
@@ -271,7 +271,7 @@ TEST(InterfaceLoads, OfRedundantJointsAreSharedAsTheirMultipliersAre) {
   EXPECT_LT((after.torque - before.torque).norm(), 1e-10);
   for (const char* name : {"lower", "upper"}) {
     const spatial::Wrench one = run.wrench(std::string("fields/bodies/door/interfaces/") + name);
-    EXPECT_NEAR(one.force.z(), 10 * kG, 1e-9) << name;
+    EXPECT_NEAR(one.force.z(), 10 * kGravity, 1e-9) << name;
   }
 }
 
