@@ -67,13 +67,13 @@ struct SectionText {
   }
 };
 
-constexpr std::array<const char*, 6> kVariables = choice_names(fem::NodeVariable{});
+constexpr std::array<const char*, 6> kLinkVariables = choice_names(fem::NodeVariable{});
 
 /// Which variables a link takes, where it does not take all.
 std::string variables_text(const std::array<bool, 6>& taken) {
   std::vector<std::string> which;
   for (std::size_t k = 0; k < 6; ++k) {
-    if (taken[k]) which.emplace_back(kVariables[k]);
+    if (taken[k]) which.emplace_back(kLinkVariables[k]);
   }
   return which.size() == 6 ? "" : fmt::format(", variables: [{}]", fmt::join(which, ", "));
 }
@@ -277,7 +277,7 @@ void ModelText::add_links() {
     std::vector<std::string> terms;
     for (const auto& term : equation.terms) {
       terms.push_back(fmt::format("{{node: {}, variable: {}, coefficient: {}}}", node(term.node),
-                                  kVariables[static_cast<std::size_t>(term.variable)],
+                                  kLinkVariables[static_cast<std::size_t>(term.variable)],
                                   term.coefficient));
     }
     equations += fmt::format("          - terms: [{}]\n", fmt::join(terms, ", "));
