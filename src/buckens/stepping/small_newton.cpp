@@ -352,7 +352,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     if (before.size > 0.0) contraction_ = change.size / before.size;
     if (settled(change, before)) break;
     before = change;
-    if (iteration == settings_.max_newton) {
+    if (iteration >= settings_.max_newton) {
       fail(t, report, "the step's iteration does not settle");
     }
     find_residuals(bodies);
