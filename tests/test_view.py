@@ -98,6 +98,9 @@ def test_fields_of_a_page_are_chosen(buckens, models, installed, tmp_path):
         text = (tmp_path / "out" / "view.html").read_text()
         data = json.loads(text.split("const run = ")[1].split(";</script>")[0])
         assert sorted(f["name"] for f in data["runs"][0]["bodies"][0]["fields"]) == names
+    assert view(installed, "out", "--fields", "von_mises", cwd=tmp_path).err == ""
+    misspelt = view(installed, "out", "--fields", "von_misses,section_force", cwd=tmp_path)
+    misspelt.must(0, 'no field "von_misses" was recorded', 'Did you mean "von_mises"?')
 
 
 # A block on a wall that is pressed at its end; fields at every fourth record.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -13,6 +15,7 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
 #include "buckens/io/view_page.h"
 
 namespace buckens::cli {
@@ -53,6 +56,22 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
+/// Tells of names that no run has a field of.
+void warn_of_unknown(const std::vector<std::string>& wanted,
+                     const std::vector<io::ViewPageReport>& reports) {
+  std::vector<std::string> known;
+  for (const io::ViewPageReport& report : reports) {
+    known.insert(known.end(), report.fields.begin(), report.fields.end());
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  for (const std::string& name : wanted) {
+    if (std::binary_search(known.begin(), known.end(), name)) continue;
+    tell(stderr, fmt::format("buckens: warning: --fields: no field \"{}\" was recorded.{}\n", name,
+                             base::suggestion(name, known)));
+  }
+}
+
 ExitCode view(const ViewArguments& arguments, bool json) {
   const std::vector<fs::path> runs(arguments.runs.begin(), arguments.runs.end());
   const fs::path page =
@@ -63,6 +82,7 @@ ExitCode view(const ViewArguments& arguments, bool json) {
   options.fields = split(arguments.fields);
   const std::vector<io::ViewPageReport> reports =
       io::write_view_page(runs, find_template(), page, options);
+  warn_of_unknown(options.fields, reports);
   if (json) {
     nlohmann::ordered_json out = {{"page", page.string()},
                                   {"records", reports.front().records},

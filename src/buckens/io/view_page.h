@@ -19,9 +19,10 @@ struct ViewPageOptions {
 
 /// What went into a page of one run.
 struct ViewPageReport {
-  std::size_t records = 0;  ///< in the run
-  std::size_t frames = 0;   ///< of them in the page
-  bool rounded = false;     ///< deformations and fields to 16 bits
+  std::size_t records = 0;               ///< in the run
+  std::size_t frames = 0;                ///< of them in the page
+  bool rounded = false;                  ///< deformations and fields to 16 bits
+  std::vector<std::string> fields = {};  ///< names of all that the run recorded, in order
 };
 
 /// Writes one self-contained HTML page that shows a run, or two runs side by side.

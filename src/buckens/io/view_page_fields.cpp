@@ -274,7 +274,7 @@ nlohmann::ordered_json PageField::json(const FrameReader& reader) const {
 }
 
 std::vector<PageField> page_fields(const GeometryBody& body, const VisibleParts& visible,
-                                   const RunReader& run, const std::vector<std::string>& wanted) {
+                                   const RunReader& run) {
   std::vector<PageField> all;
   add_lines(body, run, all);
   add_section_forces(body, run, all);
@@ -285,10 +285,6 @@ std::vector<PageField> page_fields(const GeometryBody& body, const VisibleParts&
     return field.name == "von_mises" && field.on == "elements";
   });
   if (!has_elements || !shells_of(body).empty()) add_solids(body, visible, run, all);
-  if (wanted.empty()) return all;
-  std::erase_if(all, [&](const PageField& field) {
-    return std::find(wanted.begin(), wanted.end(), field.name) == wanted.end();
-  });
   return all;
 }
 

@@ -32,8 +32,8 @@ struct PageField {
   nlohmann::ordered_json json(const FrameReader& reader) const;
 };
 
-/// What the run recorded over the body. Names in `wanted`, or all of them if it is empty.
+/// What the run recorded over the body.
 std::vector<PageField> page_fields(const results::GeometryBody& body, const VisibleParts& visible,
-                                   const RunReader& run, const std::vector<std::string>& wanted);
+                                   const RunReader& run);
 
 }  // namespace buckens::io

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -207,6 +208,27 @@ Json bodies_json(const std::vector<Shown>& shown, const FrameReader& reader) {
   return bodies;
 }
 
+/// Bodies with those of their fields that are wanted.
+std::vector<Shown> what_is_shown(const RunReader& run, const ViewPageOptions& options,
+                                 ViewPageReport& report) {
+  std::vector<Shown> shown;
+  std::set<std::string> names;
+  for (const results::GeometryBody& body : run.geometry().bodies) {
+    PageBody page(body);
+    std::vector<PageField> fields = page_fields(body, page.visible(), run);
+    for (const PageField& field : fields) names.insert(field.name);
+    if (!options.fields.empty()) {
+      std::erase_if(fields, [&](const PageField& field) {
+        return std::find(options.fields.begin(), options.fields.end(), field.name) ==
+               options.fields.end();
+      });
+    }
+    shown.push_back({std::move(page), std::move(fields)});
+  }
+  report.fields.assign(names.begin(), names.end());
+  return shown;
+}
+
 }  // namespace
 
 nlohmann::ordered_json page_run(const std::filesystem::path& directory,
@@ -217,12 +239,7 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
                               directory.string()));
   }
   const results::Geometry& geometry = run.geometry();
-  std::vector<Shown> shown;
-  for (const results::GeometryBody& body : geometry.bodies) {
-    PageBody page(body);
-    std::vector<PageField> fields = page_fields(body, page.visible(), run, options.fields);
-    shown.push_back({std::move(page), std::move(fields)});
-  }
+  const std::vector<Shown> shown = what_is_shown(run, options, report);
   report.records = run.num_records();
   choose_size(run, shown, options, report);
   const bool with_fields = std::any_of(shown.begin(), shown.end(), [](const Shown& one) {
