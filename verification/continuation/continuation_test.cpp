@@ -9,50 +9,13 @@
 
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/fem/box_mesh.h"
+#include "buckens/stepping/test/same_state.h"
 #include "buckens/stepping/test/simulate.h"
 
 namespace buckens::verification {
 namespace {
 
 using stepping::Method;
-
-void expect_equal(const model::Coupling& a, const model::Coupling& b) {
-  EXPECT_EQ(a.t, b.t);
-  EXPECT_EQ(a.load, b.load);
-  EXPECT_EQ(a.moments.J, b.moments.J);
-  EXPECT_EQ(a.moments.J_dot, b.moments.J_dot);
-  EXPECT_EQ(a.moments.l, b.moments.l);
-  EXPECT_EQ(a.moments.l_dot, b.moments.l_dot);
-}
-
-/// Every number of both is the same.
-void expect_equal(const model::State& a, const model::State& b) {
-  EXPECT_EQ(a.t, b.t);
-  EXPECT_EQ(a.lambda, b.lambda);
-  EXPECT_EQ(a.lambda_time, b.lambda_time);
-  EXPECT_EQ(a.last_step, b.last_step);
-  EXPECT_EQ(a.history, b.history);
-  ASSERT_EQ(a.bodies.size(), b.bodies.size());
-  for (std::size_t k = 0; k < a.bodies.size(); ++k) {
-    const model::BodyState& x = a.bodies[k];
-    const model::BodyState& y = b.bodies[k];
-    EXPECT_EQ(x.frame.X_WB.p, y.frame.X_WB.p);
-    EXPECT_EQ(x.frame.X_WB.q.coeffs(), y.frame.X_WB.q.coeffs());
-    EXPECT_EQ(x.frame.v, y.frame.v);
-    EXPECT_EQ(x.frame.w, y.frame.w);
-    EXPECT_EQ(x.v_dot, y.v_dot);
-    EXPECT_EQ(x.w_dot, y.w_dot);
-    EXPECT_EQ(x.v_alg, y.v_alg);
-    EXPECT_EQ(x.w_alg, y.w_alg);
-    EXPECT_EQ(x.d, y.d);
-    EXPECT_EQ(x.d_dot, y.d_dot);
-    EXPECT_EQ(x.d_ddot, y.d_ddot);
-    EXPECT_EQ(x.d_alg, y.d_alg);
-    expect_equal(x.coupling, y.coupling);
-    expect_equal(x.coupling_before, y.coupling_before);
-    expect_equal(x.coupling_earlier, y.coupling_earlier);
-  }
-}
 
 /// Steps of two lengths in turn: five long ones, three short ones.
 class Run {
@@ -91,7 +54,7 @@ void expect_same_bits(const model::Model& model, Method method, double h) {
     Run resumed(model, settings, start.rows_in_use, through.state());
     through.go(8, changes_step);
     resumed.go(8, changes_step);
-    expect_equal(through.state(), resumed.state());
+    test::expect_same(through.state(), resumed.state());
   }
 }
 

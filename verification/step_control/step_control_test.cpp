@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/loads/applied_load.h"
+#include "buckens/stepping/test/same_state.h"
 #include "buckens/stepping/test/simulate.h"
 #include "buckens/stepping/time_march.h"
 
@@ -22,28 +23,6 @@ using linalg::Vector;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-void expect_same_bits(const model::State& a, const model::State& b) {
-  EXPECT_EQ(a.t, b.t);
-  EXPECT_EQ(a.lambda_time, b.lambda_time);
-  EXPECT_EQ(a.last_step, b.last_step);
-  EXPECT_TRUE((a.lambda.array() == b.lambda.array()).all());
-  for (std::size_t k = 0; k < a.bodies.size(); ++k) {
-    const model::BodyState& x = a.bodies[k];
-    const model::BodyState& y = b.bodies[k];
-    EXPECT_EQ(x.frame.X_WB.p, y.frame.X_WB.p);
-    EXPECT_EQ(x.frame.X_WB.q.coeffs(), y.frame.X_WB.q.coeffs());
-    EXPECT_EQ(x.frame.v, y.frame.v);
-    EXPECT_EQ(x.frame.w, y.frame.w);
-    EXPECT_EQ(x.v_alg, y.v_alg);
-    EXPECT_EQ(x.w_alg, y.w_alg);
-    EXPECT_TRUE((x.d.array() == y.d.array()).all());
-    EXPECT_TRUE((x.d_dot.array() == y.d_dot.array()).all());
-    EXPECT_TRUE((x.d_ddot.array() == y.d_ddot.array()).all());
-    EXPECT_TRUE((x.d_alg.array() == y.d_alg.array()).all());
-    EXPECT_TRUE((x.coupling.load.array() == y.coupling.load.array()).all());
-  }
-}
 
 MarchSettings fixed(double duration, long steps) { return {duration, steps, std::nullopt}; }
 
@@ -90,7 +69,7 @@ TEST(TimeMarch, WithoutToleranceItIsThePlainStepper) {
     state.t = ++step == 64 ? 0.1 : static_cast<double>(step) * (0.1 / 64);
     EXPECT_EQ(after.t, state.t);
   });
-  expect_same_bits(end, state);
+  test::expect_same(end, state);
   EXPECT_EQ(march.report().accepted, 64);
   EXPECT_EQ(march.report().rejected + march.report().failed, 0);
   ASSERT_EQ(march.rungs().size(), 1U);
@@ -116,7 +95,7 @@ TEST(TimeMarch, RejectedStepsLeaveNoTrace) {
   EXPECT_GT(march.report().rejected, 0);
   EXPECT_GT(march.rungs().size(), 1U);
   EXPECT_EQ(end.t, 0.5);
-  expect_same_bits(end, replay);
+  test::expect_same(end, replay);
 }
 
 TEST(TimeMarch, AnEighthOfTheToleranceGivesAQuarterOfTheError) {
