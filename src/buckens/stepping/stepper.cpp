@@ -85,10 +85,7 @@ std::unique_ptr<BodyStepOperator> factorised(
     return std::make_unique<BodyStepOperator>(
         *body.flexible, scheme, twin == known.end() ? nullptr : twin->get(), exchange);
   } catch (const NumericalError& error) {
-    throw NumericalError(
-        fmt::format("body \"{}\": {}; a mesh far finer than its sections also comes to this: use "
-                    "fewer elements",
-                    body.name, error.what()));
+    throw NumericalError(fmt::format("body \"{}\": {}", body.name, error.what()));
   }
 }
 
