@@ -73,7 +73,7 @@ foreach(source IN LISTS python_tests)
       "BUCKENS_PROGRAM=${PROJECT_BINARY_DIR}/bin/buckens;BUCKENS_SOURCE_DIR=${PROJECT_SOURCE_DIR};BUCKENS_BINARY_DIR=${PROJECT_BINARY_DIR};PYTHONDONTWRITEBYTECODE=1")
 endforeach()
 
-foreach(check IN ITEMS floors pages sizes streams)
+foreach(check IN ITEMS equations floors pages sizes streams)
   add_test(NAME structure.${check} COMMAND ${BUCKENS_PYTHON} -B
                                            "${PROJECT_SOURCE_DIR}/tools/check_${check}.py"
                                            "${PROJECT_SOURCE_DIR}")
@@ -84,5 +84,5 @@ add_test(NAME structure.checks COMMAND ${BUCKENS_PYTHON} -B
                                        "${PROJECT_SOURCE_DIR}/tools/test/test_checks.py")
 add_test(NAME structure.setup COMMAND bash "${PROJECT_SOURCE_DIR}/tools/test/test_setup.sh")
 set_tests_properties(
-  structure.floors structure.pages structure.sizes structure.streams structure.format
+  structure.equations structure.floors structure.pages structure.sizes structure.streams structure.format
   structure.checks structure.setup PROPERTIES LABELS structure TIMEOUT 120)

@@ -45,6 +45,29 @@ class Checks(unittest.TestCase):
             self.assertIn(word, output)
 
 
+class Equations(Checks):
+    THEORY = {"docs/theory/01-kinematics.md": "s = s0    FM (1), (2)\nf = F t      (L1)\nFM (22)–(24)\n"}
+
+    def test_explained_tags_pass(self):
+        self.expect("check_equations.py", {
+            **self.THEORY, "src/buckens/fem/beam.h": "#pragma once\n// FM (2), (23) and eq. (L1)\n"})
+
+    def test_equation_that_no_page_explains(self):
+        self.expect("check_equations.py",
+                    {**self.THEORY, "src/buckens/fem/beam.h": "#pragma once\n// FM (1), (25)\n"},
+                    "src/buckens/fem/beam.h:2: FM (25) is explained in no page")
+
+    def test_equation_that_the_paper_does_not_have(self):
+        self.expect("check_equations.py",
+                    {**self.THEORY, "src/buckens/fem/beam.h": "#pragma once\n// FM (58)\n"},
+                    "beam.h:2: FM (58): the paper has equations 1 to 57")
+
+    def test_label_that_does_not_exist(self):
+        self.expect("check_equations.py",
+                    {**self.THEORY, "src/buckens/fem/beam.h": "#pragma once\n// eq. (L2)\n"},
+                    "beam.h:2: eq. (L2) labels no equation")
+
+
 class Floors(Checks):
     def test_sound_tree_passes(self):
         self.expect("check_floors.py", {})

@@ -14,8 +14,8 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// Where the coupling needs them, the six numbers c_ab·d follow the interface values; the
 /// centrifugal load of the undeformed body is the load along these rows.
 ///
-/// The increment u (rotation vector in body axes, translation in world axes) carries velocity; the
-/// position correction does not.
+/// The increment u of the frame, FM (43) (rotation vector in body axes, translation in world axes),
+/// carries velocity; the position correction does not.
 struct BodyStep {
   body::FrameMotion before;
   History<Vector6> frame;
@@ -39,7 +39,7 @@ struct BodyStep {
   void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme,
              TaskPool* pool = nullptr);
 
-  /// Motions are written to `out`, whose memory serves again.
+  /// Motions are written to `out`, whose buffers are reused.
   void motion_at_end(const Scheme& scheme, const BodyStepOperator* op,
                      dynamics::BodyMotion& out) const;
   /// The same with the pose that the velocities alone lead to, and the shape of the start where the
@@ -50,7 +50,7 @@ struct BodyStep {
                             dynamics::BodyMotion& out) const;
   /// All moments of the frame equation at a motion of this step.
   body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;
-  /// Sets `load`: interface load and centrifugal weights at the evaluation instant.
+  /// Sets `load`: interface load and centrifugal weights, FM (24), at the evaluation instant.
   /// @param interface loads of joints and forces, @param w angular velocity there
   void set_load(const Eigen::VectorXd& interface, const Eigen::Vector3d& w);
   Vector6 frame_acceleration(const Scheme& scheme) const {

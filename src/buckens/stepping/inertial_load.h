@@ -13,8 +13,8 @@ namespace buckens::stepping {
 /// β with C = α M + β K, α the mass damping of the body; empty if C is something else or missing.
 std::optional<double> stiffness_damping(const body::FlexiblePart& part);
 
-/// The terms M a + C b of a step's right-hand side, without a product with K where damping is
-/// proportional: C = α M + β K and K̂ = m M + c C + k K give
+/// The terms M a + C b of a step's right-hand side, FM (37), without a product with K where damping
+/// is proportional: C = α M + β K and K̂ = m M + c C + k K give
 ///
 ///     K̂⁻¹ C b = β' b + K̂⁻¹ ζ M b,   β' = β/(k + cβ),   ζ = α − β'(m + cα),
 ///

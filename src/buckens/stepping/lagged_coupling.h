@@ -8,8 +8,8 @@
 
 namespace buckens::stepping {
 
-/// The inertial coupling that a large solve takes as given, and how far that is from what its
-/// result gives.
+/// The inertial coupling, FM (21)–(24), that a large solve takes as given, and how far that is from
+/// what its result gives.
 ///
 /// A change ΔF of the nodal load F is judged relative to the whole coupling load of the body,
 ///

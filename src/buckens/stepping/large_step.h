@@ -27,7 +27,7 @@ class LargeStep {
  public:
   explicit LargeStep(BodyStepOperator& op);
 
-  /// Forms the right-hand side of  K̂ x_e = c θ F + M (m x₀ − cθ ẍ₀) + C (d x₀ − cθ ẋ₀),
+  /// Forms the right-hand side of FM (37),  K̂ x_e = c θ F + M (m x₀ − cθ ẍ₀) + C (d x₀ − cθ ẋ₀),
   /// x₀ = x + offset, x⁺ = x + (x_e − x₀)/θ.
   /// @param load F, nodal load at the evaluation instant, n; empty for none
   void form_right_side(const model::BodyState& before, const linalg::Vector& load, TaskPool* pool);
@@ -35,11 +35,12 @@ class LargeStep {
   void form_right_side_of_change(const linalg::Vector& change, TaskPool* pool);
   /// The right-hand side, to be solved in place.
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
-  /// Makes the motion without loads along N of the solution in side(), and its row values.
+  /// Makes the motion without loads along N of the solution in side(), sieved by FM (38), (39), and
+  /// its row values.
   /// @param y_free N x⁺; zero for patterns that the body's terms do not use
   void take_solution(const model::BodyState& before, Eigen::VectorXd& y_free, TaskPool* pool);
 
-  /// Adds the answers to loads along N and forms the nodal state at the end.
+  /// Adds the answers to loads along N, FM (42), and forms the nodal state at the end.
   /// @param load along the rows of N, centrifugal weights included
   /// @param correction load of the position correction e
   void complete(const model::BodyState& before, const Eigen::VectorXd& load,

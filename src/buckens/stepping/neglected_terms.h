@@ -7,7 +7,8 @@
 
 namespace buckens::stepping {
 
-/// What a body's level of coupling leaves out at a state, relative to all that acts:
+/// What a body's level of coupling leaves out of FM (19), (21)–(24) at a state, relative to all
+/// that acts:
 ///
 ///     (‖Yᵀf‖ + |τ|/√J) / (‖M d̈‖ + ‖K d + C ḋ‖ + ‖F‖ + √J (|ẇ| + |w|²))
 ///

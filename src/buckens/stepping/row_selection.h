@@ -8,7 +8,8 @@
 
 namespace buckens::stepping {
 
-/// Splits joint rows into independent ones and those that follow from them at one configuration.
+/// Splits joint rows, FM (34), into independent ones and those that follow from them at one
+/// configuration.
 ///
 /// Which rows are independent can change as a mechanism moves: of three parallel cranks on one
 /// coupler, each hands over to the others once a turn. Rank-revealing QR of the Jacobian times the

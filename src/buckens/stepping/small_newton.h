@@ -16,8 +16,8 @@ namespace buckens::stepping {
 ///
 /// Flexible bodies enter by their interface compliance, FM (42); no n-sized vector is touched.
 /// Position and velocity rows of the joints are closed together: the multipliers λ close the
-/// velocities, a correction q ← q + W⁻¹Gᵀη without velocity closes the positions (stabilised index
-/// 2).
+/// velocities, FM (34), (43), a correction q ← q + W⁻¹Gᵀη without velocity closes the positions
+/// (stabilised index 2).
 ///
 /// Directions of the correction and the matrix of the iteration are those at the predicted
 /// configuration. Residuals are exact, so the result does not depend on the approximation. After
