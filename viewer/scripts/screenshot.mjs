@@ -58,6 +58,8 @@ try {
   }
   if (values.press.length > 0) await tab.locator('.view canvas').first().focus();
   for (const key of values.press) await tab.keyboard.press(key);
+  // No frame around what was pressed last.
+  await tab.evaluate(() => document.activeElement?.blur());
   // Two pictures: the first lays out, the second has everything in place.
   await tab.evaluate(
     () =>

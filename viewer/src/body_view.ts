@@ -1,10 +1,11 @@
 import * as THREE from 'three';
-import { ball, massCentre, rod, solid, span, triad } from './glyphs';
+import { ball, massCentre, quarteredDisc, rod, solid, span, triad } from './glyphs';
 import { BodyField } from './body_field';
 import { FieldMaterial, type FieldShading } from './field_material';
+import { spinOf, type Spin } from './spin';
 import { SurfaceMesh } from './surface_mesh';
 import { TubeMesh } from './tube_mesh';
-import { nodeAt, numNodes } from './run';
+import { nodeAt, numNodes, type Body } from './run';
 import type { FramePlace } from './interpolation';
 import type { BodyMotion } from './motion';
 import type { Skin, SkinLook } from './skin';
@@ -17,6 +18,11 @@ export interface GlyphSize {
   joint: number;
   /** Least radius of a drawn beam: about one pixel when the whole run is in view. */
   leastRadius: number;
+}
+
+/** Whether a body consists of lines on which a mark would hardly be seen. */
+function isThin({ faces, radius }: Body, size: GlyphSize): boolean {
+  return !faces && radius.every((ends) => Math.max(...ends) < 0.7 * size.joint);
 }
 
 /** One body in the scene: bars and mass centre when rigid, else tubes and the surface of solids. */
@@ -37,12 +43,14 @@ export class BodyView {
     const { body } = motion;
     this.field = new BodyField(body);
     const material = () => new FieldMaterial(color, shading);
-    if (body.elements.length > 0) this.add(new TubeMesh(motion, material(), size.leastRadius));
+    const spin = spinOf(body);
+    if (body.elements.length > 0) this.add(new TubeMesh(motion, material(), size.leastRadius, spin));
     if (body.faces) {
       const edges = { onFaces: theme.edge, alone: theme.text };
-      this.add(new SurfaceMesh(motion, material(), edges));
+      this.add(new SurfaceMesh(motion, material(), edges, spin));
     }
-    if (this.skins.length === 0) this.addBars(solid(color), color, size);
+    if (this.skins.length === 0) this.addBars(color, size, spin);
+    else if (spin && isThin(body, size)) this.root.add(this.disc(color, size, spin));
     this.frame.scale.setScalar(6 * size.joint);
     this.root.add(this.frame);
   }
@@ -69,8 +77,9 @@ export class BodyView {
     return ghost;
   }
 
-  private addBars(material: THREE.Material, color: string, size: GlyphSize): void {
+  private addBars(color: string, size: GlyphSize, spin: Spin | null): void {
     const { body } = this.motion;
+    const material = solid(color);
     const origin = new THREE.Vector3();
     const nodes = [...Array(numNodes(body)).keys()].map((node) => nodeAt(body, node));
     const ends = [...body.markers.map((marker) => marker.position), ...nodes]
@@ -88,12 +97,21 @@ export class BodyView {
       const centre = massCentre(color);
       centre.scale.setScalar(0.95 * size.joint);
       this.root.add(centre);
+      if (spin) this.root.add(this.disc(color, size, spin));
       return;
     }
     // Unequal edges show how the body is turned.
     const box = new THREE.Mesh(new THREE.BoxGeometry(4.6, 3.4, 2.4), material);
     box.scale.setScalar(size.joint);
     this.root.add(box);
+  }
+
+  /** Bars along the axis about which a body spins do not show that it does. */
+  private disc(color: string, size: GlyphSize, { axis }: Spin): THREE.Object3D {
+    const disc = quarteredDisc(color);
+    disc.scale.setScalar(3 * size.joint);
+    disc.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(...axis));
+    return disc;
   }
 
   /** Moves to the present pose and shape. */

@@ -30,7 +30,10 @@ export class CameraBar {
       button('Fit', 'The whole run in view (f)', () => actions.fit(), { 'data-fit': '' }),
       this.projection,
       this.theme,
-      button('?', 'Keys and mouse (?)', () => actions.help(), { 'aria-label': 'Keys and mouse' }),
+      button('?', 'Keys and mouse (?)', () => actions.help(), {
+        'aria-label': 'Keys and mouse',
+        'data-help': '',
+      }),
     );
   }
 

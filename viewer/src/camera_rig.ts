@@ -4,12 +4,25 @@ import type { Triple } from './page_data';
 
 const kFieldOfView = 32;
 
+/** What lies over the edges of the picture [CSS px]. */
+export interface Insets {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
 /** Two cameras behind one set of mouse controls. Scene units: the run's size is 1. */
 export class CameraRig {
   private readonly perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.002, 60);
   private readonly parallel = new THREE.OrthographicCamera(-1, 1, 1, -1, -30, 60);
   private controls!: OrbitControls;
   private aspect = 1;
+  private width = 1;
+  private tall = 1;
+  private insets: Insets = { left: 0, top: 0, right: 0, bottom: 0 };
+  /** The box that was fitted last, while nobody has moved the camera since. */
+  private fitted: { half: Triple; back: Triple | undefined } | null = null;
   /** While it follows another, its moves are no news. */
   private quiet = false;
   /** Visible height at the target in the orthographic view before zoom. */
@@ -39,14 +52,36 @@ export class CameraRig {
     this.controls.minDistance = 0.01;
     this.controls.maxDistance = 30;
     this.controls.addEventListener('change', () => this.quiet || this.changed());
+    this.controls.addEventListener('start', () => (this.fitted = null));
     this.controls.update();
   }
 
-  resize(width: number, height: number): void {
-    this.aspect = width / Math.max(1, height);
+  /** What was fitted and not moved since is fitted anew. */
+  resize(width: number, height: number, insets: Insets): void {
+    [this.width, this.tall] = [Math.max(1, width), Math.max(1, height)];
+    this.aspect = this.width / this.tall;
+    // Where almost nothing is left free, the machine may as well lie behind the controls.
+    const narrow = width - insets.left - insets.right < 0.3 * width;
+    const low = height - insets.top - insets.bottom < 0.3 * height;
+    this.insets = {
+      left: narrow ? 0 : insets.left,
+      right: narrow ? 0 : insets.right,
+      top: low ? 0 : insets.top,
+      bottom: low ? 0 : insets.bottom,
+    };
     this.perspective.aspect = this.aspect;
     this.perspective.updateProjectionMatrix();
     this.setFrustum();
+    if (this.fitted) this.fit(this.fitted.half, this.fitted.back);
+  }
+
+  /** The target stands in the middle of what is free. */
+  private shift(): void {
+    const { left, right, top, bottom } = this.insets;
+    const [x, y] = [(right - left) / 2, (bottom - top) / 2];
+    for (const camera of [this.perspective, this.parallel]) {
+      camera.setViewOffset(this.width, this.tall, x, y, this.width, this.tall);
+    }
   }
 
   private setFrustum(): void {
@@ -55,7 +90,7 @@ export class CameraRig {
     camera.bottom = -camera.top;
     camera.right = camera.top * this.aspect;
     camera.left = -camera.right;
-    camera.updateProjectionMatrix();
+    this.shift();
   }
 
   /** Looks at the box (half edges about the origin) from direction `back` and fills the view. */
@@ -73,22 +108,28 @@ export class CameraRig {
     const right = new THREE.Vector3().crossVectors(up, direction).normalize();
     const above = new THREE.Vector3().crossVectors(direction, right);
     const tangent = Math.tan(THREE.MathUtils.degToRad(kFieldOfView / 2));
+    const { left, right: beside, top, bottom } = this.insets;
+    const [across, upright] = [
+      this.tall / Math.max(1, this.width - left - beside),
+      this.tall / Math.max(1, this.tall - top - bottom),
+    ];
     let distance = 0;
     let height = 0;
     for (let corner = 0; corner < 8; corner++) {
       const p = new THREE.Vector3(...half.map((h, i) => ((corner >> i) & 1 ? h : -h)));
-      const x = Math.abs(p.dot(right)) / this.aspect;
-      const y = Math.abs(p.dot(above));
+      const x = Math.abs(p.dot(right)) * across;
+      const y = Math.abs(p.dot(above)) * upright;
       distance = Math.max(distance, Math.max(x, y) / tangent + p.dot(direction));
       height = Math.max(height, 2 * x, 2 * y);
     }
-    this.height = 1.25 * Math.max(height, 0.05);
+    this.height = 1.12 * Math.max(height, 0.05);
     this.parallel.zoom = 1;
     this.setFrustum();
     this.controls.target.set(0, 0, 0);
     this.perspective.position.copy(direction).multiplyScalar(1.12 * Math.max(distance, 0.1));
     this.parallel.position.copy(direction).multiplyScalar(3);
     this.controls.update();
+    this.fitted = { half, back };
     this.changed();
   }
 
@@ -99,6 +140,7 @@ export class CameraRig {
 
   /** Brings what is at the target nearer (`factor` above 1) or moves it away. */
   zoom(factor: number): void {
+    this.fitted = null;
     if (this.orthographic) {
       this.parallel.zoom = Math.min(400, Math.max(0.05, this.parallel.zoom * factor));
       this.parallel.updateProjectionMatrix();
@@ -113,6 +155,7 @@ export class CameraRig {
 
   /** Turns about the vertical and towards the zenith [rad]. */
   turn(aside: number, up: number): void {
+    this.fitted = null;
     const { target } = this.controls;
     const axis = new THREE.Vector3(...this.up);
     const away = this.camera.position.clone().sub(target);
@@ -127,6 +170,7 @@ export class CameraRig {
 
   /** Moves the view to the right and up by shares of its height. */
   move(aside: number, up: number): void {
+    this.fitted = null;
     const { camera } = this;
     const { target } = this.controls;
     const tangent = Math.tan(THREE.MathUtils.degToRad(kFieldOfView / 2));
@@ -144,6 +188,7 @@ export class CameraRig {
   /** Looks from where another camera of the same kind of view looks. */
   follow(other: CameraRig): void {
     this.quiet = true;
+    this.fitted = null;
     if (other.orthographic !== this.orthographic) this.setOrthographic(other.orthographic);
     this.height = other.height;
     this.parallel.zoom = other.parallel.zoom;

@@ -24,6 +24,11 @@ export interface ChartContent {
   curves: Curve[];
 }
 
+/** What is smaller than `least` is what rounding left of zero. */
+export function orZero(value: number, least: number): number {
+  return Math.abs(value) < least ? 0 : value;
+}
+
 function valueOf({ values, stride, offset }: Curve, frame: number): number {
   return values[stride * frame + offset]!;
 }
@@ -43,13 +48,21 @@ export function allTimes(curves: { times: Float64Array }[]): Float64Array {
   return all.filter((t, i) => i === 0 || t > all[i - 1]!);
 }
 
-/** The curve's numbers at the given instants in units of `factor`; undefined where it has none. */
-export function aligned(curve: Curve, times: Float64Array, factor: number): (number | null | undefined)[] {
+/**
+ * The curve's numbers at the given instants in units of `factor`; undefined where it has none. Values
+ * below `least` count as zero.
+ */
+export function aligned(
+  curve: Curve,
+  times: Float64Array,
+  factor: number,
+  least = 0,
+): (number | null | undefined)[] {
   let frame = 0;
   return Array.from(times, (t) => {
     while (curve.times[frame]! < t) frame++;
     if (curve.times[frame] !== t) return undefined;
-    const value = valueOf(curve, frame) / factor;
+    const value = orZero(valueOf(curve, frame), least) / factor;
     return Number.isFinite(value) ? value : null;
   });
 }
@@ -74,12 +87,14 @@ export class Chart {
   private readonly prefix: Prefix;
   private plot: uPlot | null = null;
 
+  /** @param least values below it are drawn and written as zero */
   constructor(
     readonly content: ChartContent,
     private readonly seek: (t: number) => void,
+    private readonly least = 0,
   ) {
     const { name, curves } = content;
-    this.prefix = prefixFor(largest(curves), content.unit);
+    this.prefix = prefixFor(orZero(largest(curves), least), content.unit);
     this.values = curves.map(() => el('b'));
     const unit = this.prefix.unit ? el('span', { class: 'unit' }, this.prefix.unit) : '';
     const legend = el('div', { class: 'legend' });
@@ -101,7 +116,7 @@ export class Chart {
     this.plot?.destroy();
     const { curves } = this.content;
     const times = allTimes(curves);
-    const columns = curves.map((curve) => aligned(curve, times, this.prefix.factor));
+    const columns = curves.map((curve) => aligned(curve, times, this.prefix.factor, this.least));
     const color = (c: number) => theme.curves[curves[c]!.color % theme.curves.length]!;
     this.root.querySelectorAll<HTMLElement>('.swatch').forEach((swatch, c) => {
       swatch.style.setProperty('--curve', color(c));
@@ -134,7 +149,7 @@ export class Chart {
           gap: 2,
           values: (_u, ticks) => ticks.map((t) => trim(format.number(t))),
         },
-        { ...axis, size: 54, gap: 4, space: 20, values: (_u, ticks) => ticks.map(tick) },
+        { ...axis, size: 54, gap: 4, space: 20, values: (_u, ticks) => tickTexts(ticks) },
       ],
       series: [
         {},
@@ -174,7 +189,7 @@ export class Chart {
     const x = this.plot.valToPos(t, 'x');
     if (Number.isFinite(x)) this.cursor.style.transform = `translateX(${x.toFixed(2)}px)`;
     this.content.curves.forEach((curve, c) => {
-      this.values[c]!.textContent = figure(valueAt(curve, t) / this.prefix.factor);
+      this.values[c]!.textContent = figure(orZero(valueAt(curve, t), this.least) / this.prefix.factor);
     });
   }
 
@@ -205,10 +220,20 @@ function trim(text: string): string {
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
-function tick(value: number): string {
+/** Ticks with as many digits as it takes to tell them apart. */
+export function tickTexts(ticks: number[]): string[] {
+  const apart = ticks.length > 1 ? Math.abs(ticks[1]! - ticks[0]!) : 0;
+  const largest = Math.max(...ticks.map(Math.abs));
+  const digits = apart > 0 ? Math.ceil(Math.log10(largest / apart)) + 1 : 4;
+  return ticks.map((value) => tick(value, Math.min(8, Math.max(4, digits))));
+}
+
+function tick(value: number, digits: number): string {
   if (value === 0) return '0';
   const size = Math.abs(value);
   const text =
-    size >= 1e5 || size < 1e-3 ? value.toExponential(1) : String(Number(value.toPrecision(4)));
+    size >= 1e5 || size < 1e-3
+      ? value.toExponential(1)
+      : String(Number(value.toPrecision(digits)));
   return text.replace('-', '−').replace('e+', 'e').replace('e-', 'e−');
 }

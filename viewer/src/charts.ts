@@ -58,15 +58,17 @@ export class Charts {
   private extra: Chart | null = null;
   private time = 0;
 
+  /** @param least below which values of a unit read as zero */
   constructor(
     runs: Run[],
     times: Float64Array,
     private theme: Theme,
     private readonly seek: (t: number) => void,
+    private readonly least: (unit: string) => number = () => 0,
   ) {
     const duration = (times.at(-1) ?? 0) - (times[0] ?? 0);
     this.format = new TimeFormat(duration, runs[0]?.clock ?? 's');
-    this.charts = chartContents(runs).map((content) => new Chart(content, seek));
+    this.charts = chartContents(runs).map((content) => new Chart(content, seek, least(content.unit)));
     // Sensors come first and energies last: show the first three of the former and the latter.
     const isEnergy = (chart: Chart) => chart.content.name.startsWith('Energies');
     let sensors = 0;
@@ -96,7 +98,7 @@ export class Charts {
   /** Puts curves of its own before the panels of the run; null takes them away. */
   setExtra(content: ChartContent | null): void {
     this.extra?.destroy();
-    this.extra = content ? new Chart(content, this.seek) : null;
+    this.extra = content ? new Chart(content, this.seek, this.least(content.unit)) : null;
     this.layOut();
   }
 

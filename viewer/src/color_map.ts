@@ -57,7 +57,7 @@ export function colorTable(map: ColorMapName): Uint8Array<ArrayBuffer> {
   return table;
 }
 
-/** The same scale as a CSS gradient from bottom to top, in `bands` steps if above zero. */
+/** The same scale as a CSS gradient along --upwards (from bottom to top without it), in `bands` steps if above zero. */
 export function cssGradient(map: ColorMapName, bands = 0): string {
   const css = (f: number) => {
     const color = colorAt(f, map);
@@ -68,5 +68,5 @@ export function cssGradient(map: ColorMapName, bands = 0): string {
     const [from, to] = [(100 * i) / count, (100 * (i + 1)) / count];
     return bands ? `${css((i + 0.5) / count)} ${from}% ${to}%` : css(i / (count - 1));
   });
-  return `linear-gradient(to top, ${stops.join(', ')})`;
+  return `linear-gradient(var(--upwards, to top), ${stops.join(', ')})`;
 }

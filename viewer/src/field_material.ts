@@ -33,6 +33,10 @@ const kVertexHead = `
 attribute float fieldValue;
 varying float vField;
 flat varying float vFieldFlat;
+#ifdef SPIN
+attribute vec2 spinQuarter;
+varying vec2 vQuarter;
+#endif
 `;
 
 const kFragmentHead = `
@@ -42,6 +46,9 @@ uniform float fieldOn, fieldFlat, closedSurface;
 uniform vec3 noColor, sectionColor;
 varying float vField;
 flat varying float vFieldFlat;
+#ifdef SPIN
+varying vec2 vQuarter;
+#endif
 `;
 
 const kColor = `
@@ -58,6 +65,9 @@ if (fieldOn > 0.5) {
     diffuseColor.rgb = beyond && cutMode > 0.5 ? noColor : painted;
   }
 }
+#ifdef SPIN
+if (vQuarter.x * vQuarter.y > 0.0) diffuseColor.rgb *= 0.7;
+#endif
 `;
 
 // The inner side of a closed surface is seen only through a cut: a plain colour there looks like
@@ -90,7 +100,8 @@ export class FieldMaterial extends THREE.MeshLambertMaterial {
       kVertexHead +
       shader.vertexShader.replace(
         '#include <begin_vertex>',
-        '#include <begin_vertex>\nvField = fieldValue;\nvFieldFlat = fieldValue;',
+        '#include <begin_vertex>\nvField = fieldValue;\nvFieldFlat = fieldValue;\n' +
+          '#ifdef SPIN\nvQuarter = spinQuarter;\n#endif',
       );
     shader.fragmentShader =
       kFragmentHead +
@@ -100,7 +111,12 @@ export class FieldMaterial extends THREE.MeshLambertMaterial {
   }
 
   override customProgramCacheKey(): string {
-    return 'field';
+    return `field ${'SPIN' in (this.defines ?? {})}`;
+  }
+
+  /** Darkens two quarters of a turn, by the attribute `spinQuarter`, so that a spin is seen. */
+  showSpin(): void {
+    this.defines = { ...this.defines, SPIN: '' };
   }
 
   /** Colours by values (`flat`: one per face) or plainly. */

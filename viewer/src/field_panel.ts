@@ -56,7 +56,12 @@ export class FieldPanel {
       this.item,
       el('div', { class: 'scale' }, this.bar, el('div', { class: 'ticks' }, ...this.ticks), this.unit),
       el('div', { class: 'now' }, 'now ', this.now),
-      el('details', {}, el('summary', {}, 'Range and colours'), ...this.settings()),
+      el(
+        'details',
+        {},
+        el('summary', {}, 'Range and colours'),
+        el('div', { class: 'settings' }, ...this.settings()),
+      ),
     );
     this.choose(field.item);
   }
@@ -98,10 +103,11 @@ export class FieldPanel {
     });
     return [
       entry('Range', this.range),
-      entry('from', this.low, ' to ', this.high),
+      entry('from', this.low, 'to', this.high),
       entry('Beyond', cut),
-      entry('below', this.cutLow, ' above ', this.cutHigh),
-      entry('Colours', map, bands),
+      entry('below', this.cutLow, 'above', this.cutHigh),
+      entry('Scale', map),
+      entry('Steps', bands),
       el('label', { class: 'entry' }, flat, 'one colour per element'),
     ];
   }
@@ -186,7 +192,7 @@ export class FieldPanel {
     if (field.range === 'frame' && Number.isFinite(from)) [field.low, field.high] = [from, to];
     this.shade();
     const { factor, unit } = this.prefix;
-    this.bar.style.background = cssGradient(field.map, field.bands);
+    this.bar.style.setProperty('--scale', cssGradient(field.map, field.bands));
     const span = field.high - field.low;
     this.ticks.forEach((tick, i) => {
       tick.textContent = figure((field.low + kTicks[i]! * span) / factor, 3);
@@ -198,7 +204,7 @@ export class FieldPanel {
     this.now.textContent = Number.isFinite(from) ? `${shown(from)} … ${shown(to)}` : '–';
     const at = span > 0 ? (to - field.low) / span : 0;
     this.needle.hidden = !(at >= 0 && at <= 1);
-    this.needle.style.bottom = `${100 * at}%`;
+    this.needle.style.setProperty('--at', `${100 * at}%`);
     this.put(this.low, field.low);
     this.put(this.high, field.high);
     this.put(this.cutLow, field.cutLow);
@@ -216,7 +222,8 @@ export class FieldPanel {
     const { uniforms } = this.shading;
     this.shading.setMap(field.map);
     uniforms.fieldLow.value = field.low;
-    uniforms.fieldHigh.value = field.high;
+    // Where there is but one value all of it has the lowest colour.
+    uniforms.fieldHigh.value = field.high > field.low ? field.high : field.low + 3e37;
     uniforms.fieldBands.value = field.bands;
     uniforms.cutMode.value = { none: 0, grey: 1, hide: 2 }[field.cut];
     uniforms.cutLow.value = field.cutLow ?? -3e38;

@@ -80,7 +80,9 @@ function vectorSources(
   stride: number,
 ): FieldSource[] {
   const group = label(name);
-  const whole = { id: `${name}/magnitude`, group, label: `${group}, magnitude`, unit };
+  const relative = name === 'relative_displacement';
+  const text = relative ? group : `${group}, magnitude`;
+  const whole = { id: `${name}/magnitude`, group, label: text, unit };
   return [
     source(on, rows, stride, { kind: 'magnitude' }, whole),
     ...['x', 'y', 'z'].map((axis, k) => {
@@ -160,7 +162,9 @@ function fieldSources(field: Field): FieldSource[] {
 /** Everything that a body can show, recorded quantities before derived ones. */
 export function sourcesOf(body: Body): FieldSource[] {
   const all = body.fields.filter(({ name }) => name !== 'displacement').flatMap(fieldSources);
-  if (body.displacement) {
+  if (body.shape) {
+    all.push(...vectorSources('relative_displacement', '', 'nodes', body.shape, 3));
+  } else if (body.displacement) {
     all.push(...vectorSources('displacement', 'm', 'nodes', body.displacement, body.perNode));
   }
   // "von Mises" of a recorded field stands before the one worked out from the tensor.

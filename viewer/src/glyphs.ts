@@ -92,6 +92,18 @@ export function massCentre(color: THREE.ColorRepresentation): THREE.Mesh {
   return new THREE.Mesh(geometry, material);
 }
 
+/** A flat disc of radius 1 about z in four fields, light and dark by turns. */
+export function quarteredDisc(color: THREE.ColorRepresentation): THREE.Group {
+  const disc = new THREE.Group();
+  const fields = [new THREE.Color(color), new THREE.Color(color).lerp(new THREE.Color(0xffffff), 0.7)];
+  for (let quarter = 0; quarter < 4; quarter++) {
+    const start = (quarter * Math.PI) / 2;
+    const sector = new THREE.CylinderGeometry(1, 1, 0.16, 12, 1, false, start, Math.PI / 2);
+    disc.add(new THREE.Mesh(sector.rotateX(Math.PI / 2), solid(fields[quarter % 2]!)));
+  }
+  return disc;
+}
+
 function revolute(material: THREE.Material): THREE.Object3D {
   const body = new THREE.CylinderGeometry(0.8, 0.8, 1.6, 28).rotateX(Math.PI / 2);
   const pin = new THREE.CylinderGeometry(0.3, 0.3, 2.3, 18).rotateX(Math.PI / 2);

@@ -1,7 +1,9 @@
 import { kRunNames } from './charts';
 import { modal, nameTable } from './dialog';
 import { el } from './dom';
-import { flatten, notices, summaryChips, trustReasons } from './run_summary';
+import { namesOfRuns, titleOf } from './run_names';
+import { notices, summaryChips, trustReasons } from './run_summary';
+import { summaryGroups } from './summary_table';
 import type { Run } from './run';
 
 function list(title: string, lines: string[]): HTMLElement[] {
@@ -12,23 +14,31 @@ function list(title: string, lines: string[]): HTMLElement[] {
   ];
 }
 
-function storageText({ times, storage }: Run): string {
-  const shown = `${times.length} of ${storage.records} records are in this page`;
+function storageText({ storage }: Run): string {
+  const what = storage.vibrations ? 'vibrations' : 'records';
+  const shown = `${storage.shown} of ${storage.records} ${what} are in this page`;
   const rounded = storage.rounded ? ', deformations and fields rounded to 16 bits' : '';
   return `${[`${shown}${rounded}`, ...storage.notes].join('. ')}.`;
 }
 
+/** Where the run lies and what was changed for it. */
+function origin({ directory, changes }: Run): string[] {
+  const set = changes.map((change) => `Set: ${change}`);
+  return directory ? [`Directory: ${directory}`, ...set] : set;
+}
+
 /** Warnings in full and every figure of the summary. */
 function details(run: Run): HTMLElement[] {
-  const rows = flatten(run.summary);
+  const groups = summaryGroups(run.summary);
   const made = [run.version && `Buckens ${run.version}`, run.generated].filter(Boolean).join(' · ');
   return [
     el('p', { class: 'made' }, made),
+    ...origin(run).map((line) => el('p', { class: 'made' }, line)),
     el('p', { class: 'made' }, storageText(run)),
     ...list('Why the result needs a second look', trustReasons(run.summary)),
     ...list('Warnings', notices(run.summary)),
-    el('h3', {}, 'Summary of the run'),
-    rows.length ? nameTable(rows) : el('p', {}, 'The run left no summary.'),
+    ...groups.flatMap(({ title, rows }) => [el('h3', {}, title), nameTable(rows)]),
+    ...(groups.length ? [] : [el('p', {}, 'The run left no summary.')]),
   ];
 }
 
@@ -42,11 +52,12 @@ function chips(run: Run, brief: boolean): HTMLElement[] {
 
 /** Title and the few figures that say how the run went; a click on them shows all. */
 export function header(runs: Run[]): HTMLElement {
-  const title = runs.map((run) => run.title).join(' | ');
-  const content = runs.length === 1 ? details(runs[0]!) : runs.flatMap((run, i) => [
-    el('h3', { class: 'run-name' }, `${kRunNames[i]!}: ${run.title}`),
-    ...details(run),
-  ]);
+  const names = namesOfRuns(runs);
+  const title = titleOf(runs);
+  const content =
+    runs.length === 1
+      ? details(runs[0]!)
+      : runs.flatMap((run, i) => [el('h3', { class: 'run-name' }, names[i]!), ...details(run)]);
   const dialog = modal(title, ...content);
   const open = () => dialog.showModal();
   const buttons = runs.map((run, i) =>
@@ -55,7 +66,7 @@ export function header(runs: Run[]): HTMLElement {
       { class: 'chips', type: 'button', title: storageText(run), click: open },
       ...(runs.length === 1 ? [] : [el('b', {}, kRunNames[i]!)]),
       ...chips(run, runs.length > 1),
-      ...(i === runs.length - 1 ? ['Details'] : []),
+      ...(i === runs.length - 1 ? [el('span', { class: 'more' }, 'Details')] : []),
     ),
   );
   return el(

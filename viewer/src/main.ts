@@ -5,11 +5,13 @@ import './style/curves.css';
 import './style/dialog.css';
 import './style/modes.css';
 import './style/panels.css';
+import './style/strip.css';
 import './style/narrow.css';
 import { el } from './dom';
 import { checkModes, ModeShapes } from './modes';
 import { checkPage, decodeRun, PageDataError } from './run';
 import { Page } from './page';
+import { titleOf } from './run_names';
 import { startTheme } from './theme';
 import type { PageData } from './page_data';
 
@@ -38,7 +40,7 @@ function start(app: HTMLElement): void {
   try {
     const pages = checkPage(data);
     const runs = pages.map(decodeRun);
-    document.title = `${runs.map((run) => run.title).join(' | ')} – Buckens`;
+    document.title = `${titleOf(runs)} – Buckens`;
     const empty = runs.find((run) => run.times.length === 0);
     if (empty) {
       const text = 'The run stored no frame yet. Write the page again once the run is on its way.';

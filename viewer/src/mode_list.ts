@@ -15,6 +15,7 @@ export class ModeList {
   private readonly shapes: ModeShapes;
   private readonly entries: HTMLButtonElement[];
   private readonly amplitude: HTMLInputElement;
+  private readonly share = el('output');
 
   /** Modes of one model, or of two side by side; `changed` is called after another mode or amplitude was chosen. */
   constructor(
@@ -54,7 +55,9 @@ export class ModeList {
         { class: 'field', title: 'Largest displacement as a share of the model’s size' },
         'Amplitude',
         this.amplitude,
+        this.share,
       ),
+      el('p', { class: 'mode-note' }, 'Shapes have no size of their own: colours show displacements over the largest one.'),
       el('div', { class: 'mode-list', role: 'group', 'aria-label': 'Modes' }, ...this.entries),
     );
     this.mark();
@@ -73,7 +76,9 @@ export class ModeList {
   }
 
   private mark(): void {
-    const share = `${figure(100 * this.shapes.amplitude, 3)} % of the model’s size`;
+    const percent = `${Number((100 * this.shapes.amplitude).toFixed(1))} %`;
+    const share = `${percent} of the model’s size`;
+    this.share.textContent = percent;
     this.amplitude.setAttribute('aria-valuetext', share);
     this.entries.forEach((entry, i) =>
       entry.setAttribute('aria-pressed', String(i === this.shapes.index)),

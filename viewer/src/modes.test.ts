@@ -1,5 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { kVariants } from '../tests/fixture.mjs';
+import { BodyField } from './body_field';
+import { fieldItems, rangeOfRun } from './fields';
 import { checkModes, ModeShapes } from './modes';
 import { Motion } from './motion';
 import { decodeRun, PageDataError } from './run';
@@ -37,6 +39,26 @@ describe('ModeShapes', () => {
     const factor = 0.1 * shapes.size;
     expect(pose[1]! - 0.2).toBeCloseTo(factor, 5);
     expect(2 * Math.asin(pose[6]!)).toBeCloseTo(0.4 * factor, 5);
+  });
+
+  it('has colours that tell shares of the largest displacement, whatever the amplitude', () => {
+    const shapes = shapesOf();
+    const item = 'relative_displacement/magnitude';
+    expect(fieldItems([shapes.run]).map(({ id, unit }) => [id, unit])).toContainEqual([item, '']);
+    const field = new BodyField(shapes.run.bodies[0]!);
+    // A quarter of the period is the 16th of 64 pictures.
+    const at = (node: number) => field.at(item, true, false, { index: 16, fraction: 0 })!.values[node];
+    for (const amplitude of [0.05, 0.2]) {
+      shapes.show(0, amplitude);
+      expect(at(6)).toBeCloseTo(1, 6);
+      expect(at(3)).toBeCloseTo(Math.sin(Math.PI / 4), 6);
+      // Of both the frame's translation and its rotation: 1 + 0.4 x.
+      shapes.show(1, amplitude);
+      expect(at(12)).toBeCloseTo(1 + 0.4 * 0.4, 6);
+      expect(at(0)).toBeCloseTo(1 - 0.4 * 0.4, 6);
+    }
+    expect(rangeOfRun([shapes.run], item)[0]).toBeCloseTo(0, 6);
+    expect(shapes.run.storage).toMatchObject({ shown: 3, records: 3, vibrations: true });
   });
 
   it('shows an unstable mode with a period of one second', () => {

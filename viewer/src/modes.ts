@@ -1,7 +1,8 @@
 import { runBounds } from './bounds';
 import { rotate } from './motion';
 import { SwingingRows } from './rows';
-import { PageDataError, type Run } from './run';
+import { PageDataError, type Body, type Run } from './run';
+import { WholeShape } from './whole_shape';
 import type { PageMode } from './page_data';
 
 /** One vibration of the page. */
@@ -60,6 +61,8 @@ export class ModeShapes {
   readonly size: number;
   /** Displacement over the shape's, per picture. */
   private readonly factors = new Float64Array(kFrames);
+  /** The same for an amplitude of one. */
+  private readonly swing = Float64Array.from({ length: kFrames }, (_, k) => Math.sin(phase(k)));
 
   /** `shapes` holds one mode per frame; beside a `leader` they swing in phase with it. */
   constructor(
@@ -78,10 +81,17 @@ export class ModeShapes {
         ...body,
         pose: new Float32Array(7 * kFrames),
         displacement: body.displacement && new SwingingRows(body.displacement, this.factors),
+        shape: this.relative(body),
         fields: [],
       })),
     };
     this.show(0, this.amplitude);
+  }
+
+  /** What colours show: the shape, whatever the amplitude that is drawn. */
+  private relative(body: Body): SwingingRows | null {
+    const moves = body.displacement !== null || body.motion !== null;
+    return moves && body.nodes.length > 0 ? new SwingingRows(new WholeShape(body), this.swing) : null;
   }
 
   get mode(): Mode {
@@ -97,11 +107,13 @@ export class ModeShapes {
     this.index = Math.min(this.modes.length - 1, Math.max(0, index));
     this.amplitude = amplitude;
     for (const body of this.run.bodies) {
-      if (body.displacement instanceof SwingingRows) body.displacement.choose(this.index);
+      for (const rows of [body.displacement, body.shape]) {
+        if (rows instanceof SwingingRows) rows.choose(this.index);
+      }
     }
     for (let k = 0; k < kFrames; k++) {
       if (!this.leader) this.run.times[k] = (this.period * k) / (kFrames - 1);
-      this.factors[k] = amplitude * this.size * Math.sin(phase(k));
+      this.factors[k] = amplitude * this.size * this.swing[k]!;
       this.turn(k, this.factors[k]!);
     }
   }

@@ -1,6 +1,6 @@
 import { CameraBar } from './camera_bar';
 import { allTimes, valueAt } from './chart';
-import { Charts, kRunNames } from './charts';
+import { Charts } from './charts';
 import { curveChoice } from './curve_choice';
 import { DisplayPanel } from './display_panel';
 import { el } from './dom';
@@ -8,21 +8,25 @@ import { FieldPanel } from './field_panel';
 import { FieldShading } from './field_material';
 import { fieldItems, rangeOfRun } from './fields';
 import { header } from './header';
+import { insetsOf } from './insets';
 import { Keyboard } from './keyboard';
 import { joined, runBounds } from './bounds';
+import { Magnitudes } from './magnitudes';
 import { ModeList } from './mode_list';
 import { Pane } from './pane';
 import { PickPanel } from './pick_panel';
-import { historyAt } from './picks';
+import { rotate } from './motion';
+import { historyAt, type Pick } from './picks';
 import { Playback } from './playback';
 import { figure, niceBelow, prefixFor } from './quantity';
+import { namesOfRuns } from './run_names';
 import { Section } from './section';
 import { startOptions } from './start_options';
 import { chooseTheme, currentTheme, onThemeChange, themeChoice, type Theme } from './theme';
 import { Toolbar } from './toolbar';
 import { Transport } from './transport';
 import type { ModeShapes } from './modes';
-import type { Run } from './run';
+import { nodeAt, type Run } from './run';
 import type { ViewerState } from './hook';
 import type { Triple } from './page_data';
 import type { ViewOptions } from './view_options';
@@ -75,7 +79,16 @@ export class Page {
     const changed = () => this.changed();
     const times = allTimes(runs);
     this.playback = new Playback(times);
-    this.charts = new Charts(shapes.length ? [] : runs, times, this.theme, (t) => this.seek(t));
+    const bounds = runs.map(runBounds).reduce(joined);
+    const magnitudes = new Magnitudes(runs, bounds.size);
+    const least = (unit: string) => magnitudes.least(unit);
+    this.charts = new Charts(
+      shapes.length ? [] : runs,
+      times,
+      this.theme,
+      (t) => this.seek(t),
+      least,
+    );
     this.keyboard = this.keys();
     this.camera = new CameraBar({
       lookAlong: (axis) => this.lookAlong(axis),
@@ -84,9 +97,9 @@ export class Page {
       theme: () => this.nextTheme(),
       help: () => this.keyboard.help.showModal(),
     });
-    const bounds = runs.map(runBounds).reduce(joined);
+    const names = namesOfRuns(runs);
     this.panes = runs.map((run, i) => {
-      const title = runs.length > 1 ? `${kRunNames[i]!}: ${run.title}` : '';
+      const title = runs.length > 1 ? names[i]! : '';
       const moved = () => this.moved(i);
       return new Pane(run, title, bounds, this.theme, this.shading, moved, (pick) => {
         if (pick) this.picks.flip({ ...pick, pane: i });
@@ -95,12 +108,19 @@ export class Page {
     const section = this.leader?.section ?? new Section(bounds, []);
     this.display = new DisplayPanel(runs[0]!, this.options, section, changed);
     this.toolbar = new Toolbar(runs, this.options, this.display.root, changed);
-    const range = (id: string) => rangeOfRun(runs, id);
+    const range = (id: string): [number, number] => {
+      const [low, high] = rangeOfRun(runs, id);
+      const unit = items.find((item) => item.id === id)?.unit ?? '';
+      const none = Math.max(Math.abs(low), Math.abs(high)) < magnitudes.least(unit);
+      return none ? [0, 0] : [low, high];
+    };
     this.field = new FieldPanel(items, this.options, this.shading, range, changed);
     this.picks = new PickPanel(
       runs,
       {
-        position: (pick) => this.panes[pick.pane]!.stage?.placeOf(pick, 1) ?? [NaN, NaN, NaN],
+        position: (pick) => this.place(pick),
+        atRest: shapes.length > 0,
+        least: (unit) => magnitudes.least(unit),
         history: (pick) =>
           historyAt(runs[pick.pane]!, pick, this.options.field.item, this.options.field.perElement),
         item: () => this.field.itemShown,
@@ -127,6 +147,15 @@ export class Page {
     requestAnimationFrame((now) => this.tick(now));
   }
 
+  /** Where a followed node is [m]; in vibrations, whose size is arbitrary, where it rests. */
+  private place(pick: Pick): Triple {
+    const stage = this.panes[pick.pane]!.stage;
+    if (!stage || this.shapes.length === 0) return stage?.placeOf(pick, 1) ?? [NaN, NaN, NaN];
+    const body = this.runs[pick.pane]!.bodies[pick.body]!;
+    const turned = rotate(body.pose, 3, nodeAt(body, pick.node));
+    return turned.map((x, i) => x + body.pose[i]!) as Triple;
+  }
+
   /** The view whose camera the others follow. */
   private get leader() {
     return this.panes[0]!.stage;
@@ -147,11 +176,16 @@ export class Page {
     const workspace = el('main', { class: 'workspace' }, middle, side);
     app.append(header(this.runs), workspace, this.keyboard.help);
     this.notice();
-    for (const pane of this.panes) {
-      pane.resize();
-      pane.stage?.fitHome();
-    }
+    this.field.update([NaN, NaN]);
+    this.makeRoom();
+    for (const pane of this.panes) pane.stage?.fitHome();
     this.charts.layOut();
+  }
+
+  /** Fits the pictures to what the controls over them leave free. */
+  private makeRoom(): void {
+    const insets = insetsOf(this.view, this.field.root, this.panes.length > 1);
+    for (const pane of this.panes) pane.resize(insets);
   }
 
   private notice(): void {
@@ -224,7 +258,7 @@ export class Page {
 
   private watch(): void {
     new ResizeObserver(() => {
-      for (const pane of this.panes) pane.resize();
+      this.makeRoom();
       this.changed();
     }).observe(this.view);
     new ResizeObserver(() => this.charts.resize()).observe(this.charts.root);
@@ -283,7 +317,9 @@ export class Page {
     if (!leader) return;
     this.camera.update(leader.rig.orthographic, themeChoice());
     for (const { stage } of this.panes) stage?.update(playback.time, options);
+    const hidden = this.field.root.hidden;
     this.field.update(this.present());
+    if (this.field.root.hidden !== hidden) this.makeRoom();
     this.panes.forEach(({ stage }, pane) => {
       const colors = this.theme.curves;
       const own = this.picks.picks

@@ -58,6 +58,15 @@ export interface PageBody {
   elements: [number, number][];
   /** Radius of the drawn tube at both ends of each element [m]. */
   radius: [number, number][];
+  /**
+   * Cross-sections of the elements, each as base64 of points y, z [m]: the outline, which turns from
+   * y to z, then those of holes, which turn the other way. Missing in runs of older versions.
+   */
+  sections?: Base64[][] | null;
+  /** Elements × 2 as int32: section at both ends. */
+  elementSections?: Base64;
+  /** Elements × 3 as float32: local y axis in the body frame; x runs along the element, z = x × y. */
+  elementAxes?: Base64;
   markers: PageMarker[];
   /** frames × 7: position, then unit quaternion w, x, y, z. */
   pose: Base64;
@@ -68,6 +77,11 @@ export interface PageBody {
   faces?: Base64;
   /** Per face the element below it as int32, counted among those that have a face. */
   faceElements?: Base64;
+  /**
+   * Per face as int32 which of its sides are edges of its element: bit k for that from corner k to the
+   * next. Faces of quadratic elements fall into pieces. Null where all are.
+   */
+  faceEdges?: Base64 | null;
   /** Faces × 4 as int32: the place of fields on `places` at each corner, −1 if it has none. */
   facePlaces?: Base64 | null;
   /**
@@ -157,6 +171,10 @@ export interface PageStorage {
 
 export interface PageRun {
   title: string;
+  /** Name of the run directory; missing in pages of older versions. */
+  directory?: string;
+  /** What was changed by --set: "bodies.rod.beam.elements=32". */
+  changes?: string[];
   version: string;
   generated: string;
   time: { n: number; f32: Base64 };

@@ -1,6 +1,7 @@
 import { el } from './dom';
 import { Stage } from './stage';
 import type { Bounds } from './bounds';
+import type { Insets } from './camera_rig';
 import type { FieldShading } from './field_material';
 import type { Pick } from './picks';
 import type { Run } from './run';
@@ -54,7 +55,7 @@ export class Pane {
     });
   }
 
-  resize(): void {
-    this.stage?.resize(this.root.clientWidth, this.root.clientHeight);
+  resize(insets: Insets): void {
+    this.stage?.resize(this.root.clientWidth, this.root.clientHeight, insets);
   }
 }

@@ -4,7 +4,7 @@ import { figure, prefixFor } from './quantity';
 import { isPickable, pickName, type Pick } from './picks';
 import { nodeNumbered, type Run } from './run';
 import { pointOf } from './fields';
-import type { ChartContent, Curve } from './chart';
+import { orZero, type ChartContent, type Curve } from './chart';
 import type { FieldItem } from './fields';
 import type { Triple } from './page_data';
 
@@ -14,9 +14,13 @@ const kMostPicks = 8;
 export interface PickValues {
   /** World position at the present time [m]. */
   position(pick: Pick): Triple;
+  /** Positions are those of the body at rest. */
+  atRest: boolean;
   /** Value of the field in every frame. */
   history(pick: Pick): Float32Array;
   item(): FieldItem | undefined;
+  /** Below which values of a unit read as zero. */
+  least(unit: string): number;
 }
 
 /** The nodes that the user follows: what they are, where, and their value. */
@@ -137,9 +141,9 @@ export class PickPanel {
       // What is nothing beside the model reads as nothing.
       const near = (x: number) => (Math.abs(x) < 1e-6 * length ? 0 : x);
       const p = this.values.position(pick).map((x) => figure(near(x) / factor, 4));
-      position.textContent = `at ${p.join(', ')} ${unit}`;
-      const now = value(this.curves[i]!);
+      position.textContent = `${this.values.atRest ? 'at rest at' : 'at'} ${p.join(', ')} ${unit}`;
       const plain = item?.unit === '1' ? '' : (item?.unit ?? '');
+      const now = orZero(value(this.curves[i]!), this.values.least(plain));
       const prefix = prefixFor(Math.abs(now), plain);
       out.textContent = Number.isFinite(now)
         ? `${figure(now / prefix.factor)} ${prefix.unit}`

@@ -1,4 +1,5 @@
 import { decodeFloats, decodeInts, PageDataError } from './base64';
+import { decodeFaces, decodeSections, type Faces, type Sections } from './body_shape';
 import { PackedRows, SparseRows, type Rows } from './rows';
 import type {
   PageBody,
@@ -13,6 +14,7 @@ import type {
 } from './page_data';
 
 export { decodeFloats, PageDataError };
+export type { Faces, Sections };
 
 /** A recorded quantity of a body. */
 export interface Field {
@@ -27,18 +29,6 @@ export interface Field {
   rows: Rows;
 }
 
-/** The surface of a solid body. */
-export interface Faces {
-  /** Four per face: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
-  nodes: Int32Array;
-  /** Per face the element below it, counted among those that have a face. */
-  elements: Int32Array;
-  /** Four per face: where fields on `places` have the corner's value, −1 for nowhere; or null. */
-  places: Int32Array | null;
-  numElements: number;
-  numPlaces: number;
-}
-
 /** A body with its recorded motion. */
 export interface Body {
   name: string;
@@ -50,6 +40,8 @@ export interface Body {
   elements: [number, number][];
   /** At both ends of each element. */
   radius: [number, number][];
+  /** Null where beams are drawn as round tubes of this radius. */
+  sections: Sections | null;
   /** Null for bodies without a surface. */
   faces: Faces | null;
   markers: PageMarker[];
@@ -57,6 +49,8 @@ export interface Body {
   displacement: Rows | null;
   /** Numbers of `displacement` per node: 3, or 6 with rotations. */
   perNode: 3 | 6;
+  /** Vibrations: displacement of the nodes, body axes, over the largest of the model; null in runs. */
+  shape: Rows | null;
   /** Pages with modes: frames × 6, motion of the frame; null in runs. */
   motion: Float32Array | null;
   fields: Field[];
@@ -83,9 +77,21 @@ export interface Series {
   values: Float32Array;
 }
 
+/** What the page holds of the run. */
+export interface Storage extends PageStorage {
+  /** Frames in the page. */
+  shown: number;
+  /** Each of them is the shape of a vibration. */
+  vibrations: boolean;
+}
+
 /** Everything the page shows of a run, decoded and checked. */
 export interface Run {
   title: string;
+  /** Name of its directory; empty where the page does not know it. */
+  directory: string;
+  /** What --set changed. */
+  changes: string[];
   version: string;
   generated: string;
   times: Float64Array;
@@ -99,7 +105,7 @@ export interface Run {
   sensors: Series[];
   energies: Series[];
   summary: Record<string, unknown>;
-  storage: PageStorage;
+  storage: Storage;
 }
 
 export function numNodes(body: Body): number {
@@ -133,28 +139,6 @@ function decodeTimes(data: PageRun): Float64Array {
 }
 
 const kKinds = ['rigid', 'beam', 'solid'] as const;
-
-function most(numbers: Int32Array): number {
-  return numbers.reduce((a, b) => Math.max(a, b), -1);
-}
-
-/** The surface of a solid body; null for others. */
-function decodeFaces(body: PageBody, count: number, where: string): Faces | null {
-  if (!body.faces) return null;
-  const nodes = decodeInts(body.faces, 4, `${where}.faces`);
-  nodes.forEach((node, i) => {
-    if (node >= count || node < (i % 4 === 3 ? -1 : 0)) {
-      throw new PageDataError(`${where}.faces: no node ${node}`);
-    }
-  });
-  const elements = decodeInts(body.faceElements ?? '', 1, `${where}.faceElements`);
-  const places = body.facePlaces ? decodeInts(body.facePlaces, 4, `${where}.facePlaces`) : null;
-  if (4 * elements.length !== nodes.length || (places && places.length !== nodes.length)) {
-    throw new PageDataError(`${where}.faces: ${nodes.length / 4} faces, but not as many elements`);
-  }
-  const numElements = most(elements) + 1;
-  return { nodes, elements, places, numElements, numPlaces: places ? most(places) + 1 : 0 };
-}
 
 function decodeField(field: PageField, frames: number, count: number, where: string): Field {
   const components = field.components?.length ? field.components : [''];
@@ -212,11 +196,13 @@ function decodeBody(body: PageBody, frames: number, where: string): Body {
     nodeNumbers: numbers,
     elements,
     radius: elements.map((_, e) => body.radius?.[e] ?? [0, 0]),
+    sections: decodeSections(body, elements.length, where),
     faces,
     markers: body.markers ?? [],
     pose: decodeFloats(body.pose, frames * 7, `${where}.pose`),
     displacement,
     perNode,
+    shape: null,
     motion: body.motion ? decodeFloats(body.motion, frames * 6, `${where}.motion`) : null,
     fields: (body.fields ?? []).map((field) =>
       decodeField(field, frames, size[field.on] ?? 0, `${where}.${field.name}`),
@@ -257,6 +243,8 @@ export function decodeRun(data: PageRun): Run {
   const summary = data.summary ?? {};
   return {
     title: data.title || 'Untitled run',
+    directory: data.directory ?? '',
+    changes: data.changes ?? [],
     version: data.version ?? '',
     generated: data.generated ?? '',
     times,
@@ -274,7 +262,11 @@ export function decodeRun(data: PageRun): Run {
       series(e.name, e.unit, [''], e.values, `energies[${i}]`),
     ),
     summary,
-    storage: data.storage ?? { records: n, rounded: false, notes: [] },
+    storage: {
+      ...(data.storage ?? { records: n, rounded: false, notes: [] }),
+      shown: n,
+      vibrations: Boolean(data.modes),
+    },
   };
 }
 

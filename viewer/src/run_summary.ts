@@ -98,8 +98,8 @@ export function summaryChips(run: Run): Chip[] {
       reasons.length ? 'warn' : 'good',
     );
   }
-  if (run.times.length < run.storage.records) {
-    const value = `${run.times.length} of ${run.storage.records}`;
+  if (run.storage.shown < run.storage.records) {
+    const value = `${run.storage.shown} of ${run.storage.records}`;
     add('frames', value, 'Records of the run that are in this page');
   }
   const said = notices(summary);
@@ -108,23 +108,4 @@ export function summaryChips(run: Run): Chip[] {
     add('', count, said.join('\n'), 'warn');
   }
   return chips;
-}
-
-/** Every leaf of the summary as path and text, for the details. */
-export function flatten(value: unknown, path = ''): [string, string][] {
-  if (isTree(value)) {
-    return Object.entries(value).flatMap(([key, inner]) =>
-      flatten(inner, path ? `${path}.${key}` : key),
-    );
-  }
-  if (value === null || value === undefined) return [];
-  if (Array.isArray(value)) {
-    if (value.length === 0) return [];
-    if (value.some((inner) => typeof inner === 'object')) {
-      return value.flatMap((inner, i) => flatten(inner, `${path}[${i}]`));
-    }
-    return [[path, value.map(String).join(', ')]];
-  }
-  const number = typeof value === 'number' && !Number.isInteger(value);
-  return [[path, number ? figure(value, 6) : String(value)]];
 }

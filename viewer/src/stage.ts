@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 import { BodyView, type GlyphSize } from './body_view';
-import { CameraRig } from './camera_rig';
+import { CameraRig, type Insets } from './camera_rig';
 import { CornerTriad } from './corner_triad';
 import { Grid } from './grid';
 import { ball } from './glyphs';
@@ -111,12 +111,13 @@ export class Stage {
     for (const view of views) this.model.add(view.root);
   }
 
-  resize(width: number, height: number): void {
+  /** @param insets what lies over the picture */
+  resize(width: number, height: number, insets: Insets): void {
     this.width = Math.max(1, width);
     this.height = Math.max(1, height);
     this.renderer.setPixelRatio(paintsSlowly() ? 1 : Math.min(2, window.devicePixelRatio));
     this.renderer.setSize(this.width, this.height, false);
-    this.rig.resize(this.width, this.height);
+    this.rig.resize(this.width, this.height, insets);
   }
 
   /** Looks at the whole run, from `back` or from where the camera is. */

@@ -1,10 +1,12 @@
 import type { FieldItem } from './fields';
 import type { ViewOptions } from './view_options';
 
-/** What is shown when the page opens: stresses in colour if there are any. */
+/** What is shown when the page opens: stresses in colour if there are any, of vibrations their shape. */
 export function startOptions(items: FieldItem[]): ViewOptions {
   const stress =
-    items.find(({ id }) => id === 'von_mises') ?? items.find(({ unit }) => unit === 'Pa');
+    items.find(({ id }) => id === 'von_mises') ??
+    items.find(({ unit }) => unit === 'Pa') ??
+    items.find(({ id }) => id === 'relative_displacement/magnitude');
   return {
     frames: false,
     joints: true,

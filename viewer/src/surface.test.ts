@@ -62,6 +62,34 @@ function volume({ positions, indices }: Pick<Surface, 'positions' | 'indices'>):
   return sum / 6;
 }
 
+describe('edges of quadratic elements', () => {
+  // A face of tet10: corners 0 1 2, mid-side nodes 3 4 5, in four pieces.
+  const nodes = [0, 0, 0, 2, 0, 0, 0, 2, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0];
+  const quadratic = (faceEdges: string | null) =>
+    bodyOf({
+      nodes: base64(nodes),
+      faces: ints([0, 3, 5, -1, 1, 4, 3, -1, 2, 5, 4, -1, 3, 4, 5, -1]),
+      faceElements: ints([0, 0, 0, 0]),
+      faceEdges,
+      displacement: null,
+    });
+
+  it('leave out the lines between the pieces of a face', () => {
+    const { edges, nodeOf, isOpen } = new Surface(quadratic(ints([0b101, 0b101, 0b101, 0])));
+    const pairs = [...Array(edges.length / 2)].map((_, i) =>
+      [edges[2 * i]!, edges[2 * i + 1]!].map((v) => nodeOf[v]!).sort().join(' '),
+    );
+    expect(pairs.sort()).toEqual(['0 3', '0 5', '1 3', '1 4', '2 4', '2 5']);
+    expect(isOpen).toBe(true);
+    // Without knowing them all sides are drawn.
+    expect(new Surface(quadratic(null)).edges).toHaveLength(2 * 9);
+  });
+
+  it('are refused in another number than there are faces', () => {
+    expect(() => quadratic(ints([7]))).toThrow('faceEdges: 1 found, 4 expected');
+  });
+});
+
 describe('solid bodies of a page', () => {
   it('have translations only', () => {
     const body = bodyOf();

@@ -25,7 +25,7 @@ export class Surface {
   readonly positions: Float32Array;
   readonly normals: Float32Array;
   readonly indices: Uint32Array;
-  /** Pairs of vertices: the edges of the elements that can be seen. */
+  /** Pairs of vertices: the edges of the elements that can be seen, in halves where quadratic. */
   readonly edges: Uint32Array;
   /** Pairs of vertices: edges where the surface has a kink or ends. */
   readonly outline: Uint32Array;
@@ -128,9 +128,12 @@ export class Surface {
     const faces: number[] = [];
     const sharp: boolean[] = [];
     const count = this.body.nodes.length / 3;
+    const elementEdges = this.body.faces!.edges;
     for (let f = 0; f < corners.length; f += 4) {
       const n = corners[f + 3]! < 0 ? 3 : 4;
       for (let k = 0; k < n; k++) {
+        // Lines within a face of a quadratic element are none of its edges.
+        if (elementEdges && !((elementEdges[f >> 2]! >> k) & 1)) continue;
         const [u, v] = [corners[f + k]!, corners[f + ((k + 1) % n)]!];
         const [a, b] = [nodeOf[u]!, nodeOf[v]!];
         const key = a < b ? a * count + b : b * count + a;

@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import { ElementFaces } from './element_faces';
+import { quarters, type Spin } from './spin';
 import { surfaceOf, type Surface } from './surface';
 import { faceValue, kNoValue, VertexValues, type Painted } from './surface_values';
 import type { FieldMaterial } from './field_material';
@@ -49,10 +50,12 @@ export class SurfaceMesh implements Skin {
     private readonly motion: BodyMotion,
     private readonly material: FieldMaterial,
     private readonly edgeColors: { onFaces: string; alone: string },
+    private readonly spin: Spin | null,
   ) {
     this.surface = surfaceOf(motion.body);
     const { positions, normals, indices } = this.surface;
     this.smooth = picture(positions, normals, indices);
+    this.mark(this.smooth, this.surface.restPositions());
     this.vertexValues = new VertexValues(this.surface, motion.body.faces!);
     // Edges stand in front of the faces they bound.
     material.polygonOffset = true;
@@ -67,6 +70,12 @@ export class SurfaceMesh implements Skin {
       part.frustumCulled = false;
       this.root.add(part);
     }
+  }
+
+  private mark({ geometry }: Picture, rest: Float32Array): void {
+    if (!this.spin) return;
+    geometry.setAttribute('spinQuarter', new THREE.BufferAttribute(quarters(this.spin, rest), 2));
+    this.material.showSpin();
   }
 
   deform(displacement: Float32Array, scale: number): void {
@@ -107,6 +116,10 @@ export class SurfaceMesh implements Skin {
     if (byFace && !this.split) {
       const faces = new ElementFaces(this.surface);
       this.split = { faces, picture: picture(faces.positions, faces.normals, faces.indices) };
+      const rest = this.surface.restPositions();
+      const all = new Float32Array(3 * faces.vertexOf.length);
+      faces.vertexOf.forEach((v, i) => all.set(rest.subarray(3 * v, 3 * v + 3), 3 * i));
+      this.mark(this.split.picture, all);
     }
     if (byFace) {
       this.split!.faces.update();

@@ -1,9 +1,11 @@
 import { describe, expect, it } from 'vitest';
 import { kVariants } from '../tests/fixture.mjs';
+import { tickTexts } from './chart';
 import { colorAt } from './color_map';
 import { figure, niceBelow, prefixFor, TimeFormat } from './quantity';
 import { decodeRun } from './run';
-import { flatten, notices, summaryChips, trustReasons } from './run_summary';
+import { notices, summaryChips, trustReasons } from './run_summary';
+import { summaryGroups } from './summary_table';
 
 describe('quantities', () => {
   it('choose the prefix an engineer would', () => {
@@ -26,6 +28,13 @@ describe('quantities', () => {
     expect(new TimeFormat(0.02, 's').unit).toBe('ms');
     expect(new TimeFormat(0, 's').number(0)).toBe('0.000');
     expect(new TimeFormat(0.5, 'steps').unit).toBe('steps');
+  });
+
+  it('ticks of an axis can be told apart', () => {
+    expect(tickTexts([0, 0.25, 0.5])).toEqual(['0', '0.25', '0.5']);
+    expect(tickTexts([-200, 0, 200])).toEqual(['−200', '0', '200']);
+    expect(tickTexts([0.99999, 0.999995, 1])).toEqual(['0.99999', '0.999995', '1']);
+    expect(tickTexts([2e5])).toEqual(['2.0e5']);
   });
 
   it('colour runs from blue to red and is clamped', () => {
@@ -61,12 +70,32 @@ describe('run summary', () => {
     ]);
   });
 
+  it('puts every figure into words', () => {
+    const groups = summaryGroups({
+      title: 'shown elsewhere',
+      end_time: 0.1,
+      step_control: { controlled: false, sizes: [{ step: 5e-5, steps: 2000 }] },
+      bodies: { rod_2: { dof: 51, largest_strain: 1.4e-4, some_new_key: 3 } },
+      residuals: { position: 6.1e-16 },
+      analyses: [{ modes: [{ effective_mass: [2, 5e-35, 0.5] }] }],
+      nothing: null,
+    });
+    expect(groups).toEqual([
+      { title: 'Run', rows: [['Simulated time [s]', '0.10000']] },
+      { title: 'Time steps', rows: [['Step chosen by the estimated error', 'no']] },
+      { title: 'Step length 1', rows: [['Step [s]', '5.00e−5'], ['Steps', '2000']] },
+      {
+        title: 'Body rod_2',
+        rows: [['Nodal variables', '51'], ['Largest strain', '1.40e−4'], ['Some new key', '3']],
+      },
+      { title: 'Largest violations of the joints', rows: [['Position [m or rad]', '6.10e−16']] },
+      { title: 'Mode 1.1', rows: [['Effective mass x, y, z [kg]', '2, 0, 0.50000']] },
+    ]);
+  });
+
   it('bears a summary of nothing', () => {
     const run = decodeRun(kVariants['no-curves']());
     expect(summaryChips(run)).toEqual([]);
-    expect(flatten({ a: { b: [1, 2] }, c: 0.5 })).toEqual([
-      ['a.b', '1, 2'],
-      ['c', '0.500000'],
-    ]);
+    expect(summaryGroups({})).toEqual([]);
   });
 });

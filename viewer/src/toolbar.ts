@@ -35,7 +35,7 @@ export class Toolbar {
     const bodies = runs.flatMap((run) => run.bodies);
     const useful: Partial<Record<Toggle, boolean>> = {
       undeformed: bodies.some((body) => body.displacement),
-      colors: bodies.some((body) => body.displacement || body.fields.length > 0),
+      colors: bodies.some((body) => body.shape || body.displacement || body.fields.length > 0),
       // Loads on all bodies have no place where arrows could stand.
       loads: runs.some((run) => run.loads.some(({ positions }) => positions.length > 0)),
       reactions: runs.some((run) => run.joints.some(({ force, torque }) => force || torque)),

@@ -1,14 +1,11 @@
 import { BeamCurve, cross, dot, perpendicular, unit } from './beam_curve';
+import { circle, profileOf, type Profile } from './section_profile';
+import { nodeEnds, outwards, type End } from './tube_ends';
 import { nodeAt, type Body } from './run';
 import type { Triple } from './page_data';
 
-/** Vertices that one body may spend; long models get coarser tubes instead of a slow page. */
+/** Vertices that one body may spend; long models get coarser beams instead of a slow page. */
 const kVertexBudget = 60000;
-
-/** Radii that differ by more than this share make a step. */
-const kStep = 1e-6;
-/** Up to this bend two tubes are mitred, beyond it a ball closes the gap: cos 60°. */
-const kMitred = 0.5;
 
 interface Cap {
   element: number;
@@ -16,48 +13,38 @@ interface Cap {
   firstVertex: number;
 }
 
-/** An end of an element: 2 · element for the first, one more for the second. */
-type End = number;
-
-/** Out of the element at this end. */
-function outwards(end: End): number {
-  return end % 2 ? 1 : -1;
+/** The direction in which a beam goes on as another, and how their bend is mitred. */
+interface Mitre {
+  /** Midway between the directions of both. */
+  mean: Triple;
+  /** Unit vector in the plane of the bend, at right angles to `mean`. */
+  across: Triple;
+  /** By how much the cut is longer along `across` than the section is wide. */
+  stretch: number;
 }
 
-interface NodeEnds {
-  /** Nodes at which tubes end or change their radius. */
-  open: Set<number>;
-  /** Nodes with a branch or a sharp bend. */
-  kinks: number[];
-  /** Pairs of ends at which one tube goes on as the other. */
-  joins: [End, End][];
+/** Vertices that are swept along one element. */
+interface Sweep {
+  first: number;
+  profiles: [Profile, Profile];
+  /** Magnification of the profiles, which keeps thin beams visible. */
+  scales: [number, number];
 }
 
-function nodeEnds(body: Body, curves: BeamCurve[]): NodeEnds {
-  const at = new Map<number, End[]>();
-  body.elements.forEach((nodes, e) => {
-    nodes.forEach((node, k) => {
-      const known = at.get(node);
-      if (known) known.push(2 * e + k);
-      else at.set(node, [2 * e + k]);
-    });
-  });
-  const found: NodeEnds = { open: new Set(), kinks: [], joins: [] };
-  for (const [node, ends] of at) {
-    const radii = ends.map((end) => body.radius[end >> 1]![end % 2]!);
-    const least = Math.min(...radii);
-    if (ends.length === 1 || Math.max(...radii) - least > kStep * least) found.open.add(node);
-    if (ends.length === 1) continue;
-    const [a, b] = [ends[0]!, ends[1]!];
-    const along = dot(curves[a >> 1]!.axis, curves[b >> 1]!.axis);
-    const straight = -outwards(a) * outwards(b) * along;
-    if (ends.length === 2 && straight > kMitred) found.joins.push([a, b]);
-    else found.kinks.push(node);
-  }
-  return found;
+/** v turned by the rotation vector w. */
+function turnedBy(v: Triple, w: Triple): Triple {
+  const angle = Math.hypot(...w);
+  if (angle < 1e-12) return v;
+  const e = unit(w);
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const [x, along] = [cross(e, v), (1 - c) * dot(e, v)];
+  return [0, 1, 2].map((k) => c * v[k]! + s * x[k]! + along * e[k]!) as Triple;
 }
 
-/** Triangles of the tubes that draw a beam body; the topology is fixed, vertices follow the nodes. */
+/**
+ * Triangles that draw the beams of a body, their sections swept along the elements' own shape; the
+ * topology is fixed, vertices follow the nodes.
+ */
 export class Tube {
   readonly positions: Float32Array;
   readonly normals: Float32Array;
@@ -66,20 +53,24 @@ export class Tube {
   readonly elementOf: Int32Array;
   /** Where each vertex is along its element, 0 … 1. */
   readonly alongOf: Float32Array;
-  /** Nodes with a sharp bend or a branch, where a ball closes the gap between tubes. */
+  /** Nodes with a sharp bend or a branch, where a ball closes the gap between beams. */
   readonly kinks: number[];
+  /** At both ends of each element: of the largest circle inside the section. */
+  readonly inside: [number, number][];
   private readonly joins: [End, End][];
-  /** By end: direction of the tube there, midway between two tubes that are joined. */
-  private readonly mitres: (Triple | null)[];
-  /** At both ends of each element. */
-  readonly radius: [number, number][];
+  /** By end, null where nothing is joined. */
+  private readonly mitres: (Mitre | null)[];
   private readonly curves: BeamCurve[];
-  private readonly reference: Triple[];
+  /** Local y axis of each element. */
+  private readonly axes: Triple[];
+  private readonly sweeps: Sweep[] = [];
   private readonly caps: Cap[] = [];
-  private readonly sides: number;
-  /** Cosine and sine of each side. */
-  private readonly circle: Float64Array;
   private readonly segments: number;
+  /** Nodal rotations at both ends of the element at hand, magnified. */
+  private readonly turns: [Triple, Triple] = [
+    [0, 0, 0],
+    [0, 0, 0],
+  ];
 
   /** `leastRadius` keeps thin beams visible [m]. */
   constructor(
@@ -90,27 +81,32 @@ export class Tube {
     this.curves = body.elements.map(
       ([a, b]) => new BeamCurve(nodeAt(body, a), nodeAt(body, b), body.hasRotations),
     );
-    this.reference = this.curves.map((curve) => perpendicular(curve.axis));
-    this.radius = body.radius.map(([a, b]) => [Math.max(a, leastRadius), Math.max(b, leastRadius)]);
+    this.axes = this.curves.map((curve, e) => this.axis(curve, e));
     const share = kVertexBudget / Math.max(1, count);
-    this.sides = share > 150 ? 16 : share > 40 ? 10 : 6;
-    this.circle = new Float64Array(2 * this.sides).map((_, i) => {
-      const angle = (2 * Math.PI * (i >> 1)) / this.sides;
-      return i % 2 ? Math.sin(angle) : Math.cos(angle);
-    });
+    const sides = share > 150 ? 16 : share > 40 ? 10 : 6;
+    const profiles = this.profiles(leastRadius, sides);
     const curved = body.displacement !== null && body.hasRotations;
-    const most = Math.max(1, Math.floor(share / this.sides) - 1);
+    const around = Math.max(...profiles.map(({ profiles: [a] }) => a.points.length), sides);
+    const most = Math.max(1, Math.floor(share / around) - 1);
     this.segments = curved ? Math.min(most, count > 40 ? 4 : 10) : 1;
+    this.inside = profiles.map(({ profiles: ends, scales }) => [
+      ends[0].inside * scales[0],
+      ends[1].inside * scales[1],
+    ]);
 
     const { open, kinks, joins } = nodeEnds(body, this.curves);
     [this.kinks, this.joins] = [kinks, joins];
-    this.mitres = new Array<Triple | null>(2 * count).fill(null);
-    let vertices = count * (this.segments + 1) * this.sides;
+    this.mitres = new Array<Mitre | null>(2 * count).fill(null);
+    let vertices = 0;
+    for (const sweep of profiles) {
+      this.sweeps.push({ ...sweep, first: vertices });
+      vertices += (this.segments + 1) * sweep.profiles[0].points.length;
+    }
     body.elements.forEach(([a, b], element) => {
       for (const atEnd of [false, true]) {
         if (!open.has(atEnd ? b : a)) continue;
         this.caps.push({ element, atEnd, firstVertex: vertices });
-        vertices += this.sides + 1;
+        vertices += profiles[element]!.profiles[0].points.length;
       }
     });
     this.positions = new Float32Array(3 * vertices);
@@ -120,44 +116,79 @@ export class Tube {
     this.connect();
   }
 
+  /** The recorded local y axis, made perpendicular to the element; any where there is none. */
+  private axis(curve: BeamCurve, element: number): Triple {
+    const { sections } = this.body;
+    if (!sections) return perpendicular(curve.axis);
+    const y = sections.axes.subarray(3 * element, 3 * element + 3);
+    const along = dot(y, curve.axis);
+    const across = [0, 1, 2].map((k) => y[k]! - along * curve.axis[k]!) as Triple;
+    return Math.hypot(...across) > 1e-3 ? unit(across) : perpendicular(curve.axis);
+  }
+
+  private profiles(leastRadius: number, sides: number): Omit<Sweep, 'first'>[] {
+    const { sections, radius, elements } = this.body;
+    const round = profileOf([circle(1, sides)], 1, true);
+    const known = sections?.loops.map((loops) => profileOf(loops, sides < 10 ? 3 : sides < 16 ? 2 : 1));
+    const scale = (own: Profile, r: number) =>
+      own === round ? Math.max(r, leastRadius) : Math.max(1, leastRadius / (own.radius || 1));
+    return elements.map((_, e) => {
+      const ends = [0, 1].map((end) => {
+        const own = known?.[sections!.at[2 * e + end]!];
+        return own && own.sides.length >= 3 ? own : round;
+      });
+      const alike = ends[0]!.points.length === ends[1]!.points.length;
+      const profiles: [Profile, Profile] = [ends[0]!, alike ? ends[1]! : ends[0]!];
+      return {
+        profiles,
+        scales: [scale(profiles[0], radius[e]![0]), scale(profiles[1], radius[e]![1])],
+      };
+    });
+  }
+
   private connect(): void {
-    const n = this.sides;
-    const rings = this.segments + 1;
-    for (let e = 0; e < this.curves.length; e++) {
-      this.elementOf.fill(e, e * rings * n, (e + 1) * rings * n);
+    this.sweeps.forEach(({ first, profiles: [{ points, sides }] }, e) => {
+      const n = points.length;
+      this.elementOf.fill(e, first, first + (this.segments + 1) * n);
       for (let s = 0; s < this.segments; s++) {
-        const a = (e * rings + s) * n;
+        const a = first + s * n;
         this.alongOf.fill((s + 1) / this.segments, a + n, a + 2 * n);
-        for (let i = 0; i < n; i++) {
-          const j = (i + 1) % n;
+        for (const [i, j] of sides) {
           this.indices.push(a + i, a + j, a + n + i, a + j, a + n + j, a + n + i);
         }
       }
-    }
+    });
     for (const { element, atEnd, firstVertex } of this.caps) {
-      this.elementOf.fill(element, firstVertex, firstVertex + n + 1);
-      this.alongOf.fill(atEnd ? 1 : 0, firstVertex, firstVertex + n + 1);
-      for (let i = 0; i < n; i++) {
-        const j = (i + 1) % n;
-        this.indices.push(firstVertex + n, firstVertex + (atEnd ? i : j));
-        this.indices.push(firstVertex + (atEnd ? j : i));
+      const { points, cap } = this.sweeps[element]!.profiles[0];
+      this.elementOf.fill(element, firstVertex, firstVertex + points.length);
+      this.alongOf.fill(atEnd ? 1 : 0, firstVertex, firstVertex + points.length);
+      for (const [i, j, k] of cap) {
+        this.indices.push(firstVertex + i, firstVertex + (atEnd ? j : k));
+        this.indices.push(firstVertex + (atEnd ? k : j));
       }
     }
   }
 
   /** Moves the vertices to the nodal values d (nodes × 6) magnified by `scale`. */
   deform(d: ArrayLike<number>, scale: number): void {
-    const rings = this.segments + 1;
-    this.body.elements.forEach(([a, b], e) => this.curves[e]!.deform(d, 6 * a, 6 * b, scale));
+    const { elements, hasRotations } = this.body;
+    elements.forEach(([a, b], e) => this.curves[e]!.deform(d, 6 * a, 6 * b, scale));
     for (const [a, b] of this.joins) this.mitre(a, b);
-    for (let e = 0; e < this.curves.length; e++) {
-      for (let s = 0; s < rings; s++) {
-        this.ring((e * rings + s) * this.sides, e, s / this.segments, 0);
+    const turn = (to: Triple, node: number) => {
+      for (let k = 0; k < 3; k++) to[k] = hasRotations ? scale * d[6 * node + 3 + k]! : 0;
+    };
+    let cap = 0;
+    this.sweeps.forEach(({ first, profiles: [{ points }] }, e) => {
+      turn(this.turns[0], elements[e]![0]);
+      turn(this.turns[1], elements[e]![1]);
+      for (let s = 0; s <= this.segments; s++) {
+        this.ring(first + s * points.length, e, s / this.segments, 0);
       }
-    }
-    for (const { element, atEnd, firstVertex } of this.caps) {
-      this.ring(firstVertex, element, atEnd ? 1 : 0, atEnd ? 1 : -1);
-    }
+      for (; this.caps[cap]?.element === e; cap++) {
+        const { atEnd, firstVertex } = this.caps[cap]!;
+        this.ring(firstVertex, e, atEnd ? 1 : 0, atEnd ? 1 : -1);
+      }
+    });
   }
 
   private mitre(a: End, b: End): void {
@@ -167,9 +198,13 @@ export class Tube {
       return unit(curve.tangent);
     }) as [Triple, Triple];
     const turn = -outwards(a) * outwards(b);
-    const mean = unit(out.map((x, k) => x + turn * into[k]!));
-    this.mitres[a] = mean;
-    this.mitres[b] = mean.map((x) => turn * x) as Triple;
+    const mean = unit(out.map((x, k) => x + turn * into[k]!) as Triple);
+    const half = dot(out, mean);
+    const across = unit(out.map((x, k) => x - half * mean[k]!) as Triple);
+    // A magnified deformation may fold beams back: nothing grows beyond all bounds then.
+    const stretch = 1 / Math.max(0.4, half) - 1;
+    this.mitres[a] = { mean, across, stretch };
+    this.mitres[b] = { mean: mean.map((x) => turn * x) as Triple, across, stretch };
   }
 
   /** Writes one ring around the curve at ξ in [0, 1]; `capSign` ≠ 0 makes it the rim of a cap. */
@@ -177,30 +212,35 @@ export class Tube {
     const curve = this.curves[element]!;
     curve.at(xi);
     const { point, tangent } = curve;
-    const [from, to] = this.radius[element]!;
-    const r = from + xi * (to - from);
-    // A cone's normals lean towards its thin end.
-    const lean = (from - to) / (curve.length || 1);
-    const end = xi === 0 ? 2 * element : xi === 1 ? 2 * element + 1 : -1;
-    const t = this.mitres[end] ?? unit(tangent);
-    const ref = this.reference[element]!;
-    const along = dot(ref, t);
-    const u = unit([ref[0] - along * t[0], ref[1] - along * t[1], ref[2] - along * t[2]]);
+    const { profiles, scales } = this.sweeps[element]!;
+    const mitre = this.mitres[xi === 0 ? 2 * element : xi === 1 ? 2 * element + 1 : -1];
+    const t = mitre?.mean ?? unit(tangent);
+    const turns = this.turns;
+    const w = [0, 1, 2].map((k) => (1 - xi) * turns[0][k]! + xi * turns[1][k]!) as Triple;
+    const y = turnedBy(this.axes[element]!, w);
+    const along = dot(y, t);
+    const u = unit([y[0] - along * t[0], y[1] - along * t[1], y[2] - along * t[2]]);
     const v = cross(t, u);
-    const { positions, normals, circle } = this;
-    for (let i = 0; i < this.sides; i++) {
-      const [c, s] = [circle[2 * i]!, circle[2 * i + 1]!];
+    const { positions, normals } = this;
+    const [{ points, normals: flat }, { points: last }] = profiles;
+    const [p, q] = [(1 - xi) * scales[0], xi * scales[1]];
+    for (let i = 0; i < points.length; i++) {
+      const [a, b] = [points[i]!, last[i]!];
+      const [m, n] = flat[i]!;
+      const [py, pz] = [p * a[0] + q * b[0], p * a[1] + q * b[1]];
+      // The normals of a taper lean towards its thin end.
+      const grown = m * (scales[1] * b[0] - scales[0] * a[0]) + n * (scales[1] * b[1] - scales[0] * a[1]);
+      const lean = -grown / (curve.length || 1);
+      const norm = Math.hypot(1, lean);
+      const wide = mitre
+        ? mitre.stretch * (py * dot(u, mitre.across) + pz * dot(v, mitre.across))
+        : 0;
       for (let k = 0; k < 3; k++) {
-        const out = c * u[k]! + s * v[k]!;
         const at = 3 * (first + i) + k;
-        positions[at] = point[k]! + r * out;
-        normals[at] = capSign === 0 ? (out + lean * t[k]!) / Math.hypot(1, lean) : capSign * t[k]!;
+        positions[at] = point[k]! + py * u[k]! + pz * v[k]! + wide * (mitre?.across[k] ?? 0);
+        const side = m * u[k]! + n * v[k]! + lean * t[k]!;
+        normals[at] = capSign === 0 ? side / norm : capSign * t[k]!;
       }
-    }
-    if (capSign === 0) return;
-    for (let k = 0; k < 3; k++) {
-      this.positions[3 * (first + this.sides) + k] = point[k]!;
-      this.normals[3 * (first + this.sides) + k] = capSign * t[k]!;
     }
   }
 }

@@ -1,5 +1,7 @@
 import * as THREE from 'three';
 import { ball } from './glyphs';
+import { LineEnds } from './line_ends';
+import { quarters, type Spin } from './spin';
 import { Tube } from './tube';
 import { nodeAt, numNodes } from './run';
 import { kNoValue, type Painted } from './surface_values';
@@ -15,6 +17,7 @@ export class TubeMesh implements Skin {
   private readonly geometry = new THREE.BufferGeometry();
   private readonly values: Float32Array;
   private readonly balls: THREE.Mesh[];
+  private readonly ends: LineEnds;
   private readonly plain: THREE.MeshLambertMaterial;
   private deformed = false;
 
@@ -22,9 +25,11 @@ export class TubeMesh implements Skin {
     private readonly motion: BodyMotion,
     private readonly material: FieldMaterial,
     private readonly leastRadius: number,
+    spin: Spin | null,
   ) {
     const { body } = motion;
     this.tube = new Tube(body, leastRadius);
+    this.ends = new LineEnds(body.elements);
     const { positions, normals, indices } = this.tube;
     this.values = new Float32Array(positions.length / 3);
     const parts: [string, Float32Array, number][] = [
@@ -36,6 +41,11 @@ export class TubeMesh implements Skin {
       const attribute = new THREE.BufferAttribute(values, size);
       this.geometry.setAttribute(name, attribute.setUsage(THREE.DynamicDrawUsage));
     }
+    if (spin) {
+      this.tube.deform(new Float32Array(body.perNode * numNodes(body)), 0);
+      this.geometry.setAttribute('spinQuarter', new THREE.BufferAttribute(quarters(spin, positions), 2));
+      material.showSpin();
+    }
     this.geometry.setIndex(indices);
     this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
     this.mesh = new THREE.Mesh(this.geometry, material);
@@ -44,7 +54,7 @@ export class TubeMesh implements Skin {
     this.plain = new THREE.MeshLambertMaterial({ color: material.color });
     const radii = new Float64Array(numNodes(body));
     body.elements.forEach(([a, b], e) => {
-      [a, b].forEach((n, end) => (radii[n] = Math.max(radii[n]!, this.tube.radius[e]![end]!)));
+      [a, b].forEach((n, end) => (radii[n] = Math.max(radii[n]!, this.tube.inside[e]![end]!)));
     });
     this.balls = this.tube.kinks.map((node) => {
       const joint = ball(this.plain);
@@ -72,11 +82,14 @@ export class TubeMesh implements Skin {
     if (!painted) return;
     const { elementOf, alongOf } = this.tube;
     const { elements } = this.motion.body;
-    const { on, values } = painted;
+    const whole = painted.on === 'lines' && byFace;
+    const smooth = painted.on === 'lines' && !byFace;
+    const on = smooth ? 'lineEnds' : painted.on;
+    const values = smooth ? this.ends.fill(painted.values) : painted.values;
     for (let v = 0; v < elementOf.length; v++) {
       const e = elementOf[v]!;
       let value = values[e]!;
-      if (on !== 'lines') {
+      if (!whole) {
         const [a, b] = on === 'nodes' ? elements[e]! : [2 * e, 2 * e + 1];
         const s = byFace ? 0.5 : alongOf[v]!;
         value = (1 - s) * values[a]! + s * values[b]!;

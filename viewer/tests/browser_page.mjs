@@ -90,8 +90,36 @@ export async function overflows(tab) {
         if (wide > 1 && high > 1 && !inside) found.push('buttons over the view overlap');
       }
     });
-    return found;
+    // What is open in the panel can be read and pressed in full.
+    const panel = document.querySelector('.field-panel');
+    const frame = panel?.querySelector('.settings')?.getBoundingClientRect();
+    for (const part of panel?.querySelectorAll('details[open] .settings *') ?? []) {
+      const box = part.getBoundingClientRect();
+      if (box.width > 0 && (box.right > frame.right + 1 || box.left < frame.left - 1)) {
+        found.push('the range is clipped');
+      }
+      if (box.right > innerWidth + 1 || box.left < -1) found.push('the range sticks out');
+    }
+    return [...new Set(found)];
   });
+}
+
+/** Bodies whose mass centre is hidden by controls over the view, or outside of it. */
+export async function covered(tab) {
+  const { bodies } = await state(tab);
+  return tab.evaluate((all) => {
+    const view = document.querySelector('.view').getBoundingClientRect();
+    const over = [...document.querySelectorAll('.bars button, .bars summary, .field-panel')]
+      .map((part) => part.getBoundingClientRect())
+      .filter((box) => box.width > 0);
+    return all
+      .filter(({ screen: { x, y } }) => {
+        const [u, v] = [x + view.left, y + view.top];
+        const hidden = over.some((b) => u > b.left && u < b.right && v > b.top && v < b.bottom);
+        return hidden || u < view.left || u > view.right || v < view.top || v > view.bottom;
+      })
+      .map(({ name }) => name);
+  }, bodies);
 }
 
 /** Mean colour of a small square of the view about a place of it [CSS px]. */

@@ -40,8 +40,8 @@ export async function fieldSpecs({ test, browser, variant }) {
     await tab.keyboard.press('3');
     const box = await tab.locator('.view').boundingBox();
     const seen = await pixels(tab);
-    const middle = [box.width / 2, box.height / 2];
-    const strip = [-0.18, 0.18].map((u) => colorAt(seen, middle[0] + u * box.height, middle[1] + 0.1 * box.height));
+    const middle = (await state(tab)).bodies[0].screen;
+    const strip = [-0.15, 0.15].map((u) => colorAt(seen, middle.x + u * box.height, middle.y + 0.08 * box.height));
     assert.ok(strip[0][2] > strip[0][0] + 40, `left is not blue: ${strip[0]}`);
     assert.ok(strip[1][0] > strip[1][2] + 40, `right is not red: ${strip[1]}`);
     await tab.keyboard.press('v');

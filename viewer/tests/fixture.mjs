@@ -7,6 +7,7 @@ import { base64, coded, ints, rows } from './encoding.mjs';
 import { largeTorus } from './large_fixture.mjs';
 import { vibrations } from './modes_fixture.mjs';
 import { solidCube } from './solid_fixture.mjs';
+import { rotor } from './rotor_fixture.mjs';
 import { spatial } from './spatial_fixture.mjs';
 
 export { base64, coded, ints, rows };
@@ -222,7 +223,11 @@ export const kVariants = {
   modes: () => vibrations(),
   'modes-side-by-side': () => [vibrations(), vibrations(0.5)],
   solid: () => solidCube(),
-  'side-by-side': () => [sliderCrank(), sliderCrank({ frames: 250, bending: 2 })],
+  'side-by-side': () => [
+    { ...sliderCrank(), directory: 'once' },
+    { ...sliderCrank({ frames: 250, bending: 2 }), directory: 'twice', changes: ['rod.bending=2'] },
+  ],
+  rotor,
   large: () => largeTorus({ around: 200, across: 50, frames: 6 }),
 };
 

@@ -2,8 +2,10 @@
 import assert from 'node:assert/strict';
 import {
   colors,
+  covered,
   difference,
   open,
+  openRange,
   overflows,
   pixels,
   setTime,
@@ -138,11 +140,21 @@ export async function pageSpecs({ test, browser, page, synthetic }) {
       [1280, 800],
       [1100, 700],
       [800, 900],
-      [420, 800],
+      [390, 844],
     ]) {
       await tab.setViewportSize({ width, height });
       await settle(tab);
       assert.deepEqual(await overflows(tab), [], `${width} × ${height}`);
+      await tab.locator('[data-fit]').click();
+      for (const fraction of [0, 0.2, 0.55]) {
+        await setTime(tab, start + fraction * (end - start));
+        assert.deepEqual(await covered(tab), [], `${width} × ${height}`);
+      }
+      if (!(await tab.locator('.field-panel').isVisible())) continue;
+      await openRange(tab);
+      await settle(tab);
+      assert.deepEqual(await overflows(tab), [], `${width} × ${height}, range open`);
+      await openRange(tab);
     }
     await tab.setViewportSize({ width: 1000, height: 640 });
   });

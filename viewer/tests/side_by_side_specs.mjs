@@ -1,6 +1,6 @@
 // Two runs in one page.
 import assert from 'node:assert/strict';
-import { difference, open, overflows, pixels, setTime, settle, state } from './browser_page.mjs';
+import { difference, open, openRange, overflows, pixels, setTime, settle, state } from './browser_page.mjs';
 
 export async function sideBySideSpecs({ test, browser, variant }) {
   const { tab, complaints } = await open(browser, variant('side-by-side'));
@@ -8,9 +8,10 @@ export async function sideBySideSpecs({ test, browser, variant }) {
   await test('two runs share time, camera, scale and curves', async () => {
     assert.equal(await tab.locator('.pane canvas').count(), 2);
     assert.deepEqual(await tab.locator('.pane-title').allInnerTexts(), [
-      'A: Flexible slider-crank',
-      'B: Flexible slider-crank',
+      'A: once',
+      'B: twice · bending=2',
     ]);
+    assert.match(await tab.locator('h1').innerText(), /^Flexible slider-crank – A: once \| B: twice/);
     const a = await pixels(tab);
     await setTime(tab, 0.07);
     assert.ok(difference(a, await pixels(tab)) > 200);
@@ -40,6 +41,10 @@ export async function sideBySideSpecs({ test, browser, variant }) {
       await tab.setViewportSize({ width, height: 800 });
       await settle(tab);
       assert.deepEqual(await overflows(tab), [], String(width));
+      await openRange(tab);
+      await settle(tab);
+      assert.deepEqual(await overflows(tab), [], `${width}, range open`);
+      await openRange(tab);
     }
     await tab.setViewportSize({ width: 1000, height: 640 });
   });

@@ -40,7 +40,9 @@ export async function variantSpecs({ test, browser, variant }) {
     // Its only load acts on all bodies and has no arrows.
     assert.equal(await opened.tab.locator('[data-toggle="loads"]').count(), 0);
     await opened.tab.locator('.chips').click();
-    assert.match(await opened.tab.locator('dialog[open]').innerText(), /step too large/);
+    const details = await opened.tab.locator('dialog[open]').innerText();
+    assert.match(details, /step too large/);
+    assert.ok(!/[a-z]_[a-z]/.test(details), 'a raw key in the details');
     await opened.tab.keyboard.press('Escape');
     assert.ok(colors(await pixels(opened.tab)).size >= 8);
     await opened.tab.emulateMedia({ colorScheme: 'light' });
@@ -54,12 +56,32 @@ export async function variantSpecs({ test, browser, variant }) {
     await opened.tab.close();
   });
 
+  await test('a spinning shaft and a spinning hub are seen to turn', async () => {
+    const opened = await open(browser, variant('rotor'));
+    await setTime(opened.tab, 0);
+    const first = await pixels(opened.tab);
+    // A quarter of a turn.
+    await setTime(opened.tab, Math.PI / 12);
+    const later = await pixels(opened.tab);
+    // Either alone changes more than half of this.
+    assert.ok(difference(first, later) > 1500, `${difference(first, later)} pixels changed`);
+    assert.deepEqual(opened.complaints, []);
+    await opened.tab.close();
+  });
+
   await test('vibrations: a mode and its amplitude are chosen, its shape swings', async () => {
     const opened = await open(browser, variant('modes'));
     const modes = opened.tab.locator('[data-mode]');
     assert.equal(await modes.count(), 3);
     assert.match(await modes.first().innerText(), /beam 1\s+53\.2 Hz/);
     assert.equal(await opened.tab.getByLabel('Deformation scale', { exact: true }).count(), 0);
+    // Colours show the shape, relative to its largest displacement.
+    assert.equal(await opened.tab.locator('.field-panel .item option:checked').innerText(), 'Relative displacement');
+    assert.equal(await opened.tab.locator('.field-panel .unit').innerText(), '');
+    assert.equal(await opened.tab.locator('.field-panel .ticks span').first().innerText(), '1.00');
+    await opened.tab.locator('.chips').click();
+    assert.match(await opened.tab.locator('dialog[open]').innerText(), /3 of 3 vibrations/);
+    await opened.tab.keyboard.press('Escape');
     await setTime(opened.tab, 0);
     const still = await pixels(opened.tab);
     await setTime(opened.tab, 0.25 / 53.2);
