@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""tests/tools/make_pictures.py knows every picture that the pages show, and what it shows exists."""
+
+import os
+import pathlib
+import re
+import sys
+
+SOURCE = pathlib.Path(os.environ.get("BUCKENS_SOURCE_DIR", pathlib.Path(__file__).parents[1]))
+sys.path.insert(0, str(SOURCE / "tests" / "tools"))
+from make_pictures import DRAWINGS, PICTURES  # noqa: E402
+
+
+def made():
+    """Files that the script writes, from the root of the project."""
+    return {f"docs/pictures/{picture.name}.png" for picture in PICTURES} | {
+        name for drawing in DRAWINGS for name in drawing.names}
+
+
+def shown():
+    """Files that pages show, but the figures of the theory, whose scripts lie beside them."""
+    found = set()
+    for page in [SOURCE / "README.md", *SOURCE.glob("docs/**/*.md"), *SOURCE.glob("examples/**/*.md")]:
+        for target in re.findall(r"!\[[^]]*\]\(([^)]+)\)", page.read_text()):
+            found.add((page.parent / target).resolve().relative_to(SOURCE.resolve()).as_posix())
+    return {name for name in found if not name.startswith("docs/figures/")}
+
+
+def test_every_picture_is_made_by_the_script_and_shown_on_a_page():
+    kept = {path.relative_to(SOURCE).as_posix() for path in (SOURCE / "docs" / "pictures").iterdir()}
+    assert made() == shown()
+    assert kept == {name for name in made() if name.startswith("docs/pictures/")}
+
+
+def test_models_scripts_and_moments_exist():
+    for picture in PICTURES:
+        assert picture.fixture or picture.runs
+        assert 0 <= picture.time <= 1
+        for _, model, *_ in picture.runs:
+            assert (SOURCE / model).exists(), model
+    for drawing in DRAWINGS:
+        assert (SOURCE / drawing.script[0]).exists(), drawing.script[0]

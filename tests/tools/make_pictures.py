@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes all pictures of docs/pictures and of the examples anew: runs the models, writes their pages, photographs them.
+
+    tests/tools/make_pictures.py [--program build/release/bin/buckens] [--out docs/pictures] [NAME...]
+
+NAME: pictures by the beginning of their names; without one all of them (some minutes). Needs node, Chromium and the npm
+packages of viewer/; the drawings besides need python3-numpy, those of the snap-through python3-matplotlib.
+"""
+
+import argparse
+import dataclasses
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CRANK = "examples/slider_crank/slider_crank.yaml"
+
+
+@dataclasses.dataclass(frozen=True)
+class Picture:
+    """A page at a moment, seen in one way."""
+
+    name: str
+    runs: tuple = ()  # per run directory the arguments of `buckens`; two of them are shown side by side
+    folders: tuple = ("out",)  # names of the run directories, which pages of two runs show
+    time: float = 0.3  # share of the run
+    view: tuple = ()  # arguments of viewer/scripts/screenshot.mjs
+    size: tuple = (1200, 750)
+    fixture: str = ""  # a synthetic page of viewer/tests/fixture.mjs in place of runs
+
+
+@dataclasses.dataclass(frozen=True)
+class Drawing:
+    """Curves that a script of an example draws."""
+
+    names: tuple  # of the files
+    script: tuple  # with PROGRAM and OUT for the program and the folder of the pictures
+
+
+# Which model, at which time and seen how, gives which picture.
+PICTURES = (
+    Picture("slider_crank", (("run", CRANK),), time=0.055),
+    Picture("spring_leg", (("run", "examples/spring_leg/spring_leg.yaml"),), time=0.19),
+    Picture("gyro_rotor", (("run", "examples/gyro_rotor/gyro_rotor.yaml"),), time=0.36),
+    Picture("plate_bdf", (("run", "examples/plate_bdf/plate_bdf.yaml"),), time=0.3),
+    Picture("bracket_inp", (("run", "examples/bracket_inp/bracket_inp.yaml"),), time=0.9, view=("--scale", "500")),
+    Picture("connecting_rod", (("run", "examples/connecting_rod/connecting_rod.yaml"),), time=0.33),
+    Picture("tumbling_block", (("run", "examples/tumbling_block/tumbling_block.yaml"),), time=0.13,
+            view=("--scale", "5")),
+    Picture("tube_modes", (("modes", "examples/tube_modes/tube_modes.yaml", "--count", "8"),), time=0.25),
+    Picture("page_side_by_side", (("run", CRANK), ("run", CRANK, "--set", "bodies.rod.beam.elements=4")),
+            folders=("fine", "coarse"), time=0.055),
+    Picture("page_dark", fixture="large", time=0.22,
+            view=("--dark", "--press", "x", "--follow", "5000", "--follow", "6510")),
+)
+DRAWINGS = (
+    Drawing(("docs/pictures/method_comparison.svg",),
+            ("examples/method_comparison/compare.py", "PROGRAM", "--out", "OUT")),
+    Drawing(("docs/pictures/planar_levels_pendulum.svg", "docs/pictures/planar_levels_free_flight.svg"),
+            ("examples/planar_levels/figures.py", "PROGRAM", "OUT")),
+    Drawing(tuple(f"examples/snap_through/{name}.svg" for name in ("displacement_over_load", "coupling", "single_terms")),
+            ("examples/snap_through/figures.py", "--program", "PROGRAM")),
+    Drawing(("examples/snap_through_bending/displacement_over_load.svg",),
+            ("examples/snap_through_bending/figures.py", "--program", "PROGRAM")),
+)
+
+
+def call(*arguments):
+    subprocess.run([str(argument) for argument in arguments], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+
+
+def page_of(picture, program, folder):
+    """Writes the page that a picture shows."""
+    page = folder / "page.html"
+    if picture.fixture:
+        call("node", "viewer/tests/fixture.mjs", page, picture.fixture)
+        return page
+    directories = []
+    for name, (verb, model, *options) in zip(picture.folders, picture.runs, strict=True):
+        directories.append(folder / name)
+        call(program, verb, model, *options, "-o", directories[-1])
+    call(program, "view", *directories, "-o", page)
+    return page
+
+
+def photograph(picture, program, out):
+    with tempfile.TemporaryDirectory() as folder:
+        page = page_of(picture, program, pathlib.Path(folder))
+        width, height = picture.size
+        call("node", "viewer/scripts/screenshot.mjs", page, out / f"{picture.name}.png", "--time", picture.time,
+             "--width", width, "--height", height, *picture.view)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/buckens")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/pictures")
+    arguments = parser.parse_args()
+    program, out = arguments.program.resolve(), arguments.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+
+    def wanted(name):
+        return not arguments.names or any(name.startswith(prefix) for prefix in arguments.names)
+
+    for picture in filter(lambda picture: wanted(picture.name), PICTURES):
+        print(picture.name, flush=True)
+        photograph(picture, program, out)
+    for drawing in DRAWINGS:
+        if any(wanted(pathlib.Path(name).stem) for name in drawing.names):
+            print(*drawing.names, flush=True)
+            values = {"PROGRAM": program, "OUT": out}
+            call(sys.executable, *(values.get(word, word) for word in drawing.script))
+
+
+if __name__ == "__main__":
+    main()
