@@ -10,7 +10,7 @@
 
 #include "buckens/base/field.h"
 #include "buckens/base/test/source_directory.h"
-#include "buckens/io/test/sample_run.h"
+#include "buckens/base/test/temporary_directory.h"
 
 namespace buckens::io {
 namespace {
@@ -345,7 +345,7 @@ TEST(AbaqusConstraints, MultiPointConstraintsJoinSetsByNumber) {
 }
 
 ImportedMesh read_text(const std::string& deck) {
-  const test::TemporaryDirectory folder;
+  const buckens::test::TemporaryDirectory folder;
   std::ofstream(folder / "deck.inp") << deck;
   return read_abaqus_deck(folder / "deck.inp");
 }

@@ -8,8 +8,8 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/test/source_directory.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/abaqus_deck.h"
-#include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
@@ -39,7 +39,7 @@ class AbaqusMalformed : public testing::Test {
     ADD_FAILURE() << "nothing was refused, expected: " << words.front();
   }
 
-  test::TemporaryDirectory folder_;
+  buckens::test::TemporaryDirectory folder_;
 };
 
 const char* const kNodeCards =

@@ -14,10 +14,10 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/fem/assemble.h"
 #include "buckens/io/abaqus_deck.h"
 #include "buckens/io/nastran_deck.h"
-#include "buckens/io/test/sample_run.h"
 #include "buckens/model/imported_structure.h"
 
 namespace buckens::io {
@@ -205,7 +205,7 @@ const std::string kLamina =
 const std::string kShell = "*SHELL SECTION, ELSET=E, MATERIAL=P, ORIENTATION=O\n0.1\n";
 
 fem::ImportedMesh read_abaqus(const std::string& deck) {
-  const test::TemporaryDirectory folder;
+  const buckens::test::TemporaryDirectory folder;
   std::ofstream(folder / "deck.inp") << deck;
   return read_abaqus_deck(folder / "deck.inp");
 }

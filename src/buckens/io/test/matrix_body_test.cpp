@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/matrix_file.h"
-#include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
@@ -51,7 +51,7 @@ class MatrixBody : public testing::Test {
     ADD_FAILURE() << "nothing was refused, expected: " << words.front();
   }
 
-  test::TemporaryDirectory folder_;
+  buckens::test::TemporaryDirectory folder_;
   fem::MatricesSpec spec_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/run_directory.h"
 #include "buckens/io/test/sample_run.h"
 
@@ -23,7 +24,7 @@ void write_sample(const std::filesystem::path& path, std::size_t changed) {
 }
 
 TEST(RunComparison, PiecesOfAChannelAddUp) {
-  const test::TemporaryDirectory directory;
+  const buckens::test::TemporaryDirectory directory;
   write_sample(directory / "a", 0);
   write_sample(directory / "b", 7);
   const RunReader a(directory / "a"), b(directory / "b");

@@ -13,18 +13,19 @@
 #include <sys/wait.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/run_reader.h"
 #include "buckens/io/test/sample_run.h"
 
 namespace buckens::io {
 namespace {
 
+using buckens::test::TemporaryDirectory;
 using test::finished_summary;
 using test::sample_geometry;
 using test::sample_layout;
 using test::sample_record;
 using test::sample_value;
-using test::TemporaryDirectory;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/export_csv.h"
 #include "buckens/io/run_directory.h"
 #include "buckens/io/run_reader.h"
@@ -16,10 +17,10 @@
 namespace buckens::io {
 namespace {
 
+using buckens::test::TemporaryDirectory;
 using test::finished_summary;
 using test::sample_layout;
 using test::sample_record;
-using test::TemporaryDirectory;
 
 constexpr char kMises[] = "fields/bodies/rod/nodes/von_mises";
 constexpr char kStress[] = "fields/bodies/rod/elements/stress";

@@ -2,35 +2,13 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
+#include <cstddef>
 #include <string>
-
-#include <unistd.h>
+#include <vector>
 
 #include "buckens/results/record_sink.h"
 
 namespace buckens::io::test {
-
-/// A directory of its own for one test, removed with its content at the end.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "buckens-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A slider on the ground and a rod of two elements, hinged.
 inline results::Geometry sample_geometry() {

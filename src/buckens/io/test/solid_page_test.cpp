@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
 #include "buckens/io/run_reader.h"
@@ -70,7 +71,7 @@ class SolidPage : public testing::Test {
     return page["runs"][0]["bodies"][0];
   }
 
-  test::TemporaryDirectory directory_;
+  buckens::test::TemporaryDirectory directory_;
   ViewPageReport report_;
 };
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/base64.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/sensors_csv.h"
@@ -19,7 +20,7 @@
 namespace buckens::io {
 namespace {
 
-using test::TemporaryDirectory;
+using buckens::test::TemporaryDirectory;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;

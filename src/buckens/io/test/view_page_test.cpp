@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/io/output_file.h"
 #include "buckens/io/run_directory.h"
 #include "buckens/io/test/page_values.h"
@@ -14,13 +15,13 @@
 namespace buckens::io {
 namespace {
 
+using buckens::test::TemporaryDirectory;
 using test::decode;
 using test::finished_summary;
 using test::sample_geometry;
 using test::sample_layout;
 using test::sample_record;
 using test::sample_value;
-using test::TemporaryDirectory;
 using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
