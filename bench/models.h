@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/prepare.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::bench {
@@ -40,7 +40,7 @@ inline Running start(model::ModelDescription description, double step, int threa
 
 inline Running start(const std::string& text, double step, int threads = 1,
                      linalg::SolveExchange* exchange = nullptr) {
-  return start(io::read_model_text(text, "bench.yaml", {}), step, threads, exchange);
+  return start(model_file::read_model_text(text, "bench.yaml", {}), step, threads, exchange);
 }
 
 /// Steel beam of 1 m in space on a ball joint, falling from the horizontal.
@@ -140,7 +140,7 @@ inline model::ModelDescription rigid_chain(int links) {
       "joints:\n"
       "  j0: {revolute: {between: [ground, link0/a], axis: [0, 0, 1]}}\n"
       "  j1: {revolute: {between: [link0/b, link1/a], axis: [0, 0, 1]}}\n";
-  model::ModelDescription out = io::read_model_text(text, "bench.yaml", {});
+  model::ModelDescription out = model_file::read_model_text(text, "bench.yaml", {});
   for (int k = 2; k < links; ++k) {
     out.bodies.push_back(out.bodies[1]);
     out.bodies.back().name = fmt::format("link{}", k);

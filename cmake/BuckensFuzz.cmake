@@ -62,14 +62,15 @@ function(buckens_fuzz target seconds)
 endfunction()
 
 set_source_files_properties(
-  "${PROJECT_SOURCE_DIR}/src/buckens/io/gmsh_msh4.cpp"
-  "${PROJECT_SOURCE_DIR}/src/buckens/io/matrix_node_table.cpp"
-  "${PROJECT_SOURCE_DIR}/src/buckens/io/universal_file.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  "${PROJECT_SOURCE_DIR}/src/buckens/mesh_io/gmsh/msh4.cpp"
+  "${PROJECT_SOURCE_DIR}/src/buckens/mesh_io/matrix/node_table.cpp"
+  "${PROJECT_SOURCE_DIR}/src/buckens/mesh_io/universal/file.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
-buckens_fuzz(nastran 5 io/nastran_*.cpp)
-buckens_fuzz(abaqus 5 io/abaqus_*.cpp)
-buckens_fuzz(gmsh 5 io/gmsh_elements.cpp io/gmsh_mesh.cpp io/gmsh_msh?.cpp io/gmsh_reader.cpp
-             io/mesh_text.cpp io/tagged_mesh.cpp io/universal_file.cpp)
-buckens_fuzz(matrix 4 io/matrix_file.cpp io/matrix_node_table.cpp)
+buckens_fuzz(nastran 5 mesh_io/nastran/*.cpp)
+buckens_fuzz(abaqus 5 mesh_io/abaqus/*.cpp)
+buckens_fuzz(gmsh 5 mesh_io/gmsh/elements.cpp mesh_io/gmsh/mesh.cpp mesh_io/gmsh/msh?.cpp
+             mesh_io/gmsh/reader.cpp mesh_io/mesh_text.cpp mesh_io/tagged_mesh.cpp
+             mesh_io/universal/file.cpp)
+buckens_fuzz(matrix 4 mesh_io/matrix/file.cpp mesh_io/matrix/node_table.cpp)
 # The fields of all specs in one piece take minutes to compile; they come from the library.
-buckens_fuzz(model_file 8 io/yaml_tree.cpp io/model_file_values.cpp)
+buckens_fuzz(model_file 8 model_file/yaml_tree.cpp model_file/values.cpp)

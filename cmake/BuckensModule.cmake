@@ -1,6 +1,6 @@
 # One library per module, and the one library that is delivered.
 #
-# buckens_module(name floor [library...]) makes, from src/buckens/<name>/*.cpp,
+# buckens_module(name floor [library...]) makes, from the *.cpp of src/buckens/<name> and its rooms,
 #   buckens_<name>_objects  the compiled sources (absent while there are none),
 #   buckens_<name>          what tests and higher floors link: this module and all lower floors.
 # buckens_library() gathers the objects of all modules into buckens::buckens.
@@ -32,7 +32,8 @@ function(buckens_module name floor)
   endforeach()
   list(REMOVE_DUPLICATES third_party)
 
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${name}/*.cpp")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${name}/*.cpp")
+  list(FILTER sources EXCLUDE REGEX "/src/buckens/${name}/test/")
   if(sources)
     add_library(buckens_${name}_objects OBJECT ${sources})
     target_link_libraries(buckens_${name}_objects PRIVATE buckens_common ${third_party})
@@ -73,7 +74,7 @@ function(buckens_library)
   target_include_directories(
     buckens PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                    $<BUILD_INTERFACE:${BUCKENS_GENERATED_DIR}> $<INSTALL_INTERFACE:include>)
-  # What the headers show; io/run_reader.h holds HDF5 handles.
+  # What the headers show; run_store/run_reader.h holds HDF5 handles.
   target_link_libraries(buckens PUBLIC Eigen3::Eigen fmt::fmt HDF5Serial::C)
   if(BUCKENS_NATIVE)
     # Eigen's alignment depends on the processor flags, so users of the library must share them.

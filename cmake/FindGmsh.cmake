@@ -1,7 +1,7 @@
 # Finds the library of Gmsh, which ships no CMake package in Debian 12: Gmsh::Headers.
 #
 # The program does not link the library: its start takes ten times as long as that of the program.
-# It is loaded by name, Gmsh_SONAME, when a STEP file is to be meshed (io/gmsh_library.h).
+# It is loaded by name, Gmsh_SONAME, when a STEP file is to be meshed (mesh_io/gmsh/library.h).
 find_path(Gmsh_INCLUDE_DIR gmshc.h)
 find_library(Gmsh_LIBRARY gmsh)
 mark_as_advanced(Gmsh_INCLUDE_DIR Gmsh_LIBRARY)

@@ -8,8 +8,8 @@
 
 #include "buckens/analysis/choose_modes.h"
 #include "buckens/base/log.h"
-#include "buckens/io/basis_files.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
+#include "buckens/run_store/basis_files.h"
 
 namespace buckens::cli {
 
@@ -26,7 +26,7 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
     }
     notes.insert(notes.end(), of_mesh.complaints.begin(), of_mesh.complaints.end());
   }
-  io::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
+  run_store::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
   auto built = model::build_model(std::move(description), &bases);
   built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());
   return built;
@@ -35,7 +35,7 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
 std::unique_ptr<model::BuiltModel> read_and_build(const std::string& model,
                                                   const std::vector<std::string>& overrides,
                                                   std::vector<std::string>* meshes) {
-  return build(io::read_model_file(model, overrides), meshes);
+  return build(model_file::read_model_file(model, overrides), meshes);
 }
 
 }  // namespace buckens::cli

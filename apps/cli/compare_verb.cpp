@@ -13,7 +13,7 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/run_comparison.h"
+#include "buckens/run_store/run_comparison.h"
 
 namespace buckens::cli {
 
@@ -27,10 +27,10 @@ struct CompareArguments {
   bool sensors_only = false;
 };
 
-io::RunComparison compared(const CompareArguments& arguments) {
-  const io::RunReader first(arguments.first);
-  const io::RunReader second(arguments.second);
-  io::RunComparison out = io::compare_runs(first, second);
+run_store::RunComparison compared(const CompareArguments& arguments) {
+  const run_store::RunReader first(arguments.first);
+  const run_store::RunReader second(arguments.second);
+  run_store::RunComparison out = run_store::compare_runs(first, second);
   if (arguments.sensors_only) {
     std::erase_if(out.quantities,
                   [](const auto& q) { return !q.quantity.starts_with("sensors/"); });
@@ -48,7 +48,8 @@ io::RunComparison compared(const CompareArguments& arguments) {
   return out;
 }
 
-std::string comparison_text(const CompareArguments& arguments, const io::RunComparison& found) {
+std::string comparison_text(const CompareArguments& arguments,
+                            const run_store::RunComparison& found) {
   std::string out =
       found.is_of_modes
           ? fmt::format("{} and {}: {}\n", arguments.first, arguments.second,
@@ -81,7 +82,8 @@ std::string comparison_text(const CompareArguments& arguments, const io::RunComp
   return out;
 }
 
-std::string comparison_json(const CompareArguments& arguments, const io::RunComparison& found) {
+std::string comparison_json(const CompareArguments& arguments,
+                            const run_store::RunComparison& found) {
   Json quantities = Json::array();
   for (const auto& q : found.quantities) {
     quantities.push_back({{"quantity", q.quantity},
@@ -107,7 +109,7 @@ std::string comparison_json(const CompareArguments& arguments, const io::RunComp
 }
 
 ExitCode compare(const CompareArguments& arguments, bool json) {
-  const io::RunComparison found = compared(arguments);
+  const run_store::RunComparison found = compared(arguments);
   print(json ? comparison_json(arguments, found) : comparison_text(arguments, found));
   const bool differ = arguments.tolerance > 0 && !(found.largest() <= arguments.tolerance);
   return differ ? ExitCode::different : ExitCode::ok;

@@ -11,10 +11,10 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/gmsh_mesh.h"
-#include "buckens/io/mesh_conversion.h"
-#include "buckens/io/mesh_model.h"
-#include "buckens/io/output_file.h"
+#include "buckens/files/output_file.h"
+#include "buckens/mesh_io/gmsh/mesh.h"
+#include "buckens/mesh_io/mesh_conversion.h"
+#include "buckens/mesh_io/mesh_model.h"
 
 namespace buckens::cli {
 
@@ -29,12 +29,12 @@ struct ConvertArguments {
   bool binary = false;
 };
 
-io::GmshFormat gmsh_format(const ConvertArguments& arguments) {
+mesh_io::GmshFormat gmsh_format(const ConvertArguments& arguments) {
   if (arguments.version == "4.1") {
-    return arguments.binary ? io::GmshFormat::binary_4_1 : io::GmshFormat::ascii_4_1;
+    return arguments.binary ? mesh_io::GmshFormat::binary_4_1 : mesh_io::GmshFormat::ascii_4_1;
   }
   if (arguments.version == "2.2") {
-    return arguments.binary ? io::GmshFormat::binary_2_2 : io::GmshFormat::ascii_2_2;
+    return arguments.binary ? mesh_io::GmshFormat::binary_2_2 : mesh_io::GmshFormat::ascii_2_2;
   }
   throw InputError({}, fmt::format("--msh-version cannot be \"{}\"; 4.1 and 2.2 can be written",
                                    arguments.version));
@@ -49,7 +49,7 @@ ExitCode convert(const ConvertArguments& arguments, bool json) {
   }
   const fem::LengthUnit length = arguments.mesh.unit_of_length();
   const fem::MassUnit mass = arguments.mesh.unit_of_mass();
-  const io::GmshFormat format = gmsh_format(arguments);
+  const mesh_io::GmshFormat format = gmsh_format(arguments);
   const fem::ImportedMesh mesh = arguments.mesh.read();
   std::vector<std::string> notes;
   const auto tell = [&notes](const std::vector<fem::ImportNote>& all) {
@@ -58,15 +58,16 @@ ExitCode convert(const ConvertArguments& arguments, bool json) {
   tell(mesh.notes);
   std::string side_car;
   if (ending == ".vtu") {
-    tell(io::losses_in_vtu(mesh));
-    io::write_vtu(out, io::vtu_grid(mesh));
+    tell(mesh_io::losses_in_vtu(mesh));
+    mesh_io::write_vtu(out, mesh_io::vtu_grid(mesh));
   } else {
-    tell(io::losses_in_gmsh(mesh));
-    io::replace_text_file(out, io::gmsh_bytes(mesh, format));
+    tell(mesh_io::losses_in_gmsh(mesh));
+    files::replace_text_file(out, mesh_io::gmsh_bytes(mesh, format));
     side_car = out.string() + ".yaml";
-    const io::MeshModel model = io::model_of_mesh(mesh, out.filename().string(), length, mass);
+    const mesh_io::MeshModel model =
+        mesh_io::model_of_mesh(mesh, out.filename().string(), length, mass);
     tell(model.notes);
-    io::replace_text_file(side_car, model.text);
+    files::replace_text_file(side_car, model.text);
   }
   if (json) {
     const nlohmann::ordered_json told = {

@@ -16,7 +16,7 @@
 #include "cli/axis_scale.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/output_file.h"
+#include "buckens/files/output_file.h"
 
 namespace buckens::cli {
 
@@ -328,7 +328,7 @@ void draw_figure(const PlotFigure& figure, const std::filesystem::path& path) {
                               cairo_status_to_string(status)));
   }
   if (ending == ".svg") add_words(figure, bytes);
-  io::replace_text_file(path, bytes);
+  files::replace_text_file(path, bytes);
 }
 
 }  // namespace buckens::cli

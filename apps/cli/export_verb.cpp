@@ -12,9 +12,9 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/export_csv.h"
-#include "buckens/io/export_glb.h"
-#include "buckens/io/export_vtk.h"
+#include "buckens/exports/csv.h"
+#include "buckens/exports/glb.h"
+#include "buckens/exports/vtk.h"
 
 namespace buckens::cli {
 
@@ -26,7 +26,7 @@ struct ExportArguments {
   std::string run, out;
   bool vtk = false, csv = false, glb = false;
   std::vector<double> times;
-  std::size_t count = io::InstantChoice{}.count;
+  std::size_t count = run_store::InstantChoice{}.count;
   double exaggeration = 1, playback = 0;
 };
 
@@ -37,8 +37,8 @@ std::string name_of(const fs::path& run) {
   return name.empty() ? "run" : name;
 }
 
-io::GlbOptions glb_options(const ExportArguments& arguments) {
-  io::GlbOptions options;
+exports::GlbOptions glb_options(const ExportArguments& arguments) {
+  exports::GlbOptions options;
   options.animation.count = arguments.count;
   if (!arguments.times.empty()) {
     options.at = arguments.times.front();
@@ -62,30 +62,30 @@ ExitCode export_run(const ExportArguments& arguments, bool json) {
   if (!arguments.vtk && !arguments.csv && !arguments.glb) {
     throw InputError("say what to export: --vtk, --csv, --glb, or several of them");
   }
-  const io::RunReader run(arguments.run);
+  const run_store::RunReader run(arguments.run);
   const fs::path directory =
       arguments.out.empty() ? fs::path(arguments.run) / "export" : fs::path(arguments.out);
   make_directory(directory);
-  io::InstantChoice choice;
+  run_store::InstantChoice choice;
   choice.times = arguments.times;
   choice.count = arguments.count;
   const std::string name = name_of(arguments.run);
   nlohmann::ordered_json report = nlohmann::ordered_json::object();
   std::string text;
   if (arguments.vtk) {
-    const std::size_t instants = io::export_vtk(run, choice, directory, name);
+    const std::size_t instants = exports::export_vtk(run, choice, directory, name);
     const std::string file = (directory / (name + ".pvd")).string();
     report["vtk"] = {{"file", file}, {"instants", instants}};
     text += fmt::format("{} ({} instants); open it in ParaView.\n", file, instants);
   }
   if (arguments.csv) {
-    const std::vector<std::string> files = io::export_csv(run, choice, directory);
+    const std::vector<std::string> files = exports::export_csv(run, choice, directory);
     report["csv"] = {{"directory", directory.string()}, {"files", files}};
     for (const std::string& file : files) text += (directory / file).string() + '\n';
   }
   if (arguments.glb) {
     const fs::path file = directory / (name + ".glb");
-    const io::GlbReport glb = io::export_glb(run, glb_options(arguments), file);
+    const exports::GlbReport glb = exports::export_glb(run, glb_options(arguments), file);
     report["glb"] = {{"file", file.string()},         {"at", glb.at},
                      {"instants", glb.instants},      {"playback", glb.playback},
                      {"von_mises_min", glb.least},    {"von_mises_max", glb.most},

@@ -5,8 +5,8 @@
 
 #include "cli/run_journal.h"
 
-#include "buckens/io/run_directory.h"
 #include "buckens/results/record_sink.h"
+#include "buckens/run_store/run_directory.h"
 
 namespace buckens::cli {
 
@@ -14,7 +14,7 @@ namespace buckens::cli {
 /// directory is completed.
 class JournaledSink : public results::RecordSink {
  public:
-  JournaledSink(io::RunDirectory& directory, RunJournal& journal)
+  JournaledSink(run_store::RunDirectory& directory, RunJournal& journal)
       : directory_(directory), journal_(journal) {}
 
   void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
@@ -36,7 +36,7 @@ class JournaledSink : public results::RecordSink {
   double last_time() const { return last_time_; }  ///< of a record [s]
 
  private:
-  io::RunDirectory& directory_;
+  run_store::RunDirectory& directory_;
   RunJournal& journal_;
   long num_records_ = 0;
   double last_time_ = 0;

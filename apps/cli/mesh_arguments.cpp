@@ -9,8 +9,8 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/base/units.h"
-#include "buckens/io/mesh_file.h"
-#include "buckens/io/step_mesh.h"
+#include "buckens/mesh_io/mesh_file.h"
+#include "buckens/mesh_io/step/mesh.h"
 
 namespace buckens::cli {
 
@@ -57,7 +57,7 @@ fem::MassUnit MeshArguments::unit_of_mass() const {
 }
 
 fem::ImportedMesh MeshArguments::read() const {
-  if (!is_step()) return io::read_mesh_file(file);
+  if (!is_step()) return mesh_io::read_mesh_file(file);
   if (size.empty()) {
     throw InputError({file, 0, 0},
                      "a STEP file has no elements; give their size, for example "
@@ -66,7 +66,7 @@ fem::ImportedMesh MeshArguments::read() const {
   if (!length_unit.empty()) {
     throw InputError({file, 0, 0}, "a STEP file says its units itself; leave --length-unit out");
   }
-  return io::mesh_step(file, length("--size", size), order);
+  return mesh_io::mesh_step(file, length("--size", size), order);
 }
 
 void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {

@@ -11,7 +11,7 @@
 
 #include "cli/text_table.h"
 
-#include "buckens/io/vector_json.h"
+#include "buckens/files/vector_json.h"
 
 namespace buckens::cli {
 
@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 using fem::MeshReport;
-using io::json_of;
+using files::json_of;
 
 constexpr std::size_t kMostNamed = 5;
 constexpr std::size_t kMostSets = 60;

@@ -14,7 +14,7 @@
 #include "cli/text_table.h"
 
 #include "buckens/analysis/output_plan.h"
-#include "buckens/io/vector_json.h"
+#include "buckens/files/vector_json.h"
 
 namespace buckens::cli {
 
@@ -23,7 +23,7 @@ namespace {
 using analysis::BodyReport;
 using analysis::ModelReport;
 using Json = nlohmann::ordered_json;
-using io::json_of;
+using files::json_of;
 
 /// Columns of the frequency list; the rest stands in the JSON output.
 constexpr std::size_t kFrequenciesShown = 6;

@@ -18,8 +18,8 @@
 #include "buckens/analysis/vibration_record.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
-#include "buckens/io/output_file.h"
-#include "buckens/io/run_directory.h"
+#include "buckens/files/output_file.h"
+#include "buckens/run_store/run_directory.h"
 
 namespace buckens::cli {
 
@@ -93,9 +93,9 @@ ExitCode modes(const ModesArguments& arguments, bool json) {
   const auto reports = analyse(*built, arguments);
   if (!arguments.out.empty()) {
     const std::filesystem::path path = arguments.out;
-    io::RunDirectory directory(path, {title, built->description.source, {}});
+    run_store::RunDirectory directory(path, {title, built->description.source, {}});
     analysis::record_vibrations(*built, reports, directory);
-    io::replace_text_file(path / io::kModesName, vibration_json(title, reports));
+    files::replace_text_file(path / run_store::kModesName, vibration_json(title, reports));
   }
   print(json ? vibration_json(title, reports) : vibration_text(title, reports));
   if (!json && !arguments.out.empty()) {

@@ -15,8 +15,8 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/run_curves.h"
-#include "buckens/io/run_directory.h"
+#include "buckens/run_store/run_curves.h"
+#include "buckens/run_store/run_directory.h"
 
 namespace buckens::cli {
 
@@ -38,12 +38,12 @@ struct PlotArguments {
 /// A run with the name that its curves bear.
 struct NamedRun {
   std::string name;
-  std::unique_ptr<io::RunReader> reader;
+  std::unique_ptr<run_store::RunReader> reader;
 };
 
 bool is_run(const std::string& place) {
   std::error_code ignored;
-  return fs::exists(fs::path(place) / io::kSummaryName, ignored);
+  return fs::exists(fs::path(place) / run_store::kSummaryName, ignored);
 }
 
 std::vector<NamedRun> open_runs(PlotArguments& arguments) {
@@ -53,7 +53,7 @@ std::vector<NamedRun> open_runs(PlotArguments& arguments) {
     // The first is always meant as a run: its reader says what is wrong with it.
     if (runs.empty() || is_run(place)) {
       const std::string path = fs::path(place).lexically_normal().string();
-      runs.push_back({path, std::make_unique<io::RunReader>(place)});
+      runs.push_back({path, std::make_unique<run_store::RunReader>(place)});
     } else {
       sensors.push_back(place);
     }
@@ -64,7 +64,8 @@ std::vector<NamedRun> open_runs(PlotArguments& arguments) {
 }
 
 /// The records between two times.
-std::vector<std::size_t> records_between(const io::RunReader& run, const PlotArguments& arguments) {
+std::vector<std::size_t> records_between(const run_store::RunReader& run,
+                                         const PlotArguments& arguments) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < run.num_records(); ++i) {
     const double t = run.times()[i];
@@ -90,8 +91,8 @@ std::vector<double> taken(const std::vector<double>& values,
 }
 
 /// One curve of a name that must mean one.
-io::RunCurve single_curve(const io::RunReader& run, const std::string& name) {
-  std::vector<io::RunCurve> curves = io::find_curves(run, name);
+run_store::RunCurve single_curve(const run_store::RunReader& run, const std::string& name) {
+  std::vector<run_store::RunCurve> curves = run_store::find_curves(run, name);
   if (curves.size() == 1) return std::move(curves.front());
   throw InputError(fmt::format("--x {}: one curve is expected; name a component such as {}", name,
                                curves.front().name));
@@ -102,11 +103,11 @@ void add_curves(const NamedRun& run, const std::string& sensor, bool has_run_nam
   const std::vector<std::size_t> records = records_between(*run.reader, arguments);
   std::vector<double> x = run.reader->times();
   if (!arguments.x.empty()) {
-    io::RunCurve curve = single_curve(*run.reader, arguments.x);
+    run_store::RunCurve curve = single_curve(*run.reader, arguments.x);
     figure.x_unit = curve.unit;
     x = std::move(curve.values);
   }
-  for (const io::RunCurve& curve : io::find_curves(*run.reader, sensor)) {
+  for (const run_store::RunCurve& curve : run_store::find_curves(*run.reader, sensor)) {
     auto panel = std::find_if(figure.panels.begin(), figure.panels.end(),
                               [&](const PlotPanel& known) { return known.unit == curve.unit; });
     if (panel == figure.panels.end()) {
@@ -121,7 +122,7 @@ void add_curves(const NamedRun& run, const std::string& sensor, bool has_run_nam
 ExitCode plot(PlotArguments arguments, bool json) {
   const std::vector<NamedRun> runs = open_runs(arguments);
   if (arguments.sensors.empty()) {
-    const std::vector<std::string> known = io::sensor_names(*runs.front().reader);
+    const std::vector<std::string> known = run_store::sensor_names(*runs.front().reader);
     throw InputError(fmt::format("say what to plot. {}",
                                  known.empty() ? "The run has no sensors; name a channel such as "
                                                  "energies/total"

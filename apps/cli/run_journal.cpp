@@ -32,7 +32,7 @@ RunJournal::RunJournal(ProgressDisplay& display, base::LogLevel lowest)
 
 RunJournal::~RunJournal() { base::set_log_sink({}); }
 
-void RunJournal::open(io::RunDirectory& directory) {
+void RunJournal::open(run_store::RunDirectory& directory) {
   const std::lock_guard lock(mutex_);
   directory_ = &directory;
   for (const std::string& line : kept_) append(line);

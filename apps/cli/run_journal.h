@@ -9,7 +9,7 @@
 #include "cli/progress_display.h"
 
 #include "buckens/base/log.h"
-#include "buckens/io/run_directory.h"
+#include "buckens/run_store/run_directory.h"
 
 namespace buckens::cli {
 
@@ -26,7 +26,7 @@ class RunJournal {
   RunJournal& operator=(const RunJournal&) = delete;
 
   /// From here on lines go to log.txt of this directory, those so far first.
-  void open(io::RunDirectory& directory);
+  void open(run_store::RunDirectory& directory);
   /// The directory's log ends; later lines go to the terminal only.
   void close();
 
@@ -45,7 +45,7 @@ class RunJournal {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::vector<std::string> kept_;
-  io::RunDirectory* directory_ = nullptr;
+  run_store::RunDirectory* directory_ = nullptr;
 };
 
 }  // namespace buckens::cli

@@ -21,8 +21,8 @@
 #include "buckens/analysis/simulate.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/version.h"
-#include "buckens/io/model_file.h"
-#include "buckens/io/output_file.h"
+#include "buckens/files/output_file.h"
+#include "buckens/model_file/model_file.h"
 
 namespace buckens::cli {
 
@@ -45,7 +45,8 @@ struct RunArguments {
 };
 
 std::unique_ptr<model::BuiltModel> read_and_build(const RunArguments& arguments) {
-  model::ModelDescription description = io::read_model_file(arguments.model, arguments.overrides);
+  model::ModelDescription description =
+      model_file::read_model_file(arguments.model, arguments.overrides);
   if (!description.simulation) {
     throw InputError(description.where,
                      "there is no `simulation:`, so it is not known how far to simulate. Add for "
@@ -130,14 +131,15 @@ ExitCode run(const RunArguments& arguments, bool json) {
   // What is wrong with the output is said before an earlier run is replaced.
   if (built->description.simulation) analysis::plan_output(built->description);
 
-  io::RunDirectory directory(path, {built->description.title, built->description.source, {}});
+  run_store::RunDirectory directory(path,
+                                    {built->description.title, built->description.source, {}});
   journal.open(directory);
   journal.say(LogLevel::info, fmt::format("results go to {}", path.string()));
   JournaledSink sink(directory, journal);
   const results::RunSummary summary = simulate(*built, sink, arguments, display, journal);
 
   if (json) {
-    print(io::read_text_file(path / io::kSummaryName));
+    print(files::read_text_file(path / run_store::kSummaryName));
   } else if (!arguments.quiet) {
     print(summary_text(summary) + fmt::format("results: {}; look at them with: buckens view {}\n",
                                               path.string(), path.string()));

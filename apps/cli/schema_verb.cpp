@@ -2,7 +2,7 @@
 #include "cli/output.h"
 #include "cli/verbs.h"
 
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 
 namespace buckens::cli {
 
@@ -28,7 +28,7 @@ void add_schema_verb(CLI::App& program, Invocation& invocation) {
   verb.footer(kSchemaFooter);
   verb.callback([&invocation] {
     invocation.action = [] {
-      print(io::model_schema_json());
+      print(model_file::model_schema_json());
       return ExitCode::ok;
     };
   });
@@ -41,7 +41,7 @@ void add_reference_verb(CLI::App& program, Invocation& invocation) {
   verb.footer(kReferenceFooter);
   verb.callback([&invocation] {
     invocation.action = [&invocation] {
-      const std::string page = io::model_reference_markdown();
+      const std::string page = model_file::model_reference_markdown();
       print(invocation.json ? to_text({{"reference", page}}) : page);
       return ExitCode::ok;
     };

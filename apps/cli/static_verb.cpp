@@ -18,7 +18,7 @@
 
 #include "buckens/analysis/static_path.h"
 #include "buckens/base/version.h"
-#include "buckens/io/output_file.h"
+#include "buckens/files/output_file.h"
 
 namespace buckens::cli {
 
@@ -78,14 +78,15 @@ ExitCode run(const StaticArguments& arguments, bool json) {
   const auto built = read_and_build(arguments.model, arguments.overrides);
   for (const std::string& text : built->model.notes) journal.say(LogLevel::info, text);
 
-  io::RunDirectory directory(path, {built->description.title, built->description.source, {}});
+  run_store::RunDirectory directory(path,
+                                    {built->description.title, built->description.source, {}});
   journal.open(directory);
   journal.say(LogLevel::info, fmt::format("results go to {}", path.string()));
   JournaledSink sink(directory, journal);
   const results::RunSummary summary = trace(*built, sink, path, journal);
 
   if (json) {
-    print(io::read_text_file(path / io::kSummaryName));
+    print(files::read_text_file(path / run_store::kSummaryName));
   } else if (!arguments.quiet) {
     print(summary_text(summary) + fmt::format("results: {}; look at them with: buckens view {}\n",
                                               path.string(), path.string()));

@@ -15,10 +15,10 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/output_file.h"
-#include "buckens/io/sweep_summary.h"
-#include "buckens/io/sweep_table.h"
-#include "buckens/io/variant_runs.h"
+#include "buckens/files/output_file.h"
+#include "buckens/sweep/summary.h"
+#include "buckens/sweep/table.h"
+#include "buckens/sweep/variant_runs.h"
 
 namespace buckens::cli {
 
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 struct SweepArguments {
   std::string model, table, out;
   std::vector<std::string> overrides, ranges;
-  int together = io::SweepOptions{}.together;
+  int together = sweep::SweepOptions{}.together;
   bool quiet = false;
 
   fs::path directory() const {
@@ -37,14 +37,14 @@ struct SweepArguments {
   }
 };
 
-io::SweepTable variants_of(const SweepArguments& arguments) {
+sweep::SweepTable variants_of(const SweepArguments& arguments) {
   if (arguments.table.empty() == arguments.ranges.empty()) {
     throw InputError({},
                      "a sweep needs its variants: either a table in CSV, `buckens sweep MODEL "
                      "TABLE`, or ranges, `--vary PATH=[VALUE, ...]`, and not both");
   }
-  return arguments.table.empty() ? io::combinations(arguments.ranges)
-                                 : io::read_sweep_table(arguments.table);
+  return arguments.table.empty() ? sweep::combinations(arguments.ranges)
+                                 : sweep::read_sweep_table(arguments.table);
 }
 
 /// Tells the user about every variant that ends, and now and then how far the others are.
@@ -52,12 +52,12 @@ class SweepDisplay {
  public:
   explicit SweepDisplay(bool quiet) : quiet_(quiet) {}
 
-  void show(const io::SweepProgress& progress) {
+  void show(const sweep::SweepProgress& progress) {
     const double now = seconds();
     if (progress.ended != nullptr && (!quiet_ || is_failure(*progress.ended))) {
       const std::string why = progress.ended->message.empty() ? "" : ": " + progress.ended->message;
       say(fmt::format("{} {}{} ({} of {}, ETA {})", progress.ended->name,
-                      io::to_string(progress.ended->status), why, progress.num_ended,
+                      sweep::to_string(progress.ended->status), why, progress.num_ended,
                       progress.num_variants, time_to_go(progress.share)));
     } else if (!quiet_ && now > next_) {
       say(fmt::format("{:.0f} % of all steps, ETA {}", 100 * progress.share,
@@ -71,8 +71,8 @@ class SweepDisplay {
  private:
   static constexpr double kInterval = 10;  // between lines that only say how far [s]
 
-  static bool is_failure(const io::VariantOutcome& variant) {
-    return variant.status == io::VariantStatus::failed;
+  static bool is_failure(const sweep::VariantOutcome& variant) {
+    return variant.status == sweep::VariantStatus::failed;
   }
   static void say(const std::string& line) { tell(stderr, line + '\n'); }
   std::string time_to_go(double share) const {
@@ -87,16 +87,16 @@ class SweepDisplay {
   double next_ = kInterval;
 };
 
-std::string outcome_text(const io::SweepOutcome& outcome, const fs::path& table) {
-  const auto count = [&](io::VariantStatus status) {
+std::string outcome_text(const sweep::SweepOutcome& outcome, const fs::path& table) {
+  const auto count = [&](sweep::VariantStatus status) {
     return std::count_if(outcome.variants.begin(), outcome.variants.end(),
                          [&](const auto& variant) { return variant.status == status; });
   };
   std::string text =
       fmt::format("{}: {} done, {} kept from before, {} failed, {} not finished\n",
                   counted(static_cast<long>(outcome.variants.size()), "variant"),
-                  count(io::VariantStatus::done), count(io::VariantStatus::kept),
-                  count(io::VariantStatus::failed), count(io::VariantStatus::interrupted));
+                  count(sweep::VariantStatus::done), count(sweep::VariantStatus::kept),
+                  count(sweep::VariantStatus::failed), count(sweep::VariantStatus::interrupted));
   if (outcome.passes > 0) {
     text += fmt::format("large bodies: {}, {} in {} passes over a factor\n",
                         counted(outcome.factorisations, "factorisation"),
@@ -105,12 +105,12 @@ std::string outcome_text(const io::SweepOutcome& outcome, const fs::path& table)
   return text + fmt::format("table: {}\n", table.string());
 }
 
-nlohmann::ordered_json outcome_json(const io::SweepOutcome& outcome, const fs::path& directory,
+nlohmann::ordered_json outcome_json(const sweep::SweepOutcome& outcome, const fs::path& directory,
                                     const fs::path& table) {
   nlohmann::ordered_json variants = nlohmann::ordered_json::array();
-  for (const io::VariantOutcome& variant : outcome.variants) {
+  for (const sweep::VariantOutcome& variant : outcome.variants) {
     variants.push_back({{"name", variant.name},
-                        {"status", io::to_string(variant.status)},
+                        {"status", sweep::to_string(variant.status)},
                         {"directory", (directory / variant.name).string()}});
     if (!variant.message.empty()) variants.back()["message"] = variant.message;
   }
@@ -121,30 +121,30 @@ nlohmann::ordered_json outcome_json(const io::SweepOutcome& outcome, const fs::p
           {"passes", outcome.passes}};
 }
 
-ExitCode exit_code_of(const io::SweepOutcome& outcome) {
-  const auto any = [&](io::VariantStatus status) {
+ExitCode exit_code_of(const sweep::SweepOutcome& outcome) {
+  const auto any = [&](sweep::VariantStatus status) {
     return std::any_of(outcome.variants.begin(), outcome.variants.end(),
                        [&](const auto& variant) { return variant.status == status; });
   };
-  if (any(io::VariantStatus::interrupted)) return ExitCode::interrupted;
-  return any(io::VariantStatus::failed) ? ExitCode::numerical : ExitCode::ok;
+  if (any(sweep::VariantStatus::interrupted)) return ExitCode::interrupted;
+  return any(sweep::VariantStatus::failed) ? ExitCode::numerical : ExitCode::ok;
 }
 
 ExitCode sweep(const SweepArguments& arguments, bool json) {
-  const io::SweepTable variants = variants_of(arguments);
+  const sweep::SweepTable variants = variants_of(arguments);
   const fs::path directory = arguments.directory();
-  const fs::path table = directory / io::kSweepName;
+  const fs::path table = directory / sweep::kSweepName;
   const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   SweepDisplay display(arguments.quiet || json);
-  io::SweepOptions options;
+  sweep::SweepOptions options;
   options.together = arguments.together;
-  options.on_progress = [&](const io::SweepProgress& progress) {
+  options.on_progress = [&](const sweep::SweepProgress& progress) {
     display.show(progress);
     return !interruption.requested();
   };
-  const io::SweepOutcome outcome =
-      io::run_variants(arguments.model, arguments.overrides, variants, directory, options);
-  io::replace_text_file(table, io::sweep_summary_csv(directory, variants, outcome));
+  const sweep::SweepOutcome outcome =
+      sweep::run_variants(arguments.model, arguments.overrides, variants, directory, options);
+  files::replace_text_file(table, sweep::sweep_summary_csv(directory, variants, outcome));
   if (json) {
     print(to_text(outcome_json(outcome, directory, table)));
   } else if (!arguments.quiet) {

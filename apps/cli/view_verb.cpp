@@ -16,7 +16,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
-#include "buckens/io/view_page.h"
+#include "buckens/page/view_page.h"
 
 namespace buckens::cli {
 
@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 struct ViewArguments {
   std::vector<std::string> runs;
   std::string page, fields;
-  std::size_t frames = io::ViewPageOptions{}.max_frames;
-  std::size_t megabytes = io::ViewPageOptions{}.max_bytes >> 20U;
+  std::size_t frames = page::ViewPageOptions{}.max_frames;
+  std::size_t megabytes = page::ViewPageOptions{}.max_bytes >> 20U;
 };
 
 /// The viewer's page lies at the same place relative to the program in the build and after
@@ -58,9 +58,9 @@ std::vector<std::string> split(const std::string& list) {
 
 /// Tells of names that no run has a field of.
 void warn_of_unknown(const std::vector<std::string>& wanted,
-                     const std::vector<io::ViewPageReport>& reports) {
+                     const std::vector<page::ViewPageReport>& reports) {
   std::vector<std::string> known;
-  for (const io::ViewPageReport& report : reports) {
+  for (const page::ViewPageReport& report : reports) {
     known.insert(known.end(), report.fields.begin(), report.fields.end());
   }
   std::sort(known.begin(), known.end());
@@ -76,12 +76,12 @@ ExitCode view(const ViewArguments& arguments, bool json) {
   const std::vector<fs::path> runs(arguments.runs.begin(), arguments.runs.end());
   const fs::path page =
       arguments.page.empty() ? runs.front() / "view.html" : fs::path(arguments.page);
-  io::ViewPageOptions options;
+  page::ViewPageOptions options;
   options.max_frames = arguments.frames;
   options.max_bytes = arguments.megabytes << 20U;
   options.fields = split(arguments.fields);
-  const std::vector<io::ViewPageReport> reports =
-      io::write_view_page(runs, find_template(), page, options);
+  const std::vector<page::ViewPageReport> reports =
+      page::write_view_page(runs, find_template(), page, options);
   warn_of_unknown(options.fields, reports);
   if (json) {
     nlohmann::ordered_json out = {{"page", page.string()},
@@ -97,7 +97,7 @@ ExitCode view(const ViewArguments& arguments, bool json) {
     return ExitCode::ok;
   }
   std::string counts;
-  for (const io::ViewPageReport& report : reports) {
+  for (const page::ViewPageReport& report : reports) {
     counts += fmt::format("{}{} of {} records{}", counts.empty() ? "" : ", ", report.frames,
                           report.records, report.rounded ? ", fields rounded to 16 bits" : "");
   }

@@ -6,14 +6,14 @@
 #include <string_view>
 
 #include "buckens/base/errors.h"
-#include "buckens/io/gmsh_mesh.h"
+#include "buckens/mesh_io/gmsh/mesh.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer looks for this name.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
     // Universal files begin with "    -1", those of Gmsh with a dollar sign.
-    buckens::io::read_gmsh_bytes(bytes, bytes.starts_with(' ') ? "input.unv" : "input.msh");
+    buckens::mesh_io::read_gmsh_bytes(bytes, bytes.starts_with(' ') ? "input.unv" : "input.msh");
   } catch (const buckens::Error&) {
     return 0;
   }

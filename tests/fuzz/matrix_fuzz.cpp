@@ -4,20 +4,20 @@
 #include "tests/fuzz/memory_file.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/io/matrix_file.h"
-#include "buckens/io/matrix_node_table.h"
+#include "buckens/mesh_io/matrix/file.h"
+#include "buckens/mesh_io/matrix/node_table.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer looks for this name.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const buckens::fuzz::MemoryFile file;
   const std::filesystem::path path = file.write(data, size);
   try {
-    buckens::io::read_matrix_file(path);
+    buckens::mesh_io::read_matrix_file(path);
   } catch (const buckens::Error&) {
     // The table has its turn all the same.
   }
   try {
-    buckens::io::read_matrix_node_table(path);
+    buckens::mesh_io::read_matrix_node_table(path);
   } catch (const buckens::Error&) {
     return 0;
   }

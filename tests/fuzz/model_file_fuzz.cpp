@@ -5,14 +5,14 @@
 #include <string>
 
 #include "buckens/base/errors.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer looks for this name.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     // Files that it names are looked for where there are none.
-    buckens::io::read_model_text(std::string(reinterpret_cast<const char*>(data), size),
-                                 "nowhere/model.yaml");
+    buckens::model_file::read_model_text(std::string(reinterpret_cast<const char*>(data), size),
+                                         "nowhere/model.yaml");
   } catch (const buckens::Error&) {
     return 0;
   }

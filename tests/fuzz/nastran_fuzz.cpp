@@ -5,14 +5,14 @@
 #include <string>
 
 #include "buckens/base/errors.h"
-#include "buckens/io/nastran_deck.h"
+#include "buckens/mesh_io/nastran/deck.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer looks for this name.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   try {
     // Included files: the deck itself under short names, nothing else.
-    buckens::io::read_nastran_text(text, "deck.bdf", [&](const std::filesystem::path& path) {
+    buckens::mesh_io::read_nastran_text(text, "deck.bdf", [&](const std::filesystem::path& path) {
       if (path.string().size() > 8) throw buckens::IoError("no such file");
       return text.substr(text.size() / 2);
     });

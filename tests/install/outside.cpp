@@ -8,8 +8,8 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/time_law.h"
 #include "buckens/base/version.h"
-#include "buckens/io/run_reader.h"
 #include "buckens/linalg/sparse_cholesky.h"
+#include "buckens/run_store/run_reader.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ bool factor_solves() {
 
 bool missing_run_is_refused() {
   try {
-    const buckens::io::RunReader reader("no-such-run");
+    const buckens::run_store::RunReader reader("no-such-run");
   } catch (const buckens::IoError&) {
     return true;
   }

@@ -12,7 +12,7 @@
 #include <exception>
 #include <thread>
 
-#include "buckens/io/run_directory.h"
+#include "buckens/run_store/run_directory.h"
 
 namespace {
 
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   const std::chrono::milliseconds pause(std::atoi(argv[3]));
   const int bursts = argc > 4 ? std::atoi(argv[4]) : 0;
   try {
-    buckens::io::RunDirectory run(argv[1]);
+    buckens::run_store::RunDirectory run(argv[1]);
     const buckens::results::RecordLayout layout = make_layout();
     run.begin(layout, {});
     const auto clock = layout.offset(static_cast<std::size_t>(layout.find("sensors/clock")));

@@ -10,7 +10,7 @@
 
 #include "buckens/analysis/static_path.h"
 #include "buckens/base/test/source_directory.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -31,9 +31,9 @@ double buckling_load() {
 
 results::RunSummary trace(const std::vector<std::string>& overrides) {
   const auto built = model::build_model(
-      io::read_model_file(std::string(buckens::test::kSourceDirectory) +
-                              "/examples/snap_through_bending/snap_through_bending.yaml",
-                          overrides));
+      model_file::read_model_file(std::string(buckens::test::kSourceDirectory) +
+                                      "/examples/snap_through_bending/snap_through_bending.yaml",
+                                  overrides));
   results::Table table;
   return analysis::trace_static_path(*built, table);
 }

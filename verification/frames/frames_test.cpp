@@ -14,7 +14,7 @@
 
 #include "buckens/analysis/simulate.h"
 #include "buckens/base/test/source_directory.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -33,7 +33,7 @@ struct Outcome {
   results::RunSummary summary;
 
   explicit Outcome(const std::string& text) {
-    const auto built = model::build_model(io::read_model_text(text, "frames.yaml", {}));
+    const auto built = model::build_model(model_file::read_model_text(text, "frames.yaml", {}));
     summary = analysis::simulate(*built, table, {});
   }
   Vector3d at(std::size_t record, const std::string& sensor) const {

@@ -18,7 +18,7 @@
 #include "buckens/base/test/source_directory.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/mass_metric.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 #include "buckens/stepping/test/simulate.h"
 
@@ -42,7 +42,7 @@ Vector3d vector_of(const nlohmann::json& list) {
 }
 
 std::unique_ptr<model::BuiltModel> block(const std::vector<std::string>& changes) {
-  return model::build_model(io::read_model_file(kFolder + "model.yaml", changes));
+  return model::build_model(model_file::read_model_file(kFolder + "model.yaml", changes));
 }
 
 TEST(FreeFlightHex8, StartsAsTheReference) {

@@ -9,8 +9,8 @@
 
 #include "buckens/analysis/body_vibration.h"
 #include "buckens/base/test/source_directory.h"
-#include "buckens/io/model_file.h"
 #include "buckens/model/model_builder.h"
+#include "buckens/model_file/model_file.h"
 
 namespace buckens::verification {
 namespace {
@@ -22,7 +22,7 @@ const std::string kFolder =
 void expect_frequencies(const std::string& model, const std::string& name) {
   std::ifstream file(kFolder + "reference.json");
   const auto known = nlohmann::json::parse(file)["hex8"][name];
-  const auto built = model::build_model(io::read_model_file(kFolder + model, {}));
+  const auto built = model::build_model(model_file::read_model_file(kFolder + model, {}));
   body::FreeModesSettings settings;
   settings.count = static_cast<int>(known["freq_Hz"].size());
   const analysis::VibrationReport report = analysis::free_body_vibrations(*built, 0, settings);

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/analysis/static_path.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -44,7 +44,7 @@ struct Traced {
 
 std::unique_ptr<Traced> trace(const std::string& text) {
   auto out = std::make_unique<Traced>();
-  const auto built = model::build_model(io::read_model_text(text, "chain.yaml"));
+  const auto built = model::build_model(model_file::read_model_text(text, "chain.yaml"));
   out->summary = analysis::trace_static_path(*built, out->table);
   return out;
 }

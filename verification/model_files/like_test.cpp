@@ -4,7 +4,7 @@
 
 #include "buckens/analysis/simulate.h"
 #include "buckens/base/errors.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -45,7 +45,7 @@ output:
 )";
 
 TEST(Like, MakesASecondBodyOfTheSameMesh) {
-  const auto built = model::build_model(io::read_model_text(kTwins, "twins.yaml"));
+  const auto built = model::build_model(model_file::read_model_text(kTwins, "twins.yaml"));
   const body::Body& left = built->model.bodies[0];
   const body::Body& right = built->model.bodies[1];
   EXPECT_EQ(right.name, "right");
@@ -58,7 +58,7 @@ TEST(Like, MakesASecondBodyOfTheSameMesh) {
 }
 
 TEST(Like, MovesAsTheFirst) {
-  const auto built = model::build_model(io::read_model_text(kTwins, "twins.yaml"));
+  const auto built = model::build_model(model_file::read_model_text(kTwins, "twins.yaml"));
   results::Table table;
   analysis::simulate(*built, table);
   const Eigen::MatrixXd left = table.values("sensors/left");
@@ -77,7 +77,7 @@ TEST(Like, MovesAsTheFirst) {
 TEST(Like, NeedsABodyAboveIt) {
   std::string text = kTwins;
   text.replace(text.find("like: left"), 10, "like: lefd");
-  EXPECT_THAT([&] { io::read_model_text(text, "twins.yaml"); },
+  EXPECT_THAT([&] { model_file::read_model_text(text, "twins.yaml"); },
               testing::ThrowsMessage<InputError>(testing::AllOf(testing::StartsWith("twins.yaml:"),
                                                                 testing::HasSubstr("lefd"),
                                                                 testing::HasSubstr("left"))));

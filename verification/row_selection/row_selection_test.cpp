@@ -5,7 +5,7 @@
 
 #include "buckens/analysis/prepare.h"
 #include "buckens/dynamics/mass_metric.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::verification {
@@ -44,7 +44,7 @@ simulation: {duration: 2 s, step: 5 ms}
 constexpr double kClosed = 1e-12;
 
 TEST(RowSelection, ParallelCranksHandOverFromRowToRow) {
-  const auto built = model::build_model(io::read_model_text(kCranks, "cranks.yaml"));
+  const auto built = model::build_model(model_file::read_model_text(kCranks, "cranks.yaml"));
   const dynamics::MassMetric metric(built->model);
   analysis::Prepared prepared = analysis::prepare(*built, metric);
   EXPECT_EQ(prepared.redundant_rows.size(), 1U);

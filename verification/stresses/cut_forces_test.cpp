@@ -11,7 +11,7 @@
 #include "buckens/fem/assemble.h"
 #include "buckens/fem/node_region.h"
 #include "buckens/fem/solid_block.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -54,8 +54,8 @@ struct Resultant {
 class Cantilever {
  public:
   Cantilever(const std::string& element, int divisions)
-      : built_(
-            model::build_model(io::read_model_text(model_text(element, divisions), "bar.yaml"))) {
+      : built_(model::build_model(
+            model_file::read_model_text(model_text(element, divisions), "bar.yaml"))) {
     analysis::simulate(*built_, table_);
     const Eigen::VectorXd values = table_.values("bodies/bar/displacement").row(0);
     displacement_ = values.reshaped(6, values.size() / 6).topRows<3>();

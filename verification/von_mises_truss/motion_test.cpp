@@ -12,7 +12,7 @@
 #include "verification/von_mises_truss/truss.h"
 
 #include "buckens/analysis/simulate.h"
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -48,7 +48,7 @@ std::string coupling(const std::string& variant) {
 /// w at the tabulated times with `steps` steps between two of them.
 std::vector<double> motion(const Snap& run, int steps) {
   const std::vector<double> t = table_of(run)["t"];
-  const auto built = model::build_model(io::read_model_text(
+  const auto built = model::build_model(model_file::read_model_text(
       fmt::format(
           "{}loads: {{push: {{force: {{on: left/apex, value: [0, \"-{}*t\", 0]}}}}}}\n"
           "simulation: {{duration: {:.17g}, step: {:.17g}}}\noutput: {{every: {:.17g}, {}}}\n",

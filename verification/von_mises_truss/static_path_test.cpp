@@ -11,7 +11,7 @@
 
 #include "verification/von_mises_truss/truss.h"
 
-#include "buckens/io/model_file.h"
+#include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
 namespace buckens::verification {
@@ -24,7 +24,7 @@ struct Path {
 
 /// @param settings of `static`, @param reference load at factor one [N]
 Path trace(const Truss& truss, const std::string& settings, double reference, int bars = 1) {
-  const auto built = model::build_model(io::read_model_text(
+  const auto built = model::build_model(model_file::read_model_text(
       fmt::format("{}loads: {{push: {{force: {{on: left/apex, value: [0, {:.17g}, 0]}}}}}}\n"
                   "static: {{{}}}\noutput: {{{}}}\n",
                   truss.model(bars), -reference, settings, Truss::sensor()),

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+namespace buckens::exports {
+
+/// A binary glTF 2.0 file under construction: JSON with the numbers in one buffer behind it.
+class GlbFile {
+ public:
+  nlohmann::ordered_json root;  ///< everything but buffers, bufferViews and accessors
+
+  GlbFile();
+
+  /// Appends numbers and returns the index of their accessor.
+  /// @param bounds smallest and largest components, which the format wants of positions and times
+  int add_vectors(const Eigen::Matrix3Xf& values, bool bounds);
+  int add_floats(const std::vector<float>& values, bool bounds);
+  int add_quaternions(const std::vector<std::array<float, 4>>& values);  ///< x, y, z, w
+  int add_colours(const std::vector<std::array<std::uint8_t, 4>>& values);
+  int add_indices(const std::vector<std::uint32_t>& values);
+
+  /// @throws IoError, also where the numbers take more than the 4 GB that the format holds
+  void write(const std::filesystem::path& path) const;
+
+ private:
+  int add(const void* data, std::size_t bytes, std::size_t count, int component_type,
+          const char* type, int target);
+
+  nlohmann::ordered_json views_, accessors_;
+  std::string buffer_;
+};
+
+}  // namespace buckens::exports

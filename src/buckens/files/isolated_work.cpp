@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/files/isolated_work.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/files/output_file.h"
+
+namespace buckens::files {
+
+namespace {
+
+constexpr char kEnd = '\x04';  // behind the output of work that came to its end
+
+/// To what the machine has. Sanitizers reserve more addresses than that for themselves.
+void limit_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
+  if (pages <= 0 || size <= 0) return;
+  const auto bytes = static_cast<rlim_t>(pages) * static_cast<rlim_t>(size);
+  const rlimit memory = {bytes, bytes};
+  ::setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
+void keep_to_itself() {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const int number : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGSEGV, SIGFPE, SIGABRT}) {
+    ::signal(number, SIG_DFL);
+  }
+  const int nothing = ::open("/dev/null", O_RDWR);
+  for (int stream = 0; nothing >= 0 && stream < 3; ++stream) ::dup2(nothing, stream);
+  const rlimit no_core = {0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  limit_memory();
+}
+
+void send(int pipe, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(pipe, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) ::_exit(1);
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+std::string received(int pipe) {
+  std::string out;
+  std::array<char, 1 << 16> piece;
+  for (;;) {
+    const ssize_t count = ::read(pipe, piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return out;
+    out.append(piece.data(), static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace
+
+IsolatedResult do_isolated(const std::function<std::string()>& work) {
+  std::array<int, 2> ends;
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw IoError(fmt::format("cannot start a process: {}", system_reason(errno)));
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    keep_to_itself();
+    try {
+      send(ends[1], work() + kEnd);
+    } catch (...) {
+      ::_exit(1);
+    }
+    ::_exit(0);  // no destructors of static objects: they belong to the other process
+  }
+  const int error = errno;
+  ::close(ends[1]);
+  if (child < 0) {
+    ::close(ends[0]);
+    throw IoError(fmt::format("cannot start a process: {}", system_reason(error)));
+  }
+  IsolatedResult out;
+  out.output = received(ends[0]);
+  ::close(ends[0]);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status)) out.signal = WTERMSIG(status);
+  out.is_complete = !out.output.empty() && out.output.back() == kEnd;
+  if (out.is_complete) {
+    out.output.pop_back();
+  } else {
+    out.output.clear();
+  }
+  return out;
+}
+
+}  // namespace buckens::files

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/files/output_file.h"
+
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::files {
+
+namespace {
+
+/// What a user can do about a failed write.
+std::string remedy(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return " Free space, write elsewhere (-o), or record less (output: every).";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return " Choose a place where you may write (-o).";
+    case EPIPE:
+      return " The process that takes the data has ended; perhaps the memory was exhausted.";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path, Start start) : path_(path) {
+  const int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
+  descriptor_ = ::open(path.c_str(), start == Start::empty ? flags | O_TRUNC : flags, 0666);
+  if (descriptor_ < 0) fail("open");
+}
+
+OutputFile::~OutputFile() {
+  if (is_open()) ::close(descriptor_);
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+  if (this != &other) {
+    if (is_open()) ::close(descriptor_);
+    path_ = std::move(other.path_);
+    descriptor_ = std::exchange(other.descriptor_, -1);
+  }
+  return *this;
+}
+
+void OutputFile::fail(std::string_view verb) const {
+  const int error = errno;
+  throw IoError(
+      fmt::format("{}: cannot {} the file: {}", path_.string(), verb, system_reason(error)));
+}
+
+void OutputFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      fail("write");
+    }
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::clear() {
+  if (::ftruncate(descriptor_, 0) != 0) fail("empty");
+}
+
+bool OutputFile::try_lock() {
+  return ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+void OutputFile::close() {
+  if (is_open() && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("close");
+}
+
+std::string system_reason(int error) {
+  return fmt::format("{}.{}", std::generic_category().message(error), remedy(error));
+}
+
+std::string read_text_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw IoError(fmt::format("{}: is a directory; a file is expected.", path.string()));
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    throw IoError(fmt::format("{}: cannot read the file: {}.", path.string(),
+                              std::generic_category().message(errno)));
+  }
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) throw IoError(fmt::format("{}: reading broke off.", path.string()));
+  return text;
+}
+
+void replace_text_file(const std::filesystem::path& path, std::string_view text) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::error_code error;
+  try {
+    OutputFile file(part);
+    file.write(text);
+    file.close();
+    std::filesystem::rename(part, path, error);
+    if (error) {
+      throw IoError(
+          fmt::format("{}: cannot replace the file: {}.", path.string(), error.message()));
+    }
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
+}
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+}  // namespace buckens::files

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <sys/types.h>
+
+namespace buckens::files {
+
+/// A second process that writes into a file on behalf of this one.
+///
+/// The kernel ends a process that receives SIGKILL in the middle of a large write, page by page. A
+/// write ordered here is carried out wholly or, if this process is killed while it hands the bytes
+/// over, not at all. The second process ends when the object is destroyed or when this process
+/// dies, whichever way.
+///
+/// It starts as a copy of this process: start it before large memory is in use. It holds no file
+/// of this process but the one that it was given, and does not react to signals from a terminal.
+class WriteProcess {
+ public:
+  /// @throws IoError if the system grants no further process
+  WriteProcess();
+  ~WriteProcess();
+  WriteProcess(const WriteProcess&) = delete;
+  WriteProcess& operator=(const WriteProcess&) = delete;
+
+  /// Later writes go into this open file; the caller keeps and closes its own descriptor.
+  /// @return 0 or the error number
+  int take_file(int descriptor);
+  /// Returns when the bytes have reached the system.
+  /// @return 0 or the error number; EPIPE: the second process is gone
+  int write(std::uint64_t address, const void* bytes, std::size_t size);
+  pid_t id() const { return child_; }
+
+ private:
+  int answer() const;
+
+  int socket_ = -1;
+  pid_t child_ = -1;
+};
+
+}  // namespace buckens::files

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "buckens/mesh_io/abaqus/lines.h"
+#include "buckens/mesh_io/abaqus/scope.h"
+
+namespace buckens::mesh_io {
+
+/// A deck while it is read.
+struct AbaqusReading {
+  AbaqusLines lines;
+  AbaqusDeck deck;
+  AbaqusScope* scope;                     ///< where definitions go at the moment
+  fem::MaterialSpec* material = nullptr;  ///< that of the last *MATERIAL
+  AbaqusLink* coupling = nullptr;         ///< of the last *COUPLING, until its kind is known
+  std::map<std::string, fem::ImportNote> repeated;  ///< notes that are counted, by their text
+
+  explicit AbaqusReading(const std::filesystem::path& path) : lines(path), scope(&deck.root) {}
+
+  /// Adds a note, or counts it if it is there.
+  void note(DeckPlace place, const std::string& text);
+  /// Value of a parameter.
+  /// @throws InputError if it is missing or empty
+  const std::string& parameter(const DeckKeyword& keyword, const char* key) const;
+  /// Value of a parameter, empty if it is not there.
+  std::string optional_parameter(const DeckKeyword& keyword, const char* key) const;
+};
+
+/// A card reads a keyword with its data lines.
+using AbaqusCard = void (*)(AbaqusReading&, const DeckKeyword&);
+
+// Mesh: nodes, elements, sets, surfaces.
+void read_nodes(AbaqusReading& in, const DeckKeyword& keyword);
+void read_elements(AbaqusReading& in, const DeckKeyword& keyword);
+void read_node_set(AbaqusReading& in, const DeckKeyword& keyword);
+void read_element_set(AbaqusReading& in, const DeckKeyword& keyword);
+void read_surface(AbaqusReading& in, const DeckKeyword& keyword);
+
+// Sections, masses, axes.
+void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword);
+void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword);
+void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword);
+void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword);
+void read_mass(AbaqusReading& in, const DeckKeyword& keyword);
+void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword);
+void read_orientation(AbaqusReading& in, const DeckKeyword& keyword);
+void read_transform(AbaqusReading& in, const DeckKeyword& keyword);
+
+// Materials.
+void read_material(AbaqusReading& in, const DeckKeyword& keyword);
+void read_elastic(AbaqusReading& in, const DeckKeyword& keyword);
+void read_density(AbaqusReading& in, const DeckKeyword& keyword);
+void read_damping(AbaqusReading& in, const DeckKeyword& keyword);
+
+// Constraints.
+void read_coupling(AbaqusReading& in, const DeckKeyword& keyword);
+void read_kinematic(AbaqusReading& in, const DeckKeyword& keyword);
+void read_distributing(AbaqusReading& in, const DeckKeyword& keyword);
+void read_kinematic_coupling(AbaqusReading& in, const DeckKeyword& keyword);
+void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword);
+void read_mpc(AbaqusReading& in, const DeckKeyword& keyword);
+void read_equation(AbaqusReading& in, const DeckKeyword& keyword);
+
+/// The set with this name in a map of sets, made if it is not there.
+AbaqusSet& set_called(std::map<std::string, AbaqusSet>& sets, const std::string& name);
+
+/// Three numbers of a row; empty cells are 0.
+Eigen::Vector3d read_vector(const AbaqusLines& lines, const DeckRow& row, std::size_t first,
+                            const char* what);
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "buckens/fem/imported_mesh.h"
+
+namespace buckens::mesh_io {
+
+/// Reads the mesh of a deck of Abaqus or CalculiX (.inp), in the units of the deck.
+///
+/// Parts are placed as their instances say. Steps, boundary conditions and everything else that is
+/// not the body itself is left out and listed in the notes. What each keyword becomes stands in
+/// docs/tutorials/meshes-abaqus.md.
+/// @throws InputError with file and line, also of included files; IoError if the deck itself cannot
+/// be read
+fem::ImportedMesh read_abaqus_deck(const std::filesystem::path& path);
+
+}  // namespace buckens::mesh_io

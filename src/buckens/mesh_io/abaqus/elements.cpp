@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/abaqus/elements.h"
+
+#include <algorithm>
+#include <array>
+
+namespace buckens::mesh_io {
+
+namespace {
+
+using fem::CellKind;
+using enum AbaqusRole;
+
+constexpr std::string_view kHex = "hex8 with incompatible modes";
+constexpr std::string_view kFull = "the same shape with full integration";
+constexpr std::string_view kMixed = "the same shape in displacements alone, without pressure";
+constexpr std::string_view kTet10 = "tet10";
+constexpr std::string_view kTri = "the shell with 3 nodes";
+constexpr std::string_view kQuad = "the shell with 4 nodes";
+constexpr std::string_view kQuadratic = "the shell of this shape with full integration";
+constexpr std::string_view kTimoshenko = "a straight Timoshenko beam with exact shape functions";
+constexpr std::string_view kEuler = "a straight Euler-Bernoulli beam";
+constexpr std::string_view kTwoBeams = "two straight Timoshenko beams in a chain";
+constexpr std::string_view kTwoBars = "two straight bars in a chain";
+constexpr std::string_view kSpring = "left out; attach springs and dampers in the model file";
+constexpr std::string_view kRigid = "left out; they only show a surface without mass";
+
+constexpr AbaqusElementType kTypes[] = {
+    {"C3D4", solid, CellKind::tet4, 4, ""},
+    {"C3D4H", solid, CellKind::tet4, 4, kMixed},
+    {"C3D5", solid, CellKind::pyramid5, 5, ""},
+    {"C3D5H", solid, CellKind::pyramid5, 5, kMixed},
+    {"C3D6", solid, CellKind::wedge6, 6, ""},
+    {"C3D6H", solid, CellKind::wedge6, 6, kMixed},
+    {"C3D6R", solid, CellKind::wedge6, 6, kFull},
+    {"SC6R", solid, CellKind::wedge6, 6, "wedge6, a solid: too stiff where it is thin"},
+    {"C3D8", solid, CellKind::hex8, 8, kHex},
+    {"C3D8R", solid, CellKind::hex8, 8, kHex},
+    {"C3D8I", solid, CellKind::hex8, 8, ""},
+    {"C3D8H", solid, CellKind::hex8, 8, kHex},
+    {"C3D8IH", solid, CellKind::hex8, 8, kHex},
+    {"C3D8RH", solid, CellKind::hex8, 8, kHex},
+    {"C3D8S", solid, CellKind::hex8, 8, kHex},
+    {"SC8R", solid, CellKind::hex8, 8, kHex},
+    {"C3D10", solid, CellKind::tet10, 10, ""},
+    {"C3D10H", solid, CellKind::tet10, 10, kMixed},
+    {"C3D10I", solid, CellKind::tet10, 10, kTet10},
+    {"C3D10M", solid, CellKind::tet10, 10, kTet10},
+    {"C3D10MH", solid, CellKind::tet10, 10, kTet10},
+    {"C3D10HS", solid, CellKind::tet10, 10, kTet10},
+    {"C3D10S", solid, CellKind::tet10, 10, kTet10},
+    {"C3D10T", solid, CellKind::tet10, 10, kTet10},
+    {"C3D15", solid, CellKind::wedge15, 15, ""},
+    {"C3D15H", solid, CellKind::wedge15, 15, kMixed},
+    {"C3D20", solid, CellKind::hex20, 20, ""},
+    {"C3D20H", solid, CellKind::hex20, 20, kMixed},
+    {"C3D20R", solid, CellKind::hex20, 20, kFull},
+    {"C3D20RH", solid, CellKind::hex20, 20, kFull},
+    {"C3D20RI", solid, CellKind::hex20, 20, kFull},
+
+    {"S3", shell, CellKind::tri3, 3, kTri},
+    {"S3R", shell, CellKind::tri3, 3, kTri},
+    {"S3RS", shell, CellKind::tri3, 3, kTri},
+    {"STRI3", shell, CellKind::tri3, 3, kTri},
+    {"S4", shell, CellKind::quad4, 4, kQuad},
+    {"S4R", shell, CellKind::quad4, 4, kQuad},
+    {"S4R5", shell, CellKind::quad4, 4, kQuad},
+    {"S4RS", shell, CellKind::quad4, 4, kQuad},
+    {"S4RSW", shell, CellKind::quad4, 4, kQuad},
+    {"S6", shell, CellKind::tri6, 6, kQuadratic},
+    {"STRI65", shell, CellKind::tri6, 6, kQuadratic},
+    {"S8", shell, CellKind::quad8, 8, kQuadratic},
+    {"S8R", shell, CellKind::quad8, 8, kQuadratic},
+    {"S8R5", shell, CellKind::quad8, 8, kQuadratic},
+
+    {"B31", beam, CellKind::line2, 2, kTimoshenko},
+    {"B31H", beam, CellKind::line2, 2, kTimoshenko},
+    {"B31R", beam, CellKind::line2, 2, kTimoshenko},
+    {"B31OS", beam, CellKind::line2, 2, "a straight Timoshenko beam without warping"},
+    {"PIPE31", beam, CellKind::line2, 2, kTimoshenko},
+    {"PIPE31H", beam, CellKind::line2, 2, kTimoshenko},
+    {"B32", beam, CellKind::line3, 3, kTwoBeams},
+    {"B32H", beam, CellKind::line3, 3, kTwoBeams},
+    {"B32R", beam, CellKind::line3, 3, kTwoBeams},
+    {"B33", beam, CellKind::line2, 2, kEuler, false},
+    {"B33H", beam, CellKind::line2, 2, kEuler, false},
+    {"T3D2", bar, CellKind::line2, 2, ""},
+    {"T3D2H", bar, CellKind::line2, 2, kMixed},
+    {"T3D3", bar, CellKind::line3, 3, kTwoBars},
+
+    {"MASS", mass, CellKind::point1, 1, ""},
+    {"ROTARYI", rotary_inertia, CellKind::point1, 1, ""},
+
+    {"SPRING1", left_out, CellKind::point1, -1, kSpring},
+    {"SPRING2", left_out, CellKind::line2, -1, kSpring},
+    {"SPRINGA", left_out, CellKind::line2, -1, kSpring},
+    {"DASHPOT1", left_out, CellKind::point1, -1, kSpring},
+    {"DASHPOT2", left_out, CellKind::line2, -1, kSpring},
+    {"DASHPOTA", left_out, CellKind::line2, -1, kSpring},
+    {"CONN3D2", left_out, CellKind::line2, -1, "left out; write joints in the model file"},
+    {"GAPUNI", left_out, CellKind::line2, -1, "left out; there is no contact inside a body"},
+    {"R3D3", left_out, CellKind::tri3, -1, kRigid},
+    {"R3D4", left_out, CellKind::quad4, -1, kRigid},
+    {"RB3D2", left_out, CellKind::line2, -1, kRigid},
+    {"SFM3D3", left_out, CellKind::tri3, -1, kRigid},
+    {"SFM3D4", left_out, CellKind::quad4, -1, kRigid},
+    {"SFM3D4R", left_out, CellKind::quad4, -1, kRigid},
+    {"DCOUP3D", left_out, CellKind::point1, -1, "left out; use *COUPLING with *DISTRIBUTING"},
+};
+
+using Faces = std::vector<std::vector<int>>;
+
+const Faces& faces_of(CellKind kind) {
+  static const Faces tet = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  static const Faces pyramid = {{0, 1, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}};
+  static const Faces wedge = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
+  static const Faces hex = {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
+                            {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  static const Faces none;
+  switch (kind) {
+    case CellKind::tet4:
+    case CellKind::tet10:
+      return tet;
+    case CellKind::pyramid5:
+      return pyramid;
+    case CellKind::wedge6:
+    case CellKind::wedge15:
+      return wedge;
+    case CellKind::hex8:
+    case CellKind::hex20:
+      return hex;
+    default:
+      return none;
+  }
+}
+
+using Edge = std::array<int, 2>;
+
+constexpr Edge kTriEdges[] = {{0, 1}, {1, 2}, {2, 0}};
+constexpr Edge kQuadEdges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+constexpr Edge kTetEdges[] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+constexpr Edge kWedgeEdges[] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
+                                {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+constexpr Edge kHexEdges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+}  // namespace
+
+const AbaqusElementType* find_abaqus_element(std::string_view name) {
+  const auto* found = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                   [&](const auto& type) { return type.name == name; });
+  return found == std::end(kTypes) ? nullptr : found;
+}
+
+std::span<const std::vector<int>> abaqus_faces(CellKind kind) { return faces_of(kind); }
+
+std::span<const std::array<int, 2>> abaqus_edges(CellKind kind) {
+  switch (kind) {
+    case CellKind::tri6:
+      return kTriEdges;
+    case CellKind::quad8:
+      return kQuadEdges;
+    case CellKind::tet10:
+      return kTetEdges;
+    case CellKind::wedge15:
+      return kWedgeEdges;
+    case CellKind::hex20:
+      return kHexEdges;
+    default:
+      return {};
+  }
+}
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "buckens/files/deck_number.h"
+#include "buckens/mesh_io/abaqus/cards.h"
+
+namespace buckens::mesh_io {
+
+namespace {
+
+fem::MaterialSpec& current(AbaqusReading& in, const DeckKeyword& keyword) {
+  if (in.material != nullptr) return *in.material;
+  in.lines.fail(keyword.place, fmt::format("{} belongs below a *MATERIAL", keyword.written));
+}
+
+/// The constants of the first temperature, over as many lines as they need.
+std::vector<double> first_constants(AbaqusReading& in, const DeckKeyword& keyword,
+                                    std::size_t count) {
+  std::vector<double> out;
+  DeckRow row;
+  while (out.size() < count) {
+    if (!in.lines.next_row(row)) {
+      in.lines.fail(keyword.place, fmt::format("{} needs {} constants, here are {}",
+                                               keyword.written, count, out.size()));
+    }
+    for (std::size_t i = 0; i < row.cells.size() && out.size() < count; ++i) {
+      out.push_back(in.lines.number(row, i, "constant of the material"));
+    }
+    // Eight values fill a line; anything else after them is the temperature.
+    if (row.cells.size() < 8 && out.size() < count) {
+      in.lines.fail(row.place, fmt::format("{} needs {} constants, here are {}", keyword.written,
+                                           count, out.size()));
+    }
+  }
+  if (in.lines.next_row(row)) {
+    in.note(keyword.place, fmt::format("{}: values for several temperatures or fields; the first "
+                                       "of them is taken",
+                                       keyword.written));
+  }
+  return out;
+}
+
+fem::OrthotropicSpec engineering(const std::vector<double>& v) {
+  fem::OrthotropicSpec out;
+  out.E1 = v[0];
+  out.E2 = v[1];
+  out.E3 = v[2];
+  out.nu12 = v[3];
+  out.nu13 = v[4];
+  out.nu23 = v[5];
+  out.G12 = v[6];
+  out.G13 = v[7];
+  out.G23 = v[8];
+  return out;
+}
+
+/// From D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+fem::OrthotropicSpec from_stiffness(AbaqusReading& in, const DeckKeyword& keyword,
+                                    const std::vector<double>& v) {
+  Eigen::Matrix3d D;
+  D << v[0], v[1], v[3], v[1], v[2], v[4], v[3], v[4], v[5];
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(D);
+  if (!lu.isInvertible()) {
+    in.lines.fail(keyword.place, "the stiffnesses D1111 … D3333 form a singular matrix");
+  }
+  const Eigen::Matrix3d S = lu.inverse();
+  return engineering({1.0 / S(0, 0), 1.0 / S(1, 1), 1.0 / S(2, 2), -S(0, 1) / S(0, 0),
+                      -S(0, 2) / S(0, 0), -S(1, 2) / S(1, 1), v[6], v[7], v[8]});
+}
+
+/// E1, E2, ν12, G12, G13, G23 of a plane state of stress. Shells do not ask for what is across: it
+/// has the modulus of direction 2 and does not contract.
+fem::OrthotropicSpec lamina(const std::vector<double>& v) {
+  return engineering({v[0], v[1], v[1], v[2], 0.0, 0.0, v[3], v[4], v[5]});
+}
+
+}  // namespace
+
+void read_material(AbaqusReading& in, const DeckKeyword& keyword) {
+  const std::string& name = in.parameter(keyword, "NAME");
+  fem::MaterialSpec& material = in.deck.materials[upper(name)];
+  if (!material.name.empty()) {
+    in.lines.fail(keyword.place, fmt::format("material \"{}\" is defined twice, first at {}", name,
+                                             material.where.text()));
+  }
+  material.name = name;
+  material.where = in.lines.where(keyword.place);
+  in.material = &material;
+}
+
+void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
+  fem::MaterialSpec& material = current(in, keyword);
+  std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  std::erase(type, ' ');
+  if (type.empty() || type == "ISOTROPIC" || type == "ISO") {
+    const auto v = first_constants(in, keyword, 2);
+    material.E = v[0];
+    material.nu = v[1];
+    if (material.E > 0.0 && material.nu > -1.0 && material.nu <= 0.5) return;
+    in.lines.fail(
+        keyword.place,
+        fmt::format("material \"{}\" has E = {:g} and nu = {:g}; E must be positive and nu "
+                    "lie between -1 and 0.5",
+                    material.name, material.E, material.nu));
+  }
+  if (type == "ENGINEERINGCONSTANTS") {
+    material.orthotropic = engineering(first_constants(in, keyword, 9));
+  } else if (type == "ORTHOTROPIC" || type == "ORTHO") {
+    material.orthotropic = from_stiffness(in, keyword, first_constants(in, keyword, 9));
+  } else if (type == "LAMINA") {
+    material.orthotropic = lamina(first_constants(in, keyword, 6));
+    in.deck.laminae.insert(upper(material.name));
+  } else {
+    in.lines.fail(keyword.place,
+                  fmt::format("*ELASTIC of TYPE={} is not supported; ISOTROPIC, ENGINEERING "
+                              "CONSTANTS, ORTHOTROPIC and LAMINA are",
+                              type));
+  }
+  material.orthotropic->where = in.lines.where(keyword.place);
+}
+
+void read_density(AbaqusReading& in, const DeckKeyword& keyword) {
+  fem::MaterialSpec& material = current(in, keyword);
+  material.rho = first_constants(in, keyword, 1)[0];
+  if (material.rho >= 0.0) return;
+  in.lines.fail(keyword.place, fmt::format("the density {:g} of material \"{}\" is negative",
+                                           material.rho, material.name));
+}
+
+void read_damping(AbaqusReading& in, const DeckKeyword& keyword) {
+  fem::MaterialSpec& material = current(in, keyword);
+  fem::DampingSpec damping;
+  damping.where = in.lines.where(keyword.place);
+  for (const auto& parameter : keyword.parameters) {
+    if (parameter.key != "ALPHA" && parameter.key != "BETA") {
+      in.note(keyword.place,
+              fmt::format("*DAMPING, {}: only ALPHA and BETA are taken over", parameter.key));
+      continue;
+    }
+    const auto value = files::deck_number(parameter.value);
+    if (!value || *value < 0.0) {
+      in.lines.fail(keyword.place, fmt::format("{}={}: a number that is not negative must stand "
+                                               "here",
+                                               parameter.key, parameter.value));
+    }
+    (parameter.key == "ALPHA" ? damping.mass : damping.stiffness) = *value;
+  }
+  if (damping.mass != 0.0 || damping.stiffness != 0.0) material.damping = damping;
+}
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/mesh_io/abaqus/names.h"
+
+namespace buckens::mesh_io {
+
+/// Makes the neutral mesh of a deck: instances in place, elements in blocks of one type and
+/// property, names prefixed by their instance where there are several.
+class AbaqusMesh {
+ public:
+  AbaqusMesh(const AbaqusDeck& deck, const AbaqusLines& lines);
+
+  /// @throws InputError with the place of what cannot be
+  fem::ImportedMesh run();
+
+ private:
+  struct Numbers {
+    int first = -1;  ///< of the elements that it became, through all blocks
+    int count = 0;
+  };
+
+  bool labels_meet() const;
+  void add_nodes();
+  void add_materials();
+  void assign_sections(int scope);
+  int property_for(int scope, const AbaqusSection& section, const AbaqusElementType& type);
+  void fill_property(int scope, const AbaqusSection& section, fem::ImportedProperty& property);
+  std::string material_called(const std::string& name, DeckPlace place);
+  const AbaqusOrientation* orientation_called(int scope, const std::string& name,
+                                              DeckPlace place) const;
+  void add_elements(int scope);
+  void add_element(int scope, int element);
+  Eigen::Vector3d up_direction(int scope, int element, int a, int b) const;
+  void number_blocks();
+  void add_masses(int scope);
+  void add_sets(int scope);
+  void add_surfaces(int scope);
+  void note_element_types();
+  std::string prefixed(int scope, const std::string& name) const;
+  fem::ImportNote note_at(DeckPlace place, std::string text, int count) const;
+
+  const AbaqusDeck& deck_;
+  const AbaqusLines& lines_;
+  AbaqusNames names_;
+  fem::ImportedMesh out_;
+  /// Per placed scope and element: the section, −1 without.
+  std::vector<std::vector<int>> section_of_;
+  /// By file and line of the section, placed scope, kind and whether beams shear.
+  std::map<std::tuple<int, int, int, fem::PropertyKind, bool>, int> properties_;
+  std::set<std::string> property_names_;          ///< in capitals
+  std::map<std::string, std::string> materials_;  ///< names as written by names in capitals
+  std::map<std::pair<const AbaqusElementType*, int>, std::size_t> block_of_;
+  /// Per block: the placed scope and element of each of its elements.
+  std::vector<std::vector<AbaqusElementAt>> sources_;
+  std::vector<std::vector<Numbers>> numbers_;  ///< per placed scope and element
+  std::int64_t shift_ = 0;                     ///< of labels from instance to instance
+};
+
+/// Adds rigid links, averages and equations.
+void add_abaqus_links(const AbaqusLines& lines, AbaqusNames& names, fem::ImportedMesh& out);
+
+}  // namespace buckens::mesh_io

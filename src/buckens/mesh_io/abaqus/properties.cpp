@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials and sections of AbaqusMesh.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/mesh_io/abaqus/mesh.h"
+
+namespace buckens::mesh_io {
+
+using Eigen::Matrix3d;
+using fem::PropertyKind;
+
+namespace {
+
+/// What elements of a section become: bars have solid sections in Abaqus.
+bool fits(AbaqusRole role, PropertyKind section, PropertyKind& kind) {
+  kind = section;
+  if (role == AbaqusRole::bar && section == PropertyKind::solid) kind = PropertyKind::bar;
+  return (role == AbaqusRole::solid && section == PropertyKind::solid) ||
+         (role == AbaqusRole::shell && section == PropertyKind::shell) ||
+         (role == AbaqusRole::beam && section == PropertyKind::beam) ||
+         (role == AbaqusRole::bar && section == PropertyKind::solid);
+}
+
+const char* name_of(PropertyKind kind) {
+  constexpr const char* names[] = {"*SOLID SECTION", "*SHELL SECTION", "*BEAM SECTION",
+                                   "*SOLID SECTION"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+void AbaqusMesh::add_materials() {
+  for (const auto& [key, material] : deck_.materials) {
+    if (material.E > 0.0 || material.orthotropic) {
+      materials_[key] = material.name;
+      out_.materials.push_back(material);
+      continue;
+    }
+    out_.notes.push_back({fmt::format("material \"{}\" has no *ELASTIC; its parts need a material "
+                                      "from the model file",
+                                      material.name),
+                          material.where.line, 1});
+    materials_[key] = "";
+  }
+}
+
+std::string AbaqusMesh::material_called(const std::string& name, DeckPlace place) {
+  if (name.empty()) return "";
+  const auto found = materials_.find(upper(name));
+  if (found != materials_.end()) return found->second;
+  if (materials_.empty()) {
+    out_.notes.push_back(note_at(place,
+                                 fmt::format("material \"{}\" is not defined here; give it "
+                                             "in the model file",
+                                             name),
+                                 1));
+    return "";
+  }
+  std::vector<std::string> known;
+  for (const auto& [key, written] : materials_) known.push_back(written);
+  lines_.fail(place,
+              fmt::format("there is no material \"{}\".{}", name, base::suggestion(name, known)));
+}
+
+const AbaqusOrientation* AbaqusMesh::orientation_called(int scope, const std::string& name,
+                                                        DeckPlace place) const {
+  if (name.empty()) return nullptr;
+  for (const AbaqusScope* own :
+       {names_.scopes()[static_cast<std::size_t>(scope)].scope, names_.scopes().front().scope}) {
+    const auto found = own->orientations.find(upper(name));
+    if (found != own->orientations.end()) return &found->second;
+  }
+  lines_.fail(place, fmt::format("there is no orientation \"{}\"", name));
+}
+
+void AbaqusMesh::assign_sections(int scope) {
+  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
+  auto& section_of = section_of_.emplace_back(static_cast<std::size_t>(placed.num_elements), -1);
+  int replaced = 0;
+  DeckPlace where;
+  for (std::size_t k = 0; k < placed.scope->sections.size(); ++k) {
+    const AbaqusSection& section = placed.scope->sections[k];
+    for (const auto& at : names_.elements(scope, section.element_set, section.place)) {
+      if (at.scope != scope) continue;
+      const AbaqusElementType& type = *placed.at(at.element).first->type;
+      if (!is_kept(type.role)) continue;
+      PropertyKind kind;
+      if (!fits(type.role, section.kind, kind)) {
+        lines_.fail(section.place,
+                    fmt::format("set \"{}\" holds elements of type {}, which have "
+                                "no {}",
+                                section.element_set, type.name, name_of(section.kind)));
+      }
+      int& entry = section_of[static_cast<std::size_t>(at.element)];
+      if (entry >= 0) ++replaced;
+      if (entry >= 0) where = section.place;
+      entry = static_cast<int>(k);
+    }
+  }
+  if (replaced == 0) return;
+  out_.notes.push_back(
+      note_at(where, "elements with two sections: the one that comes last is taken", replaced));
+}
+
+int AbaqusMesh::property_for(int scope, const AbaqusSection& section,
+                             const AbaqusElementType& type) {
+  PropertyKind kind;
+  fits(type.role, section.kind, kind);
+  // Axes turn with an instance; other properties are shared by those of a part.
+  const bool is_own = !section.orientation.empty();
+  const auto key = std::make_tuple(section.place.file, section.place.line, is_own ? scope : 0, kind,
+                                   type.shear_flexible);
+  const auto known = properties_.find(key);
+  if (known != properties_.end()) return known->second;
+  fem::ImportedProperty property;
+  property.kind = kind;
+  property.line = section.place.line;
+  if (kind == PropertyKind::beam) property.shear_flexible = type.shear_flexible;
+  property.name = section.element_set;
+  const auto is_taken = [this](const std::string& name) {
+    return property_names_.contains(upper(name));
+  };
+  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
+  if (is_taken(property.name) && !placed.instance.empty()) {
+    property.name = placed.instance + "." + section.element_set;
+  }
+  for (int k = 2; is_taken(property.name); ++k) {
+    property.name = fmt::format("{} ({})", section.element_set, k);
+  }
+  fill_property(scope, section, property);
+  property_names_.insert(upper(property.name));
+  out_.properties.push_back(std::move(property));
+  return properties_[key] = static_cast<int>(out_.properties.size()) - 1;
+}
+
+void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
+                               fem::ImportedProperty& property) {
+  property.material = material_called(section.material, section.place);
+  if (property.kind != PropertyKind::shell && deck_.laminae.contains(upper(section.material))) {
+    lines_.fail(section.place,
+                fmt::format("material \"{}\" is of TYPE=LAMINA, which is for shells; give all nine "
+                            "ENGINEERING CONSTANTS",
+                            section.material));
+  }
+  property.thickness = section.thickness;
+  double thickness = section.thickness.value_or(0.0);
+  for (const AbaqusSection::Layer& layer : section.layers) {
+    if (!layer.orientation.empty()) {
+      lines_.fail(layer.place, fmt::format("the layer has the orientation \"{}\"; give its angle "
+                                           "in degrees instead",
+                                           layer.orientation));
+    }
+    property.layers.push_back(
+        {material_called(layer.material, layer.place), layer.thickness, layer.angle});
+    thickness += layer.thickness;
+  }
+  // Abaqus counts from the middle to the nodes, we count from the nodes to the middle.
+  property.offset = -section.offset * thickness;
+  property.section = section.shape;
+  if (property.kind == PropertyKind::bar) {
+    fem::SectionSpec bar;
+    bar.where = lines_.where(section.place);
+    bar.shape = fem::CircleSpec{2.0 * std::sqrt(section.area / std::numbers::pi)};
+    property.section = bar;
+  }
+  const AbaqusOrientation* axes = orientation_called(scope, section.orientation, section.place);
+  if (axes == nullptr) return;
+  const auto material = deck_.materials.find(upper(section.material));
+  const bool is_isotropic =
+      material != deck_.materials.end() && !material->second.orthotropic && section.layers.empty();
+  if (axes->system == "RECTANGULAR") {
+    Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation * axes->axes;
+    if (section.kind == PropertyKind::shell) {
+      if (!axes->normal && is_isotropic) return;
+      if (!axes->normal) {
+        lines_.fail(
+            axes->place,
+            fmt::format("orientation \"{}\" is used for shells, so its second line must say "
+                        "which of its axes, 1, 2 or 3, is near their normal, and the angle "
+                        "about it: \"3, 0.\" takes its axis 1 as direction 1",
+                        axes->name));
+      }
+      // The axis after the one near the normal is projected onto the shell as direction 1.
+      const Matrix3d given = own;
+      for (int k = 0; k < 3; ++k) own.col(k) = given.col((*axes->normal + 1 + k) % 3);
+    }
+    property.axes = own;
+    return;
+  }
+  if (is_isotropic) return;
+  lines_.fail(section.place,
+              fmt::format("orientation \"{}\" is of {}, which is supported for isotropic materials "
+                          "only; give SYSTEM=RECTANGULAR, one section for each direction",
+                          axes->name, axes->system));
+}
+
+}  // namespace buckens::mesh_io

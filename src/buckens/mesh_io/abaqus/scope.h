@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/mesh_io/abaqus/elements.h"
+#include "buckens/mesh_io/abaqus/lines.h"
+
+/// What a deck says, before names and numbers are looked up. Names are kept as written; they are
+/// compared in capitals. A "reference" is a number or the name of a set, perhaps with an instance
+/// before it: "12", "BEARING", "ROD-1.BEARING".
+namespace buckens::mesh_io {
+
+struct AbaqusNodes {
+  std::vector<std::int64_t> ids;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<DeckPlace> places;
+};
+
+/// The elements of one *ELEMENT.
+struct AbaqusElements {
+  const AbaqusElementType* type = nullptr;
+  std::vector<std::int64_t> ids;
+  std::vector<std::int64_t> nodes;  ///< type->num_nodes per element
+  /// Per element of beams a node that gives direction 1 of the section, −1: none.
+  std::vector<std::int64_t> direction_nodes;
+  std::vector<DeckPlace> places;
+};
+
+/// One *NSET or *ELSET; those of the same name add up.
+struct AbaqusSetPart {
+  struct Range {
+    std::int64_t first = 0, last = 0, step = 1;
+  };
+  std::string instance;
+  std::vector<std::int64_t> ids;
+  std::vector<Range> ranges;
+  std::vector<std::string> names;
+  std::string of_elements;  ///< *NSET, ELSET=: the nodes of these elements
+  DeckPlace place;
+};
+
+struct AbaqusSet {
+  std::string name;
+  bool is_internal = false;
+  bool is_unsorted = false;  ///< in pairs of sets its nodes count in the order of the deck
+  std::vector<AbaqusSetPart> parts;
+};
+
+struct AbaqusSurface {
+  struct Item {
+    std::string reference;
+    std::string face;  ///< "S1", "SPOS", "": free faces
+    std::string instance;
+    double area = 1;  ///< of each of its nodes, in a surface of nodes
+    DeckPlace place;
+  };
+  std::string name;
+  bool is_of_nodes = false;
+  bool is_internal = false;
+  std::vector<Item> items;
+  DeckPlace place;
+};
+
+/// A *SOLID, *SHELL or *BEAM SECTION. In units of the deck.
+struct AbaqusSection {
+  struct Layer {
+    std::string material;
+    double thickness = 0;
+    double angle = 0;  ///< [rad]
+    std::string orientation;
+    DeckPlace place;
+  };
+  fem::PropertyKind kind = fem::PropertyKind::solid;
+  std::string element_set;
+  std::string material;
+  std::string orientation;
+  double area = 1;  ///< of bars
+  std::optional<double> thickness;
+  double offset = 0;  ///< of the nodes' surface from the middle one, in thicknesses
+  std::vector<Layer> layers;
+  std::optional<fem::SectionSpec> shape;
+  Eigen::Vector3d n1 = -Eigen::Vector3d::UnitZ();
+  DeckPlace place;
+};
+
+struct AbaqusOrientation {
+  std::string name;
+  std::string system;  ///< "RECTANGULAR" or one that is not supported
+  /// Columns 1, 2, 3, after the additional rotation.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// Axis of the additional rotation, 0…2, which is near the normal of shells; none: not given.
+  std::optional<int> normal;
+  DeckPlace place;
+};
+
+/// A *MASS or *ROTARY INERTIA.
+struct AbaqusMass {
+  std::string element_set;
+  bool is_rotary = false;
+  double mass = 0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  std::string orientation;
+  DeckPlace place;
+};
+
+struct AbaqusTransform {
+  std::string node_set;
+  bool is_cylindrical = false;
+  bool is_supported = true;
+  Eigen::Vector3d a, b;
+  DeckPlace place;
+};
+
+enum class AbaqusLinkKind {
+  kinematic,
+  distributing,
+  rigid_body,
+  mpc_beam,
+  mpc_tie,
+  mpc_pin,
+  mpc_link,
+};
+
+/// A *COUPLING, *KINEMATIC COUPLING, *RIGID BODY or a line of *MPC.
+struct AbaqusLink {
+  AbaqusLinkKind kind = AbaqusLinkKind::kinematic;
+  std::string name;
+  std::string reference;  ///< the node that leads
+  /// The nodes that follow: references, surfaces or element sets.
+  std::vector<std::string> nodes, surfaces, element_sets;
+  std::array<bool, 6> variables = {true, true, true, true, true, true};
+  bool is_turned = false;        ///< the variables are in axes of their own, ORIENTATION=
+  std::optional<double> radius;  ///< *COUPLING, INFLUENCE RADIUS=
+  DeckPlace place;
+};
+
+struct AbaqusEquation {
+  struct Term {
+    std::string reference;
+    int variable = 0;
+    double coefficient = 0;
+  };
+  std::vector<Term> terms;
+  DeckPlace place;
+};
+
+/// What stands between *PART and *END PART, or in a deck without parts.
+struct AbaqusScope {
+  std::string name;
+  AbaqusNodes nodes;
+  std::vector<AbaqusElements> elements;
+  std::map<std::string, AbaqusSet> node_sets, element_sets;  ///< by name in capitals
+  std::map<std::string, AbaqusSurface> surfaces;
+  std::vector<AbaqusSection> sections;
+  std::map<std::string, AbaqusOrientation> orientations;
+  std::vector<AbaqusMass> masses;
+  std::vector<AbaqusTransform> transforms;
+  std::vector<AbaqusLink> links;
+  std::vector<AbaqusEquation> equations;
+};
+
+/// A part placed in the assembly: first moved, then turned.
+struct AbaqusInstance {
+  std::string name;
+  AbaqusScope scope;  ///< a copy of the part, with what the instance adds
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< a point of the axis of rotation
+  DeckPlace place;
+};
+
+/// A whole deck.
+struct AbaqusDeck {
+  AbaqusScope root;  ///< the assembly, or everything
+  std::map<std::string, AbaqusScope> parts;
+  std::vector<AbaqusInstance> instances;
+  std::map<std::string, fem::MaterialSpec> materials;  ///< by name in capitals
+  std::set<std::string> laminae;  ///< those by their constants in a plane, in capitals
+  std::vector<fem::ImportNote> notes;
+};
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "buckens/files/deck_number.h"
+#include "buckens/mesh_io/abaqus/cards.h"
+#include "buckens/mesh_io/box_section.h"
+
+namespace buckens::mesh_io {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+AbaqusSection& add_section(AbaqusReading& in, const DeckKeyword& keyword, fem::PropertyKind kind) {
+  AbaqusSection& section = in.scope->sections.emplace_back();
+  section.kind = kind;
+  section.element_set = in.parameter(keyword, "ELSET");
+  section.material = in.optional_parameter(keyword, "MATERIAL");
+  section.orientation = in.optional_parameter(keyword, "ORIENTATION");
+  section.place = keyword.place;
+  return section;
+}
+
+/// OFFSET=SPOS, SNEG or a share of the thickness.
+double read_offset(AbaqusReading& in, const DeckKeyword& keyword) {
+  const std::string text = upper(in.optional_parameter(keyword, "OFFSET"));
+  if (text.empty()) return 0.0;
+  if (text == "SPOS") return 0.5;
+  if (text == "SNEG") return -0.5;
+  if (const auto value = files::deck_number(text)) return *value;
+  in.lines.fail(keyword.place, fmt::format("OFFSET={}: expected is SPOS, SNEG or a number (offsets "
+                                           "from node to node are not supported)",
+                                           text));
+}
+
+double positive(AbaqusReading& in, const DeckRow& row, std::size_t i, const char* what) {
+  const double value = in.lines.number(row, i, what);
+  if (value > 0.0) return value;
+  in.lines.fail(row.place, fmt::format("{} is {:g}; it must be positive", what, value));
+}
+
+void read_layers(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSection& section) {
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    AbaqusSection::Layer& layer = section.layers.emplace_back();
+    layer.thickness = positive(in, row, 0, "thickness of the layer");
+    layer.material = row.cell(2);
+    layer.place = row.place;
+    if (layer.material.empty()) in.lines.fail(row.place, "the layer has no material (third value)");
+    if (const auto angle = files::deck_number(row.cell(3))) {
+      layer.angle = *angle * std::numbers::pi / 180.0;
+    } else {
+      layer.orientation = row.cell(3);
+    }
+  }
+  if (section.layers.empty()) in.lines.fail(section.place, "the laminate has no layers");
+  if (!keyword.has("SYMMETRIC")) return;
+  // The lower half is written, from the bottom to the middle.
+  const std::size_t half = section.layers.size();
+  section.layers.reserve(2 * half);
+  for (std::size_t k = half; k-- > 0;) section.layers.push_back(section.layers[k]);
+}
+
+/// Thicknesses and stiffnesses that are not those of the data lines.
+void refuse_other_thickness(AbaqusReading& in, const DeckKeyword& keyword) {
+  for (const char* key : {"NODALTHICKNESS", "SHELLTHICKNESS"}) {
+    if (!keyword.has(key)) continue;
+    in.lines.fail(keyword.place, fmt::format("{} with {}: thicknesses that vary over a section are "
+                                             "not supported; give each thickness a section",
+                                             keyword.written, key));
+  }
+  const bool is_general = keyword.name == "SHELLGENERALSECTION";
+  if (is_general && !keyword.has("COMPOSITE") && !keyword.has("MATERIAL")) {
+    in.lines.fail(keyword.place,
+                  "a shell by its stiffnesses is not supported; give MATERIAL and a thickness, or "
+                  "layers with COMPOSITE");
+  }
+}
+
+/// What CalculiX knows beside the measures of a section.
+void refuse_beams_off_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
+  for (const char* key : {"OFFSET1", "OFFSET2"}) {
+    const std::string text = in.optional_parameter(keyword, key);
+    if (text.empty() || files::deck_number(text) == 0.0) continue;
+    in.lines.fail(keyword.place,
+                  fmt::format("{}={}: beams beside their nodes are not supported; give them nodes "
+                              "of their own and join these by *MPC, BEAM",
+                              key, text.substr(0, 40)));
+  }
+  if (!keyword.has("NODALTHICKNESS")) return;
+  in.lines.fail(keyword.place,
+                "*BEAM SECTION with NODAL THICKNESS: measures that vary over a section are not "
+                "supported; give each a section");
+}
+
+fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
+  const double a = positive(in, row, 0, "width of the box");
+  const double b = positive(in, row, 1, "height of the box");
+  std::array<double, 4> t;
+  for (std::size_t k = 0; k < 4; ++k) {
+    t[k] = row.cell(2 + k).empty() && k > 0 ? t[0] : positive(in, row, 2 + k, "wall of the box");
+  }
+  if (t[0] != t[2] || t[1] != t[3]) {
+    in.lines.fail(row.place, "opposite walls of a box must be alike; give SECTION=GENERAL");
+  }
+  if (2.0 * t[0] >= a || 2.0 * t[1] >= b) {
+    in.lines.fail(row.place, "the walls are thicker than half of the box; use SECTION=RECT");
+  }
+  return box_section({a, b, t[0], t[1]});
+}
+
+/// A, I11, I12, I22, J.
+fem::SectionSpec read_general(AbaqusReading& in, const DeckRow& row) {
+  fem::GeneralSectionSpec shape;
+  shape.A = positive(in, row, 0, "area of the section");
+  shape.Iy = positive(in, row, 1, "I11 of the section");
+  shape.Iz = positive(in, row, 3, "I22 of the section");
+  shape.J = positive(in, row, 4, "torsion constant of the section");
+  if (in.lines.number_or(row, 2, 0.0, "I12 of the section") != 0.0) {
+    in.lines.fail(row.place,
+                  "I12 must be zero; give the moments about the principal axes and turn "
+                  "n1 into the first of them");
+  }
+  fem::SectionSpec out;
+  out.shape = shape;
+  return out;
+}
+
+/// One value is the radius, as Abaqus has it; two are the diameters of CalculiX.
+fem::CircleSpec read_circle(AbaqusReading& in, const DeckRow& row) {
+  const double first = positive(in, row, 0, "measure of the circle");
+  if (row.cell(1).empty()) {
+    in.note(row.place,
+            "SECTION=CIRC: the one value is the radius, as in Abaqus; CalculiX takes it for the "
+            "diameter, so write it twice in a deck of CalculiX");
+    return {2.0 * first};
+  }
+  if (in.lines.number(row, 1, "second diameter of the circle") != first) {
+    in.lines.fail(row.place,
+                  "the two diameters of CIRC differ; give an ellipse as SECTION=GENERAL");
+  }
+  in.note(row.place, "SECTION=CIRC: two values are the diameters, as in CalculiX");
+  return {first};
+}
+
+/// The shape on a data line. Direction 1 of the section becomes local y, direction 2 local z.
+fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row) {
+  fem::SectionSpec out;
+  if (name == "RECT") {
+    const double a = positive(in, row, 0, "width of the rectangle");
+    out.shape = fem::RectangleSpec{a, positive(in, row, 1, "height of the rectangle")};
+  } else if (name == "CIRC") {
+    out.shape = read_circle(in, row);
+  } else if (name == "PIPE") {
+    const double radius = positive(in, row, 0, "radius of the pipe");
+    const double wall = positive(in, row, 1, "wall of the pipe");
+    if (wall > radius) in.lines.fail(row.place, "the wall is thicker than the radius");
+    if (wall == radius) {
+      out.shape = fem::CircleSpec{2.0 * radius};
+    } else {
+      out.shape = fem::TubeSpec{2.0 * radius, wall, std::nullopt};
+    }
+  } else if (name == "BOX") {
+    out = read_box(in, row);
+  } else if (name == "GENERAL") {
+    out = read_general(in, row);
+  } else {
+    in.lines.fail(row.place, fmt::format("SECTION={} is not supported; RECT, CIRC, PIPE, BOX and "
+                                         "GENERAL are. Give its constants as SECTION=GENERAL",
+                                         name));
+  }
+  return out;
+}
+
+/// Shape and, on the next line, direction n1.
+void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& section) {
+  DeckRow row;
+  if (!in.lines.next_row(row))
+    in.lines.fail(section.place, "the measures of the section are missing");
+  section.shape = read_shape(in, name, row);
+  section.shape->where = in.lines.where(row.place);
+  if (!in.lines.next_row_or_blank(row) || row.cells.empty()) return;
+  section.n1 = read_vector(in.lines, row, 0, "direction n1");
+  if (section.n1.norm() == 0.0) in.lines.fail(row.place, "direction n1 cannot be zero");
+}
+
+}  // namespace
+
+void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::solid);
+  if (keyword.has("COMPOSITE")) {
+    in.lines.fail(keyword.place,
+                  "layered solids are not supported; use one element through each "
+                  "layer, or shells with *SHELL SECTION, COMPOSITE");
+  }
+  DeckRow row;
+  if (!in.lines.next_row(row) || row.cell(0).empty()) return;
+  section.area = positive(in, row, 0, "area or thickness");
+}
+
+void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::shell);
+  section.offset = read_offset(in, keyword);
+  refuse_other_thickness(in, keyword);
+  if (keyword.has("COMPOSITE")) return read_layers(in, keyword, section);
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "the thickness of the shell is missing on the next line");
+  }
+  section.thickness = positive(in, row, 0, "thickness of the shell");
+}
+
+void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
+  refuse_beams_off_nodes(in, keyword);
+  read_shape_rows(in, upper(in.parameter(keyword, "SECTION")), section);
+}
+
+void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
+  std::string shape = upper(in.optional_parameter(keyword, "SECTION"));
+  if (shape.empty()) shape = "GENERAL";
+  read_shape_rows(in, shape, section);
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "Young's modulus and shear modulus are missing on the third line");
+  }
+  fem::MaterialSpec material;
+  material.name = "*BEAM GENERAL SECTION " + section.element_set;
+  // Sets of two parts may have one name.
+  for (int k = 2; in.deck.materials.contains(upper(material.name)); ++k) {
+    material.name = fmt::format("*BEAM GENERAL SECTION {} ({})", section.element_set, k);
+  }
+  material.where = in.lines.where(row.place);
+  material.E = positive(in, row, 0, "Young's modulus");
+  material.G = positive(in, row, 1, "shear modulus");
+  material.nu = material.E / (2.0 * *material.G) - 1.0;
+  if (material.nu > 0.5 || material.nu < -1.0) material.nu = 0.0;  // the beam uses E and G only
+  if (const std::string density = in.optional_parameter(keyword, "DENSITY"); !density.empty()) {
+    const auto value = files::deck_number(density);
+    if (!value || *value < 0.0) {
+      in.lines.fail(keyword.place, fmt::format("DENSITY={} is no density", density));
+    }
+    material.rho = *value;
+  }
+  section.material = material.name;
+  in.deck.materials[upper(material.name)] = material;
+}
+
+void read_mass(AbaqusReading& in, const DeckKeyword& keyword) {
+  const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  if (!type.empty() && type != "ISOTROPIC") {
+    in.lines.fail(
+        keyword.place,
+        fmt::format("a *MASS of TYPE={} acts differently in its directions, which no body "
+                    "in space does; give one mass",
+                    type));
+  }
+  AbaqusMass& mass = in.scope->masses.emplace_back();
+  mass.element_set = in.parameter(keyword, "ELSET");
+  mass.place = keyword.place;
+  DeckRow row;
+  if (!in.lines.next_row(row)) in.lines.fail(keyword.place, "the mass is missing on the next line");
+  mass.mass = in.lines.number(row, 0, "mass");
+  if (mass.mass < 0.0)
+    in.lines.fail(row.place, fmt::format("the mass {:g} is negative", mass.mass));
+}
+
+void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusMass& mass = in.scope->masses.emplace_back();
+  mass.element_set = in.parameter(keyword, "ELSET");
+  mass.is_rotary = true;
+  mass.orientation = in.optional_parameter(keyword, "ORIENTATION");
+  mass.place = keyword.place;
+  DeckRow row;
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "the moments of inertia are missing on the next line");
+  }
+  // The products stand as they do in the tensor, I12 = −∫ρ x1 x2 dV.
+  Matrix3d& I = mass.inertia;
+  for (int k = 0; k < 3; ++k) {
+    I(k, k) = in.lines.number(row, static_cast<std::size_t>(k), "moment of inertia");
+  }
+  I(0, 1) = I(1, 0) = in.lines.number_or(row, 3, 0.0, "product of inertia");
+  I(0, 2) = I(2, 0) = in.lines.number_or(row, 4, 0.0, "product of inertia");
+  I(1, 2) = I(2, 1) = in.lines.number_or(row, 5, 0.0, "product of inertia");
+  const Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(I, Eigen::EigenvaluesOnly).eigenvalues();
+  // Numbers of seven digits.
+  if (principal[0] >= -1e-6 * principal.cwiseAbs().maxCoeff()) return;
+  in.lines.fail(row.place, fmt::format("a principal moment of inertia, {:g}, is negative; products "
+                                       "of inertia are I12, I13, I23 in this order",
+                                       principal[0]));
+}
+
+}  // namespace buckens::mesh_io

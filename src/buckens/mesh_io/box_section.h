@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/fem/section_spec.h"
+
+namespace buckens::mesh_io {
+
+/// A rectangular hollow section by its outer measures, opposite walls alike.
+struct BoxWalls {
+  double width = 0;   ///< along local y
+  double height = 0;  ///< along local z
+  double side = 0;    ///< thickness of the two walls along z
+  double flat = 0;    ///< thickness of the two walls along y
+};
+
+/// A box of one wall thickness, or the constants of one with two: torsion after Bredt; a shear
+/// force is carried by the walls along it.
+/// @param box whose walls leave it hollow
+fem::SectionSpec box_section(const BoxWalls& box);
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/gmsh/library.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::mesh_io {
+
+namespace {
+
+std::vector<int> flat(const std::vector<GmshEntity>& entities) {
+  std::vector<int> out;
+  for (const auto& [dimension, tag] : entities) {
+    out.push_back(dimension);
+    out.push_back(tag);
+  }
+  return out;
+}
+
+}  // namespace
+
+/// The function of the library with its type from gmshc.h.
+#define BUCKENS_GMSH(name) function<decltype(&::name)>(#name)
+
+template <class Function>
+Function GmshLibrary::function(const char* name) const {
+  void* found = ::dlsym(handle_, name);
+  if (found == nullptr) {
+    throw IoError(fmt::format("the library {} has no function {}; Buckens needs Gmsh 4.8 or newer",
+                              BUCKENS_GMSH_LIBRARY, name));
+  }
+  return reinterpret_cast<Function>(found);
+}
+
+GmshLibrary::GmshLibrary() : handle_(::dlopen(BUCKENS_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
+  if (handle_ == nullptr) {
+    const char* reason = ::dlerror();
+    throw IoError(
+        fmt::format("STEP files are meshed by the library of Gmsh, which cannot be "
+                    "loaded: {}. Install it (Debian: libgmsh4.8)",
+                    reason == nullptr ? BUCKENS_GMSH_LIBRARY : reason));
+  }
+  // A copied process has none of the threads that OpenMP remembers.
+  if (void* threads = ::dlsym(handle_, "omp_set_num_threads")) {
+    reinterpret_cast<void (*)(int)>(threads)(1);
+  }
+  int error = 0;
+  BUCKENS_GMSH(gmshInitialize)(0, nullptr, 0, &error);
+  check(error);
+  set_number("General.Terminal", 0);
+  set_number("General.NumThreads", 1);
+  BUCKENS_GMSH(gmshLoggerStart)(&error);
+  check(error);
+}
+
+void GmshLibrary::check(int error) const {
+  if (error == 0) return;
+  char* text = nullptr;
+  int ignored = 0;
+  BUCKENS_GMSH(gmshLoggerGetLastError)(&text, &ignored);
+  throw IoError(text == nullptr || *text == '\0' ? fmt::format("error {}", error) : text);
+}
+
+void GmshLibrary::set_number(const char* option, double value) {
+  int error = 0;
+  BUCKENS_GMSH(gmshOptionSetNumber)(option, value, &error);
+  check(error);
+}
+
+void GmshLibrary::set_text(const char* option, const char* value) {
+  int error = 0;
+  BUCKENS_GMSH(gmshOptionSetString)(option, value, &error);
+  check(error);
+}
+
+void GmshLibrary::new_model(const char* name) {
+  int error = 0;
+  BUCKENS_GMSH(gmshModelAdd)(name, &error);
+  check(error);
+}
+
+void GmshLibrary::use_model(const char* name) {
+  int error = 0;
+  BUCKENS_GMSH(gmshModelSetCurrent)(name, &error);
+  check(error);
+}
+
+void GmshLibrary::import_shapes(const std::string& file) {
+  int error = 0;
+  int* entities = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshModelOccImportShapes)(file.c_str(), &entities, &count, 0, "step", &error);
+  check(error);
+  BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
+  check(error);
+}
+
+void GmshLibrary::fragment(const std::vector<GmshEntity>& volumes) {
+  int error = 0;
+  std::vector<int> objects = flat({volumes.begin(), volumes.begin() + 1});
+  std::vector<int> tools = flat({volumes.begin() + 1, volumes.end()});
+  int* out = nullptr;
+  int** map = nullptr;
+  std::size_t count = 0, maps = 0;
+  std::size_t* map_sizes = nullptr;
+  BUCKENS_GMSH(gmshModelOccFragment)
+  (objects.data(), objects.size(), tools.data(), tools.size(), &out, &count, &map, &map_sizes,
+   &maps, -1, 1, 1, &error);
+  check(error);
+  BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
+  check(error);
+}
+
+std::vector<GmshEntity> GmshLibrary::entities(int dimension) const {
+  int error = 0;
+  int* found = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshModelGetEntities)(&found, &count, dimension, &error);
+  check(error);
+  std::vector<GmshEntity> out;
+  for (std::size_t i = 0; i + 1 < count; i += 2) out.emplace_back(found[i], found[i + 1]);
+  return out;
+}
+
+std::string GmshLibrary::name(const GmshEntity& entity) const {
+  int error = 0;
+  char* found = nullptr;
+  BUCKENS_GMSH(gmshModelGetEntityName)(entity.first, entity.second, &found, &error);
+  check(error);
+  return found == nullptr ? "" : found;
+}
+
+GmshLibrary::Color GmshLibrary::color(const GmshEntity& entity) const {
+  int error = 0;
+  Color out{};
+  BUCKENS_GMSH(gmshModelGetColor)
+  (entity.first, entity.second, &out.red, &out.green, &out.blue, &out.alpha, &error);
+  check(error);
+  return out;
+}
+
+double GmshLibrary::size(const GmshEntity& entity) const {
+  int error = 0;
+  double out = 0;
+  BUCKENS_GMSH(gmshModelOccGetMass)(entity.first, entity.second, &out, &error);
+  check(error);
+  return out;
+}
+
+std::array<double, 3> GmshLibrary::centre(const GmshEntity& entity) const {
+  int error = 0;
+  std::array<double, 3> out{};
+  BUCKENS_GMSH(gmshModelOccGetCenterOfMass)
+  (entity.first, entity.second, &out[0], &out[1], &out[2], &error);
+  check(error);
+  return out;
+}
+
+std::array<double, 6> GmshLibrary::box(const GmshEntity& entity) const {
+  int error = 0;
+  std::array<double, 6> out{};
+  BUCKENS_GMSH(gmshModelGetBoundingBox)
+  (entity.first, entity.second, &out[0], &out[1], &out[2], &out[3], &out[4], &out[5], &error);
+  check(error);
+  return out;
+}
+
+void GmshLibrary::add_group(int dimension, std::vector<int> entities, const std::string& name) {
+  int error = 0;
+  const int tag = BUCKENS_GMSH(gmshModelAddPhysicalGroup)(dimension, entities.data(),
+                                                          entities.size(), -1, &error);
+  check(error);
+  BUCKENS_GMSH(gmshModelSetPhysicalName)(dimension, tag, name.c_str(), &error);
+  check(error);
+}
+
+void GmshLibrary::mesh(int dimension) {
+  int error = 0;
+  BUCKENS_GMSH(gmshModelMeshGenerate)(dimension, &error);
+  check(error);
+}
+
+void GmshLibrary::write(const std::string& file) {
+  int error = 0;
+  BUCKENS_GMSH(gmshWrite)(file.c_str(), &error);
+  check(error);
+}
+
+std::vector<std::string> GmshLibrary::messages() const {
+  int error = 0;
+  char** lines = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshLoggerGet)(&lines, &count, &error);
+  std::vector<std::string> out;
+  for (std::size_t i = 0; error == 0 && i < count; ++i) {
+    const std::string line = lines[i];
+    if (line.starts_with("Warning") || line.starts_with("Error")) out.push_back(line);
+  }
+  return out;
+}
+
+#undef BUCKENS_GMSH
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/gmsh/mesh.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "buckens/files/text_file.h"
+#include "buckens/mesh_io/gmsh/reader.h"
+#include "buckens/mesh_io/universal/file.h"
+
+namespace buckens::mesh_io {
+
+namespace {
+
+constexpr std::size_t kLargestMesh = std::size_t{2} << 30;
+
+struct MshVersion {
+  bool is_4 = false;
+  bool is_binary = false;
+};
+
+MshVersion read_version(MeshText& text) {
+  while (!text.at_end() && text.peek_line().empty()) text.next_line("$MeshFormat");
+  if (text.at_end()) text.fail("the file is empty; a mesh of Gmsh begins with $MeshFormat");
+  if (text.next_line("$MeshFormat") != "$MeshFormat") {
+    text.fail("this is no mesh of Gmsh: it does not begin with $MeshFormat");
+  }
+  MshVersion out;
+  const std::string version(text.word("the version"));
+  if (version == "4.1") {
+    out.is_4 = true;
+  } else if (version != "2.2" && version != "2.1" && version != "2") {
+    text.fail(
+        fmt::format("version {:.20} of the format of Gmsh cannot be read; 2.2 and 4.1 can "
+                    "(in Gmsh: File > Export, or `gmsh -format msh41`)",
+                    version));
+  }
+  out.is_binary = text.integer("the mode of the file, 0 or 1", 0, 1) == 1;
+  if (text.integer("the size of numbers") != 8) text.fail("numbers must have 8 bytes");
+  text.next_line("$EndMeshFormat");
+  if (out.is_binary && text.binary<std::int32_t>("the number one") != 1) {
+    text.fail("the order of bytes is that of another machine; save the mesh as text");
+  }
+  return out;
+}
+
+bool is_universal_name(std::string_view file) {
+  constexpr std::string_view kEnding = ".unv";
+  if (file.size() < kEnding.size()) return false;
+  const std::string_view ending = file.substr(file.size() - kEnding.size());
+  return std::equal(ending.begin(), ending.end(), kEnding.begin(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  });
+}
+
+TaggedMesh read_msh(MeshText& text, const std::string& file) {
+  TaggedMesh mesh;
+  mesh.file = file;
+  const MshVersion version = read_version(text);
+  mesh.format = fmt::format("Gmsh {} {}", version.is_4 ? "4.1" : "2.2",
+                            version.is_binary ? "binary" : "text");
+  mesh.repeats_elements = !version.is_4;
+  GmshReader reader(text, mesh, version.is_binary);
+  reader.expect_end("$MeshFormat");
+  GmshSections4 sections(reader);
+  std::set<std::string> seen;
+  while (!text.at_end()) {
+    const std::string section(text.next_line("a section"));
+    if (section.empty()) continue;
+    if (!section.starts_with('$') || section.size() > 60) {
+      text.fail("the head of a section should stand here, such as $Nodes");
+    }
+    bool known = section == "$PhysicalNames";
+    if (known) reader.read_physical_names();
+    if (section == "$Elements" && seen.count("$Nodes") == 0) {
+      text.fail("the section $Elements stands before $Nodes");
+    }
+    known = known || (version.is_4 ? sections.read(section) : read_section_2(reader, section));
+    if (known && !seen.insert(section).second) {
+      text.fail(fmt::format("the section {} stands here for the second time", section));
+    }
+    if (known) {
+      reader.expect_end(section);
+      if (!text.at_end()) text.next_line(section);
+    } else if (!text.skip_to("$End" + section.substr(1))) {
+      text.fail(fmt::format("the section {} has no end; the file seems to be cut off", section));
+    } else if (section != "$Comments" && section != "$Periodic") {
+      mesh.notes.push_back({fmt::format("the section {} is left out", section), text.line(), 1});
+    }
+  }
+  for (const char* needed : {"$Nodes", "$Elements"}) {
+    if (seen.count(needed) == 0) text.fail(fmt::format("the file has no section {}", needed));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file,
+                                  const std::vector<std::string>& members) {
+  MeshText text(bytes, file);
+  TaggedMesh mesh =
+      is_universal_name(file) ? read_universal_file(text, file) : read_msh(text, file);
+  fem::ImportedMesh out = mesh_of_groups(std::move(mesh), members);
+  if (out.num_elements() == 0) text.fail("the mesh has no elements");
+  return out;
+}
+
+fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path,
+                                 const std::vector<std::string>& members) {
+  return read_gmsh_bytes(files::read_text_file(path, "mesh", kLargestMesh), path.string(), members);
+}
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace buckens::mesh_io {
+
+/// Reads the contents of a mesh file from front to back, text and binary parts, and knows the line.
+///
+/// Whatever the bytes are, it reads none beyond their end and gives only finite numbers in the
+/// range that is asked for; everything else is an InputError with file, line and column.
+class MeshText {
+ public:
+  /// @param bytes must outlive this object
+  /// @param file as messages name it
+  MeshText(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+
+  bool at_end() const { return place_ >= bytes_.size(); }
+  std::size_t place() const { return place_; }
+  std::size_t remaining() const { return bytes_.size() - place_; }
+  int line() const { return line_; }
+
+  /// The rest of the line without its end. @param what for the message where nothing is left
+  std::string_view next_line(std::string_view what);
+  /// What the next line will be; empty at the end.
+  std::string_view peek_line() const;
+  /// The next word, over line ends.
+  std::string_view word(std::string_view what);
+  /// A word, or text between double quotes.
+  std::string quoted(std::string_view what);
+
+  std::int64_t integer(std::string_view what,
+                       std::int64_t least = std::numeric_limits<std::int64_t>::min(),
+                       std::int64_t most = std::numeric_limits<std::int64_t>::max());
+  /// A number of things of which each takes at least so many bytes.
+  std::size_t count(std::string_view what, std::size_t bytes_each);
+  double number(std::string_view what);
+
+  /// A value of a binary part.
+  template <class T>
+  T binary(std::string_view what) {
+    T out;
+    require(sizeof out, what);
+    std::memcpy(&out, bytes_.data() + place_, sizeof out);
+    place_ += sizeof out;
+    return out;
+  }
+  /// A count of a binary part, as count().
+  std::size_t binary_count(std::string_view what, std::size_t bytes_each);
+  double binary_number(std::string_view what);
+  /// An integer of a binary part in a range.
+  template <class T>
+  std::int64_t binary_integer(std::string_view what, std::int64_t least, std::int64_t most) {
+    const T value = binary<T>(what);
+    const bool fits = std::in_range<std::int64_t>(value);
+    check_range(what, fits ? static_cast<std::int64_t>(value) : -1, least, most);
+    return static_cast<std::int64_t>(value);
+  }
+
+  /// Goes on behind the next line that is `mark`. @return false if there is none
+  bool skip_to(std::string_view mark);
+
+  /// @throws InputError at the word read last
+  [[noreturn]] void fail(const std::string& text) const;
+
+ private:
+  void skip_blanks();
+  void require(std::size_t size, std::string_view what) const;
+  void check_count(std::string_view what, std::uint64_t count, std::size_t bytes_each) const;
+  void check_range(std::string_view what, std::int64_t value, std::int64_t least,
+                   std::int64_t most) const;
+
+  std::string_view bytes_;
+  std::string file_;
+  std::size_t place_ = 0;
+  std::size_t line_start_ = 0;
+  std::size_t word_start_ = 0;
+  int line_ = 1;
+  int word_line_ = 1;
+};
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "buckens/mesh_io/nastran/card_reader.h"
+#include "buckens/mesh_io/nastran/notes.h"
+
+namespace buckens::mesh_io {
+
+/// Elements with a block of their own.
+enum class NastranElementKind {
+  tetra,
+  pyramid,
+  penta,
+  hexa,
+  tria3,
+  triar,
+  quad4,
+  quadr,
+  bar,
+  beam,
+  rod,
+  conrod,
+};
+
+constexpr const char* name_of(NastranElementKind kind) {
+  constexpr std::array<const char*, 12> names = {"CTETRA", "CPYRAM", "CPENTA", "CHEXA",
+                                                 "CTRIA3", "CTRIAR", "CQUAD4", "CQUADR",
+                                                 "CBAR",   "CBEAM",  "CROD",   "CONROD"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+/// A GRID as it is written.
+struct NastranGrid {
+  static constexpr std::int64_t kBlank = -1;
+  std::int64_t id = 0;
+  std::int64_t cp = kBlank;
+  std::int64_t cd = kBlank;
+  std::array<double, 3> x = {0, 0, 0};
+  NastranPlace place;
+};
+
+/// An element as it is written.
+struct NastranElement {
+  std::int64_t id = 0;
+  std::int64_t property = 0;
+  NastranElementKind kind = NastranElementKind::tetra;
+  int num_nodes = 0;
+  std::uint32_t first_node = 0;  ///< in NastranBulk::element_nodes
+  std::int32_t details = -1;     ///< in NastranBulk::shells or lines
+  NastranPlace place;
+};
+
+/// Fields of shells beyond nodes and property, where any is given.
+struct NastranShellDetails {
+  bool has_system = false;        ///< MCID in place of THETA
+  std::int64_t system = 0;        ///< MCID
+  double theta = 0;               ///< [degrees]
+  double offset = 0;              ///< ZOFFS
+  bool relative = false;          ///< TFLAG: thicknesses are fractions of that of the property
+  std::vector<double> thickness;  ///< T1…; empty if all are blank
+};
+
+/// Fields of CBAR and CBEAM beyond nodes and property.
+struct NastranLineDetails {
+  std::int64_t orientation_node = 0;  ///< G0; 0: the vector counts
+  std::array<double, 3> orientation = {0, 0, 0};
+  bool basic_orientation = false;  ///< vector in the basic system, not in that of the first node
+  std::array<double, 3> offset_a = {0, 0, 0};
+  std::array<double, 3> offset_b = {0, 0, 0};
+};
+
+/// The bulk data as they are written: numbers read, references not yet followed.
+struct NastranBulk {
+  std::vector<NastranGrid> grids;
+  std::int64_t default_cp = 0;  ///< GRDSET
+  std::int64_t default_cd = 0;
+  std::vector<NastranElement> elements;
+  std::vector<std::int64_t> element_nodes;
+  std::vector<NastranShellDetails> shells;
+  std::vector<NastranLineDetails> lines;
+  /// Cards that are read when something refers to them, and those of which there are few.
+  std::map<std::string, std::vector<NastranCard>> cards;
+  double weight_to_mass = 1;  ///< PARAM,WTMASS
+
+  /// The cards of a name; empty if there are none.
+  const std::vector<NastranCard>& cards_named(const std::string& name) const;
+};
+
+/// Reads all cards. Cards that carry no part of a mesh are noted, with how many there are.
+/// @throws InputError with the place for what cannot be read, and for cards that change the
+/// structure and are not supported
+NastranBulk read_nastran_bulk(NastranCardReader& reader, NastranNotes& notes);
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/mesh_io/nastran/source.h"
+
+namespace buckens::mesh_io {
+
+/// Numbers `first` to `last`; a single number is a range of one.
+struct NastranRange {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+};
+
+/// `SET n = …` of the case control.
+struct NastranControlSet {
+  std::int64_t id = 0;
+  bool all = false;
+  std::vector<NastranRange> members;
+  std::vector<NastranRange> except;  ///< taken out of the ranges before
+  const NastranFile* file = nullptr;
+  int line = 0;
+};
+
+/// What of the executive and case control sections a mesh needs.
+struct NastranControl {
+  bool present = false;
+  int num_lines = 0;
+  std::optional<std::int64_t> mpc_set;   ///< MPC = n
+  std::optional<double> weight_to_mass;  ///< PARAM,WTMASS
+  std::vector<NastranControlSet> sets;
+};
+
+/// Reads what stands before BEGIN BULK, if the deck has such a part: if its main file has a line
+/// BEGIN BULK or starts with an executive or case control statement.
+/// @param first_bulk_line set to a line that was taken from the source but belongs to the bulk data
+/// @throws InputError if BEGIN BULK is missing, or if subcases ask for different MPC
+NastranControl read_nastran_control(NastranSource& source,
+                                    std::optional<NastranLine>& first_bulk_line);
+
+}  // namespace buckens::mesh_io

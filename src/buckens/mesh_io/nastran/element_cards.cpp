@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/nastran/element_cards.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace buckens::mesh_io {
+
+namespace {
+
+using Kind = NastranElementKind;
+
+std::optional<Kind> kind_named(std::string_view name) {
+  if (!name.starts_with('C')) return std::nullopt;
+  for (int i = 0; i <= static_cast<int>(Kind::conrod); ++i) {
+    if (name == name_of(static_cast<Kind>(i))) return static_cast<Kind>(i);
+  }
+  return std::nullopt;
+}
+
+/// Adds the nodes in the fields from `first` on. @throws InputError if one stands there twice
+void add_nodes(const NastranCard& card, int first, int count, NastranBulk& bulk,
+               NastranElement& element) {
+  element.first_node = static_cast<std::uint32_t>(bulk.element_nodes.size());
+  element.num_nodes = count;
+  for (int i = 0; i < count; ++i) {
+    const std::int64_t node = card.id(first + i);
+    const auto begin = bulk.element_nodes.begin() + element.first_node;
+    if (std::find(begin, bulk.element_nodes.end(), node) != bulk.element_nodes.end()) {
+      card.fail(first + i, fmt::format("node {} stands there twice", node));
+    }
+    bulk.element_nodes.push_back(node);
+  }
+}
+
+/// Corners alone, or all nodes. A mid-side node that is left out would make a transition element.
+int num_solid_nodes(const NastranCard& card, int corners, int all) {
+  int num_mid = 0;
+  for (int i = 2 + corners; i < 2 + all; ++i) num_mid += card.blank(i) ? 0 : 1;
+  if (card.size() > 2 + all) {
+    card.fail(2 + all, fmt::format("too many nodes; there are {} at most", all));
+  }
+  if (num_mid == 0) return corners;
+  if (card.name == "CPYRAM") {
+    card.fail(
+        "pyramids with mid-side nodes are not supported; mesh with CPYRAM of five nodes or "
+        "with CTETRA of ten");
+  }
+  if (num_mid != all - corners) {
+    card.fail(fmt::format("{} of {} mid-side nodes are given; give all or none of them", num_mid,
+                          all - corners));
+  }
+  return all;
+}
+
+void read_solid(const NastranCard& card, NastranBulk& bulk, NastranElement& element) {
+  struct Count {
+    int corners, all;
+  };
+  const Count count = element.kind == Kind::tetra     ? Count{4, 10}
+                      : element.kind == Kind::pyramid ? Count{5, 13}
+                      : element.kind == Kind::penta   ? Count{6, 15}
+                                                      : Count{8, 20};
+  add_nodes(card, 2, num_solid_nodes(card, count.corners, count.all), bulk, element);
+}
+
+void read_shell(const NastranCard& card, NastranBulk& bulk, NastranElement& element,
+                NastranNotes& notes) {
+  const int count = element.kind == Kind::tria3 || element.kind == Kind::triar ? 3 : 4;
+  if (element.kind == Kind::triar || element.kind == Kind::quadr) {
+    notes.add(fmt::format("{}: taken as {}", card.name, count == 3 ? "CTRIA3" : "CQUAD4"),
+              element.place);
+    element.kind = count == 3 ? Kind::tria3 : Kind::quad4;
+  }
+  add_nodes(card, 2, count, bulk, element);
+  NastranShellDetails details;
+  const int theta = 2 + count;
+  if (!card.blank(theta)) {
+    details.has_system = card.is_integer(theta);
+    if (details.has_system) details.system = card.integer(theta);
+    if (!details.has_system) details.theta = card.real(theta);
+    if (details.system < 0) card.fail(theta, "there are no such coordinate systems");
+  }
+  details.offset = card.real(theta + 1, 0.0);
+  // TFLAG and T1… stand in the second line: fields 3 to 7 of the manuals.
+  details.relative = card.integer(9, 0) == 1;
+  bool any = false;
+  for (int i = 0; i < count; ++i) any = any || !card.blank(10 + i);
+  for (int i = 0; any && i < count; ++i) {
+    if (card.blank(10 + i)) card.fail(10 + i, "is blank; give the thickness at all corners");
+    const double thickness = card.real(10 + i);
+    if (thickness < 0) card.fail(10 + i, fmt::format("the thickness {:g} is negative", thickness));
+    details.thickness.push_back(thickness);
+  }
+  if (card.blank(theta) && card.blank(theta + 1) && !any) return;
+  element.details = static_cast<std::int32_t>(bulk.shells.size());
+  bulk.shells.push_back(std::move(details));
+}
+
+void refuse_pins(const NastranCard& card) {
+  for (const int field : {8, 9}) {
+    if (card.blank(field) || card.text(field) == "0") continue;
+    card.fail(field, fmt::format("pin flags {} are not supported: the beam's end would be hinged. "
+                                 "Use CROD for a bar with two hinges, or joints between bodies",
+                                 card.text(field)));
+  }
+}
+
+/// OFFT: one letter each for the orientation vector and the offsets of both ends; G: system of the
+/// node, B (for the vector): basic system. E and O are offsets in the element's system.
+void read_offset_flags(const NastranCard& card, NastranLineDetails& line) {
+  if (card.blank(7)) return;
+  const std::string flags = card.word(7);
+  if (flags == "BGG") {
+    line.basic_orientation = true;
+  } else if (flags != "GGG") {
+    card.fail(7, fmt::format("{} is not supported; offsets must be GGG or BGG", flags));
+  }
+}
+
+void read_beam(const NastranCard& card, NastranBulk& bulk, NastranElement& element) {
+  add_nodes(card, 2, 2, bulk, element);
+  NastranLineDetails line;
+  // An integer in the first field of the vector is the node G0.
+  if (!card.blank(4) && card.is_integer(4) && card.blank(5) && card.blank(6)) {
+    line.orientation_node = card.id(4);
+  } else {
+    for (int i = 0; i < 3; ++i) line.orientation[static_cast<std::size_t>(i)] = card.real(4 + i, 0);
+    if (line.orientation == std::array<double, 3>{0, 0, 0}) {
+      card.fail(4, "the orientation vector is missing; give X1, X2, X3 or a node G0");
+    }
+  }
+  read_offset_flags(card, line);
+  refuse_pins(card);
+  for (std::size_t i = 0; i < 3; ++i) {
+    line.offset_a[i] = card.real(10 + static_cast<int>(i), 0.0);
+    line.offset_b[i] = card.real(13 + static_cast<int>(i), 0.0);
+  }
+  element.details = static_cast<std::int32_t>(bulk.lines.size());
+  bulk.lines.push_back(line);
+}
+
+}  // namespace
+
+bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes& notes) {
+  const auto kind = kind_named(card.name);
+  if (!kind) return false;
+  NastranElement element;
+  element.id = card.id(0);
+  element.kind = *kind;
+  element.place = {card.file, card.line};
+  switch (*kind) {
+    case Kind::tetra:
+    case Kind::pyramid:
+    case Kind::penta:
+    case Kind::hexa:
+      element.property = card.id(1, element.id);
+      read_solid(card, bulk, element);
+      break;
+    case Kind::tria3:
+    case Kind::triar:
+    case Kind::quad4:
+    case Kind::quadr:
+      element.property = card.id(1, element.id);
+      read_shell(card, bulk, element, notes);
+      break;
+    case Kind::bar:
+    case Kind::beam:
+      element.property = card.id(1, element.id);
+      read_beam(card, bulk, element);
+      break;
+    case Kind::rod:
+      element.property = card.id(1, element.id);
+      add_nodes(card, 2, 2, bulk, element);
+      break;
+    case Kind::conrod:
+      // Its constants stand on it: the card is its own property.
+      element.property = element.id;
+      add_nodes(card, 1, 2, bulk, element);
+      bulk.cards[card.name].push_back(card);
+      break;
+  }
+  bulk.elements.push_back(element);
+  return true;
+}
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/mesh_io/nastran/bulk.h"
+
+namespace buckens::mesh_io {
+
+/// Adds an element to the bulk data if the card is one of those in NastranElementKind.
+///
+/// Solids have either their corners or all nodes. CTRIAR and CQUADR count as CTRIA3 and CQUAD4.
+/// @return false if it is another card
+/// @throws InputError for missing or repeated nodes and for pins (PA, PB)
+bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes& notes);
+
+}  // namespace buckens::mesh_io

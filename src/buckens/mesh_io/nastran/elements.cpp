@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/nastran/elements.h"
+
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::mesh_io {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using fem::CellKind;
+
+namespace {
+
+using Kind = NastranElementKind;
+
+/// Where Nastran lists the nodes of a shape of fem::CellKind; empty where the order is the same.
+std::span<const int> node_order(CellKind kind) {
+  // Edges in Nastran: below, vertical, above; in fem::CellKind: below, above, vertical.
+  static constexpr std::array<int, 15> kWedge = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
+  static constexpr std::array<int, 20> kHex = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                               10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+  if (kind == CellKind::wedge15) return kWedge;
+  if (kind == CellKind::hex20) return kHex;
+  return {};
+}
+
+CellKind cell_kind(const NastranElement& element) {
+  switch (element.kind) {
+    case Kind::tetra:
+      return element.num_nodes == 4 ? CellKind::tet4 : CellKind::tet10;
+    case Kind::pyramid:
+      return CellKind::pyramid5;
+    case Kind::penta:
+      return element.num_nodes == 6 ? CellKind::wedge6 : CellKind::wedge15;
+    case Kind::hexa:
+      return element.num_nodes == 8 ? CellKind::hex8 : CellKind::hex20;
+    case Kind::tria3:
+    case Kind::triar:
+      return CellKind::tri3;
+    case Kind::quad4:
+    case Kind::quadr:
+      return CellKind::quad4;
+    default:
+      return CellKind::line2;
+  }
+}
+
+class ElementBuilder {
+ public:
+  ElementBuilder(const NastranBulk& bulk, NastranCoordinates& coordinates,
+                 NastranProperties& properties, NastranNotes& notes, fem::ImportedMesh& mesh)
+      : bulk_(bulk),
+        coordinates_(coordinates),
+        properties_(properties),
+        notes_(notes),
+        mesh_(mesh) {}
+
+  void add(const NastranElement& element);
+  void add_masses();
+
+ private:
+  fem::ImportedBlock& block_of(const NastranElement& element, CellKind kind, int property);
+  void read_nodes(const NastranElement& element);
+  void add_line(const NastranElement& element);
+  int shifted_end(int node, const std::array<double, 3>& offset, const NastranElement& element);
+  Vector3d up_direction(const NastranElement& element, int node_a, const Vector3d& along,
+                        double angle) const;
+  void spread_mass(const NastranElement& element, int property);
+  const Vector3d& position(int node) const {
+    return coordinates_.positions()[static_cast<std::size_t>(node)];
+  }
+  [[noreturn]] static void fail(const NastranElement& element, const std::string& text) {
+    throw InputError(element.place.where(),
+                     fmt::format("{} {}: {}", name_of(element.kind), element.id, text));
+  }
+
+  const NastranBulk& bulk_;
+  NastranCoordinates& coordinates_;
+  NastranProperties& properties_;
+  NastranNotes& notes_;
+  fem::ImportedMesh& mesh_;
+  std::map<std::tuple<CellKind, Kind, int>, std::size_t> block_of_;
+  std::map<std::tuple<int, std::array<double, 3>>, int> shifted_;
+  std::map<int, double> masses_;  // non-structural, by node
+  std::vector<int> nodes_;        // of the element at hand
+  std::vector<Vector3d> corners_;
+};
+
+fem::ImportedBlock& ElementBuilder::block_of(const NastranElement& element, CellKind kind,
+                                             int property) {
+  const auto [entry, is_new] =
+      block_of_.try_emplace({kind, element.kind, property}, mesh_.blocks.size());
+  if (is_new) {
+    fem::ImportedBlock block;
+    block.kind = kind;
+    block.source = name_of(element.kind);
+    block.property = property;
+    mesh_.blocks.push_back(std::move(block));
+  }
+  return mesh_.blocks[entry->second];
+}
+
+void ElementBuilder::read_nodes(const NastranElement& element) {
+  nodes_.clear();
+  for (int i = 0; i < element.num_nodes; ++i) {
+    const std::int64_t id = bulk_.element_nodes[element.first_node + static_cast<std::size_t>(i)];
+    const int node = coordinates_.find_node(id);
+    if (node < 0) fail(element, fmt::format("there is no GRID {}", id));
+    nodes_.push_back(node);
+  }
+}
+
+void ElementBuilder::add(const NastranElement& element) {
+  read_nodes(element);
+  const CellKind kind = cell_kind(element);
+  if (kind == CellKind::line2 && element.details >= 0) {
+    add_line(element);
+    return;
+  }
+  corners_.clear();
+  if (fem::dimension_of(kind) == 2) {
+    for (const int node : nodes_) corners_.push_back(position(node));
+  }
+  const int property = properties_.of(element, corners_);
+  fem::ImportedBlock& block = block_of(element, kind, property);
+  block.ids.push_back(element.id);
+  const std::span<const int> order = node_order(kind);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    block.nodes.push_back(nodes_[order.empty() ? i : static_cast<std::size_t>(order[i])]);
+  }
+  spread_mass(element, property);
+}
+
+/// The end of a beam: the node itself, or a node beside it that follows it as a rigid body.
+int ElementBuilder::shifted_end(int node, const std::array<double, 3>& offset,
+                                const NastranElement& element) {
+  if (offset == std::array<double, 3>{0, 0, 0}) return node;
+  const Vector3d local(offset[0], offset[1], offset[2]);
+  const Vector3d shift = coordinates_.displacement_axes(node) * local;
+  const auto [entry, is_new] = shifted_.try_emplace({node, {shift.x(), shift.y(), shift.z()}}, 0);
+  if (is_new) {
+    const Vector3d place = position(node) + shift;
+    entry->second = coordinates_.add_node(place);
+    fem::ImportedRigidLink link;
+    link.name = fmt::format("offset {}", coordinates_.node_ids().back());
+    link.reference = node;
+    link.nodes = {entry->second};
+    link.line = element.place.line;
+    mesh_.rigid_links.push_back(std::move(link));
+    notes_.add(fmt::format("{}: offsets WA, WB become nodes of their own with rigid links",
+                           name_of(element.kind)),
+               element.place);
+  }
+  return entry->second;
+}
+
+Vector3d ElementBuilder::up_direction(const NastranElement& element, int node_a,
+                                      const Vector3d& along, double angle) const {
+  const NastranLineDetails& line = bulk_.lines[static_cast<std::size_t>(element.details)];
+  Vector3d v(line.orientation[0], line.orientation[1], line.orientation[2]);
+  if (line.orientation_node != 0) {
+    const int node = coordinates_.find_node(line.orientation_node);
+    if (node < 0) fail(element, fmt::format("there is no GRID {} (G0)", line.orientation_node));
+    v = position(node) - position(node_a);
+  } else if (!line.basic_orientation) {
+    v = coordinates_.displacement_axes(node_a) * v;
+  }
+  const Vector3d x = along.normalized();
+  const Vector3d z = x.cross(v);
+  if (!(along.norm() > 0.0) || !(z.norm() > 1e-6 * v.norm())) {
+    fail(element, "both ends are at one place, or the orientation vector is along the beam");
+  }
+  const Vector3d z_unit = z.normalized();
+  return std::cos(angle) * z_unit - std::sin(angle) * z_unit.cross(x);
+}
+
+void ElementBuilder::add_line(const NastranElement& element) {
+  const NastranLineDetails& line = bulk_.lines[static_cast<std::size_t>(element.details)];
+  const int property = properties_.of(element, {});
+  const int grid_a = nodes_[0];
+  nodes_[0] = shifted_end(nodes_[0], line.offset_a, element);
+  nodes_[1] = shifted_end(nodes_[1], line.offset_b, element);
+  const Vector3d up = up_direction(element, grid_a, position(nodes_[1]) - position(nodes_[0]),
+                                   properties_.section_angle(property));
+  fem::ImportedBlock& block = block_of(element, CellKind::line2, property);
+  block.ids.push_back(element.id);
+  block.nodes.insert(block.nodes.end(), nodes_.begin(), nodes_.end());
+  block.up.push_back(up);
+  spread_mass(element, property);
+}
+
+void ElementBuilder::spread_mass(const NastranElement& element, int property) {
+  const double mass = properties_.nonstructural_mass(property);
+  if (mass == 0.0) return;
+  double size = 0;
+  if (nodes_.size() == 2) {
+    size = (position(nodes_[1]) - position(nodes_[0])).norm();
+  } else {
+    const std::size_t last = nodes_.size() - 1;
+    size = 0.5 * (position(nodes_[2]) - position(nodes_[0]))
+                     .cross(position(nodes_[last]) - position(nodes_[1]))
+                     .norm();
+  }
+  for (const int node : nodes_) {
+    masses_[node] += mass * size * bulk_.weight_to_mass / static_cast<double>(nodes_.size());
+  }
+  notes_.add("non-structural mass NSM becomes point masses at the nodes", element.place);
+}
+
+void ElementBuilder::add_masses() {
+  for (const auto& [node, mass] : masses_) {
+    fem::ImportedMass point;
+    point.node = node;
+    point.mass = mass;
+    mesh_.masses.push_back(point);
+  }
+}
+
+/// @throws InputError if two elements have one number
+void check_numbers(const NastranBulk& bulk) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(bulk.elements.size());
+  for (const NastranElement& element : bulk.elements) ids.push_back(element.id);
+  const auto sorted = NastranIds(ids).sorted();
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].first != sorted[i - 1].first) continue;
+    const NastranElement& a = bulk.elements[static_cast<std::size_t>(sorted[i - 1].second)];
+    const NastranElement& b = bulk.elements[static_cast<std::size_t>(sorted[i].second)];
+    throw InputError(
+        b.place.where(),
+        fmt::format("{} {}: there is another element with this number: {} in {}:{}",
+                    name_of(b.kind), b.id, name_of(a.kind), a.place.file->name, a.place.line));
+  }
+}
+
+}  // namespace
+
+std::vector<std::int64_t> add_nastran_elements(const NastranBulk& bulk,
+                                               NastranCoordinates& coordinates,
+                                               NastranProperties& properties, NastranNotes& notes,
+                                               fem::ImportedMesh& mesh) {
+  check_numbers(bulk);
+  ElementBuilder builder(bulk, coordinates, properties, notes, mesh);
+  for (const NastranElement& element : bulk.elements) builder.add(element);
+  builder.add_masses();
+  std::vector<std::int64_t> ids;
+  ids.reserve(bulk.elements.size());
+  for (const fem::ImportedBlock& block : mesh.blocks) {
+    ids.insert(ids.end(), block.ids.begin(), block.ids.end());
+  }
+  return ids;
+}
+
+}  // namespace buckens::mesh_io

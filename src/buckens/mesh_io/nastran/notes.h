@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/mesh_io/nastran/source.h"
+
+namespace buckens::mesh_io {
+
+/// File and line of something that a deck says.
+struct NastranPlace {
+  const NastranFile* file = nullptr;
+  int line = 0;
+
+  SourceLocation where() const { return {file->name, line, 1}; }
+};
+
+/// What a reader did not take over, the same said once and counted.
+class NastranNotes {
+ public:
+  /// @param main_file notes of other files name theirs
+  explicit NastranNotes(const NastranFile& main_file) : main_file_(&main_file) {}
+
+  void add(const std::string& text, const NastranPlace& place) {
+    const auto [entry, is_new] = place_of_.try_emplace(text, notes_.size());
+    if (!is_new) {
+      ++notes_[entry->second].count;
+      return;
+    }
+    const bool elsewhere = place.file != nullptr && place.file != main_file_;
+    notes_.push_back(
+        {elsewhere ? place.file->name + ": " + text : text, elsewhere ? 0 : place.line, 1});
+  }
+
+  std::vector<fem::ImportNote> take() { return std::move(notes_); }
+
+ private:
+  const NastranFile* main_file_;
+  std::vector<fem::ImportNote> notes_;
+  std::unordered_map<std::string, std::size_t> place_of_;
+};
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/mesh_io/nastran/coordinates.h"
+#include "buckens/mesh_io/nastran/materials.h"
+#include "buckens/mesh_io/nastran/sections.h"
+
+namespace buckens::mesh_io {
+
+/// The properties of a deck, taken over when an element has them.
+///
+/// A shell property stands once per thickness, offset and direction that its elements have, always
+/// under the same name.
+class NastranProperties {
+ public:
+  /// @throws InputError if two cards of one family have one number
+  NastranProperties(const NastranBulk& bulk, const NastranNames& names,
+                    const NastranCoordinates& coordinates, NastranMaterials& materials,
+                    NastranNotes& notes);
+
+  /// Index of the property of an element; its kind tells which cards count.
+  /// @param nodes places of the corners of a shell; else not used
+  /// @throws InputError if it is missing or not supported
+  int of(const NastranElement& element, const std::vector<Eigen::Vector3d>& nodes);
+
+  /// Non-structural mass per area or length, as the file weighs.
+  double nonstructural_mass(int property) const { return more(property).mass; }
+  /// Of the section's y axis from Nastran's, about x [rad].
+  double section_angle(int property) const { return more(property).angle; }
+
+  std::vector<fem::ImportedProperty> take() { return std::move(properties_); }
+
+ private:
+  enum class Family { solid, shell, bar, beam, rod, conrod };
+
+  struct More {
+    double mass = 0;
+    double angle = 0;
+  };
+
+  struct Shell {
+    fem::ImportedProperty property;
+    double mass = 0;
+    bool has_directions = false;
+  };
+
+  /// Of material direction 1 of a shell.
+  struct Direction {
+    std::optional<Eigen::Matrix3d> axes;  ///< none: it is that of the first side
+    double angle = 0;                     ///< by which it is turned from there [rad]
+  };
+
+  /// Card, thickness, offset, first axis (zero: the first side), angle.
+  using ShellKey = std::tuple<const NastranCard*, double, double, std::array<double, 3>, double>;
+
+  const More& more(int property) const { return more_[static_cast<std::size_t>(property)]; }
+  const NastranCard& card_of(const NastranElement& element, Family family) const;
+  std::string name_of_card(const NastranCard& card);
+  int add(fem::ImportedProperty property, const More& more);
+
+  int solid(const NastranElement& element);
+  int line(const NastranElement& element, Family family);
+  int shell(const NastranElement& element, const std::vector<Eigen::Vector3d>& nodes);
+
+  fem::ImportedProperty convert_solid(const NastranCard& card);
+  Shell convert_pshell(const NastranCard& card);
+  Shell convert_pcomp(const NastranCard& card);
+  std::vector<fem::ImportedLayer> read_layers(const NastranCard& card);
+  double thickness_of(const NastranElement& element, const Shell& shell);
+  Direction shell_direction(const NastranElement& element,
+                            const std::vector<Eigen::Vector3d>& nodes) const;
+
+  const NastranBulk* bulk_;
+  const NastranNames* names_;
+  const NastranCoordinates* coordinates_;
+  NastranMaterials* materials_;
+  NastranNotes* notes_;
+  std::map<Family, std::unordered_map<std::int64_t, const NastranCard*>> cards_;
+  std::map<const NastranCard*, std::string> card_names_;
+  std::set<std::string> used_names_;
+  std::map<const NastranCard*, int> plain_;  // solids and lines
+  std::map<const NastranCard*, Shell> shells_;
+  std::map<ShellKey, int> shell_variants_;
+  std::vector<fem::ImportedProperty> properties_;
+  std::vector<More> more_;
+};
+
+}  // namespace buckens::mesh_io

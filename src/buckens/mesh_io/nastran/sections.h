@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "buckens/fem/section_spec.h"
+#include "buckens/mesh_io/nastran/bulk.h"
+
+namespace buckens::mesh_io {
+
+/// Cross-section of a beam or rod as a property card gives it.
+///
+/// Plane 1 of Nastran holds its y axis: I1 = ∫ y² dA is `Iz` here, I2 is `Iy`. Sections with I12
+/// are turned into their principal axes.
+struct NastranSection {
+  fem::SectionSpec section;
+  std::int64_t material = 0;
+  double angle = 0;             ///< of the section's y axis from Nastran's, about x [rad]
+  bool shear_flexible = false;  ///< Timoshenko
+  double mass_per_length = 0;   ///< NSM, as written
+};
+
+/// Reads PBAR, PBARL (ROD, TUBE, BAR, BOX), PBEAM, PBEAML; tapered beams get the mean section.
+/// @throws InputError for what cannot be read, for other sections and for neutral axes that are not
+/// at the shear centre
+NastranSection read_nastran_beam_section(const NastranCard& card, NastranNotes& notes);
+
+/// Reads the area of PROD or CONROD.
+NastranSection read_nastran_rod_section(const NastranCard& card, NastranNotes& notes);
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh_file_spec.h"
+#include "buckens/mesh_io/step/faces.h"
+
+namespace buckens::mesh_io {
+
+/// A meshed part and what the file says about its faces.
+struct StepMesh {
+  fem::ImportedMesh mesh;
+  std::vector<StepFace> faces;
+};
+
+/// Meshes all solids of a STEP file with tetrahedra by the library of Gmsh, in a process of its
+/// own.
+///
+/// Lengths are in metres. Solids that touch are glued: they share faces and nodes there. Where
+/// solids overlap, what they have in common belongs to one of them, and `notes` say so. Every solid
+/// is a property and an element set by its label in the file, every face a face set and node set
+/// `face_1`, `face_2` …; colours and labels of faces are further face sets, `color_255_0_0` and the
+/// label itself. Elements of second order have their mid-side nodes on the true surface, except
+/// where an element would be turned inside out; `notes` then say so. Small radii get smaller
+/// elements, eight to a full turn but none below a quarter of `size`.
+///
+/// @param text contents of the file
+/// @param size upper bound for the edges of the elements [m]
+/// @param order 1 or 2
+/// @throws InputError if the file is no STEP file, has no solid, or cannot be meshed; IoError if it
+/// cannot be read or the library is missing
+StepMesh mesh_step(const std::filesystem::path& path, const std::string& text, double size,
+                   int order);
+
+/// The same without what is known of the faces; reads the file.
+fem::ImportedMesh mesh_step(const std::filesystem::path& path, double size, int order);
+
+/// The mesh with the names that a specification gives to faces.
+/// @throws InputError where a name has no face
+fem::ImportedMesh with_face_names(StepMesh part, const std::vector<fem::GeometryFaceSpec>& names);
+
+}  // namespace buckens::mesh_io

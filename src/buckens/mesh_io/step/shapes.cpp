@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/step/shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace buckens::mesh_io {
+
+namespace {
+
+// Relative to the size of a face. Boxes are widened by the tolerance of the kernel, 1e-7 m, which
+// is 1e-4 of a face of a millimetre; areas and centres are integrals of smooth functions.
+constexpr double kBoxMargin = 1e-4;
+constexpr double kSame = 1e-5;
+
+struct Face {
+  int number;
+  GmshLibrary::Color color;
+  std::array<double, 6> box;
+  double area;
+  std::array<double, 3> centre;
+
+  double width() const { return std::hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]); }
+  bool lies_in(const Face& other) const {
+    const double margin = kBoxMargin * other.width();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (box[k] < other.box[k] - margin || box[k + 3] > other.box[k + 3] + margin) return false;
+    }
+    return true;
+  }
+};
+
+bool same_color(const GmshLibrary::Color& a, const GmshLibrary::Color& b) {
+  return a.alpha > 0 && b.alpha > 0 && a.red == b.red && a.green == b.green && a.blue == b.blue;
+}
+
+std::vector<Face> faces_of(const GmshLibrary& gmsh) {
+  std::vector<Face> out;
+  for (const GmshEntity& face : gmsh.entities(2)) {
+    out.push_back(
+        {face.second, gmsh.color(face), gmsh.box(face), gmsh.size(face), gmsh.centre(face)});
+  }
+  return out;
+}
+
+/// The faces that are together what `whole` was; none if they cannot be found.
+std::vector<const Face*> pieces_of(const Face& whole, const std::vector<Face>& faces) {
+  std::vector<const Face*> out;
+  double area = 0;
+  std::array<double, 3> moment{};
+  for (const Face& face : faces) {
+    if (!face.lies_in(whole)) continue;
+    out.push_back(&face);
+    area += face.area;
+    for (std::size_t k = 0; k < 3; ++k) moment[k] += face.area * face.centre[k];
+  }
+  bool is_whole = std::abs(area - whole.area) <= kSame * whole.area;
+  for (std::size_t k = 0; k < 3; ++k) {
+    is_whole = is_whole && std::abs(moment[k] - whole.area * whole.centre[k]) <=
+                               kSame * whole.area * whole.width();
+  }
+  return is_whole ? out : std::vector<const Face*>();
+}
+
+}  // namespace
+
+GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file) {
+  gmsh.new_model(model);
+  gmsh.import_shapes(file);
+  GluedShapes out;
+  const auto add = [&out](int face, const GmshLibrary::Color& color) {
+    const bool is_known =
+        std::any_of(out.colors.begin(), out.colors.end(), [&](const ColoredShape& known) {
+          return known.face == face && same_color(known.color, color);
+        });
+    if (color.alpha > 0 && !is_known) out.colors.push_back({face, color});
+  };
+  const auto solids = gmsh.entities(3);
+  if (solids.size() < 2) {
+    for (const GmshEntity& face : gmsh.entities(2)) add(face.second, gmsh.color(face));
+    return out;
+  }
+  const std::vector<Face> before = faces_of(gmsh);
+  gmsh.fragment(solids);
+  const std::vector<Face> after = faces_of(gmsh);
+  out.overlap = gmsh.entities(3).size() != solids.size();
+  for (const Face& face : after) add(face.number, face.color);
+  for (const Face& face : before) {
+    if (face.color.alpha == 0) continue;
+    const auto pieces = pieces_of(face, after);
+    if (pieces.empty()) ++out.lost;
+    for (const Face* piece : pieces) add(piece->number, face.color);
+  }
+  return out;
+}
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/mesh_io/gmsh/library.h"
+
+namespace buckens::mesh_io {
+
+/// A face of the glued part and a colour that it has, or that the face had of which it is a piece.
+struct ColoredShape {
+  int face = 0;
+  GmshLibrary::Color color = {0, 0, 0, 0};
+};
+
+/// What became of the solids of a STEP file when those that touch were glued.
+struct GluedShapes {
+  std::vector<ColoredShape> colors;  ///< a face between two solids may have two
+  int lost = 0;                      ///< coloured faces of which no pieces could be found
+  bool overlap = false;              ///< solids have volume in common
+};
+
+/// Loads a file into a new model and gives solids that touch common faces.
+///
+/// The library forgets colours of faces that it cuts. Their pieces are found by place: they lie in
+/// the box of the face and have together its area and its centre.
+GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file);
+
+}  // namespace buckens::mesh_io

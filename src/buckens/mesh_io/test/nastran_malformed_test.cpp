@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decks that cannot be taken over: a message with file, line and what to do.
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "buckens/base/test/source_directory.h"
+#include "buckens/mesh_io/test/nastran_sample.h"
+
+namespace buckens::mesh_io {
+namespace {
+
+using test::expect_words;
+using test::kTetra;
+using test::refusal;
+
+TEST(NastranMalformed, fields_that_are_no_numbers) {
+  expect_words(refusal("GRID,1,,0.,0.\nGRID,2,,nan,0.\n"),
+               {"deck.bdf:2:9: ", "GRID 2, field 4", "\"nan\" is not a number"});
+  expect_words(refusal("GRID,1.5\n"), {"deck.bdf:1:6: ", "\"1.5\" is not an integer"});
+  expect_words(refusal("GRID,0\n"), {"0 is not a number from 1 to 2147483647"});
+  expect_words(refusal("GRID,99999999999999999999\n"), {"is not an integer"});
+  expect_words(refusal("GRID,3000000000\n"), {"3000000000 is not a number from 1"});
+  expect_words(refusal("GRID    1               1.0.0\n"), {"deck.bdf:1:25: ", "field 4"});
+  expect_words(refusal("GRID\n"), {"deck.bdf:1:1: ", "field 2: is blank"});
+  expect_words(refusal(kTetra + "MAT1,2,2.+400,,.3\nPSOLID,2,2\nCTETRA,2,2,1,2,3,4\n"),
+               {"deck.bdf:8:8", "is not a number"});
+}
+
+TEST(NastranMalformed, lines_that_are_no_cards) {
+  expect_words(refusal(",1,2\n"), {"deck.bdf:1:1", "none before it"});
+  expect_words(refusal("GRID,1\n#!?,2\n"), {"deck.bdf:2:1", "\"#!?\" is not the name"});
+  expect_words(refusal("GRID,1,,1,2,3,4,5,6,7,8\n"), {"deck.bdf:1:1", "more than ten fields"});
+  expect_words(
+      refusal("GRID    1                                                               +A\n"
+              "+B      2\n"),
+      {"deck.bdf:2:1", "\"+B\" stands where \"+A\""});
+  expect_words(refusal("\x7f"
+                       "ELF\x02\x01\x01\xff\xfe\n"),
+               {"deck.bdf:1:1", "is not the name"});
+  expect_words(refusal(std::string("GRID,1\n\0\0\0\n", 11)), {"deck.bdf:2:1", "zero byte"});
+}
+
+TEST(NastranMalformed, missing_parts) {
+  expect_words(refusal(""), {"deck.bdf: ", "no nodes"});
+  expect_words(refusal("SOL 101\nCEND\n" + kTetra), {"no BEGIN BULK"});
+  expect_words(refusal(kTetra + "CTETRA,2,1,1,2,3,77\n"),
+               {"deck.bdf:8:1: ", "CTETRA 2: there is no GRID 77"});
+  expect_words(refusal(kTetra + "CTETRA,2,1,1,2,3\n"), {"deck.bdf:8:1", "field 7: is blank"});
+  expect_words(refusal(kTetra + "CTETRA,2,7,1,2,3,4\n"), {"CTETRA 2: there is no PSOLID 7"});
+  expect_words(refusal(kTetra + "PSOLID,2,9\nCTETRA,2,2,1,2,3,4\n"),
+               {"PSOLID 2: there is no material 9"});
+  expect_words(refusal(kTetra + "GRID,9,5\n"), {"deck.bdf:8:1", "no coordinate system 5"});
+  expect_words(refusal(kTetra + "SET3,1,GRID,9\n"), {"SET3 1: there is no GRID 9"});
+  expect_words(refusal(kTetra + "RBE2,9,1,123,44\n"), {"RBE2 9, field 5: there is no GRID 44"});
+}
+
+TEST(NastranMalformed, numbers_used_twice) {
+  expect_words(refusal(kTetra + "GRID,1,,5.\n"), {"deck.bdf:8:1: ", "GRID 1", "deck.bdf:1"});
+  expect_words(refusal(kTetra + "CTETRA,1,1,1,2,3,4\n"), {"deck.bdf:8:1: ", "deck.bdf:5"});
+  expect_words(refusal(kTetra + "PSOLID,1,1\n"), {"deck.bdf:8:1: ", "another property"});
+  expect_words(refusal(kTetra + "MAT8,1,1.,1.,.3,1.\n"), {"deck.bdf:8:1: ", "another material"});
+  expect_words(refusal(kTetra + "CTETRA,2,1,1,2,3,3\n"), {"node 3 stands there twice"});
+}
+
+TEST(NastranMalformed, circles_of_coordinate_systems) {
+  expect_words(refusal("GRID,1\nCORD2R,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+                       "CORD2R,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"),
+               {"deck.bdf:", "depends on itself"});
+  expect_words(refusal("GRID,1,1\nGRID,2,,1.\nGRID,3,,,1.\nCORD1R,1,1,2,3\n"),
+               {"deck.bdf:4:1", "depends on itself"});
+  expect_words(refusal("GRID,1\nCORD2R,1,,0.,0.,0.,0.,0.,1.\n,0.,0.,5.\n"),
+               {"deck.bdf:2:1", "on one line"});
+  // A long chain must not exhaust the stack.
+  std::string chain = "GRID,1,50000\n";
+  for (int i = 1; i <= 50000; ++i) {
+    chain += "CORD2R," + std::to_string(i) + ',' + std::to_string(i < 50000 ? i + 1 : 0) +
+             ",0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n";
+  }
+  EXPECT_EQ(refusal(chain), "");
+}
+
+TEST(NastranMalformed, what_is_refused_says_why) {
+  expect_words(refusal(kTetra + "SPOINT,9\n"), {"deck.bdf:8:1", "scalar points"});
+  expect_words(refusal(kTetra + "CQUAD8,9,1\n"), {"mesh with CQUAD4", "mid-side"});
+  expect_words(refusal(kTetra + "CELAS2,9,1.\n"), {"use CBUSH"});
+  expect_words(refusal(kTetra + "GRID,5,,1.,1.\nCTETRA,2,1,1,2,3,4,5\n"),
+               {"deck.bdf:9:1", "1 of 6 mid-side nodes"});
+  expect_words(refusal(kTetra + "MAT2,3\nPSHELL,2,3,1.\nCTRIA3,2,2,1,2,3\n"),
+               {"material 3 is a MAT2", "use MAT1 or MAT8"});
+  expect_words(refusal(kTetra + "PBARL,2,1,,I1\n,1.,2.,3.,4.\nCBAR,2,2,1,2,0.,0.,1.\n"),
+               {"\"I1\"", "ROD, TUBE, BAR and BOX"});
+  expect_words(refusal(kTetra + "CBAR,2,2,1,2,0.,0.,1.\n,456\n"), {"pin flags 456"});
+  expect_words(refusal(kTetra + "PBAR,2,1,1.,1.,1.,,1.\nCBAR,2,2,1,2,1.,0.,0.\n"),
+               {"PBAR 2, field 7: is blank"});
+  expect_words(refusal(kTetra + "PBAR,2,1,1.,1.,1.,1.\nCBAR,2,2,1,2,1.,0.,0.\n"),
+               {"orientation vector is along the beam"});
+  expect_words(refusal(kTetra + "PCOMP,2,,,,,,,MEM\n,1,1.\nCTRIA3,2,2,1,2,3\n"), {"LAM = MEM"});
+  expect_words(refusal(kTetra + "RBAR,2,1,2,123,456\n"), {"one end must have all six"});
+  expect_words(refusal(kTetra + "RBE3,2,,1,,1.,123,2,3,4\n"), {"give the components REFC"});
+  expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,456,2,3\n,4\n"),
+               {"deck.bdf:8:18", "means of rotations alone"});
+  expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,123,2,THRU\n,4\n"),
+               {"THRU stands where a node should"});
+  expect_words(refusal("CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n" + kTetra +
+                       "GRID,9,,1.,1.,1.,7\nRBE3,2,,1,123,1.,1,2,3\n,9\n"),
+               {"single components at GRID 9"});
+  expect_words(refusal(kTetra + "PBEAML,2,1,,BAR\n,1.,2.,,3.,1.\nCBEAM,2,2,1,2,0.,0.,1.\n"),
+               {"\"3.\" stands where SO should", "2 dimensions"});
+  expect_words(refusal(kTetra + "MAT9,3,3.,1.,1.,.5,,,3.\n,1.,,,,3.\n,1.,,,1.,,1.\n"
+                                "PSOLID,2,3\nCTETRA,2,2,1,2,3,4\n"),
+               {"couples tension and shear"});
+  expect_words(refusal(kTetra + "MAT1,3,1.,,.7\nPSOLID,2,3\nCTETRA,2,2,1,2,3,4\n"),
+               {"Poisson's ratio 0.7"});
+  expect_words(refusal(kTetra + "CONM2,3,1,,-1.\n"), {"the mass -1 is negative"});
+}
+
+/// Files by name instead of a directory.
+fem::ImportedMesh read_files(const std::map<std::string, std::string>& files) {
+  return read_nastran_text(files.at("a.bdf"), "a.bdf", [&](const std::filesystem::path& path) {
+    const auto entry = files.find(path.filename().string());
+    if (entry == files.end()) throw IoError(path.string() + ": there is no such file");
+    return entry->second;
+  });
+}
+
+std::string refusal_of_files(const std::map<std::string, std::string>& files) {
+  try {
+    read_files(files);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(NastranInclude, files_are_put_in_place) {
+  const auto mesh = read_files({{"a.bdf", "SOL 101\nCEND\ninclude 'b.bdf'\nBEGIN BULK\n" + kTetra +
+                                              "INCLUDE 'long\n  name.bdf'\nENDDATA\n"},
+                                {"b.bdf", "TITLE = b\n"},
+                                {"longname.bdf", "GRID,11,,1.,2.,3.\nFORCE,1,1\n"}});
+  EXPECT_EQ(mesh.num_nodes(), 5);
+  EXPECT_TRUE(test::has_note(mesh, "longname.bdf: FORCE"));
+}
+
+TEST(NastranInclude, files_stand_beside_the_deck) {
+  const auto mesh = read_nastran_deck(std::filesystem::path(buckens::test::kSourceDirectory) /
+                                      "tests/decks/nastran/include.bdf");
+  EXPECT_EQ(mesh.num_nodes(), 4);
+  EXPECT_EQ(mesh.num_elements(), 1);
+}
+
+TEST(NastranInclude, circles_doubles_and_missing_files_are_refused) {
+  expect_words(
+      refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'b.bdf'\n"}, {"b.bdf", "INCLUDE a.bdf"}}),
+      {"b.bdf:1:1: ", "make a circle"});
+  expect_words(refusal_of_files({{"a.bdf", "INCLUDE 'a.bdf'\n"}}), {"a.bdf:1:1: ", "circle"});
+  expect_words(
+      refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'b'\nINCLUDE 'b'\n"}, {"b", "GRID,2\n"}}),
+      {"a.bdf:3:1: ", "included before"});
+  expect_words(refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'none.bdf'\n"}}),
+               {"a.bdf:2:1: ", "none.bdf", "no such file"});
+  expect_words(refusal_of_files({{"a.bdf", "INCLUDE 'b\n"}}), {"a.bdf:1:1: ", "quotation mark"});
+  expect_words(refusal_of_files({{"a.bdf", "INCLUDE\n"}}), {"without the name"});
+  expect_words(refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE b\n"}, {"b", ",2\n"}}),
+               {"b:1:1: ", "another file"});
+}
+
+TEST(NastranInclude, only_regular_files) {
+  EXPECT_THROW(load_nastran_file("/dev/zero"), IoError);
+  EXPECT_THROW(load_nastran_file("/"), IoError);
+}
+
+TEST(NastranMalformed, garbage) {
+  unsigned state = 1;
+  for (const std::string& start : {std::string(), "BEGIN BULK\n" + kTetra, kTetra + "GRID,9,"}) {
+    std::string text = start;
+    for (int k = 0; k < 20000; ++k) {
+      state = state * 1664525u + 1013904223u;
+      text.push_back(static_cast<char>(1 + (state >> 24) % 255));
+    }
+    expect_words(refusal(text), {"deck.bdf:"});
+    EXPECT_NE(refusal(text), "");
+  }
+}
+
+TEST(NastranMalformed, every_beginning_of_a_deck_is_read_or_refused) {
+  const auto path = std::filesystem::path(buckens::test::kSourceDirectory) /
+                    "tests/decks/nastran/every_card_small.bdf";
+  std::ifstream stream(path);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  ASSERT_GT(text.size(), 1000u);
+  int num_refused = 0;
+  for (std::size_t size = 0; size < text.size(); size += 7) {
+    num_refused += refusal(text.substr(0, size)).empty() ? 0 : 1;
+  }
+  EXPECT_GT(num_refused, 100);
+}
+
+}  // namespace
+}  // namespace buckens::mesh_io

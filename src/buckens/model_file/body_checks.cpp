@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "buckens/body/reduction_conflict.h"
+#include "buckens/model_file/checks.h"
+#include "buckens/model_file/names.h"
+
+namespace buckens::model_file {
+
+namespace {
+
+using Eigen::Vector3d;
+
+Finding inertia_problem(const std::vector<double>& entries) {
+  if (entries.empty()) return std::nullopt;
+  if (entries.size() != 3 && entries.size() != 6) {
+    return Problem{"inertia", fmt::format("{} values stand here; expected are 3 (Ixx, Iyy, Izz) or "
+                                          "6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz)",
+                                          entries.size())};
+  }
+  const Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fem::symmetric_matrix(entries))
+          .eigenvalues();  // ascending
+  // Data sheets round to three digits or so; planar models often give Izz alone.
+  const double tolerance = 1e-3 * std::max(std::abs(principal[0]), principal[2]);
+  if (principal[0] < -1e-12 * std::abs(principal[2])) {
+    return Problem{"inertia",
+                   fmt::format("the principal moments are {:.4g}, {:.4g}, {:.4g} kg m^2; "
+                               "none can be negative. Check the signs and the order "
+                               "Ixx, Iyy, Izz, Ixy, Ixz, Iyz",
+                               principal[0], principal[1], principal[2])};
+  }
+  const bool is_planar_data = principal[1] == 0.0;
+  if (!is_planar_data && principal[0] + principal[1] < principal[2] - tolerance) {
+    return Problem{"inertia",
+                   fmt::format("the principal moments {:.4g}, {:.4g}, {:.4g} kg m^2 belong to no "
+                               "body: the largest exceeds the sum of the others",
+                               principal[0], principal[1], principal[2])};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Finding problem(const fem::DampingSpec& spec, const ReadContext&) {
+  if (spec.ratio.has_value() != spec.at.has_value()) {
+    return Problem{spec.ratio ? "ratio" : "at",
+                   "\"ratio\" and \"at\" belong together: {ratio: 2 %, at: [10 Hz, 200 Hz]}"};
+  }
+  if (!spec.ratio) return std::nullopt;
+  if (spec.mass != 0 || spec.stiffness != 0) {
+    return Problem{"ratio", "give either \"ratio\" and \"at\", or \"mass\" and \"stiffness\""};
+  }
+  if ((*spec.at)[0] >= (*spec.at)[1]) {
+    return Problem{"at", "the second frequency must be higher than the first"};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const fem::TubeSpec& spec, const ReadContext&) {
+  if (spec.thickness.has_value() == spec.inner_diameter.has_value()) {
+    return Problem{"", "exactly one of the keys thickness and inner-diameter is needed"};
+  }
+  if (spec.inner() > 0 && spec.inner() < spec.outer_diameter) return std::nullopt;
+  return Problem{spec.thickness ? "thickness" : "inner-diameter",
+                 fmt::format("the inner diameter would be {:g} m, the outer one is {:g} m; it must "
+                             "lie between 0 and that (a solid section is a circle)",
+                             spec.inner(), spec.outer_diameter)};
+}
+
+Finding problem(const fem::BoxSpec& spec, const ReadContext&) {
+  if (2 * spec.thickness < std::min(spec.width, spec.height)) return std::nullopt;
+  return Problem{"thickness", "the wall is thicker than half of the box; use a rectangle"};
+}
+
+Finding problem(const fem::PointMassSpec& spec, const ReadContext&) {
+  return inertia_problem(spec.inertia);
+}
+
+Finding problem(const fem::CylinderSelection& spec, const ReadContext&) {
+  if ((spec.to - spec.from).norm() > 0.0) return std::nullopt;
+  return Problem{"to", "the cylinder has the length zero: \"from\" and \"to\" are the same point"};
+}
+
+Finding problem(const fem::PlaneSelection& spec, const ReadContext&) {
+  if (spec.normal.norm() > 0.0) return std::nullopt;
+  return Problem{"normal", "a normal cannot be [0, 0, 0]; give its direction"};
+}
+
+Finding problem(const body::CouplingSpec& spec, const ReadContext&) {
+  if (spec.level == body::CouplingLevel::automatic && !spec.drop.empty()) {
+    return Problem{"drop", "`auto` chooses the terms itself; drop terms from another level"};
+  }
+  if (spec.tolerance > 1.0) {
+    return Problem{"tolerance", "more than all cannot be neglected; give 1 % or the like"};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const body::OrientationSpec& spec, const ReadContext&) {
+  if (spec.axis.has_value() != spec.angle.has_value()) {
+    return Problem{spec.axis ? "axis" : "angle", "\"axis\" and \"angle\" belong together"};
+  }
+  const int ways = (spec.axis ? 1 : 0) + (spec.euler ? 1 : 0) + (spec.quaternion ? 1 : 0);
+  if (ways != 1) {
+    return Problem{"", "give the orientation in one way: axis and angle, euler, or quaternion"};
+  }
+  if (spec.axis) return axis_problem(*spec.axis);
+  // Squares of smaller parts vanish, and with them the rotation.
+  constexpr double kLeastPart = 1e-100;
+  if (spec.quaternion && std::all_of(spec.quaternion->begin(), spec.quaternion->end(),
+                                     [](double q) { return std::abs(q) < kLeastPart; })) {
+    return Problem{"quaternion", "a quaternion cannot be zero"};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const body::MarkerSpec& spec, const ReadContext&) {
+  if (spec.position.has_value() == spec.at.empty()) return std::nullopt;
+  return Problem{"", "exactly one of the keys position and at is needed"};
+}
+
+Finding problem(const body::RigidSpec& spec, const ReadContext&) {
+  return inertia_problem(spec.inertia);
+}
+
+namespace {
+
+/// Keys that need elements.
+Finding matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& matrices) {
+  if (!spec.frames.is_one()) {
+    return Problem{"frames", "a body given by matrices cannot be divided; remove the key"};
+  }
+  if (spec.geometric_stiffness) {
+    return Problem{"geometric-stiffness", "it belongs to beams and bars; remove the key"};
+  }
+  if (spec.damping && !matrices.damping.empty()) {
+    return Problem{
+        "damping",
+        "give either a damping matrix (`matrices: {damping: file}`) or Rayleigh damping"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Finding problem(const body::BodySpec& spec, const ReadContext&) {
+  if (const auto conflict = body::reduction_conflict(spec)) {
+    return Problem{conflict->key, conflict->text};
+  }
+  if (spec.is_rigid() && !spec.frames.is_one()) {
+    return Problem{"frames", "a rigid body has one frame; remove the key \"frames\""};
+  }
+  if (spec.is_rigid() && spec.geometric_stiffness) {
+    return Problem{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
+  }
+  if (const auto* matrices = std::get_if<fem::MatricesSpec>(&spec.kind)) {
+    return matrices_problem(spec, *matrices);
+  }
+  const auto* structure = std::get_if<fem::StructureSpec>(&spec.kind);
+  // What is in a mesh file is known later.
+  const auto* mesh = std::get_if<fem::MeshSpec>(&spec.kind);
+  const bool is_solid =
+      (mesh != nullptr && !mesh->is_file()) ||
+      std::holds_alternative<fem::GeometrySpec>(spec.kind) ||
+      (structure != nullptr && structure->beams.empty() && structure->bars.empty());
+  if (is_solid && spec.geometric_stiffness) {
+    return Problem{"geometric-stiffness",
+                   "it belongs to beams and bars, a solid has none; remove the key, or give the "
+                   "body more `frames`"};
+  }
+  if (structure != nullptr) {
+    for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {
+      if (structure->bars[i].elements == 1) continue;
+      return Problem{fmt::format("structure.bars.{}.elements", i),
+                     "bars in a row are a mechanism in one frame; write `frames: per-element`, or "
+                     "use a beam"};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace buckens::model_file

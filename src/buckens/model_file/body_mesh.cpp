@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model_file/body_mesh.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "buckens/base/errors.h"
+#include "buckens/fem/node_number.h"
+#include "buckens/mesh_io/matrix/body.h"
+#include "buckens/mesh_io/mesh_file.h"
+#include "buckens/model_file/step_mesh_cache.h"
+
+namespace buckens::model_file {
+
+namespace {
+
+/// Files of other programs are found from the directory of the model file.
+std::filesystem::path full_path(const std::string& name, const ReadContext& context) {
+  return context.directory / name;
+}
+
+/// Numbers of the nodes in the file of the body, null if it has none.
+const std::vector<std::int64_t>* node_numbers(const body::BodySpec& body) {
+  const fem::GroupMaterials* source = std::get_if<fem::MeshSpec>(&body.kind);
+  if (source == nullptr) source = std::get_if<fem::GeometrySpec>(&body.kind);
+  if (source != nullptr) return source->imported ? &source->imported->node_ids : nullptr;
+  const auto* matrices = std::get_if<fem::MatricesSpec>(&body.kind);
+  return matrices != nullptr && matrices->imported ? &matrices->imported->numbers : nullptr;
+}
+
+void load_matrices(fem::MatricesSpec& matrices, const ReadContext& context) {
+  if (matrices.imported) return;
+  try {
+    matrices.imported = mesh_io::read_body_matrices(matrices, context.directory);
+  } catch (const IoError& error) {
+    throw InputError(matrices.where, error.what());
+  }
+}
+
+void load_geometry(fem::GeometrySpec& part, const ReadContext& context) {
+  try {
+    StepMeshCache only_here;
+    StepMeshCache& meshes = context.step_meshes != nullptr ? *context.step_meshes : only_here;
+    part.imported = meshes.mesh(full_path(part.step, context), part);
+  } catch (const IoError& error) {
+    throw InputError(part.where, error.what());
+  }
+}
+
+}  // namespace
+
+void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
+  if (auto* part = std::get_if<fem::GeometrySpec>(&body.kind)) {
+    if (!part->imported) load_geometry(*part, context);
+    return;
+  }
+  if (auto* matrices = std::get_if<fem::MatricesSpec>(&body.kind)) {
+    return load_matrices(*matrices, context);
+  }
+  auto* mesh = std::get_if<fem::MeshSpec>(&body.kind);
+  if (mesh == nullptr || !mesh->is_file() || mesh->imported) return;
+  const auto& source = std::get<fem::MeshFileSpec>(mesh->shape);
+  try {
+    std::vector<std::string> members;
+    for (const fem::GroupSectionSpec& section : mesh->sections) members.push_back(section.name);
+    fem::ImportedMesh read = mesh_io::read_mesh_file(full_path(source.path, context), members);
+    mesh->imported = std::make_shared<const fem::ImportedMesh>(fem::in_si(
+        std::move(read), fem::size_of(mesh->unit_of_length()), fem::size_of(mesh->unit_of_mass())));
+  } catch (const IoError& error) {
+    throw InputError(source.where, error.what());
+  } catch (const InputError& error) {
+    if (error.where().line > 0) throw;  // a place in the mesh file says more
+    throw InputError(source.where, error.what());
+  }
+}
+
+bool is_numbered_node(const body::BodySpec& body, const std::string& name) {
+  const std::vector<std::int64_t>* known = node_numbers(body);
+  const auto number = fem::node_number(name);
+  if (known == nullptr || !number) return false;
+  return std::find(known->begin(), known->end(), *number) != known->end();
+}
+
+}  // namespace buckens::model_file

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model_file/checks.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/model_file/names.h"
+
+namespace buckens::model_file {
+
+namespace {
+
+constexpr double kMostSteps = 1e10;
+// Third differences of positions carry a few times their rounding.
+constexpr double kLeastTolerance = 1e-13;
+constexpr int kMostStaticPoints = 1000000;
+
+Finding needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
+                            const ReadContext& context) {
+  if (axis) return axis_problem(*axis);
+  if (context.model->planar) return std::nullopt;
+  return Problem{"axis",
+                 "the key \"axis\" is missing; a model in space needs it, for example "
+                 "axis: [0, 0, 1]"};
+}
+
+/// Springs and sensors may connect two markers of one flexible body, joints may not.
+Finding ends_problem(const std::array<base::MarkerRef, 2>& between, bool is_joint) {
+  const bool is_same =
+      is_joint ? between[0].body == between[1].body : between[0].text == between[1].text;
+  if (!is_same) return std::nullopt;
+  return Problem{"between", fmt::format("\"{}\" and \"{}\" are {}; two different ones are needed",
+                                        between[0].text, between[1].text,
+                                        is_joint ? "on the same body" : "the same marker")};
+}
+
+Finding flexible_problem(const base::MarkerRef& marker, const char* key,
+                         const ReadContext& context) {
+  const body::BodySpec* body = base::find_named(context.model->bodies, marker.body);
+  if (body != nullptr && !body->is_rigid()) return std::nullopt;
+  return Problem{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
+}
+
+/// A chord runs between two named ends.
+Finding deflection_problem(const model::DeflectionSensor& spec, const ReadContext& context) {
+  if (Finding found = flexible_problem(spec.of, "of", context)) return found;
+  if (spec.from == model::DeflectionBase::frame) return std::nullopt;
+  const auto names = marker_names(*base::find_named(context.model->bodies, spec.of.body));
+  for (const char* end : {"start", "end"}) {
+    if (std::find(names.begin(), names.end(), end) != names.end()) continue;
+    return Problem{"from",
+                   fmt::format("body \"{}\" has no marker \"{}\", between `start` and `end` "
+                               "runs the chord; write `from: frame`, or define both",
+                               spec.of.body, end)};
+  }
+  return std::nullopt;
+}
+
+/// Rules of the alternatives; overloads for those that have any.
+struct AlternativeRules {
+  const ReadContext& context;
+  bool is_joint = false;
+
+  template <class T>
+  Finding operator()(const T& spec) const {
+    if constexpr (requires { spec.between; }) {
+      if (Finding found = ends_problem(spec.between, is_joint)) return found;
+    }
+    if constexpr (std::is_same_v<T, model::RelativeSensor>) {
+      return spec.quantity == model::RelativeQuantity::angle
+                 ? needed_axis_problem(spec.axis, context)
+                 : std::nullopt;
+    } else if constexpr (requires { spec.axis.has_value(); }) {
+      return needed_axis_problem(spec.axis, context);
+    } else if constexpr (requires { spec.axis.norm(); }) {
+      return axis_problem(spec.axis);
+    } else if constexpr (requires { spec.along; }) {
+      if (!spec.along || spec.along->norm() > 0.0) return std::nullopt;
+      return Problem{"along", "[0, 0, 0] is no direction; give for example [0, -1, 0]"};
+    } else if constexpr (std::is_same_v<T, loads::BodyForceSpec>) {
+      if (spec.per_mass.has_value() != spec.per_volume.has_value()) return std::nullopt;
+      return Problem{"", "exactly one of the keys per-mass and per-volume is needed"};
+    } else if constexpr (requires { spec.on.is_ground(); }) {
+      if (!spec.on.is_ground()) return std::nullopt;
+      return Problem{"on", "a load on the ground has no effect; name a body"};
+    } else if constexpr (requires { spec.joint; }) {
+      if (base::find_named(context.model->joints, spec.joint) != nullptr) return std::nullopt;
+      const auto known = names_of(context.model->joints);
+      return Problem{"joint", fmt::format("unknown joint \"{}\".{}", spec.joint,
+                                          base::suggestion(spec.joint, known))};
+    } else if constexpr (requires { spec.load; }) {
+      if (base::find_named(context.model->loads, spec.load) != nullptr) return std::nullopt;
+      const auto known = names_of(context.model->loads);
+      return Problem{"load", fmt::format("unknown load \"{}\".{}", spec.load,
+                                         base::suggestion(spec.load, known))};
+    } else if constexpr (std::is_same_v<T, model::DeflectionSensor>) {
+      return deflection_problem(spec, context);
+    } else if constexpr (requires { spec.element; }) {
+      return flexible_problem(spec.of, "of", context);
+    } else {
+      return std::nullopt;
+    }
+  }
+};
+
+template <class Variant>
+Finding alternative_problem(const Variant& kind, const ReadContext& context,
+                            bool is_joint = false) {
+  const AlternativeRules rules{context, is_joint};
+  return std::visit([&]<class T>(const T& spec) { return under(T::kKey, rules(spec)); }, kind);
+}
+
+}  // namespace
+
+Finding axis_problem(const Eigen::Vector3d& axis) {
+  if (axis.norm() > 0.0) return std::nullopt;
+  return Problem{"axis", "an axis cannot be [0, 0, 0]; give its direction"};
+}
+
+Finding under(const char* key, const Finding& finding) {
+  if (!finding) return finding;
+  return Problem{finding->key.empty() ? key : std::string(key) + "." + finding->key, finding->text};
+}
+
+Finding problem(const TableLawSpec& spec, const ReadContext&) {
+  if (spec.table.empty() == spec.file.empty()) {
+    return Problem{"",
+                   "exactly one of the keys table and file is needed, and a table has at least one "
+                   "point [time in s, value]"};
+  }
+  if (spec.file.empty() && spec.column) {
+    return Problem{"column", "it belongs to files; a table has one column of values. Remove it"};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const joints::JointSpec& spec, const ReadContext& context) {
+  return alternative_problem(spec.kind, context, true);
+}
+
+Finding problem(const loads::LoadSpec& spec, const ReadContext& context) {
+  return alternative_problem(spec.kind, context);
+}
+
+Finding problem(const model::SensorSpec& spec, const ReadContext& context) {
+  return alternative_problem(spec.kind, context);
+}
+
+namespace {
+
+/// Parameters of a method other than the chosen one, and values it cannot work with.
+Finding method_problem(const model::SimulationSpec& spec) {
+  using model::IntegrationMethod;
+  const char* chosen = choice_names(IntegrationMethod{})[static_cast<std::size_t>(spec.method)];
+  if (spec.alpha && spec.method != IntegrationMethod::hht) {
+    return Problem{"alpha", fmt::format("alpha belongs to method: hht, and {} has no use for it; "
+                                        "leave one of them out",
+                                        chosen)};
+  }
+  if (spec.theta && spec.method != IntegrationMethod::wilson) {
+    return Problem{"theta", fmt::format("theta belongs to method: wilson, and {} has no use for "
+                                        "it; leave one of them out",
+                                        chosen)};
+  }
+  if (spec.alpha && !(*spec.alpha >= -1.0 / 3.0 && *spec.alpha <= 0.0)) {
+    return Problem{"alpha", fmt::format("alpha must lie between -1/3 and 0, not {}: outside, the "
+                                        "method is unstable or loses its order; -0.1 is usual",
+                                        *spec.alpha)};
+  }
+  if (spec.theta && !(*spec.theta >= 1.366 && *spec.theta <= 10.0)) {
+    return Problem{
+        "theta",
+        fmt::format("theta must be at least 1.366 (and at most 10), not {}: below, Wilson's method "
+                    "lets vibrations grow that the step does not resolve; 1.4 is usual",
+                    *spec.theta)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
+  if (Finding found = method_problem(spec)) return found;
+  if (spec.tolerance && *spec.tolerance > 0.1) {
+    return Problem{"tolerance", fmt::format("an error of {:g} in every step leaves nothing of the "
+                                            "motion; 1e-4 is coarse, 1e-6 fine",
+                                            *spec.tolerance)};
+  }
+  if (spec.tolerance && *spec.tolerance < kLeastTolerance) {
+    return Problem{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
+                                            "positions; ask for {:g} at least",
+                                            *spec.tolerance, kLeastTolerance)};
+  }
+  if (!spec.step && !spec.tolerance) {
+    return Problem{"step",
+                   "the key \"step\" is missing; add it, for example step: 0.1 ms or step: auto"};
+  }
+  const double step = spec.step.value_or(0.0);
+  if (step == 0.0) return std::nullopt;
+  if (step > spec.duration) {
+    return Problem{"step", fmt::format("the step of {:g} s is longer than the duration of {:g} s",
+                                       step, spec.duration)};
+  }
+  if (spec.duration / step > kMostSteps) {
+    return Problem{"step", fmt::format("{:.3g} steps are more than can be counted; choose a longer "
+                                       "step",
+                                       spec.duration / step)};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const model::StaticSpec& spec, const ReadContext&) {
+  const double first = spec.load_factor[0];
+  const double last = spec.load_factor[1];
+  if (first == last) {
+    return Problem{"load-factor", fmt::format("first and last load factor are both {:g}; give two "
+                                              "different ones, for example [0, 1]",
+                                              first)};
+  }
+  if (spec.steps > kMostStaticPoints || spec.max_points > kMostStaticPoints) {
+    return Problem{spec.steps > kMostStaticPoints ? "steps" : "max-points",
+                   fmt::format("more than {} points of a path are refused", kMostStaticPoints)};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const model::ModelDescription& spec, const ReadContext&) {
+  if (spec.format != 1) {
+    return Problem{"buckens", fmt::format("this program reads format 1, not {}", spec.format)};
+  }
+  if (spec.bodies.empty()) return Problem{"bodies", "a model needs at least one body"};
+  if (spec.planar && spec.gravity.dot(spatial::normal(*spec.planar)) != 0.0) {
+    return Problem{"gravity",
+                   "gravity of a planar model must lie in its plane; set the component "
+                   "normal to it to zero"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace buckens::model_file

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/base/marker_ref.h"
+#include "buckens/model/model_description.h"
+#include "buckens/model_file/values.h"
+
+namespace buckens::model_file {
+
+/// @throws InputError naming the nearest known key if the map at `place` has a key not in `known`
+void check_keys(const ReadPlace& place, const std::vector<std::string>& known);
+
+/// Names become parts of paths and column titles: letters, digits, _ and - only.
+void check_name(const YamlEntry& entry, const std::string& path);
+
+/// `unknown <kind> "<name>". Did you mean ...?`
+[[noreturn]] void fail_unknown(const ReadPlace& place, const std::string& kind,
+                               const std::string& name, const std::vector<std::string>& known);
+
+/// Reads "body/marker" or {ground: [x, y, z]} and makes sure that body and marker exist.
+base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context);
+
+/// Names that may follow the slash after a body.
+std::vector<std::string> marker_names(const body::BodySpec& body);
+
+inline const std::vector<fem::MaterialSpec>& definitions(const ReadContext& context,
+                                                         const fem::MaterialSpec* /*type*/) {
+  return context.model->materials;
+}
+inline const std::vector<fem::SectionSpec>& definitions(const ReadContext& context,
+                                                        const fem::SectionSpec* /*type*/) {
+  return context.model->sections;
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& list) {
+  std::vector<std::string> out;
+  for (const T& entry : list) out.push_back(entry.name);
+  return out;
+}
+
+/// What remains to be done when a named entry has been read: parameters become known to
+/// expressions, bodies take over what they are `like`.
+template <class T>
+void finish_entry(T& /*entry*/, const ReadPlace& /*place*/, ReadContext& /*context*/) {}
+void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadContext& context);
+void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& context);
+void finish_entry(model::InitialBodySpec& initial, const ReadPlace& place, ReadContext& context);
+
+}  // namespace buckens::model_file

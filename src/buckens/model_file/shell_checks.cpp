@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "buckens/fem/group_section_spec.h"
+#include "buckens/model_file/checks.h"
+
+namespace buckens::model_file {
+
+namespace {
+
+Finding thickness_problem(const fem::ShellPropertySpec& spec) {
+  if (spec.thickness.has_value() == spec.layers.empty()) {
+    if (spec.direction && spec.direction->norm() == 0.0) {
+      return Problem{"direction", "a direction cannot be zero"};
+    }
+    return std::nullopt;
+  }
+  return Problem{"", "exactly one of the keys thickness and layers is needed"};
+}
+
+}  // namespace
+
+Finding problem(const fem::ShellMemberSpec& spec, const ReadContext&) {
+  if (spec.nodes.size() != 3 && spec.nodes.size() != 4) {
+    return Problem{"nodes",
+                   fmt::format("{} nodes stand here; a shell has 3 or 4", spec.nodes.size())};
+  }
+  return thickness_problem(spec);
+}
+
+Finding problem(const fem::PlateMeshSpec& spec, const ReadContext&) {
+  return thickness_problem(spec);
+}
+
+Finding problem(const fem::GroupSectionSpec& spec, const ReadContext&) {
+  const int given = (spec.thickness ? 1 : 0) + (spec.layers.empty() ? 0 : 1) + (spec.beam ? 1 : 0) +
+                    (spec.bar ? 1 : 0);
+  if (given != 1) {
+    return Problem{"", "exactly one of the keys thickness, layers, beam and bar is needed"};
+  }
+  const auto foreign = [](const char* key, const char* owner) {
+    return Problem{key, fmt::format("this belongs to {}; remove the key", owner)};
+  };
+  if (!spec.is_shell()) {
+    if (spec.offset != 0.0) return foreign("offset", "shells");
+    if (spec.direction) return foreign("direction", "shells");
+    if (spec.along_first_side) return foreign("along-first-side", "shells");
+  }
+  if (!spec.beam) {
+    if (spec.up) return foreign("up", "beams");
+    if (spec.theory) return foreign("theory", "beams");
+    if (spec.rotary_inertia) return foreign("rotary-inertia", "beams");
+  }
+  if (spec.direction && spec.along_first_side) {
+    return Problem{"along-first-side", "`direction` says already where the x axis lies"};
+  }
+  if (spec.direction && spec.direction->norm() == 0.0) {
+    return Problem{"direction", "a direction cannot be zero"};
+  }
+  if (spec.up && spec.up->norm() == 0.0) return Problem{"up", "a direction cannot be zero"};
+  return std::nullopt;
+}
+
+Finding problem(const fem::AverageLinkSpec& spec, const ReadContext&) {
+  if (spec.nodes.empty()) return Problem{"nodes", "name at least one node"};
+  if (spec.weights.empty() || spec.weights.size() == spec.nodes.size()) return std::nullopt;
+  return Problem{"weights", fmt::format("{} weights stand here for {} nodes", spec.weights.size(),
+                                        spec.nodes.size())};
+}
+
+}  // namespace buckens::model_file

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/fem/elasticity.h"
+#include "buckens/fem/mesh_spec.h"
+#include "buckens/fem/solid_shape.h"
+#include "buckens/model_file/checks.h"
+
+namespace buckens::model_file {
+
+namespace {
+
+Finding form_problem(const fem::SolidElementSpec& spec) {
+  const fem::SolidForm form = spec.form();
+  if (form.integration == fem::SolidIntegration::full || form.kind == fem::SolidKind::hex8) {
+    return std::nullopt;
+  }
+  return Problem{"integration",
+                 "only hex8 has incompatible modes; remove the key, or write `full`"};
+}
+
+/// Findings about measures that are positive and finite each by itself.
+Finding round_problem(const fem::RoundMeshSpec& spec, double inner_radius) {
+  const int around = spec.divisions[1];
+  if (around < 4) {
+    return Problem{"divisions.1",
+                   fmt::format("{} elements around are not round; give at least 4", around)};
+  }
+  if (inner_radius == 0.0 && around % 4 != 0) {
+    return Problem{"divisions.1",
+                   fmt::format("{} elements around; without a bore their number must be divisible "
+                               "by 4, for example {}",
+                               around, 4 * (around / 4 + 1))};
+  }
+  return form_problem(spec);
+}
+
+Finding length_problem(const fem::Cylinder& shape) {
+  if ((shape.to - shape.from).norm() > 0.0) return std::nullopt;
+  return Problem{"to", "the length is zero: \"from\" and \"to\" are the same point"};
+}
+
+}  // namespace
+
+Finding problem(const fem::SolidMemberSpec& spec, const ReadContext&) {
+  const auto count = static_cast<std::size_t>(fem::solid_topology(spec.element).num_nodes);
+  if (spec.nodes.size() == count) return form_problem(spec);
+  return Problem{
+      "nodes",
+      fmt::format("{} nodes stand here; a {} has {}", spec.nodes.size(),
+                  fem::choice_names(spec.element)[static_cast<std::size_t>(spec.element)], count)};
+}
+
+Finding problem(const fem::BoxMeshSpec& spec, const ReadContext&) { return form_problem(spec); }
+
+Finding problem(const fem::CylinderMeshSpec& spec, const ReadContext&) {
+  if (Finding found = length_problem(spec.shape())) return found;
+  return round_problem(spec, 0.0);
+}
+
+Finding problem(const fem::TubeMeshSpec& spec, const ReadContext&) {
+  if (Finding found = length_problem(spec.shape())) return found;
+  if (spec.inner_diameter >= spec.outer_diameter) {
+    return Problem{"inner-diameter", fmt::format("{:g} m is not below the outer diameter, {:g} m",
+                                                 spec.inner_diameter, spec.outer_diameter)};
+  }
+  return round_problem(spec, spec.inner_diameter);
+}
+
+Finding problem(const fem::DiscMeshSpec& spec, const ReadContext&) {
+  if (spec.axis.norm() == 0.0) return Problem{"axis", "a direction cannot be zero"};
+  if (spec.bore >= spec.diameter) {
+    return Problem{
+        "bore", fmt::format("{:g} m is not below the diameter, {:g} m", spec.bore, spec.diameter)};
+  }
+  return round_problem(spec, spec.bore);
+}
+
+Finding problem(const fem::OrthotropicSpec& spec, const ReadContext&) {
+  if (spec.axis_1.norm() == 0.0) return Problem{"axis-1", "a direction cannot be zero"};
+  // Below that angle rounding of the file decides where direction 2 is.
+  if (spec.axis_1.normalized().cross(spec.axis_2).norm() <= 1e-6 * spec.axis_2.norm()) {
+    return Problem{"axis-2", "it is parallel to \"axis-1\" or zero; choose a direction across it"};
+  }
+  fem::Material material;
+  material.orthotropy = spec.constants();
+  try {
+    fem::check_solid_material("these constants", material);
+  } catch (const ModelError& error) {
+    return Problem{"", error.what()};
+  }
+  return std::nullopt;
+}
+
+Finding problem(const fem::MaterialSpec& spec, const ReadContext&) {
+  if (!spec.orthotropic) {
+    if (spec.E > 0.0) return std::nullopt;
+    return Problem{"", "the key \"E\" is missing; example: E: 200 GPa (or give `orthotropic`)"};
+  }
+  if (spec.E == 0.0 && spec.nu == 0.0 && !spec.G) return std::nullopt;
+  return Problem{"orthotropic",
+                 "the nine constants stand in place of \"E\", \"nu\" and \"G\"; remove these or "
+                 "\"orthotropic\""};
+}
+
+}  // namespace buckens::model_file

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buckens/mesh_io/step/mesh.h"
+#include "buckens/model/model_description.h"
+
+namespace buckens::model_file {
+
+/// Meshes of STEP files that were made a short while ago. Bodies of one part, and variants of a
+/// model that differ elsewhere, are meshed once; they share the mesh itself where they name no
+/// faces.
+///
+/// The last kKept meshes are held. A mesh is taken again if the file has the same name and
+/// contents, and the elements the same size and order.
+class StepMeshCache {
+ public:
+  static constexpr std::size_t kKept = 4;
+
+  /// @throws as mesh_step() and with_face_names()
+  std::shared_ptr<const fem::ImportedMesh> mesh(const std::filesystem::path& path,
+                                                const fem::GeometrySpec& spec);
+  /// How often a part was really meshed.
+  int num_meshed() const { return num_meshed_; }
+
+ private:
+  struct Entry {
+    std::string file;
+    std::size_t length, hash;  // of the contents
+    double size;
+    int order;
+    std::shared_ptr<const mesh_io::StepMesh> part;
+  };
+
+  std::deque<Entry> entries_;  // the newest first
+  int num_meshed_ = 0;
+};
+
+/// read_model_file() of model_file.h with meshes out of a cache.
+model::ModelDescription read_model_file(const std::filesystem::path& path,
+                                        const std::vector<std::string>& overrides,
+                                        StepMeshCache& meshes);
+
+}  // namespace buckens::model_file

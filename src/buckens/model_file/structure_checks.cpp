@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/fem/generate_mesh.h"
+#include "buckens/model_file/checks.h"
+#include "buckens/model_file/names.h"
+
+namespace buckens::model_file {
+
+namespace {
+
+using Eigen::Vector3d;
+
+Finding up_problem(const std::optional<Vector3d>& up, const Vector3d& along) {
+  if (!up) return std::nullopt;
+  if (up->norm() == 0.0) return Problem{"up", "a direction cannot be zero"};
+  if (up->normalized().cross(along.normalized()).norm() < 1e-6) {
+    return Problem{"up", "the direction is parallel to the beam; choose one across it"};
+  }
+  return std::nullopt;
+}
+
+Finding path_problem(const fem::BeamPropertySpec& spec) {
+  if (spec.path != fem::BeamPath::polyline && spec.through.empty()) {
+    return Problem{"path",
+                   "it needs points between the ends; give them as `through`, or remove it"};
+  }
+  if (spec.path == fem::BeamPath::arc && spec.through.size() > 1) {
+    return Problem{"through", fmt::format("an arc goes through one point between its ends; {} are "
+                                          "given. Take one, a spline, or several beams",
+                                          spec.through.size())};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Finding problem(const fem::BeamMemberSpec& spec, const ReadContext&) { return path_problem(spec); }
+
+Finding problem(const fem::BeamSpec& spec, const ReadContext&) {
+  if (Finding found = path_problem(spec)) return found;
+  const double length = (spec.to - spec.from).norm();
+  if (spec.through.empty() && !(length > 0)) {
+    return Problem{"to", "the beam has the length zero: \"from\" and \"to\" are the same point"};
+  }
+  for (const auto& mass : spec.masses) {
+    if (mass.at != "start" && mass.at != "mid" && mass.at != "end") {
+      return Problem{"masses",
+                     fmt::format("unknown place \"{}\"; a beam has start, mid and end", mass.at)};
+    }
+    if (mass.at == "mid" && spec.elements % 2 != 0) {
+      return Problem{"elements", fmt::format("a mass at mid needs an even number of elements, "
+                                             "not {}",
+                                             spec.elements)};
+    }
+  }
+  return spec.through.empty() ? up_problem(spec.up, spec.to - spec.from) : std::nullopt;
+}
+
+Finding problem(const fem::BarMemberSpec& spec, const ReadContext&) {
+  if (spec.section.has_value() != spec.area.has_value()) return std::nullopt;
+  return Problem{"", "exactly one of the keys section and area is needed"};
+}
+
+namespace {
+
+Finding unknown_node(const std::string& key, const std::string& name,
+                     const std::vector<std::string>& known) {
+  return Problem{key, fmt::format("unknown node \"{}\".{}", name, base::suggestion(name, known))};
+}
+
+/// Finding about the ends of a beam or bar between nodes.
+template <class Member>
+Finding member_problem(const fem::StructureSpec& spec, const Member& member, const char* list,
+                       std::size_t index) {
+  const std::string key = fmt::format("{}.{}", list, index);
+  std::array<const fem::NodeSpec*, 2> ends{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    ends[i] = base::find_named(spec.nodes, member.between[i]);
+    if (ends[i] != nullptr) continue;
+    return unknown_node(key + ".between", member.between[i], names_of(spec.nodes));
+  }
+  const Vector3d along = ends[1]->position - ends[0]->position;
+  if constexpr (requires { member.through; }) {
+    if (!member.through.empty()) return std::nullopt;
+  }
+  if (!(along.norm() > 0)) {
+    return Problem{key + ".between", fmt::format("the member has the length zero: its nodes \"{}\" "
+                                                 "and \"{}\" are the same point",
+                                                 member.between[0], member.between[1])};
+  }
+  if constexpr (requires { member.up; }) return under(key.c_str(), up_problem(member.up, along));
+  return std::nullopt;
+}
+
+/// Finding about the corners of a solid or shell element.
+Finding corner_problem(const fem::StructureSpec& spec, const std::vector<std::string>& nodes,
+                       const std::string& key) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (base::find_named(spec.nodes, nodes[i]) == nullptr) {
+      return unknown_node(key, nodes[i], names_of(spec.nodes));
+    }
+    if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) !=
+        nodes.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return Problem{key, fmt::format("node \"{}\" stands here twice; the corners of an element "
+                                      "are different nodes",
+                                      nodes[i])};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Finding about a node that a link names.
+Finding link_problem(const fem::StructureSpec& spec) {
+  if (!spec.links) return std::nullopt;
+  const auto check = [&spec](const std::string& key, const std::string& node) -> Finding {
+    if (base::find_named(spec.nodes, node) != nullptr) return std::nullopt;
+    return unknown_node("links." + key, node, names_of(spec.nodes));
+  };
+  const auto check_links = [&check](const char* kind, const auto& links) -> Finding {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const std::string key = fmt::format("{}.{}", kind, i);
+      if (Finding found = check(key + ".reference", links[i].reference)) return found;
+      for (const std::string& node : links[i].nodes) {
+        if (Finding found = check(key + ".nodes", node)) return found;
+      }
+    }
+    return std::nullopt;
+  };
+  if (Finding found = check_links("rigid", spec.links->rigid)) return found;
+  if (Finding found = check_links("averages", spec.links->averages)) return found;
+  for (std::size_t i = 0; i < spec.links->equations.size(); ++i) {
+    for (const auto& term : spec.links->equations[i].terms) {
+      if (Finding found = check(fmt::format("equations.{}.terms", i), term.node)) return found;
+    }
+  }
+  for (std::size_t i = 0; i < spec.links->springs.size(); ++i) {
+    for (const std::string& node : spec.links->springs[i].between) {
+      if (Finding found = check(fmt::format("springs.{}.between", i), node)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+Finding mass_problem(const std::vector<fem::PointMassSpec>& masses,
+                     const std::vector<std::string>& nodes) {
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    if (std::find(nodes.begin(), nodes.end(), masses[i].at) != nodes.end()) continue;
+    return unknown_node(fmt::format("masses.{}.at", i), masses[i].at, nodes);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
+  if (spec.is_file()) return std::nullopt;
+  if (!spec.material) {
+    return Problem{"", "the key \"material\" is missing; add it, for example material: steel"};
+  }
+  if (!spec.materials.empty()) {
+    return Problem{"materials", "a generated mesh is of one `material`; remove this key"};
+  }
+  const char* of_files = spec.section             ? "section"
+                         : !spec.sections.empty() ? "sections"
+                         : spec.links             ? "links"
+                                                  : nullptr;
+  if (of_files != nullptr) {
+    return Problem{of_files, "only meshes of files take this key; remove it"};
+  }
+  if (spec.length_unit || spec.mass_unit) {
+    return Problem{spec.length_unit ? "length-unit" : "mass-unit",
+                   "only files need to be told their units; write the unit behind the number"};
+  }
+  if (const auto found = fem::size_problem(spec)) return Problem{"", *found};
+  return mass_problem(spec.masses, fem::named_nodes(spec));
+}
+
+Finding problem(const fem::GeometrySpec& spec, const ReadContext&) {
+  if (spec.order == 1 || spec.order == 2) return std::nullopt;
+  return Problem{"order", "elements are linear (1) or quadratic (2)"};
+}
+
+Finding problem(const fem::FaceColorSpec& spec, const ReadContext&) {
+  for (const int part : spec.rgb) {
+    if (part > 255) {
+      return Problem{"", "red, green and blue go from 0 to 255, for example [255, 0, 0]"};
+    }
+  }
+  return std::nullopt;
+}
+
+Finding problem(const fem::StructureSpec& spec, const ReadContext&) {
+  if (spec.beams.empty() && spec.bars.empty() && spec.solids.empty() && spec.shells.empty()) {
+    return Problem{"", "a structure needs beams, bars, solids or shells"};
+  }
+  for (const auto& node : spec.nodes) {
+    if (node.name == "origin" || node.name == "com") {
+      return Problem{"nodes",
+                     fmt::format("the name \"{}\" is predefined; choose another", node.name)};
+    }
+  }
+  for (std::size_t i = 0; i < spec.beams.size(); ++i) {
+    if (Finding found = member_problem(spec, spec.beams[i], "beams", i)) return found;
+  }
+  for (std::size_t i = 0; i < spec.bars.size(); ++i) {
+    if (Finding found = member_problem(spec, spec.bars[i], "bars", i)) return found;
+  }
+  for (std::size_t i = 0; i < spec.solids.size(); ++i) {
+    const std::string key = fmt::format("solids.{}.nodes", i);
+    if (Finding found = corner_problem(spec, spec.solids[i].nodes, key)) return found;
+  }
+  for (std::size_t i = 0; i < spec.shells.size(); ++i) {
+    const std::string key = fmt::format("shells.{}.nodes", i);
+    if (Finding found = corner_problem(spec, spec.shells[i].nodes, key)) return found;
+  }
+  if (Finding found = link_problem(spec)) return found;
+  return mass_problem(spec.masses, names_of(spec.nodes));
+}
+
+}  // namespace buckens::model_file

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "buckens/results/record_sink.h"
+#include "buckens/run_store/hdf5_extremes.h"
+#include "buckens/run_store/hdf5_file.h"
+#include "buckens/run_store/hdf5_table.h"
+
+namespace buckens::run_store {
+
+/// How long records may wait before they are handed to the system.
+struct FlushRule {
+  std::size_t records = 100;
+  /// Half of the second that may be lost, so that writing itself has the other half.
+  std::chrono::milliseconds age{500};
+  /// More waiting bytes than this are written whatever their number.
+  std::size_t bytes = 16U << 20U;
+};
+
+/// Writes results.h5 while a run goes on.
+///
+/// Records gather in memory and go to the file by the flush rule: the count is watched at each
+/// `write`, the age by a thread of its own, so that the rule also holds while a long step is being
+/// computed. The file appears under its name when it can be read.
+class Hdf5Recorder {
+ public:
+  /// @param writer  carries out the writes; must outlive this
+  /// @param title, version  attributes of the file
+  /// @param fields  null: the run has none
+  /// @throws IoError
+  Hdf5Recorder(const std::filesystem::path& path, files::WriteProcess& writer,
+               const results::RecordLayout& layout, const results::Geometry& geometry,
+               const results::FieldLayout* fields, const std::string& title,
+               const std::string& version, const FlushRule& rule);
+  /// Writes what waits, as far as that is possible.
+  ~Hdf5Recorder();
+  Hdf5Recorder(const Hdf5Recorder&) = delete;
+  Hdf5Recorder& operator=(const Hdf5Recorder&) = delete;
+
+  /// @throws IoError, also for what the flushing thread met since the last call; the file then
+  ///   keeps what was flushed before, and every further call throws the same
+  void write(const results::Record& record);
+  /// A record of fields. @throws IoError as write()
+  void write_fields(const results::Record& fields);
+  /// Replaces the largest values so far. @throws IoError as write()
+  void write_extremes(const std::vector<double>& values);
+  /// Writes what waits and completes the file. @throws IoError
+  void close();
+
+ private:
+  void note_age();
+  void flush_waiting();
+  void guarded(const std::function<void()>& work);
+  void watch_age();
+  void stop_thread();
+  void rethrow_failure() const;
+
+  FlushRule rule_;
+  Hdf5File file_;
+  Hdf5Table table_, fields_;
+  Hdf5Extremes extremes_;
+
+  std::mutex mutex_;  // guards all below, file_ and table_
+  std::condition_variable changed_;
+  std::vector<double> times_, values_, field_times_, field_values_;
+  std::chrono::steady_clock::time_point oldest_;
+  std::exception_ptr failure_;
+  bool stopping_ = false;
+  std::thread thread_;  // last: starts when all else stands
+};
+
+}  // namespace buckens::run_store

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "buckens/files/output_file.h"
+#include "buckens/results/record_sink.h"
+#include "buckens/run_store/earlier_run.h"
+#include "buckens/run_store/hdf5_recorder.h"
+#include "buckens/run_store/run_files.h"
+#include "buckens/run_store/sensors_csv.h"
+
+namespace buckens::run_store {
+
+struct RunDirectoryOptions {
+  std::string title;       ///< of the model
+  std::string model_text;  ///< content of model.yaml: the model as it was read
+  FlushRule flush;
+  /// Whether an earlier run comes back where this one ends before begin().
+  bool keeps_earlier_run = true;
+};
+
+/// The directory that holds everything a run leaves behind. Layout:
+/// docs/reference/run-directory.md.
+///
+/// It can be read while the run goes on and after SIGKILL at any moment; of the records at most
+/// those of the last second are then missing. One process at a time writes into a directory.
+class RunDirectory : public results::RecordSink {
+ public:
+  /// Creates the directory and its parents, or takes over that of an earlier run. Its results are
+  /// removed by begin(), or come back if this run ends without it. Files of others stay.
+  /// @throws IoError if the directory holds other things than a run, another run is writing into
+  ///   it, or it cannot be written
+  explicit RunDirectory(std::filesystem::path path, RunDirectoryOptions options = {});
+  /// Without a call of `finish` the run counts as interrupted.
+  ~RunDirectory() override;
+
+  /// Creates results.h5 and sensors.csv. @throws IoError
+  void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
+  /// @throws IoError: from then on nothing is recorded any more, what was written stays readable
+  void write(const results::Record& record) override;
+  /// Completes all files; summary.json even if completing another one fails. Before begin() an
+  /// earlier run with results is put back in its place instead.
+  /// @throws IoError unless `write` has thrown the same before
+  void finish(const results::RunSummary& summary) override;
+  void begin_fields(const results::FieldLayout& layout) override;
+  /// @throws IoError as write()
+  void write_fields(const results::Record& fields) override;
+  void write_extremes(const std::vector<double>& values) override;
+
+  /// Appends lines to log.txt; a line break is added at the end. @throws IoError
+  void log(std::string_view lines);
+
+  const std::filesystem::path& path() const { return path_; }
+  bool is_complete() const { return finished_; }  ///< `finish` has been called
+  /// An earlier run is back, because this one ended before begin().
+  bool has_earlier_run_back() const { return has_earlier_run_back_; }
+
+ private:
+  void take_directory();
+  void write_first_files();
+  void write_status(std::string_view json) const;
+  void guarded(const std::function<void()>& work);
+
+  std::filesystem::path path_;
+  RunDirectoryOptions options_;
+  std::string started_;
+  files::OutputFile log_;  // its lock marks the directory as taken
+  EarlierRun earlier_;
+  files::WriteProcess writer_;  // outlives the recorder
+  SensorsCsv sensors_;
+  std::unique_ptr<Hdf5Recorder> recorder_;
+  std::optional<results::FieldLayout> fields_;
+  std::size_t num_values_ = 0;
+  double last_time_ = 0;
+  std::string failure_;  // why recording ended early
+  bool finished_ = false;
+  bool has_earlier_run_back_ = false;
+};
+
+}  // namespace buckens::run_store

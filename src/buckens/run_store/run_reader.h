@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "buckens/results/channel.h"
+#include "buckens/results/geometry.h"
+#include "buckens/run_store/hdf5_file.h"
+#include "buckens/run_store/summary_json.h"
+
+namespace buckens::run_store {
+
+/// Reads a run directory: of a finished run, of one that goes on in another process, or of one that
+/// was killed.
+///
+/// It sees the records that were complete when it was made.
+class RunReader {
+ public:
+  /// @throws IoError if the directory holds no run, or one without any results yet
+  explicit RunReader(const std::filesystem::path& directory);
+
+  RunStatus status() const { return status_; }
+  /// The text of summary.json.
+  const std::string& summary_text() const { return summary_text_; }
+  const std::string& title() const { return title_; }
+  const std::string& version() const { return version_; }
+  const results::Geometry& geometry() const { return geometry_; }
+  /// The channels, in alphabetical order of their paths.
+  const results::RecordLayout& layout() const { return layout_; }
+
+  std::size_t num_records() const { return times_.size(); }
+  const std::vector<double>& times() const { return times_; }  ///< [s], increasing
+
+  /// All values of a channel, record after record, each in row-major order.
+  /// @throws IoError if there is no such channel or it cannot be read
+  std::vector<double> read(std::string_view path) const;
+  /// The same for some records, given by their increasing indices.
+  std::vector<double> read(std::string_view path, std::span<const std::size_t> records) const;
+
+  /// Fields over meshes, paths "fields/bodies/<body>/nodes/von_mises" and the like; empty if the
+  /// run has none.
+  const results::RecordLayout& field_layout() const { return field_layout_; }
+  const std::vector<double>& field_times() const { return field_times_; }  ///< [s], increasing
+  /// The record at the instant of a field record.
+  std::size_t record_of_field(std::size_t row) const;
+  /// A field at some instants, given by increasing indices into field_times().
+  /// @throws IoError if there is no such field or it cannot be read
+  std::vector<double> read_fields(std::string_view path, std::span<const std::size_t> rows) const;
+  /// Values that exist once: "extremes/bodies/<body>/nodes/von_mises". Empty where they are
+  /// missing.
+  /// @throws IoError if they cannot be read
+  std::vector<double> read_fixed(std::string_view path) const;
+
+ private:
+  void read_channels(const std::string& group, results::RecordLayout& layout);
+  std::vector<double> read_times(const std::string& path) const;
+  std::vector<double> read_rows_of(const results::RecordLayout& layout, std::string_view path,
+                                   std::span<const std::size_t> rows) const;
+
+  std::string summary_text_, title_, version_;
+  RunStatus status_ = RunStatus::starting;
+  Hdf5File file_;
+  results::Geometry geometry_;
+  results::RecordLayout layout_, field_layout_;
+  std::vector<double> times_, field_times_;
+};
+
+}  // namespace buckens::run_store

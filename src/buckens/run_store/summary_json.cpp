@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/run_store/summary_json.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::run_store {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSummaryFormat = 1;
+
+Json head(RunStatus status, const std::string& title, const std::string& version,
+          const std::string& started) {
+  return {{"program", "buckens"}, {"format", kSummaryFormat}, {"status", to_string(status)},
+          {"title", title},       {"version", version},       {"started", started}};
+}
+
+Json by_name(const std::vector<std::pair<std::string, double>>& values) {
+  Json object = Json::object();
+  for (const auto& [name, value] : values) object[name] = value;
+  return object;
+}
+
+/// Texts from a model file may hold broken UTF-8; a summary must not fail over that.
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Json bodies_json(const std::vector<results::BodyEffort>& bodies) {
+  Json all = Json::object();
+  for (const results::BodyEffort& body : bodies) {
+    Json entry = {
+        {"dof", body.dof}, {"factorisations", body.factorisations}, {"solves", body.solves}};
+    if (!body.coupling.empty()) entry["coupling"] = body.coupling;
+    for (const auto& [name, value] : body.measures) entry[name] = value;
+    all[body.name] = std::move(entry);
+  }
+  return all;
+}
+
+Json wall_json(const results::WallSeconds& wall) {
+  return {{"total", wall.total},
+          {"setup", wall.setup},
+          {"stepping", wall.stepping},
+          {"phases", by_name(wall.phases)}};
+}
+
+Json static_path_json(const results::StaticPathSummary& path) {
+  Json points = Json::array();
+  for (const results::CriticalPoint& point : path.critical_points) {
+    points.push_back({{"kind", point.kind},
+                      {"load_factor", point.load_factor},
+                      {"t", point.position},
+                      {"sensors", by_name(point.sensors)}});
+  }
+  return {{"load_factor", path.load_factor}, {"critical_points", std::move(points)}};
+}
+
+Json step_control_json(const results::StepControlEffort& control) {
+  Json sizes = Json::array();
+  for (const results::StepSizeEffort& size : control.sizes) {
+    sizes.push_back(
+        {{"step", size.step}, {"steps", size.steps}, {"factorisations", size.factorisations}});
+  }
+  return {{"controlled", control.is_controlled},
+          {"rejected", control.rejected},
+          {"failed", control.failed},
+          {"smallest", control.smallest},
+          {"largest", control.largest},
+          {"sizes", std::move(sizes)}};
+}
+
+}  // namespace
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::starting:
+      return "starting";
+    case RunStatus::running:
+      return "running";
+    case RunStatus::finished:
+      return "finished";
+    case RunStatus::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+std::string status_json(RunStatus status, const std::string& title, const std::string& version,
+                        const std::string& started) {
+  return dump(head(status, title, version, started));
+}
+
+std::string summary_json(const results::RunSummary& summary, const std::string& started,
+                         const std::string& ended) {
+  const RunStatus status = summary.finished ? RunStatus::finished : RunStatus::interrupted;
+  Json json = head(status, summary.title, summary.version, started);
+  json["ended"] = ended;
+  json["finished"] = summary.finished;
+  json["interrupted"] = summary.interrupted.empty() ? Json(nullptr) : Json(summary.interrupted);
+  json["end_time"] = summary.end_time;
+  json["steps"] = summary.steps;
+  json["step_control"] = step_control_json(summary.step_control);
+  json["wall_seconds"] = wall_json(summary.wall_seconds);
+  json["bodies"] = bodies_json(summary.bodies);
+  json["setup_solves"] = summary.setup_solves;
+  json["newton_iterations"] = {{"total", summary.newton_iterations.total},
+                               {"per_step_mean", summary.newton_iterations.per_step_mean},
+                               {"max", summary.newton_iterations.max}};
+  json["residuals"] = {{"position", summary.residuals.position},
+                       {"velocity", summary.residuals.velocity},
+                       {"sieve", summary.residuals.sieve}};
+  json["energy_error"] = summary.energy_error;
+  json["trust"] = summary.trust.empty() ? Json("ok") : Json(summary.trust);
+  json["warnings"] = summary.warnings;
+  json["notes"] = summary.notes;
+  json["redundant_constraints"] = summary.redundant_constraints;
+  if (summary.static_path) json["static_path"] = static_path_json(*summary.static_path);
+  if (!summary.measures.empty()) json["measures"] = by_name(summary.measures);
+  return dump(json);
+}
+
+bool is_summary_json(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return json.is_object() && json.value("program", Json()) == "buckens" && json.contains("status");
+}
+
+RunStatus status_in(std::string_view text, const std::string& where) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_object() && json.contains("status")) {
+    for (const RunStatus status :
+         {RunStatus::starting, RunStatus::running, RunStatus::finished, RunStatus::interrupted}) {
+      if (json["status"] == to_string(status)) return status;
+    }
+  }
+  throw IoError(fmt::format("{}: not the summary of a Buckens run.", where));
+}
+
+}  // namespace buckens::run_store

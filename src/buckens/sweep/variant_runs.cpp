@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/sweep/variant_runs.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/choose_modes.h"
+#include "buckens/analysis/simulate.h"
+#include "buckens/base/errors.h"
+#include "buckens/files/output_file.h"
+#include "buckens/files/text_file.h"
+#include "buckens/linalg/solve_exchange.h"
+#include "buckens/model_file/model_file.h"
+#include "buckens/model_file/step_mesh_cache.h"
+#include "buckens/run_store/basis_files.h"
+#include "buckens/run_store/run_directory.h"
+#include "buckens/run_store/summary_json.h"
+
+namespace buckens::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a directory holds the finished run of a model.
+bool holds_finished_run(const fs::path& directory, const model::ModelDescription& model) {
+  std::error_code error;
+  if (!fs::is_regular_file(directory / run_store::kSummaryName, error)) return false;
+  const std::string summary = files::read_text_file(directory / run_store::kSummaryName);
+  return run_store::is_summary_json(summary) &&
+         run_store::status_in(summary, directory.string()) == run_store::RunStatus::finished &&
+         files::read_text_file(directory / run_store::kModelName) == model.source;
+}
+
+class Sweep {
+ public:
+  Sweep(const SweepTable& table, const fs::path& out, const SweepOptions& options)
+      : table_(table), out_(out), options_(options), shares_(table.variants.size(), 0.0) {
+    for (const Variant& variant : table.variants) {
+      outcome_.variants.push_back({variant.name, VariantStatus::interrupted, {}});
+    }
+  }
+
+  SweepOutcome run(const fs::path& model, const std::vector<std::string>& overrides) {
+    model_ = model;
+    overrides_ = overrides;
+    // What is wrong without any variant is no matter of the variants.
+    const model::ModelDescription base =
+        model_file::read_model_file(model, overrides, step_meshes_);
+    if (!base.simulation) {
+      throw InputError(base.where,
+                       "there is no `simulation:`, so it is not known how far to simulate. Add for "
+                       "instance `simulation: {duration: 1 s, step: 1 ms}`.");
+    }
+    make_directory();
+    for (std::size_t begin = 0; begin < table_.variants.size() && !stopped_;) {
+      begin = run_wave(begin);
+    }
+    outcome_.factorisations = exchange_.num_factorisations();
+    outcome_.solves = exchange_.num_columns();
+    outcome_.passes = exchange_.num_passes();
+    return std::move(outcome_);
+  }
+
+ private:
+  void make_directory() const {
+    std::error_code error;
+    fs::create_directories(out_, error);
+    if (error) {
+      throw IoError(fmt::format("{}: cannot create the directory of the sweep: {}.", out_.string(),
+                                error.message()));
+    }
+  }
+
+  /// Runs the next variants that are not there yet side by side.
+  /// @return the first variant after them
+  std::size_t run_wave(std::size_t begin) {
+    std::vector<std::function<void()>> work;
+    std::size_t next = begin;
+    for (; next < table_.variants.size() &&
+           work.size() < static_cast<std::size_t>(options_.together) && !stopped_;
+         ++next) {
+      std::shared_ptr<model::ModelDescription> description = read(next);
+      if (!description) continue;
+      work.emplace_back([this, next, description] { run_variant(next, std::move(*description)); });
+    }
+    exchange_.run(work);
+    return next;
+  }
+
+  /// The model of a variant; none if that is all there is to do.
+  std::shared_ptr<model::ModelDescription> read(std::size_t v) {
+    std::vector<std::string> overrides = overrides_;
+    for (std::string& text : table_.overrides(table_.variants[v])) {
+      overrides.push_back(std::move(text));
+    }
+    try {
+      auto out = std::make_shared<model::ModelDescription>(
+          model_file::read_model_file(model_, overrides, step_meshes_));
+      if (!holds_finished_run(directory_of(v), *out)) return out;
+      end(v, VariantStatus::kept);
+    } catch (const Error& error) {
+      end(v, VariantStatus::failed, error.what());
+    }
+    return nullptr;
+  }
+
+  void run_variant(std::size_t v, model::ModelDescription description) {
+    std::unique_ptr<run_store::RunDirectory> directory;
+    results::RunSummary failure;
+    try {
+      directory = std::make_unique<run_store::RunDirectory>(
+          directory_of(v),
+          run_store::RunDirectoryOptions{description.title, description.source, {}, false});
+      directory->log("variant " + table_.variants[v].name + " of a sweep");
+      const auto built = build(std::move(description), *directory);
+      analysis::SimulationOptions options;
+      options.exchange = &exchange_;
+      options.stop_reason = "interrupted by the user";
+      options.on_progress = [&](const analysis::Progress& progress) { return go_on(v, progress); };
+      const results::RunSummary summary = analysis::simulate(*built, *directory, options);
+      return end(v, summary.finished ? VariantStatus::done : VariantStatus::interrupted);
+    } catch (const std::exception& error) {
+      failure.interrupted = error.what();
+    }
+    if (directory) complete(*directory, failure);
+    end(v, VariantStatus::failed, failure.interrupted);
+  }
+
+  /// Modes chosen by trial are those of the variant; a basis in a file serves those it fits.
+  std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
+                                           run_store::RunDirectory& directory) {
+    std::vector<std::string> notes;
+    analysis::choose_modes(description, notes,
+                           [&directory](const std::string& text) { directory.log(text); });
+    run_store::BasisFiles bases(model_.parent_path(), run_store::BasisFiles::Others::leave);
+    auto built = model::build_model(std::move(description), &bases);
+    built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());
+    return built;
+  }
+
+  /// Puts the reason into the directory of a run that failed, unless it is there already.
+  static void complete(run_store::RunDirectory& directory, const results::RunSummary& failure) {
+    try {
+      directory.log("error: " + failure.interrupted);
+      if (!directory.is_complete()) directory.finish(failure);
+    } catch (const IoError&) {  // the reason of the failure says more
+    }
+  }
+
+  bool go_on(std::size_t v, const analysis::Progress& progress) {
+    shares_[v] = progress.duration > 0 ? progress.t / progress.duration : 0.0;
+    return report(nullptr);
+  }
+
+  void end(std::size_t v, VariantStatus status, const std::string& message = {}) {
+    outcome_.variants[v].status = status;
+    outcome_.variants[v].message = message;
+    if (status == VariantStatus::interrupted) return;
+    shares_[v] = 1.0;
+    ++num_ended_;
+    report(&outcome_.variants[v]);
+  }
+
+  bool report(const VariantOutcome* ended) {
+    if (!options_.on_progress) return true;
+    double share = 0;
+    for (const double s : shares_) share += s / static_cast<double>(shares_.size());
+    if (!options_.on_progress({ended, num_ended_, table_.variants.size(), share})) stopped_ = true;
+    return !stopped_;
+  }
+
+  fs::path directory_of(std::size_t v) const { return out_ / table_.variants[v].name; }
+
+  const SweepTable& table_;
+  const fs::path& out_;
+  const SweepOptions& options_;
+  fs::path model_;
+  std::vector<std::string> overrides_;
+  std::vector<double> shares_;
+  std::size_t num_ended_ = 0;
+  bool stopped_ = false;
+  linalg::SolveExchange exchange_;
+  model_file::StepMeshCache step_meshes_;
+  SweepOutcome outcome_;
+};
+
+}  // namespace
+
+std::string to_string(VariantStatus status) {
+  switch (status) {
+    case VariantStatus::done:
+      return "done";
+    case VariantStatus::kept:
+      return "kept";
+    case VariantStatus::failed:
+      return "failed";
+    case VariantStatus::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+SweepOutcome run_variants(const fs::path& model, const std::vector<std::string>& overrides,
+                          const SweepTable& table, const fs::path& out,
+                          const SweepOptions& options) {
+  return Sweep(table, out, options).run(model, overrides);
+}
+
+}  // namespace buckens::sweep
