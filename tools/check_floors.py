@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Include floors: a module includes lower floors only, and no includes run in a circle.
 
-The floors stand in src/CMakeLists.txt (buckens_module(name floor ...)), nowhere else.
+The floors stand in src/CMakeLists.txt (buckens_module(name floor ...)), nowhere else. A module may
+have rooms, src/buckens/<module>/<room>/; rooms have no floor of their own and hold no folders.
 Tests (<module>/test) may include everything.
 
 Headers stand alone: each has `#pragma once`, and the source of the same name includes it first.
@@ -102,6 +103,8 @@ def check(root):
         if name.count("/") < 3:
             errors.append(f"{name}: every source belongs to a module, src/buckens/<module>/")
             continue
+        if name.count("/") > 4:
+            errors.append(f"{name}: at most src/buckens/<module>/<room>/; tests in <module>/test/")
         includes = list(includes_of(root, name))
         errors += check_file(name, includes, floors, present)
         if "/test/" not in name:

@@ -24,7 +24,7 @@ FORBIDDEN = [
 ]
 
 # Processes that this project has started itself end here, not that of the user.
-FORKED = ("src/buckens/io/write_process.cpp", "src/buckens/io/isolated_work.cpp")
+FORKED = ("src/buckens/files/write_process.cpp", "src/buckens/files/isolated_work.cpp")
 
 
 def check(root):

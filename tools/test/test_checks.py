@@ -82,6 +82,18 @@ class Floors(Checks):
                     {"src/buckens/fem/beam.h": '\n#include "buckens/loads/force.h"\n'},
                     'beam.h:2: "fem" (floor 2) must not include "loads" (floor 2)')
 
+    def test_rooms(self):
+        rooms = {"src/buckens/fem/line/bar.h": '#pragma once\n#include "buckens/base/errors.h"\n',
+                 "src/buckens/fem/line/bar.cpp": '#include "buckens/fem/line/bar.h"\n',
+                 "src/buckens/fem/beam.h": '#pragma once\n#include "buckens/fem/line/bar.h"\n'}
+        self.expect("check_floors.py", rooms)
+        self.expect("check_floors.py",
+                    {**rooms, "src/buckens/loads/force.h":
+                     '#pragma once\n#include "buckens/fem/line/bar.h"\n'},
+                    'force.h:2: "loads" (floor 2) must not include "fem" (floor 2)')
+        self.expect("check_floors.py", {"src/buckens/fem/line/test/bar_test.cpp": ""},
+                    "bar_test.cpp: at most src/buckens/<module>/<room>/")
+
     def test_circle_of_files(self):
         self.expect("check_floors.py",
                     {"src/buckens/fem/a.h": '#include "buckens/fem/b.h"\n',
