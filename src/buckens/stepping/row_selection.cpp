@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <Eigen/IterativeLinearSolvers>
+
 namespace buckens::stepping {
 
 using Eigen::RowVectorXd;
@@ -11,6 +13,8 @@ namespace {
 
 // Images of rows shrink with the square of a lever arm: 1e-9 here is an arm of 3e-5 of the body.
 constexpr double kTolerance = 1e-9;
+// Smaller shares of a combination are rounding of its coefficients, which messages do not need.
+constexpr double kShareInMessage = 1e-3;
 
 /// Motion of the body that a unit multiplier causes: frame coordinates, then interface values.
 RowVectorXd image(const dynamics::BodyRow& row, const dynamics::BodyCompliance& compliance) {
@@ -27,10 +31,9 @@ RowVectorXd image(const dynamics::BodyRow& row, const dynamics::BodyCompliance& 
   return out;
 }
 
-}  // namespace
-
-linalg::RowRank select_rows(const std::vector<dynamics::SystemRow>& rows,
-                            const std::vector<dynamics::BodyCompliance>& compliance) {
+/// Images of all rows, scaled to unit length.
+linalg::SparseMatrix scaled_images(const std::vector<dynamics::SystemRow>& rows,
+                                   const std::vector<dynamics::BodyCompliance>& compliance) {
   std::vector<int> first_column;
   int columns = 0;
   for (const dynamics::BodyCompliance& body : compliance) {
@@ -58,7 +61,36 @@ linalg::RowRank select_rows(const std::vector<dynamics::SystemRow>& rows,
   }
   linalg::SparseMatrix J(static_cast<int>(rows.size()), columns);
   J.setFromTriplets(entries.begin(), entries.end());
-  return linalg::split_rows(J, kTolerance);
+  return J;
+}
+
+}  // namespace
+
+linalg::RowRank select_rows(const std::vector<dynamics::SystemRow>& rows,
+                            const std::vector<dynamics::BodyCompliance>& compliance) {
+  return linalg::split_rows(scaled_images(rows, compliance), kTolerance);
+}
+
+std::vector<int> rows_behind(const std::vector<dynamics::SystemRow>& rows,
+                             const std::vector<dynamics::BodyCompliance>& compliance,
+                             const std::vector<int>& independent, int row) {
+  const linalg::SparseMatrix columns = scaled_images(rows, compliance).transpose();
+  linalg::SparseMatrix chosen(columns.rows(), static_cast<Eigen::Index>(independent.size()));
+  std::vector<linalg::Triplet> entries;
+  for (std::size_t k = 0; k < independent.size(); ++k) {
+    for (linalg::SparseMatrix::InnerIterator it(columns, independent[k]); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(k), it.value());
+    }
+  }
+  chosen.setFromTriplets(entries.begin(), entries.end());
+  Eigen::LeastSquaresConjugateGradient<linalg::SparseMatrix> solver(chosen);
+  const linalg::Vector share = solver.solve(linalg::Vector(columns.col(row)));
+  std::vector<int> out;
+  for (std::size_t k = 0; k < independent.size(); ++k) {
+    const double own = std::abs(share[static_cast<Eigen::Index>(k)]);
+    if (own > kShareInMessage * share.cwiseAbs().maxCoeff()) out.push_back(independent[k]);
+  }
+  return out;
 }
 
 }  // namespace buckens::stepping

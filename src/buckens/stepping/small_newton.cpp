@@ -21,10 +21,6 @@ namespace {
 // Pivots this much smaller than when the rows were chosen: others may have become the better
 // choice.
 constexpr double kPivotDrop = 1e-3;
-// A row that follows from others stays closed to rounding; beyond this share of the model's length
-// it no longer follows.
-constexpr double kOpenRow = 1e-9;
-
 // Convergence is linear with the frozen matrix of the step: what the next iteration would change is
 // known from the last two. It has to be this much smaller than what the tolerance admits.
 constexpr double kForeseen = 0.01;
@@ -56,6 +52,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       settings_(settings),
       operators_(std::move(operators)),
       rows_in_use_(std::move(rows_in_use)),
+      watch_(model),
       joints_(model) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
@@ -129,7 +126,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   dynamics::evaluate_soft_rows(model_, at_evaluation(), soft_);
   bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
-  if (!is_closed || has_open_rows_ || pivots < kPivotDrop * trusted_pivots_) {
+  if (!is_closed || watch_.has_open_rows() || pivots < kPivotDrop * trusted_pivots_) {
     if (select_rows_anew(t)) is_closed = condense(t);
     trusted_pivots_ = condensation_->pivot_ratio();
   } else {
@@ -212,7 +209,7 @@ bool SmallNewton::condense(double t) {
 }
 
 bool SmallNewton::select_rows_anew(double t) {
-  has_open_rows_ = false;
+  watch_.rows_are_chosen();
   std::vector<dynamics::BodyCompliance> compliance = compliance_;
   for (std::size_t b = 0; b < compliance.size(); ++b) {
     if (shares_[b].is_quasi_static()) compliance[b].interface = nullptr;
@@ -237,14 +234,13 @@ void SmallNewton::leave_to_rows_in_use(Vector& lambda) const {
   for_other_rows(rows_in_use_, lambda.size(), [&](Eigen::Index row) { lambda[row] = 0.0; });
 }
 
-void SmallNewton::watch_rows_not_in_use() {
-  const Vector& g = residuals_.g;
-  double gap = 0;
-  for_other_rows(rows_in_use_, g.size(),
-                 [&](Eigen::Index row) { gap = std::max(gap, std::abs(g[row])); });
-  if (gap <= std::max(kOpenRow * model_.length, 2.0 * largest_gap_)) return;
-  largest_gap_ = gap;
-  has_open_rows_ = true;
+void SmallNewton::watch_rows(double t, StepReport& report) {
+  const int row = watch_.look(residuals_, place_in_use_, report);
+  if (row < 0) return;
+  dynamics::Constraints all;
+  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
+  throw StepFailure(watch_.describe_contradiction(row, t + scheme_.h, residuals_, all.rows,
+                                                  compliance_, rows_in_use_));
 }
 
 void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
@@ -358,7 +354,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     find_residuals(bodies);
     change = move(bodies, t, lambda, report);
   }
-  watch_rows_not_in_use();
+  watch_rows(t, report);
 }
 
 void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambda,

@@ -8,6 +8,7 @@
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/stepping/body_iteration.h"
+#include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
 
 namespace buckens::stepping {
@@ -90,8 +91,10 @@ class SmallNewton {
   bool select_rows_anew(double t);
   /// Multipliers of rows that were given up are zero.
   void leave_to_rows_in_use(linalg::Vector& lambda) const;
-  /// Notes a row not in use that no longer follows from the others.
-  void watch_rows_not_in_use();
+  /// Reports how far rows are open, and notes a row not in use that no longer follows from the
+  /// others. Costs one pass over the rows per step.
+  /// @throws StepFailure naming the joints, if what such a row leaves open spoils the motion
+  void watch_rows(double t, StepReport& report);
   [[noreturn]] void fail(double t, const StepReport& report, const char* what) const;
 
   const model::Model& model_;
@@ -101,8 +104,7 @@ class SmallNewton {
   std::vector<int> rows_in_use_;
   std::vector<int> dependent_;  // at the last selection
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
-  double largest_gap_ = 0;      // of rows not in use
-  bool has_open_rows_ = false;
+  RowWatch watch_;
   bool has_quasi_static_ = false;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;

@@ -37,7 +37,11 @@ struct StepReport {
   double position_residual = 0;  ///< max |g| [m] or [-]
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest
-  double coupling_change = 0;    ///< last relative change of the coupling load
+  /// The same of all rows on one scale: lengths as parts of the model's length, angles as they are.
+  double opening = 0;          ///< [-]
+  double opening_rate = 0;     ///< [1/s]
+  int most_open_row = -1;      ///< of λ, where the opening is largest
+  double coupling_change = 0;  ///< last relative change of the coupling load
 };
 
 }  // namespace buckens::stepping

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/dynamics/joint_set.h"
+#include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/model/model.h"
+#include "buckens/stepping/step_settings.h"
+
+namespace buckens::stepping {
+
+/// Watches whether joint rows hold, above all those that are left out because they follow from
+/// others.
+///
+/// Rows are compared on one scale: lengths as parts of the model's length, angles in rad.
+class RowWatch {
+ public:
+  explicit RowWatch(const model::Model& model);
+
+  /// Reports how far rows are open at the end of a step. Cost: one pass over the residuals.
+  /// @param place_in_use per row, −1 for those not in use
+  /// @return a row not in use that contradicts the others by more than a millionth; −1: none
+  int look(const dynamics::JointResiduals& residuals, const std::vector<int>& place_in_use,
+           StepReport& report);
+
+  /// Whether a row not in use has opened since rows were chosen.
+  bool has_open_rows() const { return has_open_rows_; }
+  void rows_are_chosen() { has_open_rows_ = false; }
+
+  /// What to say of a row that look() returned: its joint, the joints it contradicts, the instant
+  /// and how far it is open.
+  /// @param rows all of them, @param in_use those in use, ascending
+  std::string describe_contradiction(int row, double t, const dynamics::JointResiduals& residuals,
+                                     const std::vector<dynamics::SystemRow>& rows,
+                                     const std::vector<dynamics::BodyCompliance>& compliance,
+                                     const std::vector<int>& in_use) const;
+
+ private:
+  const model::Model& model_;
+  std::vector<double> size_;  // model's length of rows that are lengths, 1 of angles
+  double largest_gap_ = 0;    // of rows not in use so far
+  bool has_open_rows_ = false;
+};
+
+}  // namespace buckens::stepping
