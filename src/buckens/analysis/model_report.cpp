@@ -14,6 +14,7 @@
 #include "buckens/fem/solid_recovery.h"
 #include "buckens/results/field_recorder.h"
 #include "buckens/results/recorder.h"
+#include "buckens/results/stored_size.h"
 
 namespace buckens::analysis {
 
@@ -121,14 +122,18 @@ std::vector<LoadReport> report_loads(const model::Model& model, const model::Sta
 ModelReport report_model(const model::BuiltModel& built) {
   const model::Model& model = built.model;
   ModelReport out;
-  if (built.description.simulation) out.step = built.description.simulation->step.value_or(0.0);
+  OutputPlan plan;
+  if (built.description.simulation) {
+    out.step = built.description.simulation->step.value_or(0.0);
+    plan = plan_output(built.description);
+  }
   int coordinates = 0;
   for (const model::WholeBody& whole : model.wholes) {
     const body::FreeModes modes = reported_modes(model, whole);
     out.bodies.push_back(report_body(model, whole, modes));
     const ExcitedBand band = excited_band(model, whole, modes);
     out.highest_frequency = std::max(out.highest_frequency, band.highest / kTurn);
-    const std::string advice = judge_step(whole.name, band, out.step);
+    const std::string advice = judge_step(whole.name, band, out.step, plan.finest);
     if (!advice.empty()) out.warnings.push_back(advice);
     coordinates += out.bodies.back().frame_coordinates;
   }
@@ -146,7 +151,10 @@ ModelReport report_model(const model::BuiltModel& built) {
   if (built.description.simulation) {
     const results::Recorder recorder(built, metric, !prepared.redundant_rows.empty());
     const results::FieldRecorder fields(built);
-    out.result_bytes = plan_output(built.description).bytes(recorder.layout(), fields.layout());
+    results::Geometry geometry = recorder.geometry();
+    if (!fields.is_empty()) fields.add_places(geometry);
+    out.result_bytes =
+        plan.bytes(recorder.layout(), fields.layout()) + results::stored_bytes(geometry);
     const std::string advice = judge_size(out.result_bytes);
     if (!advice.empty()) out.warnings.push_back(advice);
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/results/stored_size.h"
 
 namespace buckens::analysis {
 
@@ -29,6 +30,7 @@ OutputPlan plan_output(const model::ModelDescription& description) {
     step = simulation.duration / std::max(1.0, std::ceil(simulation.duration / longest - 1e-9));
   }
   plan.every = output.every.value_or(std::max(simulation.duration / kDefaultRecords, step));
+  plan.finest = plan.every;
   plan.records = simulation.duration / plan.every + 1.0;  // the one at the start
   if (plan.records > kMostRecords + 1.0) {
     throw InputError(output.where,
@@ -37,6 +39,9 @@ OutputPlan plan_output(const model::ModelDescription& description) {
                                  plan.records, kMostRecords, plan.every));
   }
   if (!output.field_output) return plan;
+  if (output.field_output->extremes == model::ExtremeRate::steps) {
+    plan.finest = std::min(plan.every, step);
+  }
   const double stride = output.field_output->every.value_or(plan.every) / plan.every;
   plan.fields_stride = std::max(1L, std::lround(stride));
   if (std::abs(stride - static_cast<double>(plan.fields_stride)) > 1e-6 * stride) {
@@ -46,15 +51,19 @@ OutputPlan plan_output(const model::ModelDescription& description) {
                                  *output.field_output->every, plan.every,
                                  static_cast<double>(plan.fields_stride) * plan.every));
   }
-  plan.field_records = std::floor(plan.records / static_cast<double>(plan.fields_stride)) + 1.0;
+  // At the start, every so many records, and at the end.
+  plan.field_records =
+      std::ceil((plan.records - 1.0) / static_cast<double>(plan.fields_stride) - 1e-6) + 1.0;
   return plan;
 }
 
 double OutputPlan::bytes(const results::RecordLayout& layout,
                          const results::FieldLayout& fields) const {
-  return records * static_cast<double>(layout.num_values() * sizeof(double)) +
-         field_records * static_cast<double>(fields.fields.num_values() * sizeof(float)) +
-         static_cast<double>(fields.extremes.num_values() * sizeof(double));
+  // A last record comes at the end where that is no multiple of the time between two.
+  const double rows = std::ceil(records - 1e-6);
+  return results::stored_bytes(layout, rows, sizeof(double)) +
+         results::stored_bytes(fields.fields, std::min(field_records, rows), sizeof(float)) +
+         results::stored_bytes(fields.extremes);
 }
 
 std::string judge_size(double bytes) {

@@ -12,11 +12,12 @@ namespace buckens::analysis {
 /// How often a simulation records, and what that comes to.
 struct OutputPlan {
   double every = 0;          ///< time between records [s]
+  double finest = 0;         ///< the same, or the step where extremes follow each one [s]
   long fields_stride = 1;    ///< every how many records fields are recorded
   double records = 0;        ///< of the whole run
   double field_records = 0;  ///< of the whole run, 0 without fields
 
-  /// Size of results.h5 [bytes], without its books.
+  /// Size of results.h5 [bytes], without the undeformed shape.
   double bytes(const results::RecordLayout& layout, const results::FieldLayout& fields) const;
 };
 

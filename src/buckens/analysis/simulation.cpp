@@ -140,6 +140,8 @@ class Simulation::Run {
   }
 
   void warn(const std::string& text) {
+    const auto& known = summary_.warnings;
+    if (std::find(known.begin(), known.end(), text) != known.end()) return;
     summary_.warnings.push_back(text);
     if (options_.tells_warnings) base::log(base::LogLevel::warning, text);
   }
@@ -166,7 +168,7 @@ class Simulation::Run {
 
   void advise(const std::string& body, const ExcitedBand& band) {
     if (march_->is_controlled()) return;
-    const std::string advice = judge_step(body, band, march_->longest_step());
+    const std::string advice = judge_step(body, band, march_->longest_step(), plan_.finest);
     if (!advice.empty()) warn(advice);
   }
 

@@ -2,6 +2,7 @@
 #include "buckens/analysis/step_advice.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ namespace buckens::analysis {
 
 namespace {
 constexpr double kExcitedShare = 0.01;
-constexpr double kResolved = 0.5;  // h ω: about twelve steps per period
+constexpr double kResolved = kTurn / 12;  // h ω: twelve steps per period
 
 /// The lowest free vibrations of a mesh.
 body::FreeModes modes_of_mesh(const fem::FeModel& fe, int count) {
@@ -33,7 +34,7 @@ ExcitedBand band_of(const body::FreeModes& modes, const linalg::Vector& share) {
   band.first = modes.omega[0];
   for (Eigen::Index k = 0; k < share.size(); ++k) {
     if (share[k] <= kExcitedShare * total) continue;
-    if (band.lowest == 0.0) band.lowest = modes.omega[k];
+    band.excited.push_back(modes.omega[k]);
     band.highest = std::max(band.highest, modes.omega[k]);
   }
   return band;
@@ -41,7 +42,7 @@ ExcitedBand band_of(const body::FreeModes& modes, const linalg::Vector& share) {
 
 ExcitedBand band_of_body(const body::Body& body, const body::FreeModes& modes) {
   if (modes.omega.size() == 0) return {};
-  if (body.flexible->is_quasi_static) return {modes.omega[0], 0.0, 0.0};  // nothing vibrates
+  if (body.flexible->is_quasi_static) return {modes.omega[0], 0.0, {}};  // nothing vibrates
   linalg::Vector share = linalg::Vector::Zero(modes.omega.size());
   for (const body::Marker& marker : body.markers) {
     if (!marker.follows_mesh() || marker.translation_row >= body.flexible->num_held_rows()) {
@@ -115,19 +116,26 @@ ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whol
   return band_of(modes, share);
 }
 
-std::string judge_step(const std::string& body, const ExcitedBand& band, double h) {
-  if (h * band.highest <= kResolved) return {};
+std::string judge_step(const std::string& body, const ExcitedBand& band, double h, double every) {
+  double lowest = 0;  // of the excited vibrations that records can show
+  double highest = 0;
+  for (const double omega : band.excited) {
+    if (omega * every > std::numbers::pi) continue;
+    if (lowest == 0.0) lowest = omega;
+    highest = std::max(highest, omega);
+  }
+  if (h * highest <= kResolved) return {};
   const double followed = kResolved / (kTurn * h);
-  if (h * band.lowest > kResolved) {
+  if (h * lowest > kResolved) {
     return fmt::format(
         "step {:.3g} s is too long for every elastic vibration of body \"{}\" (lowest {:.4g} Hz; "
         "followed up to {:.4g} Hz): it is damped, not followed; use a step of {:.2g} s",
-        h, body, band.lowest / kTurn, followed, kResolved / band.lowest);
+        h, body, lowest / kTurn, followed, kResolved / lowest);
   }
   return fmt::format(
-      "step {:.3g} s follows vibrations of body \"{}\" up to {:.4g} Hz; those excited above, up to "
-      "{:.4g} Hz, are damped; use a step of {:.2g} s if they matter",
-      h, body, followed, band.highest / kTurn, kResolved / band.highest);
+      "step {:.3g} s follows vibrations of body \"{}\" up to {:.4g} Hz; those excited above that "
+      "the records could show, up to {:.4g} Hz, are damped; use a step of {:.2g} s if they matter",
+      h, body, followed, highest / kTurn, kResolved / highest);
 }
 
 }  // namespace buckens::analysis

@@ -12,8 +12,8 @@ namespace buckens::analysis {
 /// Elastic vibrations of a flexible body that joints and loads excite [rad/s].
 struct ExcitedBand {
   double first = 0;  ///< lowest of all elastic vibrations, excited or not
-  double lowest = 0;
   double highest = 0;
+  std::vector<double> excited;  ///< ascending
 };
 
 /// Number of free vibrations that a report gives and excited_band() judges by.
@@ -34,8 +34,12 @@ ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whol
 ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole,
                          const body::FreeModes& modes);
 
-/// What to say of a step h [s]: whether a band is followed (about twelve steps per period), damped
-/// in its upper part, or not followed at all. Empty if all is well.
-std::string judge_step(const std::string& body, const ExcitedBand& band, double h);
+/// What to say of a step: whether a band is followed (twelve steps per period), damped in its
+/// upper part, or not followed at all. Empty if all is well.
+///
+/// Only vibrations that the records can show matter, those with two records per period at least:
+/// what faster ones do to slow motion is static, and that a long step gives as well.
+/// @param h step [s], @param every time between records [s]
+std::string judge_step(const std::string& body, const ExcitedBand& band, double h, double every);
 
 }  // namespace buckens::analysis

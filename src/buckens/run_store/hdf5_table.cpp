@@ -4,18 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "buckens/results/stored_size.h"
 #include "buckens/run_store/hdf5_values.h"
 
 namespace buckens::run_store {
 
 namespace {
-
-/// Rows per chunk: about 64 KiB, so that neither large channels need much memory nor small ones
-/// many pieces; at most 256 rows, because a started chunk takes its full size on disk.
-hsize_t chunk_rows(std::size_t values_per_row) {
-  constexpr std::size_t kChunkBytes = 65536;
-  return std::clamp<hsize_t>(kChunkBytes / (sizeof(double) * values_per_row), 1, 256);
-}
 
 /// A small chunk cache: only the last chunk is ever needed again.
 Hdf5Handle table_settings(hsize_t chunk_values) {
@@ -50,7 +44,7 @@ Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::
   for (const int extent : channel.shape) column.shape.push_back(static_cast<hsize_t>(extent));
 
   const Hdf5Quiet quiet;
-  std::vector<hsize_t> now{0}, most{H5S_UNLIMITED}, chunk{chunk_rows(column.size)};
+  std::vector<hsize_t> now{0}, most{H5S_UNLIMITED}, chunk{results::chunk_rows(column.size)};
   for (std::vector<hsize_t>* extents : {&now, &most, &chunk}) {
     extents->insert(extents->end(), column.shape.begin(), column.shape.end());
   }
