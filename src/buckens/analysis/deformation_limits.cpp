@@ -20,9 +20,14 @@ using linalg::Vector;
 
 namespace {
 
-constexpr double kLargeStrain = 0.05;     // linear strain errs by half of it
-constexpr double kLargeAxialLoad = 0.05;  // of the buckling load: bending stiffness off by as much
-constexpr double kStraight = 0.9998;      // cosine of a kink of about 1°
+constexpr double kLargeRotation = 0.1;   // rad
+constexpr double kLargeStrain = 0.05;    // linear strain errs by half of it
+constexpr double kDoubtedStrain = 0.10;  // the same at an error of 5 %
+constexpr double kDoubtedError = 0.05;   // of deflections under axial loads
+// More frames make axial loads this small, with which deflections err by less than 5 %.
+constexpr double kSafeAxialLoad = 0.045;
+constexpr double kNoBending = 1e-6;   // rad; what bends less has no deflections that could err
+constexpr double kStraight = 0.9998;  // cosine of a kink of about 1°
 
 Vector3d displacement(const fem::FeModel& fe, int node, const Vector& d) {
   Vector3d u = Vector3d::Zero();
@@ -76,26 +81,18 @@ Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, con
   return m.ux * m.xx.inverse();
 }
 
-/// Of a shell what its middle surface does: strain in its plane, slope out of it.
-DeformationMeasure of_shell(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
+/// Slope of a shell's middle surface out of its plane.
+double slope_of_shell(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
   const Moments m = moments_of(fe, nodes, d);
   const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(m.xx);
   const Eigen::Matrix<double, 3, 2> plane = spread.eigenvectors().rightCols<2>();
   const Eigen::Matrix<double, 3, 2> slopes =
       m.ux * plane * spread.eigenvalues().tail<2>().cwiseInverse().asDiagonal();
-  const Eigen::Matrix2d G = plane.transpose() * slopes;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> strain(0.5 * (G + G.transpose()),
-                                                              Eigen::EigenvaluesOnly);
-  DeformationMeasure out;
-  out.strain = strain.eigenvalues().cwiseAbs().maxCoeff();
-  out.rotation = (spread.eigenvectors().col(0).transpose() * slopes).norm();
-  return out;
+  return (spread.eigenvectors().col(0).transpose() * slopes).norm();
 }
 
-DeformationMeasure of_element(const fem::FeModel& fe, const fem::ElementBlock& block, int e,
-                              const Vector& d) {
-  if (block.is_shell()) return of_shell(fe, block.nodes(e), d);
-  DeformationMeasure out;
+double rotation_of(const fem::FeModel& fe, const fem::ElementBlock& block, int e, const Vector& d) {
+  if (block.is_shell()) return slope_of_shell(fe, block.nodes(e), d);
   const Matrix3d G = fitted_gradient(fe, block.nodes(e), d);
   if (block.is_line()) {
     const auto [a, b] = block.ends(e);
@@ -103,15 +100,37 @@ DeformationMeasure of_element(const fem::FeModel& fe, const fem::ElementBlock& b
                            fe.nodes[static_cast<std::size_t>(a)].position)
                               .normalized();
     const Vector3d slope = G * axis;
-    out.strain = std::abs(slope.dot(axis));
-    out.rotation = (slope - slope.dot(axis) * axis).norm();
-    return out;
+    return (slope - slope.dot(axis) * axis).norm();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> strain(0.5 * (G + G.transpose()),
-                                                       Eigen::EigenvaluesOnly);
-  out.strain = strain.eigenvalues().cwiseAbs().maxCoeff();
-  out.rotation = 0.5 * Vector3d(G(2, 1) - G(1, 2), G(0, 2) - G(2, 0), G(1, 0) - G(0, 1)).norm();
-  return out;
+  return 0.5 * Vector3d(G(2, 1) - G(1, 2), G(0, 2) - G(2, 0), G(1, 0) - G(0, 1)).norm();
+}
+
+/// Relative error of deflections that do not feel an axial load.
+double bending_error(const DeformationMeasure& found) {
+  const double softening =
+      found.compression < 1.0 ? found.compression / (1.0 - found.compression) : HUGE_VAL;
+  return std::max(found.tension / (1.0 + found.tension), softening);
+}
+
+/// What to say of axial loads that bending does not feel; empty: nothing.
+std::string doubt_axial_load(const DeformedBody& body, const DeformationMeasure& found) {
+  const double error = bending_error(found);
+  if (body.is_stiffened || error <= kDoubtedError) return {};
+  if (found.rotation <= kNoBending && found.compression < 1.0) return {};
+  // The load of a part falls with the square of their number.
+  const int frames =
+      body.frames * static_cast<int>(std::ceil(std::sqrt(found.axial_load() / kSafeAxialLoad)));
+  const bool is_tension = found.tension / (1.0 + found.tension) >= error;
+  const std::string load = fmt::format("{:.2g} of its buckling load pi^2 EI/L^2 in {}",
+                                       is_tension ? found.tension : found.compression,
+                                       is_tension ? "tension" : "compression");
+  const std::string size = std::isfinite(error)
+                               ? fmt::format("by up to about {:.0f} %", 100.0 * error)
+                               : std::string("without bound");
+  return fmt::format(
+      "body \"{}\" carries up to {}, which linear elasticity within a frame does not let act on "
+      "bending, so that deflections err {}; use `frames: {}`",
+      body.name, load, size, frames);
 }
 
 }  // namespace
@@ -119,11 +138,12 @@ DeformationMeasure of_element(const fem::FeModel& fe, const fem::ElementBlock& b
 void DeformationMeasure::include(const DeformationMeasure& other) {
   rotation = std::max(rotation, other.rotation);
   strain = std::max(strain, other.strain);
-  axial_load = std::max(axial_load, other.axial_load);
+  tension = std::max(tension, other.tension);
+  compression = std::max(compression, other.compression);
 }
 
 DeformationLimits::DeformationLimits(const body::Body& body)
-    : fe_(body.flexible->mesh()), recovery_(fe_) {
+    : fe_(body.flexible->mesh()), recovery_(fe_), strain_(fe_) {
   find_members();
 }
 
@@ -174,41 +194,38 @@ DeformationMeasure DeformationLimits::measure(const Vector& d) const {
   out.rotation = nodal_rotation(fe_, d);
   for (const auto& block : fe_.blocks) {
     if (!block->is_line() && !block->is_solid() && !block->is_shell()) continue;
-    for (int e = 0; e < block->num_elements(); ++e) out.include(of_element(fe_, *block, e, d));
+    for (int e = 0; e < block->num_elements(); ++e) {
+      out.rotation = std::max(out.rotation, rotation_of(fe_, *block, e, d));
+    }
   }
-  if (buckling_load_.empty()) return out;
   const linalg::Matrix forces = recovery_.section_forces(d);
+  out.strain = strain_.measure(d, forces, recovery_);
   for (std::size_t e = 0; e < buckling_load_.size(); ++e) {
     if (buckling_load_[e] <= 0.0) continue;
-    const double N = std::abs(forces(0, static_cast<Eigen::Index>(e)));
-    out.axial_load = std::max(out.axial_load, N / buckling_load_[e]);
+    const double load = forces(0, static_cast<Eigen::Index>(e)) / buckling_load_[e];
+    out.tension = std::max(out.tension, load);
+    out.compression = std::max(out.compression, -load);
   }
   return out;
 }
 
-std::string describe_rotation(const std::string& body, const DeformationMeasure& found) {
-  return fmt::format(
-      "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
-      "linear elasticity bears; divide it into several bodies or give it more `frames`",
-      body, found.rotation, kLargeRotation);
-}
-
-std::vector<std::string> judge_deformation(const std::string& body,
-                                           const DeformationMeasure& found) {
-  std::vector<std::string> out;
+DeformationVerdict judge_deformation(const DeformedBody& body, const DeformationMeasure& found) {
+  DeformationVerdict out;
+  if (found.rotation > kLargeRotation) {
+    out.trust.push_back(fmt::format(
+        "body \"{}\" bends by up to {:.2g} rad within a frame, more than the {:.1f} rad that "
+        "linear elasticity bears; divide it into several bodies or give it more `frames`",
+        body.most_bent_part, found.rotation, kLargeRotation));
+  }
   if (found.strain > kLargeStrain) {
-    out.push_back(fmt::format(
+    auto& list = found.strain > kDoubtedStrain ? out.trust : out.warnings;
+    list.push_back(fmt::format(
         "body \"{}\" is strained by up to {:.2g}, more than the {:.2f} that linear elasticity "
         "bears; more frames do not help: stiffen it or reduce its loads",
-        body, found.strain, kLargeStrain));
+        body.name, found.strain, kLargeStrain));
   }
-  if (found.axial_load > kLargeAxialLoad) {
-    out.push_back(fmt::format(
-        "body \"{}\" carries axial loads of up to {:.2g} of its buckling load pi^2 EI/L^2; linear "
-        "elasticity in one frame knows neither their stiffening nor their softening of bending "
-        "(warned above {:.2f}): divide it into several bodies or give it more `frames`",
-        body, found.axial_load, kLargeAxialLoad));
-  }
+  const std::string axial = doubt_axial_load(body, found);
+  if (!axial.empty()) out.trust.push_back(axial);
   return out;
 }
 

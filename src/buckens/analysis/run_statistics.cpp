@@ -9,16 +9,10 @@
 
 namespace buckens::analysis {
 
-namespace {
-constexpr double kLargeEnergyError = 0.05;
-// |ω|/ω₁: effects of the missing stiffening grow with its square.
-constexpr double kFastSpin = 0.1;
-constexpr double kTooFastSpin = 0.3;
-
-}  // namespace
-
 RunStatistics::RunStatistics(const model::BuiltModel& built)
     : built_(built),
+      joints_(built.model),
+      energy_(built.model),
       lowest_frequency_(built.model.bodies.size(), 0.0),
       largest_spin_(built.model.bodies.size(), 0.0),
       deformation_(built.model.bodies.size()) {
@@ -35,6 +29,7 @@ void RunStatistics::add_step(const stepping::StepReport& report, const model::St
   iterations_ += report.newton_iterations;
   most_iterations_ = std::max<long>(most_iterations_, report.newton_iterations);
   if (report.large_solve_rounds > 1) ++repeated_solves_;
+  joints_.add_step(report, state);
   residuals_.position = std::max(residuals_.position, report.position_residual);
   residuals_.velocity = std::max(residuals_.velocity, report.velocity_residual);
 }
@@ -43,6 +38,7 @@ void RunStatistics::add_record(const model::State& state, double balance, double
   if (!std::isfinite(balance)) is_finite_ = false;
   largest_balance_ = std::max(largest_balance_, std::abs(balance));
   energy_scale_ = std::max(energy_scale_, scale);
+  energy_.add_record(state);
   for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
     const body::Body& body = built_.model.bodies[b];
     if (!body.is_flexible()) continue;
@@ -63,13 +59,21 @@ void RunStatistics::judge_spin(std::size_t b, results::RunSummary& summary) cons
   const double ratio = spin_ratio(b);
   if (lowest_frequency_[b] <= 0.0) return;
   summary.bodies.back().measures.emplace_back("spin_over_lowest_frequency", ratio);
-  if (ratio <= kFastSpin) return;
-  const std::string text = fmt::format(
-      "body \"{}\" spins at up to {:.2g} of its lowest elastic frequency; linear elasticity in one "
-      "frame knows no centrifugal stiffening: give the body more `frames`",
-      built_.model.bodies[b].name, ratio);
-  summary.warnings.push_back(text);
-  if (ratio > kTooFastSpin) summary.trust.push_back(text);
+  const body::FlexiblePart& part = *built_.model.bodies[b].flexible;
+  if (ratio <= kFastSpin || part.geometric) return;
+  auto& list = ratio > kDoubtedSpin ? summary.trust : summary.warnings;
+  list.push_back(describe_spin(built_.model.bodies[b].name, ratio));
+}
+
+void RunStatistics::judge_shape(const model::WholeBody& whole, std::size_t most_bent,
+                                const DeformationMeasure& found,
+                                results::RunSummary& summary) const {
+  const body::Body& part = built_.model.bodies[most_bent];
+  if (!part.is_flexible()) return;
+  DeformationVerdict verdict = judge_deformation(
+      {whole.name, part.name, whole.count, part.flexible->geometric != nullptr}, found);
+  for (std::string& text : verdict.warnings) summary.warnings.push_back(std::move(text));
+  for (std::string& text : verdict.trust) summary.trust.push_back(std::move(text));
 }
 
 namespace {
@@ -120,16 +124,11 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
   if (built_.model.bodies[first].is_flexible()) {
     effort.measures.emplace_back("largest_rotation_rad", deformation.rotation);
     effort.measures.emplace_back("largest_strain", deformation.strain);
-    effort.measures.emplace_back("largest_axial_load_over_buckling_load", deformation.axial_load);
+    effort.measures.emplace_back("largest_axial_load_over_buckling_load", deformation.axial_load());
   }
   summary.bodies.push_back(std::move(effort));
   judge_spin(fast, summary);
-  for (const std::string& text : judge_deformation(whole.name, deformation)) {
-    summary.warnings.push_back(text);
-  }
-  if (deformation.rotation > kLargeRotation) {
-    summary.trust.push_back(describe_rotation(built_.model.bodies[bent].name, deformation));
-  }
+  judge_shape(whole, bent, deformation, summary);
 }
 
 void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& summary) const {
@@ -140,6 +139,8 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   summary.newton_iterations.per_step_mean =
       steps_ > 0 ? static_cast<double>(iterations_) / static_cast<double>(steps_) : 0.0;
   summary.residuals = residuals_;
+  summary.residuals.opening = joints_.opening();
+  summary.residuals.opening_rate = joints_.opening_rate();
   const double energy_error = energy_scale_ > 0.0 ? largest_balance_ / energy_scale_ : 0.0;
   summary.energy_error = energy_error;
   summary.measures.emplace_back(
@@ -151,10 +152,8 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
     summary.trust.push_back(
         "an energy is too large to be a number; check units of masses, loads and velocities");
   }
-  if (energy_error > kLargeEnergyError) {
-    summary.trust.push_back(fmt::format(
-        "the energy balance is open by {:.2g} of the energy involved; use a smaller step",
-        energy_error));
+  for (const std::string& text : {joints_.doubt(summary.end_time), energy_.doubt(energy_error)}) {
+    if (!text.empty()) summary.trust.push_back(text);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/analysis/deformation_limits.h"
+#include "buckens/analysis/trust.h"
 #include "buckens/model/model_builder.h"
 #include "buckens/results/run_summary.h"
 #include "buckens/stepping/time_march.h"
@@ -31,8 +32,11 @@ class RunStatistics {
   void fill(const stepping::TimeMarch& march, results::RunSummary& summary) const;
 
  private:
-  /// Warns where |ω| is no longer small against the lowest elastic frequency.
+  /// Warns where |ω| is no longer small against the lowest elastic frequency, which axial forces
+  /// that stiffen the body make up for.
   void judge_spin(std::size_t b, results::RunSummary& summary) const;
+  void judge_shape(const model::WholeBody& whole, std::size_t most_bent,
+                   const DeformationMeasure& found, results::RunSummary& summary) const;
   double spin_ratio(std::size_t b) const;
   /// One entry per body of the model file; the parts of a divided body are summed up.
   void add_whole(const model::WholeBody& whole, const stepping::StepLadder& ladder,
@@ -44,6 +48,8 @@ class RunStatistics {
   long most_iterations_ = 0;
   long repeated_solves_ = 0;  // steps with more than one large solve
   results::Residuals residuals_;
+  JointTrust joints_;
+  EnergyTrust energy_;
   bool is_finite_ = true;  // of all energies so far
   double largest_balance_ = 0;
   double energy_scale_ = 0;

@@ -10,13 +10,20 @@ namespace buckens::analysis {
 
 namespace {
 
-// Less than this of a body's speed is rounding in what the model file says.
-constexpr double kNoticed = 1e-6;
+// Velocities are written with four digits or so; what changes less of a body's speed was meant.
+constexpr double kNoticed = 1e-4;
 
 /// Without the rounding in components that are zero.
 std::string text(const Eigen::Vector3d& v) {
   const auto shown = [&](double x) { return std::abs(x) > 1e-9 * v.norm() ? x : 0.0; };
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", shown(v[0]), shown(v[1]), shown(v[2]));
+}
+
+/// "its velocity by (0, 0.1, 0) to (0, 30.1, 0) m/s": the change itself, since what it leads to may
+/// look like what was given.
+std::string change_text(const char* what, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                        const char* unit) {
+  return fmt::format("{} by {} to {} {}", what, text(to - from), text(to), unit);
 }
 
 }  // namespace
@@ -33,13 +40,19 @@ std::vector<std::string> describe_velocity_changes(const model::BuiltModel& buil
     const body::FrameMotion x = model::whole_motion(built.model, whole, given);
     const body::FrameMotion y = model::whole_motion(built.model, whole, projected);
     const double L = whole.count * built.model.bodies[first].length_scale();
-    const double change = std::max((y.v - x.v).norm(), L * (y.w - x.w).norm());
     const double speed = std::max({x.v.norm(), y.v.norm(), L * x.w.norm(), L * y.w.norm()});
-    if (change > kNoticed * speed) {
-      out.push_back(fmt::format(
-          "body \"{}\" cannot start with the velocity given in `initial`: the joints change it "
-          "from {} to {} m/s, its angular velocity from {} to {} rad/s",
-          spec.name, text(x.v), text(y.v), text(x.w), text(y.w)));
+    std::vector<std::string> changes;
+    if ((y.v - x.v).norm() > kNoticed * speed) {
+      changes.push_back(change_text("its velocity", x.v, y.v, "m/s"));
+    }
+    if (L * (y.w - x.w).norm() > kNoticed * speed) {
+      changes.push_back(change_text("its angular velocity", x.w, y.w, "rad/s"));
+    }
+    if (!changes.empty()) {
+      out.push_back(
+          fmt::format("body \"{}\" cannot start with the velocity given in `initial`: the joints "
+                      "change {}; give it velocities that fit them",
+                      spec.name, fmt::join(changes, " and ")));
       continue;
     }
     const linalg::Vector& d = given.bodies[first].d_dot;

@@ -55,6 +55,9 @@ struct Residuals {
   double position = 0;  ///< of the constraints [m or rad]
   double velocity = 0;  ///< of the constraints [m/s or rad/s]
   double sieve = 0;     ///< ‖S⁻¹Pᵀd‖ relative to the body's size
+  /// Of the constraints on one scale, lengths as parts of the model's length: position [-] and
+  /// velocity [1/s].
+  double opening = 0, opening_rate = 0;
 };
 
 /// A point of a static path at which equilibrium changes its kind.

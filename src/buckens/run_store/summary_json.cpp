@@ -117,7 +117,9 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
                                {"max", summary.newton_iterations.max}};
   json["residuals"] = {{"position", summary.residuals.position},
                        {"velocity", summary.residuals.velocity},
-                       {"sieve", summary.residuals.sieve}};
+                       {"sieve", summary.residuals.sieve},
+                       {"opening", summary.residuals.opening},
+                       {"opening_rate", summary.residuals.opening_rate}};
   json["energy_error"] = summary.energy_error;
   json["trust"] = summary.trust.empty() ? Json("ok") : Json(summary.trust);
   json["warnings"] = summary.warnings;

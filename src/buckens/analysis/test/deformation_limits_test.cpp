@@ -37,10 +37,15 @@ TEST(DeformationLimits, StretchedBeam) {
     return (Vector6() << 1e-3 * x, 0, 0, 0, 0, 0).finished();
   });
   const DeformationMeasure found = limits.measure(d);
-  EXPECT_NEAR(found.strain, 1e-3, 1e-15);
+  EXPECT_NEAR(found.strain, 1e-3, 1e-12);  // of section forces, rounding of 1e6 × displacements
   EXPECT_NEAR(found.rotation, 0.0, 1e-15);
   const double buckling = M_PI * M_PI * 100.0 / 4.0;
-  EXPECT_NEAR(found.axial_load, 1e6 * 1e-3 / buckling, 1e-9);  // rounding of 1e6 × displacements
+  EXPECT_NEAR(found.tension, 1e6 * 1e-3 / buckling, 1e-9);
+  EXPECT_EQ(found.compression, 0.0);
+  EXPECT_EQ(found.axial_load(), found.tension);
+  const DeformationMeasure pushed = limits.measure(-d);
+  EXPECT_NEAR(pushed.compression, found.tension, 1e-9);
+  EXPECT_EQ(pushed.tension, 0.0);
 }
 
 TEST(DeformationLimits, TurnedAndBentBeam) {
@@ -51,8 +56,9 @@ TEST(DeformationLimits, TurnedAndBentBeam) {
   });
   const DeformationMeasure found = limits.measure(d);
   EXPECT_NEAR(found.rotation, 0.2, 1e-15);  // at the end; slopes of elements are 0.175 at most
-  EXPECT_NEAR(found.strain, 0.0, 1e-15);
-  EXPECT_NEAR(found.axial_load, 0.0, 1e-12);
+  // A curvature of 0.2 and an outer fibre at √(3 I/A) = √(3·100/1e6): the section is a rectangle.
+  EXPECT_NEAR(found.strain, 0.2 * std::sqrt(3e-4), 1e-12);
+  EXPECT_NEAR(found.axial_load(), 0.0, 1e-12);
 }
 
 TEST(DeformationLimits, StretchedAndTurnedShells) {
@@ -78,21 +84,57 @@ TEST(DeformationLimits, StretchedAndTurnedShells) {
   for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
     const Eigen::Vector3d& x = fe.nodes[node].position;
     const Eigen::Vector3d u(5e-3 * x.z(), 2e-3 * x.y() + 4e-3 * x.z(), -1e-3 * x.z());
-    for (std::size_t k = 0; k < 3; ++k) d[fe.dofs.node_dofs[node][k]] = u[static_cast<int>(k)];
+    const Eigen::Vector3d turn(-2e-3, 5e-3,
+                               0.0);  // normals stay normal, corners turn as their mean
+    for (std::size_t k = 0; k < 3; ++k) {
+      d[fe.dofs.node_dofs[node][k]] = u[static_cast<int>(k)];
+      d[fe.dofs.node_dofs[node][k + 3]] = turn[static_cast<int>(k)];
+    }
   }
   const DeformationMeasure found = limits.measure(d);
   EXPECT_NEAR(found.strain, 3e-3, 1e-15);
-  EXPECT_NEAR(found.rotation, 5e-3, 1e-15);
+  EXPECT_NEAR(found.rotation, std::hypot(2e-3, 5e-3), 1e-15);  // of the nodes
+}
+
+DeformationMeasure measured(double rotation, double strain, double tension, double compression) {
+  DeformationMeasure out;
+  out.rotation = rotation;
+  out.strain = strain;
+  out.tension = tension;
+  out.compression = compression;
+  return out;
 }
 
 TEST(DeformationLimits, SaysWhatToDo) {
-  EXPECT_TRUE(judge_deformation("rod", {0.05, 0.04, 0.04}).empty());
-  const auto warnings = judge_deformation("rod", {0.2, 0.1, 0.5});
-  ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_THAT(warnings[0], testing::HasSubstr("body \"rod\" is strained by up to 0.1"));
-  EXPECT_THAT(warnings[1], testing::HasSubstr("0.5 of its buckling load"));
-  EXPECT_THAT(warnings[1], testing::HasSubstr("give it more `frames`"));
-  EXPECT_THAT(describe_rotation("rod", {0.2, 0, 0}), testing::HasSubstr("0.2 rad"));
+  const DeformedBody rod{"rod", "rod[2]", 2, false};
+  const auto fine = judge_deformation(rod, measured(0.05, 0.04, 0.04, 0.04));
+  EXPECT_TRUE(fine.warnings.empty() && fine.trust.empty());
+  const auto strained = judge_deformation(rod, measured(0.05, 0.06, 0, 0));
+  ASSERT_EQ(strained.warnings.size(), 1U);
+  EXPECT_THAT(strained.warnings[0], testing::HasSubstr("body \"rod\" is strained by up to 0.06"));
+  EXPECT_TRUE(strained.trust.empty());
+  const auto bad = judge_deformation(rod, measured(0.2, 0.11, 0.5, 0.2));
+  EXPECT_TRUE(bad.warnings.empty());
+  ASSERT_EQ(bad.trust.size(), 3U);
+  EXPECT_THAT(bad.trust[0], testing::HasSubstr("body \"rod[2]\" bends by up to 0.2 rad"));
+  EXPECT_THAT(bad.trust[1], testing::HasSubstr("strained by up to 0.11"));
+  // 0.5/1.5 in tension is more than 0.2/0.8 in compression; 0.5/16 are less than 5 %.
+  EXPECT_THAT(bad.trust[2], testing::HasSubstr("0.5 of its buckling load pi^2 EI/L^2 in tension"));
+  EXPECT_THAT(bad.trust[2], testing::HasSubstr("by up to about 33 %; use `frames: 8`"));
+}
+
+TEST(DeformationLimits, CompressionBendsMoreThanTensionStiffens) {
+  const DeformedBody rod{"rod", "rod", 1, false};
+  const auto found = judge_deformation(rod, measured(0.01, 0, 0.2, 0.2));
+  ASSERT_EQ(found.trust.size(), 1U);
+  EXPECT_THAT(found.trust[0], testing::HasSubstr("in compression"));
+  EXPECT_THAT(found.trust[0], testing::HasSubstr("25 %"));
+  EXPECT_THAT(judge_deformation(rod, measured(0, 0, 0, 1.5)).trust.at(0),
+              testing::HasSubstr("without bound"));
+  // A load that is in the equations, or a body that does not bend, has nothing to err.
+  EXPECT_TRUE(
+      judge_deformation({"rod", "rod", 1, true}, measured(0.01, 0, 0.2, 0.2)).trust.empty());
+  EXPECT_TRUE(judge_deformation(rod, measured(0, 0, 5.0, 0)).trust.empty());
 }
 
 }  // namespace
