@@ -27,6 +27,7 @@ void JournaledSink::write(const results::Record& record) {
 
 void JournaledSink::finish(const results::RunSummary& summary) {
   finished_ = true;
+  for (const std::string& text : summary.warnings) journal_.warn_once(text);
   journal_.record(summary_text(summary));
   journal_.close();
   directory_.finish(summary);

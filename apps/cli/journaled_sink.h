@@ -10,8 +10,8 @@
 
 namespace buckens::cli {
 
-/// Passes records on to a run directory, counts them, and puts the summary into the log before the
-/// directory is completed.
+/// Passes records on to a run directory, counts them, says warnings that are known only at the end,
+/// and puts the summary into the log before the directory is completed.
 class JournaledSink : public results::RecordSink {
  public:
   JournaledSink(run_store::RunDirectory& directory, RunJournal& journal)

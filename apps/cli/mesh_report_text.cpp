@@ -256,8 +256,11 @@ MeshNotes mesh_notes(const body::BodySpec& body) {
   for (const std::string& text : complaints(report)) {
     out.complaints.push_back(fmt::format("body \"{}\": {}", body.name, text));
   }
-  if (!mesh->notes.empty()) {
-    std::string text = note_text(mesh->notes.front());
+  // What the model file says instead is in the notes of `buckens mesh-info` only.
+  const auto first = std::find_if(mesh->notes.begin(), mesh->notes.end(),
+                                  [](const auto& note) { return !note.is_expected; });
+  if (first != mesh->notes.end()) {
+    std::string text = note_text(*first);
     if (mesh->notes.size() > 1) {
       text += fmt::format("; {} more notes in `buckens mesh-info`", mesh->notes.size() - 1);
     }

@@ -22,7 +22,7 @@ std::string note_text(const fem::ImportNote& note);
 /// The same in a few lines; empty for bodies whose mesh is no file.
 struct MeshNotes {
   std::string summary;
-  std::vector<std::string> complaints;  ///< what is probably wrong, and what was left out
+  std::vector<std::string> complaints;  ///< what is probably wrong, and what the body lacks
 };
 MeshNotes mesh_notes(const body::BodySpec& body);
 

@@ -45,8 +45,20 @@ void RunJournal::close() {
 }
 
 void RunJournal::say(base::LogLevel level, const std::string& message) {
+  if (level >= lowest_ || level == base::LogLevel::warning) {
+    const std::lock_guard lock(mutex_);
+    told_.insert(message);
+  }
   if (level >= lowest_) display_.message(fmt::format("buckens: {}{}", prefix(level), message));
   record(prefix(level) + message);
+}
+
+void RunJournal::warn_once(const std::string& message) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (told_.count(message) > 0) return;
+  }
+  say(base::LogLevel::warning, message);
 }
 
 void RunJournal::record(const std::string& lines) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class RunJournal {
   void close();
 
   void say(base::LogLevel level, const std::string& message);
+  /// Says a warning unless it has been shown or, as a warning, recorded before.
+  void warn_once(const std::string& message);
   /// Lines for the log alone.
   void record(const std::string& lines);
 
@@ -45,6 +48,7 @@ class RunJournal {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::vector<std::string> kept_;
+  std::set<std::string> told_;  // warnings, and what was shown
   run_store::RunDirectory* directory_ = nullptr;
 };
 

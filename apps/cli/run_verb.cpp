@@ -143,6 +143,9 @@ ExitCode run(const RunArguments& arguments, bool json) {
   } else if (!arguments.quiet) {
     print(summary_text(summary) + fmt::format("results: {}; look at them with: buckens view {}\n",
                                               path.string(), path.string()));
+  } else {
+    // The summary that would say so is not shown.
+    for (const std::string& text : summary.trust) journal.warn_once(text);
   }
   return summary.finished ? ExitCode::ok : ExitCode::interrupted;
 }
@@ -173,8 +176,9 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
                   "Directory for the results; without it the model's name with .out in\n"
                   "place of its ending, in the current directory")
       ->type_name("OUT");
-  verb.add_flag("-q,--quiet", arguments->quiet,
-                "No progress and no summary; warnings and errors only");
+  verb.add_flag(
+      "-q,--quiet", arguments->quiet,
+      "No progress and no summary; warnings, reasons to doubt the results and\nerrors only");
   verb.add_option("--threads", arguments->threads,
                   "Threads that advance bodies at the same time, two of them also one large\n"
                   "body; 1 if not given. Results are the same to the last bit")

@@ -44,9 +44,7 @@ std::string static_path_text(const results::RunSummary& summary) {
       {"constraint residual", fmt::format("{:.2g} at most", summary.residuals.position)},
       {"energy balance", fmt::format("off by {:.2g} of its scale", summary.energy_error)},
       {"trust", trust.empty() ? "ok" : trust}};
-  out += text_list(entries);
-  for (const std::string& text : summary.warnings) out += "warning: " + text + '\n';
-  return out;
+  return out + text_list(entries);
 }
 
 }  // namespace buckens::cli

@@ -90,6 +90,9 @@ ExitCode run(const StaticArguments& arguments, bool json) {
   } else if (!arguments.quiet) {
     print(summary_text(summary) + fmt::format("results: {}; look at them with: buckens view {}\n",
                                               path.string(), path.string()));
+  } else {
+    // The summary that would say so is not shown.
+    for (const std::string& text : summary.trust) journal.warn_once(text);
   }
   if (summary.finished) return ExitCode::ok;
   return summary.interrupted == kStopped ? ExitCode::interrupted : ExitCode::numerical;
@@ -122,7 +125,8 @@ void add_static_verb(CLI::App& program, Invocation& invocation) {
                   "Directory for the results; without it the model's name with .static.out in\n"
                   "place of its ending, in the current directory")
       ->type_name("OUT");
-  verb.add_flag("-q,--quiet", arguments->quiet, "No summary; warnings and errors only");
+  verb.add_flag("-q,--quiet", arguments->quiet,
+                "No summary; warnings, reasons to doubt the results and errors only");
   add_json_option(verb, invocation);
   verb.footer(kStaticFooter);
   verb.callback([arguments, &invocation] {

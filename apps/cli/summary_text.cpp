@@ -122,7 +122,6 @@ std::string summary_text(const results::RunSummary& summary) {
   out += text_list(entries);
   for (const std::string& text : summary.redundant_constraints) out += "redundant: " + text + '\n';
   for (const std::string& text : summary.notes) out += "note: " + text + '\n';
-  for (const std::string& text : summary.warnings) out += "warning: " + text + '\n';
   return out;
 }
 

@@ -127,6 +127,8 @@ struct ImportNote {
   std::string text;  ///< a sentence with what became of it
   int line = 0;      ///< 0: the whole file
   int count = 1;     ///< how often the same was met
+  /// The model file says these things in any case (loads, supports, output): no reason to worry.
+  bool is_expected = false;
 };
 
 /// A mesh as a file holds it, in the units of the file: what all readers of meshes deliver.

@@ -21,7 +21,8 @@ struct AbaqusReading {
   explicit AbaqusReading(const std::filesystem::path& path) : lines(path), scope(&deck.root) {}
 
   /// Adds a note, or counts it if it is there.
-  void note(DeckPlace place, const std::string& text);
+  /// @param is_expected see fem::ImportNote
+  void note(DeckPlace place, const std::string& text, bool is_expected = false);
   /// Value of a parameter.
   /// @throws InputError if it is missing or empty
   const std::string& parameter(const DeckKeyword& keyword, const char* key) const;

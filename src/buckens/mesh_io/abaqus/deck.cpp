@@ -159,7 +159,8 @@ class DeckReader {
       if (keyword.name != "ENDSTEP") continue;
       in_.note(step.place,
                "*STEP … *END STEP is left out: loads, supports and output come from the "
-               "model file");
+               "model file",
+               true);
       return;
     }
     in_.lines.fail(step.place, "*STEP has no *END STEP; the file seems to be cut off");
@@ -289,13 +290,14 @@ class DeckReader {
 
 }  // namespace
 
-void AbaqusReading::note(DeckPlace place, const std::string& text) {
+void AbaqusReading::note(DeckPlace place, const std::string& text, bool is_expected) {
   fem::ImportNote& entry = repeated[text];
   if (entry.text.empty()) {
     entry.text = text;
     if (place.file > 0) entry.text += fmt::format(" (in {})", lines.where(place).file);
     entry.line = place.line;
     entry.count = 0;
+    entry.is_expected = is_expected;
   }
   ++entry.count;
 }

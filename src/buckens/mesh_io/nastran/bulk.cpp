@@ -106,7 +106,7 @@ void note_unused(const NastranCard& card, NastranNotes& notes) {
   const NastranPlace place{card.file, card.line};
   if (support_names().contains(card.name)) {
     notes.add(fmt::format("{}: left out; supports and loads stand in the model file", card.name),
-              place);
+              place, true);
   } else {
     notes.add(
         fmt::format("{}: left out; it is no part of a mesh that can be taken over", card.name),

@@ -27,7 +27,7 @@ void note_sections(const NastranControl& control, bool found_end, const NastranF
     notes.add(fmt::format("executive and case control, {} lines: left out but for SET, MPC and "
                           "PARAM,WTMASS",
                           control.num_lines),
-              {&file, 1});
+              {&file, 1}, true);
   }
   if (control.present && !found_end) {
     notes.add("ENDDATA is missing; is the deck complete?", {&file, 0});

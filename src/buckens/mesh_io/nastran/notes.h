@@ -24,15 +24,16 @@ class NastranNotes {
   /// @param main_file notes of other files name theirs
   explicit NastranNotes(const NastranFile& main_file) : main_file_(&main_file) {}
 
-  void add(const std::string& text, const NastranPlace& place) {
+  /// @param is_expected see fem::ImportNote
+  void add(const std::string& text, const NastranPlace& place, bool is_expected = false) {
     const auto [entry, is_new] = place_of_.try_emplace(text, notes_.size());
     if (!is_new) {
       ++notes_[entry->second].count;
       return;
     }
     const bool elsewhere = place.file != nullptr && place.file != main_file_;
-    notes_.push_back(
-        {elsewhere ? place.file->name + ": " + text : text, elsewhere ? 0 : place.line, 1});
+    notes_.push_back({elsewhere ? place.file->name + ": " + text : text, elsewhere ? 0 : place.line,
+                      1, is_expected});
   }
 
   std::vector<fem::ImportNote> take() { return std::move(notes_); }
