@@ -92,9 +92,9 @@ def test_summary_says_where_linear_elasticity_ends(run):
     assert beam["spin_over_lowest_frequency"] > 0.1
     assert beam["largest_rotation_rad"] > 0.1
     assert beam["largest_axial_load_over_buckling_load"] > 0.05
-    text = "\n".join(summary["warnings"])
-    assert "lowest elastic frequency" in text and "buckling load" in text
-    assert any("bends by up to" in reason for reason in summary["trust"])
+    assert any("lowest elastic frequency" in text for text in summary["warnings"])
+    for words in ("bends by up to", "of its buckling load"):
+        assert any(words in reason for reason in summary["trust"])
     assert "body beam" in out and "|w|/w1" in out
 
 

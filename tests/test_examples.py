@@ -320,6 +320,7 @@ def test_rotating_beam_is_stiffened_by_frames(run):
     one = run("rotating_beam/rotating_beam", bodies__beam__frames=1)
     assert lead_lag_frequency(one) == pytest.approx(3.282, rel=2e-3)
     assert any("more `frames`" in text for text in one.summary["warnings"])
+    assert any("of its buckling load" in text for text in one.summary["trust"])
 
 
 def test_large_bend_reaches_the_known_tip(run):

@@ -203,7 +203,7 @@ def test_a_step_that_is_too_long_gets_advice(buckens, models, tmp_path):
                      "--set", "simulation.step=10 ms").must(0)
     advice = summary_of(tmp_path / "out")["warnings"]
     assert any("beam" in text and "step of" in text for text in advice), advice
-    assert "warning: " + advice[0] in result.out
+    assert "warning: " + advice[0] in result.err
     buckens("run", models / "beam.yaml", "-o", "fine", "--set", "simulation.step=20 us").must(0)
     assert summary_of(tmp_path / "fine")["warnings"] == []
 
