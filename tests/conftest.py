@@ -18,6 +18,12 @@ MODELS = SOURCE / "tests" / "models"
 PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH = 24, 1, 2
 
 
+def pytest_sessionstart():
+    """Without the program there is nothing to test, and that must not look like success."""
+    if not os.access(PROGRAM, os.X_OK):
+        pytest.exit(f"{PROGRAM}: the program is not built (BUCKENS_PROGRAM says where it is)", 1)
+
+
 def heed_permissions():
     """For the child process: file permissions hold for root, too."""
     if os.geteuid() == 0:

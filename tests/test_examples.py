@@ -22,8 +22,6 @@ PROGRAM = pathlib.Path(os.environ.get("BUCKENS_PROGRAM", BINARY / "bin" / "bucke
 EXAMPLES = SOURCE / "examples"
 G = 9.81
 
-pytestmark = pytest.mark.skipif(not PROGRAM.exists(), reason=f"{PROGRAM} is not built")
-
 
 class Run:
     """A finished run: columns of sensors.csv by name, and summary.json."""

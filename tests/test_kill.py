@@ -105,16 +105,10 @@ def check_directory(out):
     assert (out / "model.yaml").exists() and (out / "log.txt").exists()
 
 
-needs_writer = pytest.mark.skipif(not WRITER.exists(), reason=f"{WRITER} is not built")
-needs_program = pytest.mark.skipif(not PROGRAM.exists() or not MODEL.exists(),
-                                   reason=f"{PROGRAM} or {MODEL} is missing")
-
-
 # Without pauses; bursts of some records; single records, fast and slow.
 RHYTHMS = [(100, 0), (100, 0), (37, 13), (1, 1), (250, 400), (1, 300)]
 
 
-@needs_writer
 @pytest.mark.parametrize("seed", range(30))
 def test_writer_killed_at_any_moment(tmp_path, seed):
     chance = random.Random(seed)
@@ -136,7 +130,6 @@ def test_writer_killed_at_any_moment(tmp_path, seed):
         assert float(row[1]) >= killed - LOSS
 
 
-@needs_writer
 @pytest.mark.parametrize("seed", range(30))
 def test_writer_killed_while_it_starts(tmp_path, seed):
     out = tmp_path / "out"
@@ -155,7 +148,6 @@ def test_writer_killed_while_it_starts(tmp_path, seed):
     check_results(out)
 
 
-@needs_writer
 def test_records_before_a_long_silence_are_kept(tmp_path):
     """A step that takes long must not hold back the records before it."""
     out = tmp_path / "out"
@@ -164,7 +156,6 @@ def test_records_before_a_long_silence_are_kept(tmp_path):
     assert len(times) == 37
 
 
-@needs_writer
 def test_a_reader_follows_a_running_run(tmp_path):
     out = tmp_path / "out"
     process = subprocess.Popen([str(WRITER), str(out), "10", "5"])
@@ -185,7 +176,6 @@ def test_a_reader_follows_a_running_run(tmp_path):
         process.wait()
 
 
-@needs_writer
 def test_a_killed_run_gives_way_to_a_new_one(tmp_path):
     out = tmp_path / "out"
     for _ in range(2):
@@ -193,7 +183,6 @@ def test_a_killed_run_gives_way_to_a_new_one(tmp_path):
         check_results(out)
 
 
-@needs_program
 @pytest.mark.parametrize("seed", range(20))
 def test_program_killed_at_any_moment(tmp_path, seed):
     chance = random.Random(1000 + seed)

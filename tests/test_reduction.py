@@ -5,10 +5,11 @@ import csv
 import json
 import pathlib
 
+import h5py
 import numpy
 import pytest
 
-from conftest import BINARY
+from test_view import add_viewer, installed, view  # noqa: F401 - a fixture
 
 EXAMPLES = pathlib.Path(__file__).parents[1] / "examples"
 CRANK = EXAMPLES / "slider_crank" / "slider_crank.yaml"
@@ -115,7 +116,6 @@ def test_modes_of_a_reduced_body(buckens, tmp_path):
 
 
 def test_results_are_those_of_nodes(run, tmp_path):
-    h5py = pytest.importorskip("h5py")
     fields = {}
     for name, settings in [("full", short()), ("reduced", reduced("{free-free: 1000}"))]:
         run(CRANK, name, **settings)
@@ -128,11 +128,10 @@ def test_results_are_those_of_nodes(run, tmp_path):
         assert numpy.abs(found - expected).max() < 1e-6 * numpy.abs(expected).max()
 
 
-@pytest.mark.skipif(not (BINARY / "share" / "buckens" / "viewer.html").exists(),
-                    reason="the viewer's page is not built")
-def test_a_reduced_run_can_be_viewed(run, buckens, tmp_path):
+def test_a_reduced_run_can_be_viewed(run, installed, tmp_path):
     run(CRANK, "out", **reduced("{free-free: 4}"))
-    buckens("view", "out").must(0)
+    add_viewer(installed)
+    view(installed, "out", cwd=tmp_path).must(0)
 
 
 def test_like_is_reduced_on_its_own(buckens, tmp_path):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The library (src/buckens without its tests) never prints, never ends the process, and takes no
-unrepeatable random numbers: no std::cout/cerr/clog, printf, abort, exit, rand in it."""
+unrepeatable random numbers: no std::cout/cerr/clog, printf, abort, exit, rand in it. Nor does it
+choose a locale, which belongs to the whole process."""
 
 import argparse
 import re
@@ -21,6 +22,8 @@ FORBIDDEN = [
     (re.compile(r"(?<![\w.>])(std\s*::\s*)?(rand|srand|random_device)\b(?=\s*[({])"
                 r"|\bstd\s*::\s*random_device\b|::\s*Random\s*\("),
      "is not repeatable; use a local engine with a fixed seed"),
+    (re.compile(r"\b(set|use)locale\s*\(|\blocale\s*::\s*global\s*\("),
+     "changes how the whole process writes numbers; use fmt and std::from_chars"),
 ]
 
 # Processes that this project has started itself end here, not that of the user.

@@ -133,7 +133,8 @@ class Streams(Checks):
         for statement in ("std::cout << 1;", "std::cerr << 1;", 'printf("a");', "std::abort();",
                           'fprintf(stderr, "a");', 'fmt::print("a");', "exit(1);",
                           "std::terminate();", "int i = rand();", "auto m = Matrix3d::Random();",
-                          "std::random_device d;"):
+                          "std::random_device d;", 'std::setlocale(LC_ALL, "");',
+                          "std::locale::global(std::locale());"):
             self.expect("check_streams.py",
                         {"src/buckens/fem/a.cpp": f"void f() {{\n  {statement}\n}}\n"},
                         "src/buckens/fem/a.cpp:2")

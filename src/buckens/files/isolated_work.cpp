@@ -15,6 +15,14 @@
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define BUCKENS_UNDER_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define BUCKENS_UNDER_SANITIZER
+#endif
+#endif
+
 namespace buckens::files {
 
 namespace {
@@ -23,7 +31,7 @@ constexpr char kEnd = '\x04';  // behind the output of work that came to its end
 
 /// To what the machine has. Sanitizers reserve more addresses than that for themselves.
 void limit_memory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(BUCKENS_UNDER_SANITIZER)
   const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
   if (pages <= 0 || size <= 0) return;
   const auto bytes = static_cast<rlim_t>(pages) * static_cast<rlim_t>(size);
@@ -32,9 +40,15 @@ void limit_memory() {
 #endif
 }
 
+void limit_time(unsigned seconds) {
+  if (seconds == 0) return;
+  const rlimit time = {seconds, seconds + 1};
+  ::setrlimit(RLIMIT_CPU, &time);
+}
+
 void keep_to_itself() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int number : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGSEGV, SIGFPE, SIGABRT}) {
+  for (const int number : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGSEGV, SIGFPE, SIGABRT, SIGXCPU}) {
     ::signal(number, SIG_DFL);
   }
   const int nothing = ::open("/dev/null", O_RDWR);
@@ -66,7 +80,7 @@ std::string received(int pipe) {
 
 }  // namespace
 
-IsolatedResult do_isolated(const std::function<std::string()>& work) {
+IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds) {
   std::array<int, 2> ends;
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw IoError(fmt::format("cannot start a process: {}", system_reason(errno)));
@@ -75,6 +89,7 @@ IsolatedResult do_isolated(const std::function<std::string()>& work) {
   if (child == 0) {
     ::close(ends[0]);
     keep_to_itself();
+    limit_time(seconds);
     try {
       send(ends[1], work() + kEnd);
     } catch (...) {

@@ -20,7 +20,8 @@ struct IsolatedResult {
 ///
 /// The copy has one thread; the work must not wait for others that ran before.
 /// @param work in the copy; an exception ends it without a result
+/// @param seconds of computing after which the copy is ended by SIGXCPU; 0: no limit
 /// @throws IoError if the system grants no further process
-IsolatedResult do_isolated(const std::function<std::string()>& work);
+IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds = 0);
 
 }  // namespace buckens::files

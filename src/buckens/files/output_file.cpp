@@ -31,6 +31,8 @@ std::string remedy(int error) {
     case EPERM:
     case EROFS:
       return " Choose a place where you may write (-o).";
+    case ELOOP:
+      return " It is a symbolic link; remove it, or write elsewhere (-o).";
     case EPIPE:
       return " The process that takes the data has ended; perhaps the memory was exhausted.";
     default:
@@ -42,7 +44,17 @@ std::string remedy(int error) {
 
 OutputFile::OutputFile(const std::filesystem::path& path, Start start) : path_(path) {
   const int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC;
-  descriptor_ = ::open(path.c_str(), start == Start::empty ? flags | O_TRUNC : flags, 0666);
+  switch (start) {
+    case Start::empty:
+      descriptor_ = ::open(path.c_str(), flags | O_TRUNC, 0666);
+      break;
+    case Start::anew:
+      descriptor_ = open_anew(path.c_str(), O_WRONLY | O_APPEND);
+      break;
+    case Start::as_it_is:
+      descriptor_ = ::open(path.c_str(), flags | O_NOFOLLOW, 0666);
+      break;
+  }
   if (descriptor_ < 0) fail("open");
 }
 
@@ -91,6 +103,11 @@ void OutputFile::close() {
   if (is_open() && ::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("close");
 }
 
+int open_anew(const char* path, int flags) {
+  if (::unlink(path) != 0 && errno != ENOENT) return -1;
+  return ::open(path, flags | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
 std::string system_reason(int error) {
   return fmt::format("{}.{}", std::generic_category().message(error), remedy(error));
 }
@@ -115,7 +132,7 @@ void replace_text_file(const std::filesystem::path& path, std::string_view text)
   part += ".part";
   std::error_code error;
   try {
-    OutputFile file(part);
+    OutputFile file(part, OutputFile::Start::anew);
     file.write(text);
     file.close();
     std::filesystem::rename(part, path, error);

@@ -11,7 +11,11 @@ namespace buckens::files {
 /// survives the death of the program.
 class OutputFile {
  public:
-  enum class Start { empty, as_it_is };
+  enum class Start {
+    empty,    ///< an old file is emptied; through a symbolic link, the file it leads to
+    anew,     ///< an old file or link is removed first: see open_anew()
+    as_it_is  ///< goes on behind what is there; symbolic links are refused
+  };
 
   OutputFile() = default;
   /// Opens the file for writing at its end and creates it if needed.
@@ -40,6 +44,12 @@ class OutputFile {
   std::filesystem::path path_;
   int descriptor_ = -1;
 };
+
+/// Creates a file of this name where nobody else's is written to: an old file or symbolic link goes
+/// first, and one that somebody puts there in between is an error.
+/// @param flags of open() besides those for creation
+/// @return the descriptor, −1 with errno as open() has it
+int open_anew(const char* path, int flags);
 
 /// What the system says about an error number, and what a user can do about it; ends in a full
 /// stop.

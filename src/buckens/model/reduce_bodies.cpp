@@ -87,6 +87,13 @@ void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore*
   const std::uint64_t key = is_kept ? body::basis_key(*body.flexible, describe(spec)) : 0;
   std::optional<body::ReducedBasis> basis;
   if (is_kept) basis = find_kept(spec, key, *store);
+  if (basis && basis->Z.rows() != body.flexible->fe.dofs.num_dofs) {
+    throw IoError(spec.where,
+                  fmt::format("body \"{}\": {}: the reduced basis in it has {} rows and "
+                              "the body {} nodal variables; remove the file",
+                              spec.name, spec.reduction.file, basis->Z.rows(),
+                              body.flexible->fe.dofs.num_dofs));
+  }
   if (!basis) {
     basis = make_basis(spec, body);
     if (is_kept) store->keep(spec.reduction.file, key, *basis);

@@ -11,6 +11,7 @@
 #include <yaml-cpp/parser.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/utf8.h"
 
 namespace buckens::model_file {
 
@@ -21,27 +22,6 @@ constexpr std::size_t kLargestText = 8u << 20;
 constexpr std::size_t kMostNodes = 500000;
 constexpr std::size_t kDeepestTree = 60;
 
-/// Length of the UTF-8 character at `i`, 0 if it is none.
-std::size_t character_length(const std::string& text, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
-  };
-  const unsigned first = byte(i);
-  if (first < 0x80) return first == 0 ? 0 : 1;
-  const std::size_t length = first >= 0xF0 && first < 0xF5   ? 4
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                                                             : 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((byte(i + k) & 0xC0) != 0x80) return 0;
-  }
-  // Longer than need be, a half of a pair of UTF-16, or beyond U+10FFFF.
-  const unsigned second = byte(i + 1);
-  const bool is_refused = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
-                          (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
-  return is_refused ? 0 : length;
-}
-
 void check_encoding(const std::string& text, const std::string& name) {
   if (text.size() > kLargestText) {
     throw InputError({name, 0, 0},
@@ -51,7 +31,7 @@ void check_encoding(const std::string& text, const std::string& name) {
   }
   SourceLocation where{name, 1, 1};
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = character_length(text, i);
+    const std::size_t length = base::utf8_length(text, i);
     if (length == 0) {
       throw InputError(where, fmt::format("byte 0x{:02X} is not UTF-8 text; is this a model file? "
                                           "Save it with UTF-8 encoding",

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/run_store/hdf5_reading.h"
+#include "buckens/run_store/hdf5_texts.h"
 #include "buckens/run_store/hdf5_values.h"
 
 namespace buckens::run_store {
@@ -22,14 +24,45 @@ constexpr char kBasisFormat[] = "buckens reduced basis 1";
 
 std::string text_of(std::uint64_t key) { return fmt::format("{:016x}", key); }
 
-/// What a file says it is; empty for files of other programs.
-std::string format_of(const fs::path& path) {
+/// A file with a basis, not open for files of other programs. All its texts have been read.
+Hdf5File open_basis(const fs::path& path, const std::shared_ptr<Hdf5Texts>& texts) {
   try {
-    return read_string(Hdf5File::open_for_reading(path), "/", "format");
+    Hdf5File in = Hdf5File::open_for_reading(path, texts);
+    if (read_string(in, "/", "format") != kBasisFormat) return {};
+    read_string(in, "/", "key");
+    return in;
   } catch (const IoError&) {
     if (std::ifstream(path).good()) return {};
     throw;
   }
+}
+
+body::ReducedBasis read_basis(const Hdf5File& in) {
+  const std::vector<int> counts = read_ints(in, "/", "counts");
+  const std::vector<double> figures = read_doubles(in, "/", "figures");
+  const std::vector<double> omega = read_double_dataset(in, "/omega");
+  const std::vector<double> Z = read_any_double_dataset(in, "/Z");
+  const auto columns = static_cast<Eigen::Index>(omega.size());
+  if (counts.size() != 3 || figures.size() != 2 || columns == 0 || counts[2] < 1 ||
+      Z.size() != static_cast<std::size_t>(counts[2]) * omega.size()) {
+    throw IoError(fmt::format("{}: the reduced basis in it is not complete; remove the file",
+                              in.path().string()));
+  }
+  body::ReducedBasis out;
+  out.omega = Eigen::Map<const linalg::Vector>(omega.data(), columns);
+  // Column after column, as in memory.
+  out.Z = Eigen::Map<const linalg::Matrix>(Z.data(), counts[2], columns);
+  if (!out.omega.allFinite() || !out.Z.allFinite()) {
+    throw IoError(
+        fmt::format("{}: the reduced basis in it holds values that are no numbers; "
+                    "remove the file",
+                    in.path().string()));
+  }
+  out.num_modes = counts[0];
+  out.num_residuals = counts[1];
+  out.highest_mode = figures[0];
+  out.static_share = figures[1];
+  return out;
 }
 
 }  // namespace
@@ -38,13 +71,17 @@ std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std:
   const fs::path path = directory_ / file;
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
-  if (format_of(path) != kBasisFormat) {
+  const auto texts = read_texts_apart(path, [&path](const std::shared_ptr<Hdf5Texts>& notes) {
+    const Hdf5File trial = open_basis(path, notes);
+    if (trial.is_open()) read_basis(trial);
+  });
+  const Hdf5File in = open_basis(path, texts);
+  if (!in.is_open()) {
     throw InputError(
         fmt::format("{}: is no reduced basis of this version of Buckens; name another "
                     "file (`reduction.file`) or remove it",
                     path.string()));
   }
-  const Hdf5File in = Hdf5File::open_for_reading(path);
   if (read_string(in, "/", "key") != text_of(key)) {
     if (others_ == Others::leave) return std::nullopt;
     throw InputError(fmt::format(
@@ -52,25 +89,7 @@ std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std:
         "remove the file to have it made anew, or name another one (`reduction.file`)",
         path.string()));
   }
-  const std::vector<int> counts = read_ints(in, "/", "counts");
-  const std::vector<double> figures = read_doubles(in, "/", "figures");
-  const std::vector<double> omega = read_double_dataset(in, "/omega");
-  const std::vector<double> Z = read_double_dataset(in, "/Z");
-  const auto columns = static_cast<Eigen::Index>(omega.size());
-  if (counts.size() != 3 || figures.size() != 2 || columns == 0 ||
-      Z.size() != static_cast<std::size_t>(counts[2]) * omega.size()) {
-    throw IoError(
-        fmt::format("{}: the reduced basis in it is not complete; remove the file", path.string()));
-  }
-  body::ReducedBasis out;
-  out.omega = Eigen::Map<const linalg::Vector>(omega.data(), columns);
-  // Column after column, as in memory.
-  out.Z = Eigen::Map<const linalg::Matrix>(Z.data(), counts[2], columns);
-  out.num_modes = counts[0];
-  out.num_residuals = counts[1];
-  out.highest_mode = figures[0];
-  out.static_share = figures[1];
-  return out;
+  return read_basis(in);
 }
 
 void BasisFiles::keep(const std::string& file, std::uint64_t key, const body::ReducedBasis& basis) {

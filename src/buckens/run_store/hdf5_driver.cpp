@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "buckens/files/output_file.h"
+
 namespace buckens::run_store {
 
 namespace {
@@ -51,7 +53,7 @@ void end_writing(DriverFile& file, int error) {
 
 H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
   const DriverSettings settings = *static_cast<const DriverSettings*>(H5Pget_driver_info(access));
-  const int descriptor = ::open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor = files::open_anew(name, O_RDWR);
   if (descriptor < 0) {
     settings.fault->error = errno;
     return nullptr;

@@ -86,9 +86,11 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, files::WriteProcess
   return file;
 }
 
-Hdf5File Hdf5File::open_for_reading(const std::filesystem::path& path) {
+Hdf5File Hdf5File::open_for_reading(const std::filesystem::path& path,
+                                    std::shared_ptr<Hdf5Texts> texts) {
   const Hdf5Quiet quiet;
   Hdf5File file;
+  file.texts_ = std::move(texts);
   file.path_ = path;
   const hid_t id =
       H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access_settings().get());

@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "buckens/run_store/hdf5_driver.h"
+#include "buckens/run_store/hdf5_texts.h"
 
 namespace buckens::run_store {
 
@@ -57,12 +58,15 @@ std::string hdf5_reason();
 class Hdf5File {
  public:
   Hdf5File() = default;
-  /// Creates the file, replacing an old one. All writes go through `writer`, which must outlive the
+  /// Creates the file anew (open_anew()). All writes go through `writer`, which must outlive the
   /// file. @throws IoError
   static Hdf5File create(const std::filesystem::path& path, files::WriteProcess& writer);
   /// Opens a file that is complete, still being written by another process, or left behind by a
-  /// killed one. @throws IoError
-  static Hdf5File open_for_reading(const std::filesystem::path& path);
+  /// killed one.
+  /// @param texts where its texts are noted, or come from: read_texts_apart()
+  /// @throws IoError
+  static Hdf5File open_for_reading(const std::filesystem::path& path,
+                                   std::shared_ptr<Hdf5Texts> texts = nullptr);
   ~Hdf5File();
   Hdf5File(Hdf5File&&) = default;
   Hdf5File& operator=(Hdf5File&&) = default;
@@ -70,6 +74,7 @@ class Hdf5File {
   hid_t id() const { return file_.get(); }
   bool is_open() const { return file_.is_valid(); }
   const std::filesystem::path& path() const { return path_; }
+  Hdf5Texts* texts() const { return texts_.get(); }
 
   /// Lets others read from now on; no attribute or data set can be added any more.
   /// @throws IoError
@@ -94,6 +99,7 @@ class Hdf5File {
 
  private:
   std::filesystem::path path_;
+  std::shared_ptr<Hdf5Texts> texts_;
   std::unique_ptr<Hdf5WriteFault> fault_;  // before file_, which uses it to its end
   Hdf5Handle file_;
 };

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "buckens/base/errors.h"
+#include "buckens/run_store/hdf5_reading.h"
 #include "buckens/run_store/hdf5_values.h"
 
 namespace buckens::run_store {
@@ -38,10 +39,7 @@ Eigen::Vector3d vector_at(const std::vector<double>& values, std::size_t row) {
 
 /// A damaged file must not make us read beyond a list.
 void expect(const Hdf5File& file, const std::string& path, bool holds) {
-  if (!holds) {
-    throw IoError(
-        fmt::format("{}: {} does not have the form of a Buckens run.", file.path().string(), path));
-  }
+  if (!holds) refuse(file, path, "does not have the form of a Buckens run");
 }
 
 void write_markers(const Hdf5File& file, const std::string& path,
@@ -107,9 +105,10 @@ void write_cells(const Hdf5File& file, const std::string& path, const GeometryBo
 }
 
 /// A list of numbers from `least` on and below `end`; empty where it is missing.
-std::vector<int> read_numbers(const Hdf5File& file, const std::string& path, int least, int end) {
+std::vector<int> read_numbers(const Hdf5File& file, const std::string& path, int least, int end,
+                              std::size_t columns = 1) {
   if (!has_object(file, path)) return {};
-  std::vector<int> values = read_int_dataset(file, path);
+  std::vector<int> values = read_int_dataset(file, path, columns);
   for (const int value : values) expect(file, path, value >= least && value < end);
   return values;
 }
@@ -128,10 +127,11 @@ void read_cells(const Hdf5File& file, const std::string& path, GeometryBody& bod
   const auto cells = static_cast<int>(body.cell_kinds.size());
   body.field_elements = read_numbers(file, path + "/field_elements", 0, cells);
   const auto num_places = static_cast<int>(body.field_nodes.size());
-  const std::vector<int> places = read_numbers(file, path + "/face_places", -1, num_places);
+  const std::vector<int> places = read_numbers(file, path + "/face_places", -1, num_places, 4);
   expect(file, path, places.empty() || places.size() == 4 * body.faces.size());
   body.cell_places = read_numbers(file, path + "/cell_places", -1, num_places);
   expect(file, path, body.cell_places.empty() || body.cell_places.size() == count);
+  for (const int element : body.face_elements) expect(file, path, cells == 0 || element < cells);
   for (std::size_t i = 0; i < places.size(); i += 4) {
     body.face_places.push_back({places[i], places[i + 1], places[i + 2], places[i + 3]});
   }
@@ -139,7 +139,7 @@ void read_cells(const Hdf5File& file, const std::string& path, GeometryBody& bod
 
 void read_faces(const Hdf5File& file, const std::string& path, GeometryBody& body) {
   if (!has_object(file, path + "/faces")) return;
-  const std::vector<int> faces = read_int_dataset(file, path + "/faces");
+  const std::vector<int> faces = read_int_dataset(file, path + "/faces", 4);
   body.face_elements = read_int_dataset(file, path + "/face_elements");
   expect(file, path, faces.size() == 4 * body.face_elements.size());
   for (std::size_t i = 0; i < faces.size(); i += 4) {
@@ -239,11 +239,12 @@ std::vector<std::string> in_order(const Hdf5File& file, const std::string& path)
   return names;
 }
 
-std::vector<GeometryMarker> read_markers(const Hdf5File& file, const std::string& path) {
+std::vector<GeometryMarker> read_markers(const Hdf5File& file, const std::string& path,
+                                         int num_nodes) {
   const std::vector<std::string> names = read_string_dataset(file, path + "/marker_names");
-  const std::vector<int> nodes = read_int_dataset(file, path + "/marker_nodes");
-  const std::vector<double> p = read_double_dataset(file, path + "/marker_positions");
-  const std::vector<double> q = read_double_dataset(file, path + "/marker_orientations");
+  const std::vector<int> nodes = read_numbers(file, path + "/marker_nodes", -1, num_nodes);
+  const std::vector<double> p = read_double_dataset(file, path + "/marker_positions", 3);
+  const std::vector<double> q = read_double_dataset(file, path + "/marker_orientations", 4);
   const std::size_t count = names.size();
   expect(file, path, nodes.size() == count && p.size() == 3 * count && q.size() == 4 * count);
   std::vector<GeometryMarker> markers(count);
@@ -261,10 +262,9 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
   GeometryBody body;
   body.name = name;
   body.kind = kind_of(read_string(file, path, "kind"));
-  const std::vector<double> nodes = read_double_dataset(file, path + "/nodes");
-  const std::vector<int> elements = read_int_dataset(file, path + "/elements");
-  const std::vector<double> radius = read_double_dataset(file, path + "/radius");
-  expect(file, path, nodes.size() % 3 == 0 && elements.size() % 2 == 0);
+  const std::vector<double> nodes = read_double_dataset(file, path + "/nodes", 3);
+  const std::vector<int> elements = read_int_dataset(file, path + "/elements", 2);
+  const std::vector<double> radius = read_double_dataset(file, path + "/radius", 2);
   expect(file, path, radius.size() == elements.size());
   for (std::size_t e = 0; e < radius.size(); e += 2) {
     body.radius.push_back({radius[e], radius[e + 1]});
@@ -279,7 +279,7 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
   }
   read_faces(file, path, body);
   read_cells(file, path, body);
-  body.markers = read_markers(file, path);
+  body.markers = read_markers(file, path, num_nodes);
   return body;
 }
 
@@ -298,13 +298,14 @@ GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, const s
   const std::vector<double> axis = read_doubles(file, path, "axis");
   const std::vector<std::string> bodies = read_strings(file, path, "bodies");
   const std::vector<std::string> markers = read_strings(file, path, "markers");
-  const std::vector<double> positions = read_double_dataset(file, path + "/positions");
+  const std::vector<double> positions = read_double_dataset(file, path + "/positions", 3);
   expect(file, path,
          axis.size() == 3 && bodies.size() == 2 && markers.size() == 2 && positions.size() == 6);
   joint.axis = vector_at(axis, 0);
   for (std::size_t i = 0; i < 2; ++i) {
     GeometrySide& side = joint.between[i];
     side.body = bodies[i] == kGround ? results::kGroundBody : index_of(geometry.bodies, bodies[i]);
+    expect(file, path, side.body >= 0 || bodies[i] == kGround);
     if (side.body >= 0 && !markers[i].empty()) {
       const auto& body = geometry.bodies[static_cast<std::size_t>(side.body)];
       side.marker = index_of(body.markers, markers[i]);
@@ -315,8 +316,7 @@ GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, const s
 }
 
 std::vector<Eigen::Vector3d> vectors_at(const Hdf5File& file, const std::string& path) {
-  const std::vector<double> values = read_double_dataset(file, path);
-  expect(file, path, values.size() % 3 == 0);
+  const std::vector<double> values = read_double_dataset(file, path, 3);
   std::vector<Eigen::Vector3d> out;
   for (std::size_t k = 0; k < values.size() / 3; ++k) out.push_back(vector_at(values, k));
   return out;
@@ -329,12 +329,17 @@ GeometryLoad read_load(const Hdf5File& file, const Geometry& geometry, const std
   load.kind = read_string(file, path, "kind");
   const std::string body = read_string(file, path, "body");
   load.body = body == kGround ? results::kGroundBody : index_of(geometry.bodies, body);
+  expect(file, path, load.body >= 0 || body == kGround);
   const std::vector<int> follows = read_ints(file, path, "follows");
   expect(file, path, follows.size() == 1);
   load.follows = follows[0] != 0;
   load.unit = read_string(file, path, "unit");
   load.positions = vectors_at(file, path + "/positions");
-  load.nodes = read_int_dataset(file, path + "/nodes");
+  // Nodes of a load on all bodies mean nothing.
+  const Eigen::Index num_nodes =
+      load.body < 0 ? std::numeric_limits<int>::max()
+                    : geometry.bodies[static_cast<std::size_t>(load.body)].nodes.rows();
+  load.nodes = read_numbers(file, path + "/nodes", -1, static_cast<int>(num_nodes));
   if (has_object(file, path + "/directions")) {
     load.directions = vectors_at(file, path + "/directions");
   }
@@ -363,7 +368,7 @@ void write_geometry(const Hdf5File& file, const Geometry& geometry) {
 }
 
 Geometry read_geometry(const Hdf5File& file) {
-  expect(file, kRoot, has_object(file, kRoot));
+  expect(file, kRoot, kind_of_object(file, kRoot) == Hdf5Kind::group);
   Geometry geometry;
   const std::vector<double> gravity = read_doubles(file, kRoot, "gravity");
   expect(file, kRoot, gravity.size() == 3);

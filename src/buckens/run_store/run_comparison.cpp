@@ -55,6 +55,12 @@ std::map<std::string, std::vector<std::size_t>> groups_of(const results::Channel
   return out;
 }
 
+/// Position and quaternion of a body; sensors may have any name.
+bool is_pose(const results::Channel& channel) {
+  return channel.path.starts_with("bodies/") && channel.path.ends_with("/pose") &&
+         channel.size() == 7;
+}
+
 /// q and −q are the same rotation.
 void align_quaternions(std::size_t width, const std::vector<double>& a, std::vector<double>& b) {
   for (std::size_t row = 0; row + width <= a.size(); row += width) {
@@ -129,7 +135,7 @@ class Comparison {
       const std::vector<double> a = first_.read(channel.path, records);
       std::vector<double> b =
           second_.read(channel.path, std::span(common_.second).subspan(begin, count));
-      if (channel.path.ends_with("/pose")) align_quaternions(channel.size(), a, b);
+      if (is_pose(channel)) align_quaternions(channel.size(), a, b);
       std::size_t group = 0;
       for (const auto& [kind, components] : groups) {
         compare(records, components, channel.size(), a, b, found[group++]);

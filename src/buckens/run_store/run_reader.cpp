@@ -2,52 +2,21 @@
 #include "buckens/run_store/run_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/run_store/hdf5_geometry.h"
-#include "buckens/run_store/hdf5_values.h"
+#include "buckens/run_store/hdf5_reading.h"
+#include "buckens/run_store/run_channels.h"
 #include "buckens/run_store/run_directory.h"
 
 namespace buckens::run_store {
-
-namespace {
-
-/// Extents of a data set.
-std::vector<hsize_t> shape_of(const Hdf5File& file, const Hdf5Handle& dataset) {
-  const Hdf5Handle space(file.check(H5Dget_space(dataset.get()), "read a data set"), H5Sclose);
-  return extents_of(space.get());
-}
-
-Hdf5Handle open_dataset(const Hdf5File& file, const std::string& path) {
-  const hid_t id = H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT);
-  return {file.check(id, "read " + path), H5Dclose};
-}
-
-/// Reads `count` rows from row `first` on into `values`.
-void read_rows(const Hdf5File& file, const Hdf5Handle& dataset, const std::string& path,
-               std::size_t first, std::size_t count, double* values) {
-  const std::string what = "read " + path;
-  const Hdf5Handle from(file.check(H5Dget_space(dataset.get()), what), H5Sclose);
-  std::vector<hsize_t> block = extents_of(from.get());
-  std::vector<hsize_t> start(block.size(), 0);
-  start[0] = first;
-  block[0] = count;
-  const hid_t selected =
-      H5Sselect_hyperslab(from.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
-  file.check(selected, what);
-  const Hdf5Handle to(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
-                      H5Sclose);
-  file.check(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, to.get(), from.get(), H5P_DEFAULT, values),
-             what);
-}
-
-}  // namespace
 
 RunReader::RunReader(const std::filesystem::path& directory) {
   const std::filesystem::path summary = directory / kSummaryName;
@@ -66,53 +35,54 @@ RunReader::RunReader(const std::filesystem::path& directory) {
                     "ended before its first record; see {}.",
                     directory.string(), kResultsName, kLogName));
   }
-  file_ = Hdf5File::open_for_reading(directory / kResultsName);
+  const std::filesystem::path results = directory / kResultsName;
+  open(results, read_texts_apart(results, [&results](const std::shared_ptr<Hdf5Texts>& texts) {
+         RunReader trial;
+         trial.open(results, texts);
+         trial.touch_channels();
+       }));
+}
+
+void RunReader::open(const std::filesystem::path& results,
+                     const std::shared_ptr<Hdf5Texts>& texts) {
+  file_ = Hdf5File::open_for_reading(results, texts);
   title_ = read_string(file_, "/", "title");
   version_ = read_string(file_, "/", "version");
   geometry_ = read_geometry(file_);
-  read_channels("/", layout_);
-  // Fields first: each of their instants is then one of the records.
-  if (has_object(file_, "/fields/time")) {
-    read_channels("/fields/", field_layout_);
-    field_times_ = read_times("/fields/time");
-  }
+  // A run that goes on writes the channels, then the time, then fields, then theirs. In reverse,
+  // each instant of fields is one of the records, and every channel has rows for all of them.
+  const bool has_fields = has_object(file_, "/fields/time");
+  if (has_fields) field_times_ = read_times("/fields/time");
   times_ = read_times("/time");
+  for (const double t : field_times_) {
+    if (!std::binary_search(times_.begin(), times_.end(), t)) {
+      refuse(file_, "/fields/time", fmt::format("holds t = {} s, which is no record", t));
+    }
+  }
+  if (has_fields) field_layout_ = read_layout(file_, "/fields", field_times_.size());
+  layout_ = read_layout(file_, "/", times_.size());
+  check_channels(file_, geometry_, layout_, field_layout_);
 }
 
-void RunReader::read_channels(const std::string& group, results::RecordLayout& layout) {
-  for (const std::string& name : list_objects(file_, group)) {
-    const std::string path = group + name;
-    if (path == "/geometry" || path == "/time" || path == "/fields" || path == "/extremes" ||
-        path == "/fields/time") {
-      continue;
-    }
-    const Hdf5Quiet quiet;
-    const Hdf5Handle object(
-        file_.check(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT), "read " + path), H5Oclose);
-    if (H5Iget_type(object.get()) == H5I_GROUP) {
-      read_channels(path + "/", layout);
-    } else if (H5Iget_type(object.get()) == H5I_DATASET) {
-      const std::vector<hsize_t> extents = shape_of(file_, object);
-      if (extents.empty()) continue;
-      results::Channel channel;
-      channel.path = path.substr(1);
-      channel.unit = read_string(file_, path, "unit");
-      channel.description = read_string(file_, path, "description");
-      channel.components = read_strings(file_, path, "components");
-      for (std::size_t i = 1; i < extents.size(); ++i) {
-        channel.shape.push_back(static_cast<int>(extents[i]));
-      }
-      layout.add(std::move(channel));
-    }
+/// Makes HDF5 look up where the values of each channel lie.
+void RunReader::touch_channels() const {
+  constexpr std::size_t kFewValues = 1 << 17;
+  const std::array<std::size_t, 1> first{};
+  for (const results::Channel& channel : layout_.channels()) {
+    if (num_records() > 0 && channel.size() < kFewValues) read(channel.path, first);
+  }
+  for (const results::Channel& channel : field_layout_.channels()) {
+    if (!field_times_.empty() && channel.size() < kFewValues) read_fields(channel.path, first);
   }
 }
 
 std::vector<double> RunReader::read_times(const std::string& path) const {
-  const Hdf5Quiet quiet;
-  const Hdf5Handle dataset = open_dataset(file_, path);
-  const std::vector<hsize_t> extents = shape_of(file_, dataset);
-  std::vector<double> times(extents.empty() ? 0 : extents[0]);
-  if (!times.empty()) read_rows(file_, dataset, path, 0, times.size(), times.data());
+  std::vector<double> times = read_double_dataset(file_, path);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (!std::isfinite(times[k]) || (k > 0 && times[k] < times[k - 1])) {
+      refuse(file_, path, fmt::format("holds {} as its instant number {}", times[k], k + 1));
+    }
+  }
   return times;
 }
 
@@ -134,15 +104,11 @@ std::vector<double> RunReader::read_fields(std::string_view path,
 
 std::vector<double> RunReader::read_fixed(std::string_view path) const {
   const std::string place = fmt::format("/{}", path);
-  return has_object(file_, place) ? read_double_dataset(file_, place) : std::vector<double>();
+  return has_object(file_, place) ? read_any_double_dataset(file_, place) : std::vector<double>();
 }
 
 std::size_t RunReader::record_of_field(std::size_t row) const {
   const auto at = std::lower_bound(times_.begin(), times_.end(), field_times_.at(row));
-  if (at == times_.end()) {
-    throw IoError(fmt::format("{}: fields at t = {} s belong to no record.", file_.path().string(),
-                              field_times_[row]));
-  }
   return static_cast<std::size_t>(at - times_.begin());
 }
 
@@ -153,10 +119,9 @@ std::vector<double> RunReader::read_rows_of(const results::RecordLayout& layout,
   if (index < 0) {
     throw IoError(fmt::format("{}: holds no \"{}\".", file_.path().string(), path));
   }
-  const Hdf5Quiet quiet;
   const std::string place = fmt::format("/{}", path);
-  const Hdf5Handle dataset = open_dataset(file_, place);
-  const std::size_t size = layout.channel(static_cast<std::size_t>(index)).size();
+  const Hdf5Dataset dataset = open_channel(file_, layout.channel(static_cast<std::size_t>(index)));
+  const std::size_t size = dataset.row_size;
   std::vector<double> values(records.size() * size);
   // Neighbouring records are read together.
   for (std::size_t i = 0; i < records.size();) {

@@ -18,10 +18,11 @@ namespace buckens::run_store {
 /// Reads a run directory: of a finished run, of one that goes on in another process, or of one that
 /// was killed.
 ///
-/// It sees the records that were complete when it was made.
+/// It sees the records that were complete when it was made. The file may be damaged or made by
+/// anybody: what does not have the form of a run is refused before it is used.
 class RunReader {
  public:
-  /// @throws IoError if the directory holds no run, or one without any results yet
+  /// @throws IoError if the directory holds no run, one without any results yet, or a damaged one
   explicit RunReader(const std::filesystem::path& directory);
 
   RunStatus status() const { return status_; }
@@ -57,7 +58,9 @@ class RunReader {
   std::vector<double> read_fixed(std::string_view path) const;
 
  private:
-  void read_channels(const std::string& group, results::RecordLayout& layout);
+  RunReader() = default;
+  void open(const std::filesystem::path& results, const std::shared_ptr<Hdf5Texts>& texts);
+  void touch_channels() const;
   std::vector<double> read_times(const std::string& path) const;
   std::vector<double> read_rows_of(const results::RecordLayout& layout, std::string_view path,
                                    std::span<const std::size_t> rows) const;

@@ -33,7 +33,7 @@ std::vector<std::string> csv_column_names(const results::Channel& channel) {
 }
 
 SensorsCsv::SensorsCsv(const std::filesystem::path& path, const results::RecordLayout& layout)
-    : file_(path) {
+    : file_(path, files::OutputFile::Start::anew) {
   line_ = "t [s]";
   for (std::size_t index = 0; index < layout.channels().size(); ++index) {
     const results::Channel& channel = layout.channel(index);

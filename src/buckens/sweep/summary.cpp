@@ -52,25 +52,42 @@ class CsvTable {
 
 std::string number(double value) { return fmt::format("{:.17g}", value); }
 
+using SummaryJson = nlohmann::json;
+
+/// Numbers of the summary; 0 where they are missing or another program has put something else
+/// there.
+double number_in(const SummaryJson& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : 0.0;
+}
+
+long count_in(const SummaryJson& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number_integer() ? at->get<long>() : 0;
+}
+
+std::string trust_in(const SummaryJson& trust) {
+  if (trust.is_string()) return trust.get<std::string>();
+  std::string out;
+  for (const auto& reason : trust) {
+    if (reason.is_string()) out += (out.empty() ? "" : "; ") + reason.get<std::string>();
+  }
+  return out;
+}
+
 void add_effort(CsvTable& table, const run_store::RunReader& run) {
-  const auto json = nlohmann::json::parse(run.summary_text());
-  table.add("end_time [s]", number(json.value("end_time", 0.0)));
-  table.add("steps", std::to_string(json.value("steps", 0L)));
+  const auto json = SummaryJson::parse(run.summary_text());
+  table.add("end_time [s]", number(number_in(json, "end_time")));
+  table.add("steps", std::to_string(count_in(json, "steps")));
   long solves = 0;
-  for (const auto& body : json.value("bodies", nlohmann::json::array())) {
-    solves += body.value("solves", 0L);
+  if (const auto bodies = json.find("bodies"); bodies != json.end() && bodies->is_object()) {
+    for (const auto& body : *bodies) solves += body.is_object() ? count_in(body, "solves") : 0;
   }
   table.add("solves", std::to_string(solves));
   if (json.contains("energy_error") && json["energy_error"].is_number()) {
     table.add("energy_error", number(json["energy_error"].get<double>()));
   }
-  if (!json.contains("trust")) return;
-  std::string trust;
-  if (json["trust"].is_string()) trust = json["trust"].get<std::string>();
-  for (const auto& reason : json["trust"]) {
-    if (json["trust"].is_array()) trust += (trust.empty() ? "" : "; ") + reason.get<std::string>();
-  }
-  table.add("trust", trust);
+  if (json.contains("trust")) table.add("trust", trust_in(json["trust"]));
 }
 
 void add_sensors(CsvTable& table, const run_store::RunReader& run) {

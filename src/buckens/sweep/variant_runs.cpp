@@ -16,6 +16,7 @@
 #include "buckens/model_file/step_mesh_cache.h"
 #include "buckens/run_store/basis_files.h"
 #include "buckens/run_store/run_directory.h"
+#include "buckens/run_store/run_reader.h"
 #include "buckens/run_store/summary_json.h"
 
 namespace buckens::sweep {
@@ -29,9 +30,17 @@ bool holds_finished_run(const fs::path& directory, const model::ModelDescription
   std::error_code error;
   if (!fs::is_regular_file(directory / run_store::kSummaryName, error)) return false;
   const std::string summary = files::read_text_file(directory / run_store::kSummaryName);
-  return run_store::is_summary_json(summary) &&
-         run_store::status_in(summary, directory.string()) == run_store::RunStatus::finished &&
-         files::read_text_file(directory / run_store::kModelName) == model.source;
+  const bool is_wanted =
+      run_store::is_summary_json(summary) &&
+      run_store::status_in(summary, directory.string()) == run_store::RunStatus::finished &&
+      fs::is_regular_file(directory / run_store::kModelName, error) &&
+      files::read_text_file(directory / run_store::kModelName) == model.source;
+  if (!is_wanted) return false;
+  try {
+    return run_store::RunReader(directory).num_records() > 0;
+  } catch (const IoError&) {  // damaged since: it is run again
+    return false;
+  }
 }
 
 class Sweep {

@@ -12,67 +12,21 @@
 #include "buckens/run_store/run_directory.h"
 #include "buckens/run_store/run_reader.h"
 #include "buckens/run_store/run_snapshot.h"
-#include "buckens/run_store/test/sample_run.h"
+#include "buckens/run_store/test/sample_fields.h"
 
 namespace buckens::exports {
 namespace {
 
 using buckens::test::TemporaryDirectory;
+using run_store::test::field_record;
+using run_store::test::fields_geometry;
 using run_store::test::finished_summary;
+using run_store::test::kLargest;
+using run_store::test::kMises;
+using run_store::test::kStress;
+using run_store::test::sample_fields;
 using run_store::test::sample_layout;
-using run_store::test::sample_record;
-
-constexpr char kMises[] = "fields/bodies/rod/nodes/von_mises";
-constexpr char kStress[] = "fields/bodies/rod/elements/stress";
-constexpr char kLargest[] = "extremes/bodies/rod/nodes/von_mises";
-
-/// The sample with one tetrahedron on the rod, whose fields have four places on three nodes.
-results::Geometry geometry() {
-  results::Geometry out = run_store::test::sample_geometry();
-  results::GeometryBody& rod = out.bodies[1];
-  rod.kind = results::BodyKind::solid;
-  rod.nodes.resize(4, 3);
-  rod.nodes << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-  rod.faces = {{0, 2, 1, -1}, {0, 1, 3, -1}};
-  rod.face_elements = {0, 0};
-  rod.cell_kinds = {fem::CellKind::tet4};
-  rod.cell_nodes = {0, 1, 2, 3};
-  rod.field_nodes = {0, 1, 1, 3};
-  rod.field_elements = {0};
-  rod.face_places = {{0, -1, 2, -1}, {0, 2, 3, -1}};
-  rod.cell_places = {0, 2, -1, 3};
-  return out;
-}
-
-results::FieldLayout fields() {
-  results::FieldLayout out;
-  out.fields.add({kMises, "Pa", {4}, "equivalent stress", {}});
-  out.fields.add({kStress, "Pa", {1, 6}, "body axes", {"xx", "yy", "zz", "xy", "yz", "zx"}});
-  out.extremes.add({kLargest, "Pa", {4}, "largest over the run so far", {}});
-  out.extremes.add({std::string(kLargest) + "_time", "s", {4}, "when it was largest", {}});
-  return out;
-}
-
-results::Record field_record(double t) {
-  results::Record out{t, {1 + t, 2 + t, std::nan(""), 4 + t}};
-  for (int k = 0; k < 6; ++k) out.values.push_back(10 * k + t);
-  return out;
-}
-
-/// @param records written; fields go with every third
-void write_fields_run(const std::filesystem::path& path, std::size_t records, bool finish = true) {
-  run_store::RunDirectory run(path, {.title = "sample", .model_text = "buckens: 1\n", .flush = {}});
-  const results::RecordLayout layout = sample_layout();
-  run.begin_fields(fields());
-  run.begin(layout, geometry());
-  for (std::size_t i = 0; i < records; ++i) {
-    const results::Record record = sample_record(i, layout.num_values());
-    run.write(record);
-    if (i % 3 == 0) run.write_fields(field_record(record.t));
-  }
-  run.write_extremes({5, 6, 7, 8, 0.1, 0.2, 0.3, 0.4});
-  if (finish) run.finish(finished_summary());
-}
+using run_store::test::write_fields_run;
 
 TEST(RunFields, ComeBackWithTheirOwnClock) {
   const TemporaryDirectory directory;
@@ -107,7 +61,7 @@ TEST(RunFields, PlacesComeBack) {
   const TemporaryDirectory directory;
   write_fields_run(directory / "out", 4);
   const results::GeometryBody rod = run_store::RunReader(directory / "out").geometry().bodies[1];
-  const results::GeometryBody known = geometry().bodies[1];
+  const results::GeometryBody known = fields_geometry().bodies[1];
   EXPECT_EQ(rod.cell_kinds, known.cell_kinds);
   EXPECT_EQ(rod.cell_nodes, known.cell_nodes);
   EXPECT_EQ(rod.field_nodes, known.field_nodes);
@@ -132,8 +86,8 @@ TEST(RunFields, RunsWithoutFieldsHaveNone) {
 TEST(RunFields, WrongNumbersOfValuesAreRefused) {
   const TemporaryDirectory directory;
   run_store::RunDirectory run(directory / "out", {.title = "", .model_text = "", .flush = {}});
-  run.begin_fields(fields());
-  run.begin(sample_layout(), geometry());
+  run.begin_fields(sample_fields());
+  run.begin(sample_layout(4), fields_geometry());
   EXPECT_THAT(
       [&] {
         run.write_fields({0.0, {1, 2}});

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,30 +22,73 @@ bool is_read(const std::string& text) {
   try {
     read_model_text(text, "broken.yaml");
     return true;
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    // The place is in the text.
+    const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
+    EXPECT_EQ(error.where().file, "broken.yaml") << error.what();
+    EXPECT_LE(error.where().line, lines) << error.what();
     return false;
   } catch (const IoError&) {
     return false;  // a name of a table was broken
   }
 }
 
-TEST(MalformedModelFile, EveryTruncatedCopyEndsCleanly) {
-  const std::string good = kSampleModel;
-  int read = 0;
-  for (std::size_t length = 0; length < good.size(); ++length) {
-    read += is_read(good.substr(0, length)) ? 1 : 0;
-  }
-  // Cut between two sections, or within the last sensors, the file can still be a model.
-  EXPECT_GT(read, 0);
-  EXPECT_LT(read, 300);
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) out.push_back(line);
+  return out;
 }
 
-TEST(MalformedModelFile, EveryMissingLineEndsCleanly) {
+bool begins_with_one_of(const std::string& line, const std::vector<std::string>& beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](const std::string& text) { return line.starts_with(text); });
+}
+
+/// Whether the model may end behind this line: there is a body, and nothing that was begun misses
+/// what it needs.
+bool may_be_last(const std::string& line) {
+  return !line.ends_with(':') &&
+         !begins_with_one_of(line, {"      from:", "      to:", "      elements:", "      section:",
+                                    "      box: {from", "      nodes:"});
+}
+
+TEST(MalformedModelFile, CutOffItIsAModelOnlyWhereAllThatWasBegunIsComplete) {
   const std::string good = kSampleModel;
-  for (std::size_t begin = 0; begin < good.size();) {
-    const std::size_t end = good.find('\n', begin) + 1;
-    is_read(good.substr(0, begin) + good.substr(end));
-    begin = end;
+  const std::vector<std::string> whole = lines_of(good);
+  const std::size_t first_body = good.find("\n", good.find("    rigid:"));
+  for (std::size_t length = 0; length < good.size(); ++length) {
+    const std::string text = good.substr(0, length);
+    std::vector<std::string> lines = lines_of(text);
+    while (!lines.empty() && lines.back().find_first_not_of(' ') == std::string::npos) {
+      lines.pop_back();
+    }
+    const std::string last = lines.empty() ? "" : lines.back();
+    const bool is_whole = !lines.empty() && last == whole[lines.size() - 1];
+    const bool lacks_unit = last == "  every: 1" || last == "  every: 1 ";  // means seconds then
+    const bool is_model = length >= first_body && ((is_whole && may_be_last(last)) || lacks_unit);
+    EXPECT_EQ(is_read(text), is_model) << "cut behind\n" << last;
+  }
+}
+
+TEST(MalformedModelFile, WithoutALineItIsAModelOnlyWhereNothingNeedsIt) {
+  // What others refer to, what has no default, and what opens a map.
+  const std::vector<std::string> needed = {
+      "buckens:",       "planar:",         "parameters:",       "materials:",      "  steel:",
+      "  soft: {E",     "  ply:",          "sections:",         "  rod6:",         "  tube:",
+      "bodies:",        "  crank:",        "    rigid:",        "    markers: {p", "  rod:",
+      "    beam:",      "      to:",       "      section:",    "      material:", "  frame:",
+      "    structure:", "      nodes:",    "    markers: {top", "  block:",        "    mesh:",
+      "      box:",     "    interfaces:", "      left:",       "  lump:",         "      solids:",
+      "  shaft:",       "  twin:",         "joints:",           "  base:",         "loads:",
+      "initial:",       "  bodies:",       "output:",           "  sensors:"};
+  std::vector<std::string> lines = lines_of(kSampleModel);
+  for (std::size_t left_out = 0; left_out < lines.size(); ++left_out) {
+    std::string text;
+    for (std::size_t k = 0; k < lines.size(); ++k) text += k == left_out ? "" : lines[k] + '\n';
+    EXPECT_EQ(is_read(text), !begins_with_one_of(lines[left_out], needed))
+        << "without line " << left_out + 1 << "\n"
+        << lines[left_out];
   }
 }
 

@@ -43,11 +43,12 @@ inline results::Geometry sample_geometry() {
   return geometry;
 }
 
-inline results::RecordLayout sample_layout() {
+/// @param nodes of the rod
+inline results::RecordLayout sample_layout(int nodes = 3) {
   results::RecordLayout layout;
   const std::vector<std::string> pose{"px", "py", "pz", "qw", "qx", "qy", "qz"};
   layout.add({"bodies/rod/pose", "m, 1", {7}, "pose of the body frame", pose});
-  layout.add({"bodies/rod/displacement", "m, rad", {3, 6}, "nodal displacements", {}});
+  layout.add({"bodies/rod/displacement", "m, rad", {nodes, 6}, "nodal displacements", {}});
   layout.add({"bodies/rod/stress", "Pa", {2, 2}, "axial stress at two points", {}});
   layout.add({"bodies/slider/pose", "m, 1", {7}, "pose of the body frame", pose});
   layout.add({"energies/kinetic", "J", {}, "kinetic energy", {}});
