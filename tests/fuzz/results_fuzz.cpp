@@ -7,6 +7,7 @@
 #include "tests/fuzz/result_edits.h"
 
 #include "buckens/base/errors.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/exports/csv.h"
 #include "buckens/exports/glb.h"
 #include "buckens/exports/vtk.h"
