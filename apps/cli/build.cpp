@@ -26,7 +26,7 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
     }
     notes.insert(notes.end(), of_mesh.complaints.begin(), of_mesh.complaints.end());
   }
-  run_store::BasisFiles bases(std::filesystem::path(description.where.file).parent_path());
+  run_store::BasisFiles bases(description.directory);
   auto built = model::build_model(std::move(description), &bases);
   built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());
   return built;

@@ -49,6 +49,7 @@ struct ParameterSpec {
 struct ModelDescription {
   int format = 1;
   std::string title;
+  std::string base;  ///< as `directory`, as it is written: relative to the model file, or empty
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
   std::optional<spatial::Plane> planar;
   std::vector<ParameterSpec> parameters;
@@ -61,13 +62,18 @@ struct ModelDescription {
   std::optional<SimulationSpec> simulation;  ///< absent: the model can be checked, not run
   std::optional<StaticSpec> static_path;     ///< absent: as StaticSpec begins
   OutputSpec output;
-  SourceLocation where;  ///< the file
-  std::string source;    ///< text of the file with overrides as a comment
+  SourceLocation where;   ///< the file
+  std::string directory;  ///< relative names of files begin here
+  /// Text of a file that is this model: the one that was read, with overrides in their places.
+  std::string source;
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("buckens", format, "version of the file format, 1").required().like("1"));
     visit(base::field("title", title, "one line about the model").like("Flexible slider-crank"));
+    visit(base::field("base", base, "directory in which relative file names begin")
+              .like("../meshes")
+              .otherwise("that of the model file"));
     // Before everything that may hold an expression.
     visit(base::field("parameters", parameters, "named values for use in expressions")
               .like("{L: 300 mm, speed: 150}"));

@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/files/text_file.h"
 #include "buckens/files/text_lines.h"
+#include "buckens/model_file/effective_text.h"
 #include "buckens/model_file/fields.h"
 #include "buckens/model_file/overrides.h"
 #include "buckens/model_file/step_mesh_cache.h"
@@ -18,25 +19,36 @@ namespace buckens::model_file {
 
 namespace {
 
-/// The text with the overrides as a comment ahead, so that a run directory tells what was run.
-std::string with_overrides(const std::string& text, const std::string& name,
-                           const std::vector<std::string>& overrides) {
-  if (overrides.empty()) return text;
-  std::string out = fmt::format("# {} was read with these changes:\n", name);
+constexpr char kChanges[] = " was read with these changes:\n";
+constexpr char kFiles[] = "# Files read with it, and the hash of their contents:\n";
+
+/// The overrides as a comment. What they say is in the text, too.
+std::string comment_on(const std::string& name, const std::vector<std::string>& overrides) {
+  if (overrides.empty()) return {};
+  std::string out = "# " + name + kChanges;
   for (std::string line : overrides) {
     for (char& c : line) {
       if (c == '\n' || c == '\r') c = ' ';
     }
     out += "#   --set " + line + "\n";
   }
-  return out + text;
+  return out;
+}
+
+/// Takes away a comment of an earlier run on its files.
+std::string without_old_files(const std::string& text) {
+  if (!text.starts_with(kFiles)) return text;
+  std::size_t end = sizeof kFiles - 1;
+  while (text.compare(end, 4, "#   ") == 0)
+    end = std::min(text.find('\n', end), text.size() - 1) + 1;
+  return text.substr(end);
 }
 
 /// The files that a model names and those that they include, as a comment: a run directory tells
 /// which meshes and tables it belongs to, and a sweep that one has changed.
 std::string comment_on(const files::FilesRead& files, const std::filesystem::path& directory) {
   if (files.hashes().empty()) return {};
-  std::string out = "# Files read with it, and the hash of their contents:\n";
+  std::string out = kFiles;
   for (const auto& [path, hash] : files.hashes()) {
     const std::filesystem::path near = path.lexically_relative(directory);
     std::string name = (near.empty() ? path : near).string();
@@ -45,6 +57,32 @@ std::string comment_on(const files::FilesRead& files, const std::filesystem::pat
     out += fmt::format("#   {} {:016x}\n", name, hash);
   }
   return out;
+}
+
+/// Where the files of a model lie.
+std::filesystem::path directory_of(const YamlNode& root, const std::filesystem::path& file) {
+  const YamlNode* base = root.find("base");
+  const std::filesystem::path beside = file.parent_path();
+  return base != nullptr && base->is_scalar() ? beside / base->text : beside;
+}
+
+bool needs_files(const model::ModelDescription& model, const files::FilesRead& files) {
+  return !model.base.empty() || !files.hashes().empty() ||
+         std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const body::BodySpec& body) { return !body.reduction.file.empty(); });
+}
+
+/// Lets a text find its files from anywhere.
+void fix_base(YamlNode& root, const std::filesystem::path& directory) {
+  YamlNode base;
+  base.kind = YamlNode::Kind::scalar;
+  base.text = std::filesystem::absolute(directory).lexically_normal().string();
+  base.is_quoted = true;
+  if (YamlNode* old = root.find("base")) {
+    *old = std::move(base);
+  } else {
+    root.entries.push_back({"base", root.where, std::move(base)});
+  }
 }
 
 model::ModelDescription read_with_meshes(const std::string& text, const std::string& name,
@@ -59,19 +97,23 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
                                              "as buckens, bodies, joints",
                                              root.description()));
   }
+  const YamlNode as_written = root;
   for (const std::string& assignment : overrides) apply_override(root, assignment);
 
   files::FilesRead files;
   model::ModelDescription out;
   ReadContext context;
-  context.directory = std::filesystem::path(name).parent_path();
+  context.directory = directory_of(root, name);
   context.model = &out;
   context.step_meshes = &meshes;
   read_record({root, ""}, context, out);
   check_table_ranges(out);
   out.where = {name, 0, 0};
-  out.source = comment_on(files, context.directory) +
-               with_overrides(files::without_byte_order_mark(text), name, overrides);
+  out.directory = context.directory.string();
+  if (needs_files(out, files)) fix_base(root, context.directory);
+  out.source =
+      comment_on(files, context.directory) + comment_on(name, overrides) +
+      without_old_files(effective_text(files::without_byte_order_mark(text), as_written, root));
   return out;
 }
 

@@ -142,9 +142,10 @@ class Sweep {
   std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
                                            run_store::RunDirectory& directory) {
     std::vector<std::string> notes;
+    const fs::path files = description.directory;
     analysis::choose_modes(description, notes,
                            [&directory](const std::string& text) { directory.log(text); });
-    run_store::BasisFiles bases(model_.parent_path(), run_store::BasisFiles::Others::leave);
+    run_store::BasisFiles bases(files, run_store::BasisFiles::Others::leave);
     auto built = model::build_model(std::move(description), &bases);
     built->model.notes.insert(built->model.notes.end(), notes.begin(), notes.end());
     return built;
