@@ -47,6 +47,13 @@ int BarBlock::add(int node_a, int node_b, const Material& material, const Sectio
   return num_elements() - 1;
 }
 
+Eigen::Matrix3d BarBlock::line_axes(const std::vector<Node>& nodes, int element) const {
+  const auto& [a, b] = at(element).ends;
+  return line_frame(nodes[static_cast<std::size_t>(a)].position,
+                    nodes[static_cast<std::size_t>(b)].position, std::nullopt)
+      .axes;
+}
+
 BarBlock BarBlock::subset(const std::vector<int>& elements,
                           const std::vector<int>& node_numbers) const {
   BarBlock out;

@@ -22,6 +22,8 @@ class BarBlock final : public ElementBlock {
   bool has_rotations() const override { return false; }
   const Material* material(int element) const override { return &at(element).material; }
   const Section* section(int element) const override { return &at(element).section; }
+  /// As of a beam without `up`.
+  Eigen::Matrix3d line_axes(const std::vector<Node>& nodes, int element) const override;
 
   /// Some of the elements, in the given order.
   /// @param node_numbers new number of each node

@@ -116,6 +116,10 @@ const Section* BeamBlock::end_section(int element, int end) const {
   return end == 0 ? &own->first : &own->last;
 }
 
+Eigen::Matrix3d BeamBlock::line_axes(const std::vector<Node>& nodes, int element) const {
+  return frame(nodes, at(element)).axes;
+}
+
 double BeamBlock::axial_rigidity(int element) const {
   const SectionTaper* own = taper(at(element));
   const BeamProperties& beam = of(at(element));

@@ -55,6 +55,7 @@ class BeamBlock final : public ElementBlock {
   /// Of a tapered element that in its middle.
   const Section* section(int element) const override;
   const Section* end_section(int element, int end) const override;
+  Eigen::Matrix3d line_axes(const std::vector<Node>& nodes, int element) const override;
   double axial_rigidity(int element) const override;
   const BeamProperties& properties(int element) const { return of(at(element)); }
   const BeamPortion& portion(int element) const { return at(element).portion; }

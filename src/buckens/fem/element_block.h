@@ -78,6 +78,10 @@ class ElementBlock {
   virtual const Section* section(int element) const = 0;
   /// Section at the first (0) or second (1) end of a line element.
   virtual const Section* end_section(int element, int /*end*/) const { return section(element); }
+  /// Axes x, y, z of a line element as columns, model axes: x from its first to its second end.
+  virtual Eigen::Matrix3d line_axes(const std::vector<Node>& /*nodes*/, int /*element*/) const {
+    return Eigen::Matrix3d::Identity();
+  }
   /// E A of the uniform line element that a tension stretches as much [N].
   virtual double axial_rigidity(int element) const {
     return material(element)->E * section(element)->A;

@@ -41,9 +41,11 @@ std::vector<LineElement> line_elements(const FeModel& fe) {
   for (const auto& block : fe.blocks) {
     for (int e = 0; block->is_line() && e < block->num_elements(); ++e) {
       const auto [a, b] = block->ends(e);
-      const double first = block->end_section(e, 0)->outer_radius;
-      const double last = block->end_section(e, 1)->outer_radius;
-      lines.push_back({a, b, {first, last}, block->has_rotations()});
+      lines.push_back({a,
+                       b,
+                       {block->end_section(e, 0), block->end_section(e, 1)},
+                       block->line_axes(fe.nodes, e),
+                       block->has_rotations()});
     }
   }
   return lines;

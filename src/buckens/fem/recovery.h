@@ -13,8 +13,9 @@ namespace buckens::fem {
 struct LineElement {
   int a = 0;  ///< nodes
   int b = 0;
-  std::array<double, 2> radius{};  ///< outer radius of the section at both ends [m]
-  bool bends = false;              ///< beam (true) or bar
+  std::array<const Section*, 2> sections{};            ///< at both ends; they belong to the model
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns x, y, z, model axes
+  bool bends = false;                                  ///< beam (true) or bar
 };
 
 /// All line elements in the order of their numbers: beams, then bars.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,23 @@ std::vector<Eigen::Vector2d> rim(double radius) {
   return points;
 }
 
+/// Turns from y to z. Corners of 15°, so that drawing can tell them from edges.
+SectionLoop round_loop(double radius) {
+  constexpr int kCorners = 24;
+  SectionLoop loop;
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2.0 * kPi * k / kCorners;
+    loop.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return loop;
+}
+
+/// The same line as the rim of a hole.
+SectionLoop hole(SectionLoop loop) {
+  std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
 Section ring(double outer, double inner) {
   const double R = 0.5 * outer;
   const double r = 0.5 * inner;
@@ -54,6 +72,8 @@ Section ring(double outer, double inner) {
   s.torsion_modulus = s.J / R;
   s.outer_radius = R;
   s.stress_points = rim(R);
+  s.outline.push_back(round_loop(R));
+  if (r > 0.0) s.outline.push_back(hole(round_loop(r)));
   return s;
 }
 
@@ -110,6 +130,7 @@ Section Section::rectangle(double width, double height) {
   s.torsion_modulus = b * h * h / (3.0 * peak);
   s.outer_radius = 0.5 * std::hypot(width, height);
   s.stress_points = corners(0.5 * width, 0.5 * height);
+  s.outline = {s.stress_points};
   return s;
 }
 
@@ -139,6 +160,7 @@ Section Section::box(double width, double height, double thickness) {
   s.torsion_modulus = 2.0 * bm * hm * thickness;
   s.outer_radius = 0.5 * std::hypot(width, height);
   s.stress_points = corners(0.5 * width, 0.5 * height);
+  s.outline = {s.stress_points, hole(corners(0.5 * bi, 0.5 * hi))};
   return s;
 }
 
@@ -161,12 +183,38 @@ Section Section::general(double A, double Iy, double Iz, double J, double shear_
   s.torsion_modulus = J / std::hypot(y, z);
   s.outer_radius = std::hypot(y, z);
   s.stress_points = corners(y, z);
+  s.outline = {s.stress_points};
   return s;
 }
 
 Section Section::area(double A) {
   require_positive(A, "the area");
   return circle(2.0 * std::sqrt(A / kPi));
+}
+
+SectionLoop convex_hull(std::vector<Eigen::Vector2d> points) {
+  const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  };
+  std::sort(points.begin(), points.end(), before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  // Andrew's monotone chain: the lower half from the left, the upper half back.
+  SectionLoop hull;
+  const auto add = [&hull](const Eigen::Vector2d& p, std::size_t kept) {
+    while (hull.size() >= kept + 2) {
+      const Eigen::Vector2d a = hull.back() - hull[hull.size() - 2], b = p - hull.back();
+      // Rounding must not make a corner of three points on a line.
+      if (a.x() * b.y() - a.y() * b.x() > 1e-12 * a.norm() * b.norm()) break;
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  };
+  for (const Eigen::Vector2d& p : points) add(p, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (std::size_t k = points.size() - 1; k-- > 0;) add(points[k], lower);
+  hull.pop_back();
+  return hull;
 }
 
 }  // namespace buckens::fem

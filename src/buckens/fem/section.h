@@ -7,6 +7,10 @@
 
 namespace buckens::fem {
 
+/// A closed polygon of points (y, z) [m], its inside on the left seen against x: outlines turn from
+/// y to z, holes the other way round. Round ones have corners so blunt that they look smooth.
+using SectionLoop = std::vector<Eigen::Vector2d>;
+
 /// Cross-section of a beam or bar in its principal axes y, z through the centroid.
 ///
 /// Second moments are named after the axis of bending: Iy = ∫ z² dA, Iz = ∫ y² dA. Shear factors κ
@@ -21,8 +25,10 @@ struct Section {
   double shear_peak_y = 1.5;   ///< largest shear stress over Q_y / A
   double shear_peak_z = 1.5;   ///< largest shear stress over Q_z / A
   double torsion_modulus = 0;  ///< |M_t| over the largest torsional shear stress [m³]
-  double outer_radius = 0;     ///< for drawing [m]
+  double outer_radius = 0;     ///< of the circle about the centroid around it [m]
   std::vector<Eigen::Vector2d> stress_points;  ///< (y, z) where |σ_x| is examined [m]
+  /// For drawing: the outer outline, then those of holes.
+  std::vector<SectionLoop> outline;
 
   /// ∫ (y² + z²) dA [m⁴], the inertia of torsional motion per density and length.
   double polar_moment() const { return Iy + Iz; }
@@ -35,12 +41,16 @@ struct Section {
   /// Rectangular hollow section with outer measures and one wall thickness; torsion after Bredt.
   /// @throws ModelError unless 0 < 2 thickness < width, height
   static Section box(double width, double height, double thickness);
-  /// Stress points, torsion modulus and radius are those of a rectangle with the same A, Iy, Iz;
-  /// set them afterwards where they are known.
+  /// Stress points, torsion modulus, radius and outline are those of a rectangle with the same
+  /// Iy/A, Iz/A; set them afterwards where they are known.
   static Section general(double A, double Iy, double Iz, double J, double shear_y = 1,
                          double shear_z = 1);
   /// A bar needs an area only; bending and torsion constants are those of a circle.
   static Section area(double A);
 };
+
+/// The convex polygon around points, turning from y to z; less than three points where they lie on
+/// a line.
+SectionLoop convex_hull(std::vector<Eigen::Vector2d> points);
 
 }  // namespace buckens::fem

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include "buckens/fem/cell_kind.h"
+#include "buckens/fem/section.h"
 #include "buckens/spatial/pose.h"
 
 namespace buckens::results {
@@ -31,7 +32,13 @@ struct GeometryBody {
   BodyKind kind = BodyKind::rigid;
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> nodes;  ///< N×3 [m]; none if rigid
   std::vector<std::array<int, 2>> elements;                         ///< E pairs of nodes: lines
-  std::vector<std::array<double, 2>> radius;  ///< E, of the drawn tube at both ends [m]
+  std::vector<std::array<double, 2>>
+      radius;  ///< E, of the circle around the section at both ends [m]
+  /// Outlines of cross-sections, each once. None where lines stand for something else, and in runs
+  /// of older versions: they are drawn as round tubes then.
+  std::vector<std::vector<fem::SectionLoop>> sections;
+  std::vector<std::array<int, 2>> element_sections;  ///< E, at both ends; empty without sections
+  std::vector<Eigen::Vector3d> element_y;  ///< E, local y axis, body axes; empty without sections
   /// F faces on the surface of solids: nodes counter-clockwise seen from outside, the fourth −1 for
   /// triangles.
   std::vector<std::array<int, 4>> faces;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -96,6 +97,38 @@ void add_lines(const fem::FeModel& mesh, GeometryBody& shape) {
   }
 }
 
+/// Numbers outlines of cross-sections, each once.
+class SectionNumbers {
+ public:
+  explicit SectionNumbers(GeometryBody& shape) : shape_(shape) {}
+
+  int of(const fem::Section& section) {
+    std::vector<double> key;
+    for (const fem::SectionLoop& loop : section.outline) {
+      key.push_back(static_cast<double>(loop.size()));
+      for (const Eigen::Vector2d& p : loop) key.insert(key.end(), {p.x(), p.y()});
+    }
+    const auto [at, is_new] = known_.emplace(key, static_cast<int>(shape_.sections.size()));
+    if (is_new) shape_.sections.push_back(section.outline);
+    return at->second;
+  }
+
+ private:
+  GeometryBody& shape_;
+  std::map<std::vector<double>, int> known_;
+};
+
+void add_beams_and_bars(const fem::FeModel& mesh, GeometryBody& shape) {
+  SectionNumbers numbers(shape);
+  for (const fem::LineElement& line : fem::line_elements(mesh)) {
+    const auto& [first, last] = line.sections;
+    shape.elements.push_back({line.a, line.b});
+    shape.radius.push_back({first->outer_radius, last->outer_radius});
+    shape.element_sections.push_back({numbers.of(*first), numbers.of(*last)});
+    shape.element_y.push_back(line.axes.col(1));
+  }
+}
+
 /// The kind of mesh cell with the same name.
 fem::CellKind cell_kind(fem::SolidKind kind) {
   const std::string name = choice_names(kind)[static_cast<std::size_t>(kind)];
@@ -129,10 +162,7 @@ void add_mesh(const fem::FeModel& mesh, const Vector3d& com, GeometryBody& shape
     shape.nodes.row(static_cast<Eigen::Index>(k)) = (mesh.nodes[k].position - com).transpose();
   }
   if (mesh.blocks.empty()) return add_lines(mesh, shape);
-  for (const fem::LineElement& line : fem::line_elements(mesh)) {
-    shape.elements.push_back({line.a, line.b});
-    shape.radius.push_back(line.radius);
-  }
+  add_beams_and_bars(mesh, shape);
   for (const fem::SurfaceFace& face : fem::surface_faces(mesh)) {
     shape.faces.push_back(face.nodes);
     shape.face_elements.push_back(face.element);

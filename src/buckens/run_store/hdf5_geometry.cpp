@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "buckens/run_store/hdf5_reading.h"
+#include "buckens/run_store/hdf5_sections.h"
 #include "buckens/run_store/hdf5_values.h"
 
 namespace buckens::run_store {
@@ -170,6 +171,7 @@ void write_body(const Hdf5File& file, int index, const GeometryBody& body) {
   for (const auto& ends : body.radius) radius.insert(radius.end(), ends.begin(), ends.end());
   write_dataset(file, path + "/radius", {body.radius.size(), 2}, radius);
   write_attribute(file, path + "/radius", "unit", std::string("m"));
+  write_sections(file, path, body);
   write_faces(file, path, body);
   write_cells(file, path, body);
   write_markers(file, path, body.markers);
@@ -277,6 +279,7 @@ GeometryBody read_body(const Hdf5File& file, const std::string& name) {
     for (const int node : pair) expect(file, path, node >= 0 && node < num_nodes);
     body.elements.push_back(pair);
   }
+  read_sections(file, path, body);
   read_faces(file, path, body);
   read_cells(file, path, body);
   body.markers = read_markers(file, path, num_nodes);

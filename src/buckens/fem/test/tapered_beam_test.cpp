@@ -75,7 +75,7 @@ TEST(TaperedBeam, IsDrawnWithTheRadiiOfItsEnds) {
   for (std::size_t e = 0; e < 3; ++e) {
     for (std::size_t end = 0; end < 2; ++end) {
       const double s = static_cast<double>(e + end) / 3.0;
-      EXPECT_NEAR(lines[e].radius[end], 0.5 * ((1 - s) * 0.05 + s * 0.02), 1e-15);
+      EXPECT_NEAR(lines[e].sections[end]->outer_radius, 0.5 * ((1 - s) * 0.05 + s * 0.02), 1e-15);
     }
   }
 }

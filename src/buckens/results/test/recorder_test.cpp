@@ -108,6 +108,12 @@ TEST(Recorder, GeometryShowsBodiesAndConnections) {
   EXPECT_EQ(geometry.bodies[0].elements.size(), 2U);
   EXPECT_EQ(geometry.bodies[0].radius.size(), 2U);
   for (const double radius : geometry.bodies[0].radius[0]) EXPECT_GT(radius, 0.0);
+  ASSERT_EQ(geometry.bodies[0].sections.size(), 1U);  // once for both elements
+  EXPECT_FALSE(geometry.bodies[0].sections[0].empty());
+  EXPECT_EQ(geometry.bodies[0].element_sections, (std::vector<std::array<int, 2>>{{0, 0}, {0, 0}}));
+  // A beam along x without `up` has z upwards.
+  ASSERT_EQ(geometry.bodies[0].element_y.size(), 2U);
+  EXPECT_NEAR((geometry.bodies[0].element_y[1] - Vector3d::UnitY()).norm(), 0, 1e-15);
   EXPECT_EQ(geometry.bodies[1].kind, BodyKind::rigid);
   EXPECT_EQ(geometry.bodies[1].nodes.rows(), 0);
   ASSERT_EQ(geometry.joints.size(), 2U);

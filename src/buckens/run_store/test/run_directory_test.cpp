@@ -114,6 +114,9 @@ TEST(RunDirectory, KeepsTheGeometry) {
     EXPECT_EQ(body.nodes, wanted.bodies[i].nodes);
     EXPECT_EQ(body.elements, wanted.bodies[i].elements);
     EXPECT_EQ(body.radius, wanted.bodies[i].radius);
+    EXPECT_EQ(body.sections, wanted.bodies[i].sections);
+    EXPECT_EQ(body.element_sections, wanted.bodies[i].element_sections);
+    EXPECT_EQ(body.element_y, wanted.bodies[i].element_y);
     ASSERT_EQ(body.markers.size(), wanted.bodies[i].markers.size());
     for (std::size_t m = 0; m < body.markers.size(); ++m) {
       const results::GeometryMarker& marker = wanted.bodies[i].markers[m];

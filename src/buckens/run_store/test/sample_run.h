@@ -25,6 +25,11 @@ inline results::Geometry sample_geometry() {
   rod.nodes << -0.5, 0, 0, 0, 0, 0, 0.5, 0, 0;
   rod.elements = {{0, 1}, {1, 2}};
   rod.radius = {{0.01, 0.01}, {0.02, 0.005}};
+  const fem::SectionLoop outline = {{0.01, 0}, {0, 0.01}, {-0.01, 0}, {0, -0.01}};
+  const fem::SectionLoop hole = {{0.005, 0}, {0, -0.005}, {-0.005, 0}, {0, 0.005}};
+  rod.sections = {{outline, hole}, {}, {outline}};
+  rod.element_sections = {{0, 0}, {2, 1}};
+  rod.element_y = {{0, 1, 0}, {0, 0, 1}};
   rod.markers.push_back({"start", 0, {{-0.5, 0, 0}, Eigen::Quaterniond::Identity()}});
   rod.markers.push_back({"end", 2, {{0.5, 0, 0}, Eigen::Quaterniond::Identity()}});
   geometry.bodies = {slider, rod};  // not in alphabetical order
