@@ -44,7 +44,7 @@ loads:
 simulation: {duration: 10 ms, step: 0.5 ms}
 output:
   every: 1 ms
-  sensors: {tip: {position: beam/end}}
+  sensors: {tip: {position: beam/end}, pull: {joint-force: grip}, all: {energy: total}}
   fields: {record: [von-mises, stress, velocity], every: 2 ms, at: both}
 """.replace("        a: {at: [0, 0, 0]}\nNODES", "\n".join(
     f"        n{i}{j}{k}: [{0.1 * i}, {0.1 * j}, {0.1 * k}]"

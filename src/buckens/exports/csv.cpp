@@ -78,11 +78,10 @@ void write_sensors(const run_store::RunReader& run, const std::filesystem::path&
   };
   std::string head = "t [s]";
   std::vector<Column> columns;
-  for (const results::Channel& channel : run.layout().channels()) {
-    if (!channel.path.starts_with("sensors/")) continue;
-    for (const std::string& name : run_store::csv_column_names(channel))
+  for (const results::Channel* channel : run.sensors()) {
+    for (const std::string& name : run_store::csv_column_names(*channel))
       head += ',' + files::csv_cell(name);
-    columns.push_back({run.read(channel.path), channel.size()});
+    columns.push_back({run.read(channel->path), channel->size()});
   }
   Table table(path, head + '\n');
   for (std::size_t row = 0; row < run.num_records(); ++row) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/run_store/hdf5_reading.h"
 #include "buckens/run_store/hdf5_values.h"
 
 namespace buckens::run_store {
@@ -40,10 +41,10 @@ void read_sections(const Hdf5File& file, const std::string& path, results::Geome
     throw IoError(fmt::format("{}: the cross-sections of {} do not fit together.",
                               file.path().string(), path));
   };
-  const std::vector<int> loops = read_int_dataset(file, path + "/section_loops");
-  const std::vector<double> points = read_double_dataset(file, path + "/section_points");
-  const std::vector<int> numbers = read_int_dataset(file, path + "/element_sections");
-  const std::vector<double> axes = read_double_dataset(file, path + "/element_y");
+  const std::vector<int> loops = read_int_dataset(file, path + "/section_loops", 2);
+  const std::vector<double> points = read_double_dataset(file, path + "/section_points", 2);
+  const std::vector<int> numbers = read_int_dataset(file, path + "/element_sections", 2);
+  const std::vector<double> axes = read_double_dataset(file, path + "/element_y", 3);
   expect(loops.size() % 2 == 0 && points.size() % 2 == 0);
   expect(numbers.size() == 2 * body.elements.size() && axes.size() == 3 * body.elements.size());
   std::size_t next = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 #include <system_error>
 
@@ -18,7 +19,7 @@
 
 namespace buckens::run_store {
 
-RunReader::RunReader(const std::filesystem::path& directory) {
+RunReader::RunReader(const std::filesystem::path& directory) : directory_(directory) {
   const std::filesystem::path summary = directory / kSummaryName;
   std::error_code ignored;
   if (!std::filesystem::exists(summary, ignored)) {
@@ -62,6 +63,25 @@ void RunReader::open(const std::filesystem::path& results,
   if (has_fields) field_layout_ = read_layout(file_, "/fields", field_times_.size());
   layout_ = read_layout(file_, "/", times_.size());
   check_channels(file_, geometry_, layout_, field_layout_);
+}
+
+std::vector<const results::Channel*> RunReader::sensors() const {
+  constexpr std::string_view kGroup = "sensors/";
+  std::vector<const results::Channel*> found;
+  for (const results::Channel& channel : layout_.channels()) {
+    if (channel.path.starts_with(kGroup)) found.push_back(&channel);
+  }
+  // HDF5 lists them by their names; the table has them as the model file does.
+  std::ifstream table(directory_ / kSensorsName);
+  std::string heading;
+  std::getline(table, heading);
+  const auto column = [&](const results::Channel* channel) {
+    const std::string name = ',' + channel->path.substr(kGroup.size());
+    return std::min(heading.find(name + " ["), heading.find(name + '.'));
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const auto* a, const auto* b) { return column(a) < column(b); });
+  return found;
 }
 
 /// Makes HDF5 look up where the values of each channel lie.

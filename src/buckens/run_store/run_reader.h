@@ -34,6 +34,10 @@ class RunReader {
   /// The channels, in alphabetical order of their paths.
   const results::RecordLayout& layout() const { return layout_; }
 
+  /// The channels of sensors in the order of the model file, which is that of the columns of
+  /// sensors.csv; in alphabetical order where that file is missing.
+  std::vector<const results::Channel*> sensors() const;
+
   std::size_t num_records() const { return times_.size(); }
   const std::vector<double>& times() const { return times_; }  ///< [s], increasing
 
@@ -65,6 +69,7 @@ class RunReader {
   std::vector<double> read_rows_of(const results::RecordLayout& layout, std::string_view path,
                                    std::span<const std::size_t> rows) const;
 
+  std::filesystem::path directory_;
   std::string summary_text_, title_, version_;
   RunStatus status_ = RunStatus::starting;
   Hdf5File file_;
