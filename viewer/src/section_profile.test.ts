@@ -130,6 +130,11 @@ describe('sections along beams', () => {
     // Two beams of 2 m from axis to axis: what the outer side has more the inner one has less.
     expect(volume(tube)).toBeCloseTo(4 * 0.4 * 0.2, 6);
     extents(tube).forEach((x, k) => expect(x).toBeCloseTo([2.2, 2.2, 0.2][k]!, 6));
+    // Normals are those of the sides, up to the corner.
+    for (let i = 0; i < tube.normals.length; i += 3) {
+      const sizes = [...tube.normals.subarray(i, i + 3)].map(Math.abs);
+      expect(Math.max(...sizes)).toBeCloseTo(1, 5);
+    }
   });
 
   it('turn with the rotations of the nodes', () => {

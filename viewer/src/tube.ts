@@ -23,6 +23,9 @@ interface Mitre {
   stretch: number;
 }
 
+/** Beams that meet at a larger angle have an edge between them: 1/cos 20° − 1. */
+const kSharp = 0.064;
+
 /** Vertices that are swept along one element. */
 interface Sweep {
   first: number;
@@ -39,6 +42,12 @@ function turnedBy(v: Triple, w: Triple): Triple {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
   const [x, along] = [cross(e, v), (1 - c) * dot(e, v)];
   return [0, 1, 2].map((k) => c * v[k]! + s * x[k]! + along * e[k]!) as Triple;
+}
+
+/** The part of v at right angles to the unit vector t, as a unit vector. */
+function across(v: Triple, t: Triple): Triple {
+  const along = dot(v, t);
+  return unit([v[0] - along * t[0], v[1] - along * t[1], v[2] - along * t[2]]);
 }
 
 /**
@@ -200,11 +209,11 @@ export class Tube {
     const turn = -outwards(a) * outwards(b);
     const mean = unit(out.map((x, k) => x + turn * into[k]!) as Triple);
     const half = dot(out, mean);
-    const across = unit(out.map((x, k) => x - half * mean[k]!) as Triple);
+    const sideways = across(out, mean);
     // A magnified deformation may fold beams back: nothing grows beyond all bounds then.
     const stretch = 1 / Math.max(0.4, half) - 1;
-    this.mitres[a] = { mean, across, stretch };
-    this.mitres[b] = { mean: mean.map((x) => turn * x) as Triple, across, stretch };
+    this.mitres[a] = { mean, across: sideways, stretch };
+    this.mitres[b] = { mean: mean.map((x) => turn * x) as Triple, across: sideways, stretch };
   }
 
   /** Writes one ring around the curve at ξ in [0, 1]; `capSign` ≠ 0 makes it the rim of a cap. */
@@ -218,9 +227,12 @@ export class Tube {
     const turns = this.turns;
     const w = [0, 1, 2].map((k) => (1 - xi) * turns[0][k]! + xi * turns[1][k]!) as Triple;
     const y = turnedBy(this.axes[element]!, w);
-    const along = dot(y, t);
-    const u = unit([y[0] - along * t[0], y[1] - along * t[1], y[2] - along * t[2]]);
+    const u = across(y, t);
     const v = cross(t, u);
+    // Light falls on a side of a sharp corner as on the rest of it.
+    const sharp = mitre !== null && mitre !== undefined && mitre.stretch > kSharp;
+    const straight = sharp ? unit(tangent) : t;
+    const [nu, nv] = sharp ? [across(y, straight), cross(straight, across(y, straight))] : [u, v];
     const { positions, normals } = this;
     const [{ points, normals: flat }, { points: last }] = profiles;
     const [p, q] = [(1 - xi) * scales[0], xi * scales[1]];
@@ -238,7 +250,7 @@ export class Tube {
       for (let k = 0; k < 3; k++) {
         const at = 3 * (first + i) + k;
         positions[at] = point[k]! + py * u[k]! + pz * v[k]! + wide * (mitre?.across[k] ?? 0);
-        const side = m * u[k]! + n * v[k]! + lean * t[k]!;
+        const side = m * nu[k]! + n * nv[k]! + lean * straight[k]!;
         normals[at] = capSign === 0 ? side / norm : capSign * t[k]!;
       }
     }

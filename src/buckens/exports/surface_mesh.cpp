@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/exports/surface_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +13,21 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int kSides = 8;  // of a tube
+constexpr int kSides = 8;  // of a round tube
+
+/// Corners (y, z) of what is drawn at an end of a line: its section, else a circle [m].
+fem::SectionLoop rim_of(const results::GeometryBody& body, std::size_t e, std::size_t end) {
+  if (!body.element_sections.empty()) {
+    const auto& loops = body.sections[static_cast<std::size_t>(body.element_sections[e][end])];
+    if (!loops.empty() && loops.front().size() >= 3) return loops.front();
+  }
+  fem::SectionLoop rim;
+  for (int k = 0; k < kSides; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / kSides;
+    rim.emplace_back(body.radius[e][end] * std::cos(angle), body.radius[e][end] * std::sin(angle));
+  }
+  return rim;
+}
 
 class SurfaceBuilder {
  public:
@@ -69,17 +84,17 @@ class SurfaceBuilder {
     const auto [a, b] = body_.elements[e];
     const Vector3d from = body_.nodes.row(a), to = body_.nodes.row(b);
     const Vector3d along = (to - from).normalized();
-    const Vector3d y = along.unitOrthogonal();
+    const Vector3d y = body_.element_y.empty() ? along.unitOrthogonal() : body_.element_y[e];
     const Vector3d z = along.cross(y);
-    std::array<std::uint32_t, kSides> near{}, far{};
-    for (std::size_t k = 0; k < kSides; ++k) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kSides;
-      const Vector3d out = std::cos(angle) * y + std::sin(angle) * z;
-      near[k] = add_vertex(from + body_.radius[e][0] * out, a);
-      far[k] = add_vertex(to + body_.radius[e][1] * out, b);
+    const fem::SectionLoop first = rim_of(body_, e, 0), last = rim_of(body_, e, 1);
+    const std::size_t count = std::min(first.size(), last.size());
+    std::vector<std::uint32_t> near, far;
+    for (std::size_t k = 0; k < count; ++k) {
+      near.push_back(add_vertex(from + first[k].x() * y + first[k].y() * z, a));
+      far.push_back(add_vertex(to + last[k].x() * y + last[k].y() * z, b));
     }
-    for (std::size_t k = 0; k < kSides; ++k) {
-      const std::size_t next = (k + 1) % kSides;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t next = (k + 1) % count;
       add_triangle(near[k], near[next], far[next]);
       add_triangle(near[k], far[next], far[k]);
     }

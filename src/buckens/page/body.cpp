@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/fem/cell_faces.h"
 #include "buckens/files/base64.h"
 #include "buckens/files/vector_json.h"
 
@@ -93,7 +94,59 @@ Json PageBody::json(const FrameReader& reader) const {
               {"pose", pose(reader)},
               {"displacement", displacement(reader)},
               {"motion", motion(reader)}};
+  if (!body_.sections.empty()) sections_into(out);
   return body_.faces.empty() ? out : faces_into(std::move(out));
+}
+
+void PageBody::sections_into(Json& out) const {
+  Json sections = Json::array();
+  for (const auto& loops : body_.sections) {
+    Json all = Json::array();
+    for (const fem::SectionLoop& loop : loops) {
+      std::vector<double> points;
+      for (const Eigen::Vector2d& p : loop) points.insert(points.end(), {p.x(), p.y()});
+      all.push_back(files::base64_float32(points));
+    }
+    sections.push_back(std::move(all));
+  }
+  std::vector<int> numbers;
+  for (const auto& ends : body_.element_sections) {
+    numbers.insert(numbers.end(), ends.begin(), ends.end());
+  }
+  std::vector<double> axes;
+  for (const Eigen::Vector3d& y : body_.element_y) axes.insert(axes.end(), y.data(), y.data() + 3);
+  out["sections"] = std::move(sections);
+  out["elementSections"] = files::base64_int32(numbers);
+  out["elementAxes"] = files::base64_float32(axes);
+}
+
+/// Per face which of its sides are edges of its element, as bits. Faces of quadratic elements fall
+/// into pieces that meet in lines between mid-side nodes.
+std::vector<int> PageBody::face_edges() const {
+  std::vector<std::size_t> first;  // of the nodes of each element
+  std::size_t next = 0;
+  for (const fem::CellKind kind : body_.cell_kinds) {
+    first.push_back(next);
+    next += static_cast<std::size_t>(fem::num_nodes(kind));
+  }
+  std::vector<int> edges;
+  for (std::size_t f = 0; f < body_.faces.size(); ++f) {
+    const auto e = static_cast<std::size_t>(body_.face_elements[f]);
+    const auto is_corner = [&](int node) {
+      if (e >= first.size()) return true;
+      const auto* at = body_.cell_nodes.data() + first[e];
+      const auto* end = at + fem::num_corners(body_.cell_kinds[e]);
+      return std::find(at, end, node) != end;
+    };
+    const auto& face = body_.faces[f];
+    const std::size_t count = face[3] < 0 ? 3 : 4;
+    int bits = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_corner(face[k]) || is_corner(face[(k + 1) % count])) bits |= 1 << k;
+    }
+    edges.push_back(bits);
+  }
+  return edges;
 }
 
 Json PageBody::faces_into(Json out) const {
@@ -111,6 +164,11 @@ Json PageBody::faces_into(Json out) const {
   }
   out["faces"] = files::base64_int32(faces);
   out["faceElements"] = files::base64_int32(of_face);
+  const std::vector<int> edges = face_edges();
+  const auto is_whole = [&](std::size_t f) { return edges[f] == (body_.faces[f][3] < 0 ? 7 : 15); };
+  bool all_whole = true;
+  for (std::size_t f = 0; f < edges.size(); ++f) all_whole = all_whole && is_whole(f);
+  out["faceEdges"] = all_whole ? Json(nullptr) : Json(files::base64_int32(edges));
   out["facePlaces"] = places.empty() ? Json(nullptr) : Json(files::base64_int32(places));
   return out;
 }

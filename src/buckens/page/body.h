@@ -39,6 +39,8 @@ class PageBody {
 
   std::size_t values_per_node() const;
   Json faces_into(Json out) const;
+  void sections_into(Json& out) const;
+  std::vector<int> face_edges() const;
   Json markers() const;
   Json pose(const FrameReader& reader) const;
   Json displacement(const FrameReader& reader) const;

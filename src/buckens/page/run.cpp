@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -21,6 +20,7 @@
 #include "buckens/page/body.h"
 #include "buckens/page/fields.h"
 #include "buckens/page/frames.h"
+#include "buckens/page/origin.h"
 #include "buckens/run_store/run_directory.h"
 #include "buckens/run_store/run_reader.h"
 
@@ -107,31 +107,24 @@ std::vector<std::string> component_names(const Channel& channel) {
   return names;
 }
 
-/// Sorts curves of sensors as the model file has them, which is the order of the table's columns;
-/// HDF5 lists them by their names.
-void sort_as_table(Json& curves, const std::filesystem::path& table) {
-  std::ifstream file(table);
-  std::string heading;
-  std::getline(file, heading);
-  const auto column = [&heading](const Json& curve) {
-    const auto name = "," + curve["name"].get<std::string>();
-    return std::min(heading.find(name + " ["), heading.find(name + "."));
-  };
-  std::stable_sort(curves.begin(), curves.end(),
-                   [&](const Json& a, const Json& b) { return column(a) < column(b); });
+Json curve_json(const Channel& channel, const FrameReader& reader) {
+  return {{"name", channel.path.substr(channel.path.find('/') + 1)},
+          {"unit", channel.unit},
+          {"components", component_names(channel)},
+          {"values", reader.values(channel.path)}};
 }
 
-/// The channels right below `group`, as curves.
-Json curves_json(const run_store::RunReader& run, const FrameReader& reader, std::string_view group,
-                 bool with_components) {
+Json sensors_json(const run_store::RunReader& run, const FrameReader& reader) {
+  Json all = Json::array();
+  for (const Channel* channel : run.sensors()) all.push_back(curve_json(*channel, reader));
+  return all;
+}
+
+Json energies_json(const run_store::RunReader& run, const FrameReader& reader) {
   Json all = Json::array();
   for (const Channel& channel : run.layout().channels()) {
-    if (!channel.path.starts_with(group)) continue;
-    if (!with_components && channel.size() != 1) continue;
-    Json curve = {{"name", channel.path.substr(group.size())}, {"unit", channel.unit}};
-    if (with_components) curve["components"] = component_names(channel);
-    curve["values"] = reader.values(channel.path);
-    all.push_back(std::move(curve));
+    if (!channel.path.starts_with("energies/") || channel.size() != 1) continue;
+    all.push_back(curve_json(channel, reader));
   }
   return all;
 }
@@ -260,14 +253,13 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
   }
   Json modes = modes_json(run, reader);
   Json summary = parse_summary(run.summary_text());
-  Json sensors = curves_json(run, reader, "sensors/", true);
-  sort_as_table(sensors, directory / run_store::kSensorsName);
   const std::filesystem::path shapes = directory / run_store::kModesName;
   std::error_code ignored;
   if (!modes.is_null() && std::filesystem::exists(shapes, ignored)) {
     summary = parse_summary(files::read_text_file(shapes));
   }
   return {{"title", run.title()},
+          {"changes", run_changes(directory)},
           {"version", run.version()},
           {"generated", files::utc_now()},
           {"time", {{"n", reader.num_frames()}, {"f32", reader.times()}}},
@@ -276,8 +268,8 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
           {"loads", loads_json(run, reader, shown)},
           {"gravity", files::json_of(geometry.gravity)},
           {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
-          {"sensors", std::move(sensors)},
-          {"energies", curves_json(run, reader, "energies/", false)},
+          {"sensors", sensors_json(run, reader)},
+          {"energies", energies_json(run, reader)},
           {"modes", std::move(modes)},
           {"summary", std::move(summary)},
           {"storage", storage_json(report, options, at_fields, possible)}};

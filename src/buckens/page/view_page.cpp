@@ -11,6 +11,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
+#include "buckens/page/origin.h"
 #include "buckens/page/run.h"
 
 namespace buckens::page {
@@ -59,9 +60,11 @@ std::vector<ViewPageReport> write_view_page(
   ViewPageOptions share = options;
   share.max_bytes /= run_directories.size();
   std::vector<ViewPageReport> reports(run_directories.size());
+  const std::vector<std::string> names = directory_names(run_directories);
   Json runs = Json::array();
   for (std::size_t i = 0; i < run_directories.size(); ++i) {
     runs.push_back(page_run(run_directories[i], share, reports[i]));
+    runs.back()["directory"] = names[i];
   }
   if (runs.front()["modes"].is_null() != runs.back()["modes"].is_null()) {
     throw IoError(fmt::format(

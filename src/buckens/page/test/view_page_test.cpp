@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/test/temporary_directory.h"
 #include "buckens/files/output_file.h"
+#include "buckens/page/origin.h"
 #include "buckens/page/test/page_values.h"
 #include "buckens/run_store/run_directory.h"
 #include "buckens/run_store/test/sample_run.h"
@@ -22,6 +23,7 @@ using run_store::test::sample_layout;
 using run_store::test::sample_record;
 using run_store::test::sample_value;
 using test::decode;
+using test::decode_ints;
 using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
@@ -80,6 +82,13 @@ TEST_F(ViewPage, HoldsTheRun) {
   EXPECT_EQ(rod["kind"], "beam");
   EXPECT_EQ(decode(rod["nodes"]), (std::vector<float>{-0.5F, 0, 0, 0, 0, 0, 0.5F, 0, 0}));
   EXPECT_EQ(rod["nodeNumbers"], nullptr);
+  ASSERT_EQ(rod["sections"].size(), 3U);
+  EXPECT_EQ(decode(rod["sections"][0][1]),
+            (std::vector<float>{0.005F, 0, 0, -0.005F, -0.005F, 0, 0, 0.005F}));
+  EXPECT_TRUE(rod["sections"][1].empty());
+  EXPECT_EQ(decode_ints(rod["elementSections"]), (std::vector<int>{0, 0, 2, 1}));
+  EXPECT_EQ(decode(rod["elementAxes"]), (std::vector<float>{0, 1, 0, 0, 0, 1}));
+  EXPECT_EQ(page["directory"], "out");
   EXPECT_EQ(rod["elements"], nlohmann::json({{0, 1}, {1, 2}}));
   EXPECT_EQ(rod["markers"][1]["node"], 2);
   const std::vector<float> pose = decode(rod["pose"]);
@@ -189,6 +198,14 @@ TEST_F(ViewPage, RefusesWhatItCannotShow) {
         write_view_page({directory_ / "out"}, directory_ / "bad.html", directory_ / "page.html");
       },
       ThrowsMessage<IoError>(HasSubstr("exactly once")));
+}
+
+TEST(DirectoryNames, AreAsLongAsItTakes) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(directory_names({"runs/coarse", "runs/fine/"}), (Names{"coarse", "fine"}));
+  EXPECT_EQ(directory_names({"/a/out", "/b/out"}), (Names{"a/out", "b/out"}));
+  EXPECT_EQ(directory_names({"/a/b/out/."}), (Names{"out"}));
+  EXPECT_EQ(directory_names({"/a/out", "/a/out"}).size(), 2U);
 }
 
 }  // namespace
