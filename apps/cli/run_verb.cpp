@@ -14,11 +14,12 @@
 #include "cli/output.h"
 #include "cli/progress_display.h"
 #include "cli/run_journal.h"
+#include "cli/state_keeper.h"
 #include "cli/summary_text.h"
 #include "cli/verbs.h"
 
 #include "buckens/analysis/output_plan.h"
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/version.h"
 #include "buckens/files/output_file.h"
@@ -38,6 +39,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   bool quiet = false;
   int threads = 1;
+  StateArguments state;
 
   fs::path directory() const {
     return out.empty() ? fs::path(model).stem() += ".out" : fs::path(out);
@@ -98,8 +100,12 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
   options.threads = arguments.threads;
   options.on_progress = [&watch](const analysis::Progress& progress) { return watch(progress); };
   try {
-    results::RunSummary summary = analysis::simulate(built, sink, options);
+    analysis::Simulation simulation(built, options);
+    StateKeeper states(simulation, arguments.state, journal);
+    simulation.record_into(sink);
+    results::RunSummary summary = simulation.run();
     display.clear();
+    states.save_end();
     return summary;
   } catch (...) {
     display.clear();
@@ -129,7 +135,10 @@ ExitCode run(const RunArguments& arguments, bool json) {
   for (const std::string& text : arguments.overrides) journal.record("--set " + text);
   const auto built = read_and_build(arguments);
   // What is wrong with the output is said before an earlier run is replaced.
-  if (built->description.simulation) analysis::plan_output(built->description);
+  if (built->description.simulation) {
+    analysis::plan_output(built->description);
+    arguments.state.check(built->description.simulation->duration);
+  }
 
   run_store::RunDirectory directory(path,
                                     {built->description.title, built->description.source, {}});
@@ -154,6 +163,8 @@ constexpr char kRunFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out --set bodies.rod.beam.elements=32
   buckens view out
+  buckens run slider_crank.yaml --save-state half.h5 --save-state-at 0.05
+  buckens run slider_crank.yaml -o rest --start-from half.h5
 
 The directory OUT holds results.h5 (everything recorded), sensors.csv (the sensors of the model
 file), summary.json (effort, residuals, energy, trust), model.yaml (the model as it was read) and
@@ -183,6 +194,7 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
                   "Threads that advance bodies at the same time, two of them also one large\n"
                   "body; 1 if not given. Results are the same to the last bit")
       ->check(CLI::Range(1, kMostThreads));
+  add_state_options(verb, arguments->state);
   add_json_option(verb, invocation);
   verb.footer(kRunFooter);
   verb.callback([arguments, &invocation] {

@@ -40,6 +40,10 @@ class CouplingWatch {
   /// Level, its changes and the largest neglected share of each body.
   void fill(const model::State& state, results::RunSummary& summary) const;
 
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
  private:
   struct Watched {
     bool is_automatic = false;

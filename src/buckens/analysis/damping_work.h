@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/base/saved_values.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
@@ -31,6 +32,10 @@ class DampingWork {
 
   /// Products with C or K so far.
   long num_products() const { return products_; }
+
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   double direct_power(const model::BodyState& s);

@@ -54,7 +54,7 @@ class Accelerations {
     const auto motions = dynamics::motions_of(model_, state_);
     dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
     bias_ = dynamics::constraint_bias(model_, motions, state_.t);
-    dynamics::evaluate_forces(model_, motions, state_.t, forces_);
+    dynamics::evaluate_forces(model_, motions, state_.t, state_.inputs, forces_);
     bodies_.resize(model_.bodies.size());
     std::vector<Matrix3d> J;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {

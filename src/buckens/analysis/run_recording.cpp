@@ -19,10 +19,12 @@ double wall_seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 RunRecording::RunRecording(const Followed& run, const OutputPlan& plan, results::RecordSink& sink)
-    : run_(run),
+    : built_(run.built),
+      work_(run.work),
+      statistics_(run.statistics),
       plan_(plan),
       sink_(sink),
-      recorder_(run.built, run.metric, run.has_redundant_joints),
+      recorder_(run.recorder),
       fields_(run.built) {}
 
 std::string RunRecording::size_advice() const {
@@ -50,8 +52,8 @@ void RunRecording::after_step(const model::State& before, const model::State& af
       write_record(state);
     } else {
       if (!first) {
-        first = {dynamics::energy(run_.built.model, before), run_.work.work_before()};
-        last = {dynamics::energy(run_.built.model, after), run_.work.work()};
+        first = {dynamics::energy(built_.model, before), work_.work_before()};
+        last = {dynamics::energy(built_.model, after), work_.work()};
       }
       const double share = (t - before.t) / (after.t - before.t);
       write_record(results::interpolate(before, after, t),
@@ -65,6 +67,11 @@ void RunRecording::after_step(const model::State& before, const model::State& af
   }
 }
 
+void RunRecording::skip_to(double t) {
+  records_ = static_cast<long>(std::floor(t / plan_.every * (1.0 + 1e-9))) + 1;
+  last_written_ = t;
+}
+
 void RunRecording::finish(const results::RunSummary& summary) {
   if (!is_first_) write_extremes();
   sink_.finish(summary);
@@ -74,10 +81,10 @@ void RunRecording::write_record(const model::State& state,
                                 const std::optional<results::EnergyLevels>& levels) {
   const auto start = std::chrono::steady_clock::now();
   const results::Record record = levels ? recorder_.record(state, levels->work, levels->energy)
-                                        : recorder_.record(state, run_.work.work());
+                                        : recorder_.record(state, work_.work());
   const dynamics::Energy& e = recorder_.last_energy();
-  const double scale = std::max(e.kinetic + e.strain + e.springs, run_.work.turnover());
-  run_.statistics.add_record(state, recorder_.last_balance(), scale);
+  const double scale = std::max(e.kinetic + e.strain + e.springs, work_.turnover());
+  statistics_.add_record(state, recorder_.last_balance(), scale);
   sink_.write(record);
   write_fields(state);
   last_written_ = state.t;
@@ -87,7 +94,7 @@ void RunRecording::write_record(const model::State& state,
 /// @pre the record of this instant is written
 void RunRecording::write_fields(const model::State& state) {
   if (fields_.is_empty()) return;
-  const double duration = run_.built.description.simulation->duration;
+  const double duration = built_.description.simulation->duration;
   const bool is_end = state.t >= (1.0 - 1e-9) * duration;
   if (is_first_ || is_end || records_ % plan_.fields_stride == 0) {
     sink_.write_fields(fields_.record(state, {{}, &recorder_.last_multipliers(), 1.0}));

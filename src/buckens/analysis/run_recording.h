@@ -8,7 +8,6 @@
 #include "buckens/analysis/output_plan.h"
 #include "buckens/analysis/run_statistics.h"
 #include "buckens/analysis/work_account.h"
-#include "buckens/dynamics/mass_metric.h"
 #include "buckens/results/field_recorder.h"
 #include "buckens/results/recorder.h"
 #include "buckens/results/state_interpolation.h"
@@ -22,10 +21,9 @@ class RunRecording {
   /// What a recording follows; all of it outlives the recording.
   struct Followed {
     const model::BuiltModel& built;
-    const dynamics::MassMetric& metric;
     const WorkAccount& work;
     RunStatistics& statistics;
-    bool has_redundant_joints = false;
+    results::Recorder& recorder;
   };
   /// @throws InputError, ModelError where something that is to be recorded makes no sense
   RunRecording(const Followed& run, const OutputPlan& plan, results::RecordSink& sink);
@@ -36,10 +34,16 @@ class RunRecording {
   void begin();
   /// Writes the state at which the run begins.
   void write_start(const model::State& state) { write_record(state); }
+  /// Goes on after a time up to which nothing is to be written.
+  void skip_to(double t);
   /// Writes what is due between two states, interpolated where steps do not fall on it.
   /// @param is_last whether the run ends with this step
   void after_step(const model::State& before, const model::State& after, bool is_last);
   void finish(const results::RunSummary& summary);
+
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
   /// Wall time of all records so far [s].
   double seconds() const { return seconds_; }
@@ -52,10 +56,12 @@ class RunRecording {
   void write_fields(const model::State& state);
   void write_extremes();
 
-  Followed run_;
+  const model::BuiltModel& built_;
+  const WorkAccount& work_;
+  RunStatistics& statistics_;
   OutputPlan plan_;
   results::RecordSink& sink_;
-  results::Recorder recorder_;
+  results::Recorder& recorder_;
   results::FieldRecorder fields_;
   std::chrono::steady_clock::time_point extremes_written_ = std::chrono::steady_clock::now();
   bool is_first_ = true;  // no fields are written yet

@@ -31,6 +31,9 @@ class RunStatistics {
   /// Fills counts, residuals, energy error and trust.
   void fill(const stepping::TimeMarch& march, results::RunSummary& summary) const;
 
+  /// Saves what was collected so far, or takes it back. @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
  private:
   /// Warns where |ω| is no longer small against the lowest elastic frequency, which axial forces
   /// that stiffen the body make up for.

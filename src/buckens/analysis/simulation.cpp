@@ -1,287 +1,126 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/simulation.h"
 
-#include <algorithm>
-#include <chrono>
-#include <exception>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/coupling_watch.h"
-#include "buckens/analysis/drive_laws.h"
-#include "buckens/analysis/output_plan.h"
-#include "buckens/analysis/position_assembly.h"
-#include "buckens/analysis/prepare.h"
-#include "buckens/analysis/run_recording.h"
-#include "buckens/analysis/run_statistics.h"
-#include "buckens/analysis/simulation_settings.h"
-#include "buckens/analysis/step_advice.h"
-#include "buckens/analysis/work_account.h"
+#include "buckens/analysis/simulation_run.h"
 #include "buckens/base/errors.h"
-#include "buckens/base/free_memory.h"
-#include "buckens/base/log.h"
-#include "buckens/base/version.h"
-#include "buckens/stepping/time_march.h"
+#include "buckens/base/nearest.h"
 
 namespace buckens::analysis {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// Ends of steps are counted, times asked for are written in decimals.
+constexpr double kSameTime = 1e-9;
 
-constexpr Eigen::Index kAdvisedDofs = 600;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-const model::SimulationSpec& simulation_of(const model::ModelDescription& description) {
-  if (description.simulation) return *description.simulation;
-  throw InputError(description.where,
-                   "there is nothing to run: the model has no `simulation:`; add for example "
-                   "`simulation: {duration: 1 s, step: 1 ms}`");
+std::size_t find_whole(const model::Model& model, const std::string& name) {
+  const int found = model.find_whole(name);
+  if (found >= 0) return static_cast<std::size_t>(found);
+  std::vector<std::string> known;
+  for (const model::WholeBody& whole : model.wholes) known.push_back(whole.name);
+  throw InputError(
+      fmt::format("there is no body \"{}\".{}", name, base::suggestion(name, known)));
 }
 
 }  // namespace
 
-class Simulation::Run {
- public:
-  Run(const model::BuiltModel& built, SimulationOptions options)
-      : built_(built), options_(std::move(options)), spec_(simulation_of(built.description)) {
-    set_up();
-    base::return_free_memory();
-    setup_seconds_ = seconds_since(created_);
-  }
-
-  void record_into(results::RecordSink& sink) {
-    const auto start = Clock::now();
-    recording_.emplace(RunRecording::Followed{built_, *metric_, *work_, *statistics_,
-                                              !prepared_->redundant_rows.empty()},
-                       plan_, sink);
-    if (const std::string advice = recording_->size_advice(); !advice.empty()) warn(advice);
-    recording_->begin();
-    base::return_free_memory();
-    setup_seconds_ += seconds_since(start);
-  }
-
-  /// @pre not done
-  void step() {
-    begin_records();
-    model::State& state = prepared_->state;
-    std::swap(before_, state);
-    const stepping::StepReport report = take_step(before_, state);
-    statistics_->add_step(report, state);
-    work_->add(state);
-    if (recording_) recording_->after_step(before_, state, march_->is_done());
-    watch_->after_step(march_->stepper(), state);
-    ++steps_taken_;
-  }
-
-  results::RunSummary run() {
-    const auto start = Clock::now();
-    std::exception_ptr failure;
-    try {
-      begin_records();
-      take_steps();
-    } catch (const NumericalError& error) {
-      summary_.interrupted = error.what();
-      summary_.trust.push_back("the run ended early by a numerical failure");
-      failure = std::current_exception();
-    }
-    finish(seconds_since(start));
-    if (failure) std::rethrow_exception(failure);
-    return summary_;
-  }
-
-  const model::State& state() const { return prepared_->state; }
-  bool is_done() const { return march_->is_done(); }
-
- private:
-  /// Equations that hold within a step leave a quasi-static body no shape at its end.
-  void check_method() {
-    const bool is_within = spec_.method == model::IntegrationMethod::newmark ||
-                           spec_.method == model::IntegrationMethod::wilson;
-    for (const body::Body& body : built_.model.bodies) {
-      if (!body.is_flexible() || !body.flexible->is_quasi_static) continue;
-      has_quasi_static_ = true;
-      if (!is_within) continue;
-      throw InputError(spec_.where,
-                       fmt::format("simulation: method {} satisfies the equations within a step, "
-                                   "the shape of the quasi-static body \"{}\" at its end would be "
-                                   "unknown; use generalized-alpha or hht",
-                                   stepping::to_string(method_of(spec_.method)), body.name));
-    }
-  }
-
-  void set_up() {
-    check_method();
-    plan_ = plan_output(built_.description);
-    summary_.title = built_.model.title;
-    summary_.version = kVersion;
-    metric_.emplace(built_.model);
-    prepared_.emplace(prepare(built_, *metric_));
-    const stepping::MarchSettings march = march_settings(spec_);
-    stepping::StepSettings settings = step_settings(spec_);
-    settings.threads = options_.threads;
-    settings.exchange = options_.exchange;
-    march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
-    if (!march.tolerance) steps_ = march.longest_steps;
-    work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
-    drives_.emplace(built_.description);
-    statistics_.emplace(built_);
-    watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
-    summary_.redundant_constraints = prepared_->redundant_text;
-    for (const std::string& text : prepared_->notes) warn(text);
-    for (const std::string& text : drives_->corners(spec_.duration)) warn(text);
-    advise_on_step();
-    watch_->start(march_->stepper(), prepared_->state);
-  }
-
-  void warn(const std::string& text) {
-    const auto& known = summary_.warnings;
-    if (std::find(known.begin(), known.end(), text) != known.end()) return;
-    summary_.warnings.push_back(text);
-    if (options_.tells_warnings) base::log(base::LogLevel::warning, text);
-  }
-
-  void advise_on_step() {
-    for (const model::WholeBody& whole : built_.model.wholes) {
-      for (int b = whole.first; b < whole.first + whole.count; ++b) {
-        const body::Body& body = built_.model.bodies[static_cast<std::size_t>(b)];
-        if (!body.is_flexible()) continue;
-        // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
-        if (body.num_dofs() > kAdvisedDofs) {
-          set_lowest_frequency(b, march_->stepper().lowest_frequency(static_cast<std::size_t>(b)));
-          continue;
-        }
-        const ExcitedBand band = excited_band(body);
-        set_lowest_frequency(b, band.first);
-        if (!whole.is_divided()) advise(whole.name, band);
-      }
-      if (whole.is_divided() && whole.mesh->M.rows() <= kAdvisedDofs) {
-        advise(whole.name, excited_band(built_.model, whole));
-      }
-    }
-  }
-
-  void advise(const std::string& body, const ExcitedBand& band) {
-    if (march_->is_controlled()) return;
-    const std::string advice = judge_step(body, band, march_->longest_step(), plan_.finest);
-    if (!advice.empty()) warn(advice);
-  }
-
-  void set_lowest_frequency(int body, double omega) {
-    statistics_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
-    watch_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
-  }
-
-  void begin_records() {
-    if (!recording_ || has_begun_) return;
-    has_begun_ = true;
-    recording_->write_start(prepared_->state);
-  }
-
-  void take_steps() {
-    if (!report_progress()) return;
-    while (!march_->is_done()) {
-      step();
-      if (!report_progress() && !march_->is_done()) return;
-    }
-    summary_.finished = true;
-    summary_.interrupted.clear();
-  }
-
-  /// @throws NumericalError; `after` is then as `before`
-  stepping::StepReport take_step(const model::State& before, model::State& after) {
-    const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
-    try {
-      const stepping::StepReport report = march_->advance(before, after);
-      drives_->check(before.t, after.t);
-      // The step has closed velocities with the shapes that quasi-static bodies had at its start.
-      if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
-      return report;
-    } catch (const NumericalError&) {
-      after = before;
-      // A law that jumps makes any step fail, and says more than the joint that gave way.
-      drives_->check(before.t, reach);
-      throw;
-    }
-  }
-
-  bool report_progress() {
-    if (!options_.on_progress) return true;
-    const bool go_on =
-        options_.on_progress({prepared_->state.t, spec_.duration, steps_taken_, steps_});
-    if (!go_on) summary_.interrupted = options_.stop_reason;
-    return go_on;
-  }
-
-  void finish(double stepping_seconds) {
-    summary_.wall_seconds.setup = setup_seconds_;
-    summary_.wall_seconds.stepping = stepping_seconds;
-    summary_.wall_seconds.total = seconds_since(created_);
-    split_wall_time();
-    summary_.end_time = prepared_->state.t;
-    statistics_->fill(*march_, summary_);
-    watch_->fill(prepared_->state, summary_);
-    if (recording_) recording_->finish(summary_);
-  }
-
-  void split_wall_time() {
-    const stepping::StepSeconds s = march_->ladder().seconds();
-    const double recording = recording_ ? recording_->seconds() : 0.0;
-    const double rest =
-        summary_.wall_seconds.stepping - s.large_solves - s.newton - s.completion - recording;
-    summary_.wall_seconds.phases = {{"large_solves", s.large_solves},
-                                    {"newton", s.newton},
-                                    {"completion", s.completion},
-                                    {"recording", recording},
-                                    {"coupling_and_rest", rest}};
-  }
-
-  const model::BuiltModel& built_;
-  SimulationOptions options_;
-  const model::SimulationSpec& spec_;
-  Clock::time_point created_ = Clock::now();
-  double setup_seconds_ = 0;
-  OutputPlan plan_;
-  std::optional<dynamics::MassMetric> metric_;
-  std::optional<Prepared> prepared_;
-  model::State before_;  // the state before the last step
-  std::optional<stepping::TimeMarch> march_;
-  std::optional<WorkAccount> work_;
-  std::optional<DriveLaws> drives_;
-  std::optional<RunStatistics> statistics_;
-  std::optional<CouplingWatch> watch_;
-  std::optional<RunRecording> recording_;
-  results::RunSummary summary_;
-  long steps_ = 0;  // in all; 0 where step control leaves that open
-  long steps_taken_ = 0;
-  bool has_begun_ = false;  // the record of the start is written
-  bool has_quasi_static_ = false;
-};
-
 Simulation::Simulation(const model::BuiltModel& built, SimulationOptions options)
-    : run_(std::make_unique<Run>(built, std::move(options))) {}
+    : run_(std::make_unique<SimulationRun>(built, std::move(options))) {}
+
+Simulation::Simulation(std::shared_ptr<const model::BuiltModel> built, SimulationOptions options)
+    : kept_(std::move(built)), run_(std::make_unique<SimulationRun>(*kept_, std::move(options))) {}
 
 Simulation::~Simulation() = default;
 
-void Simulation::record_into(results::RecordSink& sink) { run_->record_into(sink); }
-
 bool Simulation::step() {
-  if (run_->is_done()) return false;
-  run_->step();
+  if (run_->is_over()) return false;
+  run_->step_by_hand();
+  return true;
+}
+
+bool Simulation::advance_to(double t) {
+  const double enough = t - kSameTime * run_->longest_step();
+  while (time() < enough) {
+    if (!step()) return false;
+  }
   return true;
 }
 
 results::RunSummary Simulation::run() { return run_->run(); }
 
+results::RunSummary Simulation::finish() { return run_->finish(); }
+
+void Simulation::stop() { run_->stop(); }
+
+void Simulation::on_step(std::function<void(const StepView&)> callback) {
+  run_->callbacks.push_back([this, callback = std::move(callback)](double step) {
+    callback(StepView(*this, step));
+  });
+}
+
+void Simulation::record_into(results::RecordSink& sink) { run_->record_into(sink); }
+
+const model::BuiltModel& Simulation::built() const { return run_->built(); }
 double Simulation::time() const { return run_->state().t; }
-
+double Simulation::end_time() const { return run_->duration(); }
+long Simulation::num_steps() const { return run_->num_steps(); }
 bool Simulation::is_done() const { return run_->is_done(); }
-
 const model::State& Simulation::state() const { return run_->state(); }
+
+body::FrameMotion Simulation::frame(const std::string& body) const {
+  const model::Model& model = built().model;
+  return model::whole_motion(model, model.wholes[find_whole(model, body)], state());
+}
+
+Eigen::Map<const Eigen::VectorXd> Simulation::values(const std::string& path) const {
+  const results::RecordLayout& layout = run_->layout();
+  const int found = layout.find(path);
+  if (found < 0) {
+    std::vector<std::string> known;
+    for (const results::Channel& channel : layout.channels()) known.push_back(channel.path);
+    throw InputError(fmt::format("nothing is recorded as \"{}\".{}", path,
+                                 base::suggestion(path, known)));
+  }
+  const auto index = static_cast<std::size_t>(found);
+  return {run_->observe().data() + layout.offset(index),
+          static_cast<Eigen::Index>(layout.channel(index).size())};
+}
+
+Eigen::Map<const Eigen::VectorXd> Simulation::sensor(const std::string& name) const {
+  return values("sensors/" + name);
+}
+
+Eigen::Map<const Simulation::NodalMatrix> Simulation::displacements(const std::string& body) const {
+  return run_->nodal_views().displacements(find_whole(built().model, body), state());
+}
+
+Eigen::Map<const Simulation::NodalMatrix> Simulation::velocities(const std::string& body) const {
+  return run_->nodal_views().velocities(find_whole(built().model, body), state());
+}
+
+void Simulation::set_load(const std::string& load, const Eigen::Vector3d& value) {
+  run_->set_load(load, value);
+}
+
+void Simulation::release_load(const std::string& load) { run_->set_load(load, std::nullopt); }
+
+base::SavedValues Simulation::save() const { return run_->save(); }
+
+void Simulation::restore(const base::SavedValues& saved) { run_->restore(saved); }
+
+double StepView::time() const { return simulation_->time(); }
+
+void StepView::stop() const { simulation_->stop(); }
+
+void StepView::set_load(const std::string& load, const Eigen::Vector3d& value) const {
+  simulation_->set_load(load, value);
+}
+
+Eigen::Map<const Eigen::VectorXd> StepView::sensor(const std::string& name) const {
+  return simulation_->sensor(name);
+}
 
 }  // namespace buckens::analysis

@@ -23,13 +23,15 @@ WorkAccount::WorkAccount(const model::Model& model, const model::State& start, b
 WorkAccount::Powers WorkAccount::powers(const model::State& state) {
   Powers out;
   const auto motions = dynamics::motions_of(model_, state);
-  dynamics::evaluate_forces(model_, motions, state.t, forces_);
+  dynamics::evaluate_forces(model_, motions, state.t, state.inputs, forces_);
   out.active = forces_.active_power + forces_.dissipation;
   out.damping = forces_.dissipation;
   joints_.evaluate(motions, state.t, residuals_, &state.lambda, &forces_);
   out.g_t = residuals_.g_t;
   return out;
 }
+
+void WorkAccount::take_inputs(const model::State& state) { before_ = powers(state); }
 
 long WorkAccount::num_products() const {
   long sum = 0;

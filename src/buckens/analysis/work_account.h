@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "buckens/analysis/damping_work.h"
+#include "buckens/base/saved_values.h"
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
@@ -22,6 +23,9 @@ class WorkAccount {
   /// Adds the work between the last state and this one.
   void add(const model::State& state);
 
+  /// To be called where inputs of the last state were changed: the next step begins with them.
+  void take_inputs(const model::State& state);
+
   const results::WorkBalance& work() const { return work_; }
   /// What work() was before the last add().
   const results::WorkBalance& work_before() const { return work_before_; }
@@ -29,6 +33,10 @@ class WorkAccount {
   double turnover() const { return turnover_; }
   /// Products with the stiffness or damping matrices of meshes so far.
   long num_products() const;
+
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   struct Powers {

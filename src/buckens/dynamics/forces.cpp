@@ -59,15 +59,29 @@ void Forces::reset(const model::Model& model) {
   dissipation = 0;
 }
 
+loads::Action action_of(const model::Model& model, std::size_t load, double t,
+                        const model::LoadInputs& inputs, const spatial::MarkerMotion& first,
+                        const spatial::MarkerMotion& second) {
+  const loads::ForceElement& element = *model.loads[load].element;
+  if (!inputs.empty() && inputs[load]) return element.act(*inputs[load], first);
+  return element.evaluate(t, first, second);
+}
+
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor) {
+  evaluate_forces(model, motions, t, {}, out, load_factor);
+}
+
+void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                     const model::LoadInputs& inputs, Forces& out, double load_factor) {
   out.reset(model);
-  for (const model::Load& load : model.loads) {
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
     const auto first = evaluate_marker(model, load.first, motions);
     const auto second = evaluate_marker(model, load.second, motions);
     loads::Action action;
     try {
-      action = load.element->evaluate(t, first.motion, second.motion);
+      action = action_of(model, k, t, inputs, first.motion, second.motion);
     } catch (const NumericalError& error) {
       const char* what = load.kind == "bushing" ? "joint" : "load";  // as the model file has it
       throw NumericalError(error.where(),

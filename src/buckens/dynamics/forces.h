@@ -22,10 +22,20 @@ struct Forces {
 
 /// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load lies in the span
 /// of P, which the sieve removes.
+/// @param inputs given from outside
 /// @param load_factor multiplies applied forces and torques, neither gravity nor springs
 /// @throws NumericalError naming the load whose law fails
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                     const model::LoadInputs& inputs, Forces& out, double load_factor = 1.0);
+/// The same without inputs.
+void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor = 1.0);
+
+/// What one load does: by its law, or by what is given for it.
+/// @param load index into Model::loads
+loads::Action action_of(const model::Model& model, std::size_t load, double t,
+                        const model::LoadInputs& inputs, const spatial::MarkerMotion& first,
+                        const spatial::MarkerMotion& second);
 
 /// Adds what a wrench on a marker does to its body; on the ground nothing.
 void add_wrench(const model::Model& model, const model::MarkerId& id,

@@ -148,32 +148,51 @@ void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& complia
   }
 }
 
-bool MultiplierCondensation::factorise_with_exchanges() {
-  const auto for_entries = [&](auto&& take) {
-    for (const auto& [i, j] : couples_) {
-      const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
-      const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
-      const int place = block_lu_.place(i, j);
-      const double* const S = block_lu_.block(place);
-      const int stride = block_lu_.stride(place);
-      for (int m = 0; m < column.count; ++m) {
-        for (int k = 0; k < row.count; ++k) {
-          take(row.first_row + k, column.first_row + m, S[m * stride + k]);
-        }
+template <class Take>
+void MultiplierCondensation::for_entries(Take&& take) {
+  for (const auto& [i, j] : couples_) {
+    const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
+    const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
+    const int place = block_lu_.place(i, j);
+    const double* const S = block_lu_.block(place);
+    const int stride = block_lu_.stride(place);
+    for (int m = 0; m < column.count; ++m) {
+      for (int k = 0; k < row.count; ++k) {
+        take(row.first_row + k, column.first_row + m, S[m * stride + k]);
       }
     }
-  };
+  }
+}
+
+void MultiplierCondensation::make_general() {
+  std::vector<linalg::Triplet> entries;
+  for_entries([&](int row, int column, double value) { entries.emplace_back(row, column, value); });
+  S_.resize(size(), size());
+  S_.setFromTriplets(entries.begin(), entries.end());
+  general_.emplace(S_);
+}
+
+bool MultiplierCondensation::factorise_with_exchanges() {
   if (!general_) {
-    std::vector<linalg::Triplet> entries;
-    for_entries(
-        [&](int row, int column, double value) { entries.emplace_back(row, column, value); });
-    S_.resize(size(), size());
-    S_.setFromTriplets(entries.begin(), entries.end());
-    general_.emplace(S_);
+    make_general();
   } else {
     for_entries([&](int row, int column, double value) { S_.coeffRef(row, column) = value; });
   }
   return general_->factorise(S_);
+}
+
+std::vector<double> MultiplierCondensation::pivoted_values() const {
+  return general_ ? general_->pivoted_values() : std::vector<double>{};
+}
+
+void MultiplierCondensation::pivot_as(const std::vector<double>& values) {
+  if (values.empty()) return;
+  block_lu_.clear();
+  make_general();
+  // Values of other rows say nothing about these.
+  if (static_cast<std::size_t>(S_.nonZeros()) != values.size()) return general_.reset();
+  std::copy(values.begin(), values.end(), S_.valuePtr());
+  general_->factorise(S_);
 }
 
 bool MultiplierCondensation::factorise(const std::vector<BodyCompliance>& compliance,

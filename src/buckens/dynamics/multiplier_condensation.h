@@ -57,6 +57,13 @@ class MultiplierCondensation {
   /// The rows that are closed.
   const RowBlocks& test_rows() const { return test_ ? *test_ : force_; }
 
+  /// Values of S, in its compressed order, at which rows were last exchanged; empty where they
+  /// never were. Later factorisations keep these exchanges while they serve.
+  std::vector<double> pivoted_values() const;
+  /// Exchanges rows as for these values, so that later factorisations come out to the same bits.
+  /// @param values of pivoted_values() of another object for the same rows
+  void pivot_as(const std::vector<double>& values);
+
   int size() const { return force_.num_rows(); }
   /// Smallest pivot without exchanges of rows, relative to what stood on the diagonal: the least
   /// share of a row's compliance that those before it leave, the square of the sine of an angle
@@ -71,6 +78,10 @@ class MultiplierCondensation {
   void assemble(const std::vector<BodyCompliance>& compliance,
                 const std::vector<double>& soft_compliance);
   void add_body(std::size_t b, const BodyCompliance& compliance);
+  /// Calls take(row, column, value) for every entry of S.
+  template <class Take>
+  void for_entries(Take&& take);
+  void make_general();
   bool factorise_with_exchanges();
 
   RowBlocks force_;

@@ -17,6 +17,7 @@ struct SparseLu::Backend {
   klu_common common{};
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
+  std::vector<double> pivoted;  // values of the matrix that numeric was pivoted for
 
   Backend() { klu_defaults(&common); }
   ~Backend() {
@@ -56,8 +57,11 @@ bool SparseLu::factorise(const SparseMatrix& A) {
     klu_free_numeric(&backend_->numeric, common);
   }
   backend_->numeric = klu_factor(outer, inner, values, backend_->symbolic, common);
+  backend_->pivoted.assign(values, values + A.nonZeros());
   return backend_->numeric != nullptr && pivot_ratio() > kSingular;
 }
+
+const std::vector<double>& SparseLu::pivoted_values() const { return backend_->pivoted; }
 
 double SparseLu::pivot_ratio() const {
   if (backend_->symbolic == nullptr) return 1.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "buckens/linalg/matrix_types.h"
 
@@ -22,6 +23,8 @@ class SparseLu {
   /// @param A the pattern of the constructor with new values
   /// @return false if A is singular to working precision
   bool factorise(const SparseMatrix& A);
+  /// Values of the matrix from which the pivots in use were taken; empty before the first.
+  const std::vector<double>& pivoted_values() const;
   /// Ratio of the smallest to the largest pivot; cheap estimate of 1/condition.
   double pivot_ratio() const;
   /// x ← A⁻¹ x with the last factorisation.

@@ -11,7 +11,11 @@ AppliedLoad::AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> 
 
 Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
                              const spatial::MarkerMotion& /*second*/) const {
-  Eigen::Vector3d load = values(t);
+  return act(values(t), first);
+}
+
+Action AppliedLoad::act(const Eigen::Vector3d& values, const spatial::MarkerMotion& first) const {
+  Eigen::Vector3d load = values;
   if (axes_ == LoadAxes::following) load = first.R * load;
   Action action;
   if (kind_ == Kind::force) {

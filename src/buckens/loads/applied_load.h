@@ -28,6 +28,8 @@ class AppliedLoad final : public ForceElement {
     return {value_[0].value(t), value_[1].value(t), value_[2].value(t)};
   }
   bool follows() const override { return axes_ == LoadAxes::following; }
+  bool takes_values() const override { return true; }
+  Action act(const Eigen::Vector3d& values, const spatial::MarkerMotion& first) const override;
 
  private:
   Kind kind_;

@@ -53,6 +53,13 @@ class ForceElement {
   virtual Eigen::Vector3d values(double /*t*/) const { return Eigen::Vector3d::Zero(); }
   virtual bool follows() const { return false; }
 
+  /// Whether values can be given from outside in place of the laws of time: forces and torques.
+  virtual bool takes_values() const { return false; }
+  /// What it does with these values, axes as for values(). @pre takes_values()
+  virtual Action act(const Eigen::Vector3d& /*values*/, const spatial::MarkerMotion& /*first*/) const {
+    return {};
+  }
+
   /// False if the load changes with time by a law; a static start takes its value at t = 0.
   virtual bool is_constant() const { return true; }
 };

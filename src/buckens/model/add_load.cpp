@@ -148,4 +148,20 @@ class LoadBuilder {
 
 void add_load(const loads::LoadSpec& spec, MarkerFinder& find) { LoadBuilder(find).add(spec); }
 
+void add_own_force(const OwnForce& force, MarkerFinder& find) {
+  if (!force.element) {
+    throw InputError(force.where, fmt::format("load \"{}\" has no force law; give it one",
+                                              force.name));
+  }
+  Load load;
+  load.name = force.name;
+  load.kind = "force law";
+  load.first = find.marker(force.first, true);
+  load.second = find.marker(force.second, true);
+  find.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", force.name),
+                          force.where);
+  load.element = force.element;
+  find.model().loads.push_back(std::move(load));
+}
+
 }  // namespace buckens::model

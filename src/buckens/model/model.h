@@ -60,7 +60,7 @@ struct Load {
   std::string name;
   std::string kind;  ///< key in the model file
   std::string unit;  ///< of the values by laws of time, if there are any
-  std::unique_ptr<loads::ForceElement> element;
+  std::shared_ptr<const loads::ForceElement> element;
   MarkerId first, second;
   /// Interface row of the first body along which Action::along_pattern acts, −1: none.
   int pattern_row = -1;

@@ -51,6 +51,7 @@ class Builder {
     for (const loads::LoadSpec& load : d.loads) {
       if (!DistributedLoads::takes(load)) add_load(load, find);
     }
+    for (const OwnForce& force : d.own_forces) add_own_force(force, find);
     add_distributed_loads();
     for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor, find);
     if (d.output.field_output) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "buckens/fem/material_spec.h"
 #include "buckens/fem/section_spec.h"
 #include "buckens/joints/joint_spec.h"
+#include "buckens/loads/force_element.h"
 #include "buckens/loads/load_spec.h"
 #include "buckens/model/initial_spec.h"
 #include "buckens/model/sensor_spec.h"
@@ -44,6 +46,14 @@ struct ParameterSpec {
   }
 };
 
+/// A force law written in code, between two markers; no model file can say it.
+struct OwnForce {
+  std::string name;
+  SourceLocation where;
+  base::MarkerRef first, second;
+  std::shared_ptr<const loads::ForceElement> element;
+};
+
 /// Everything a model file says, in SI units, names resolved and checked as far as one can without
 /// building the model.
 struct ModelDescription {
@@ -58,6 +68,7 @@ struct ModelDescription {
   std::vector<body::BodySpec> bodies;
   std::vector<joints::JointSpec> joints;
   std::vector<loads::LoadSpec> loads;
+  std::vector<OwnForce> own_forces;  ///< of models made in code
   InitialSpec initial;
   std::optional<SimulationSpec> simulation;  ///< absent: the model can be checked, not run
   std::optional<StaticSpec> static_path;     ///< absent: as StaticSpec begins

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "buckens/body/body.h"
@@ -29,6 +30,10 @@ struct BodyState {
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };
 
+/// Values given from outside in place of laws of time, one entry per load of the model: components
+/// of a force [N] or torque [N m] in the axes of the load. Empty: none is given.
+using LoadInputs = std::vector<std::optional<Eigen::Vector3d>>;
+
 /// State of the mechanism.
 struct State {
   double t = 0;  ///< [s]
@@ -37,6 +42,7 @@ struct State {
   double lambda_time = 0;  ///< instant to which λ belongs [s]
   double last_step = 0;    ///< length of the step that led here [s]
   int history = 0;         ///< number of valid coupling entries: 0 … 3
+  LoadInputs inputs;       ///< in force from here on
 };
 
 /// All bodies as placed, undeformed and at rest.

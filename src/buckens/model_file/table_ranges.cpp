@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/visit_fields.h"
 #include "buckens/model_file/field_types.h"
 
 namespace buckens::model_file {
@@ -21,26 +22,26 @@ class RangeChecker {
   explicit RangeChecker(double duration) : duration_(duration) {}
 
   template <class T>
-  void operator()(const base::Field<T>& field) {
+  void operator()(const base::Field<const T>& field) {
     visit(field.member);
   }
 
- private:
   template <class T>
-  void visit(T& value) {
+  void visit(const T& value) {
     if constexpr (std::is_same_v<T, base::TimeLaw>) {
       check(value);
     } else if constexpr (kIsOptional<T>) {
       if (value) visit(*value);
     } else if constexpr (kIsVariant<T>) {
-      std::visit([this](auto& alternative) { visit(alternative); }, value);
+      std::visit([this](const auto& alternative) { visit(alternative); }, value);
     } else if constexpr (kIsArray<T> || kIsVector<T>) {
-      for (auto& item : value) visit(item);
+      for (const auto& item : value) visit(item);
     } else if constexpr (HasFields<T>) {
-      value.fields(*this);
+      base::visit_fields(value, *this);
     }
   }
 
+ private:
   void check(const base::TimeLaw& law) const {
     const std::optional<base::TimeRange> range = law.range();
     if (!range) return;
@@ -60,9 +61,8 @@ class RangeChecker {
 
 void check_table_ranges(const model::ModelDescription& model) {
   RangeChecker checker(model.simulation ? model.simulation->duration : 0.0);
-  // Field lists give members to be filled, so they get copies.
-  for (loads::LoadSpec load : model.loads) load.fields(checker);
-  for (joints::JointSpec joint : model.joints) joint.fields(checker);
+  checker.visit(model.loads);
+  checker.visit(model.joints);
 }
 
 }  // namespace buckens::model_file

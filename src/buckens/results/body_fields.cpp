@@ -427,4 +427,11 @@ void BodyFields::append_extremes(std::vector<double>& values) const {
   append(at_elements_, largest_.elements, largest_.element_times);
 }
 
+void BodyFields::visit_saved(const base::SaveVisit& visit) {
+  visit.list_or_none("nodes", largest_.nodes, has_stress_.size());
+  visit.list_or_none("node_times", largest_.node_times, largest_.nodes.size());
+  visit.list_or_none("elements", largest_.elements, is_element_.size());
+  visit.list_or_none("element_times", largest_.element_times, largest_.elements.size());
+}
+
 }  // namespace buckens::results

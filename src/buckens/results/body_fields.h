@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/model/field_places.h"
 #include "buckens/results/field_layout.h"
 #include "buckens/results/geometry.h"
@@ -38,6 +39,8 @@ class BodyFields {
   /// Compares the stresses evaluated last with the largest so far. @param t [s]
   void update_extremes(double t);
   void append_extremes(std::vector<double>& values) const;
+  /// Saves the largest so far, or takes it back. @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   struct Largest {

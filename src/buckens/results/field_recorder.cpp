@@ -115,4 +115,13 @@ std::vector<double> FieldRecorder::extremes() const {
   return out;
 }
 
+void FieldRecorder::visit_saved(const base::SaveVisit& visit) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    bodies_[k].visit_saved(visit.inside("bodies").inside(k));
+  }
+  for (std::size_t k = 0; k < shells_.size(); ++k) {
+    shells_[k].visit_saved(visit.inside("shells").inside(k));
+  }
+}
+
 }  // namespace buckens::results

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/model/model_builder.h"
 #include "buckens/results/body_fields.h"
 #include "buckens/results/interface_loads.h"
@@ -43,6 +44,10 @@ class FieldRecorder {
   void watch(const model::State& state);
   /// The largest so far, values of FieldLayout::extremes. @pre a state was seen
   std::vector<double> extremes() const;
+
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   const model::BuiltModel& built_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "buckens/dynamics/forces.h"
+
 namespace buckens::results {
 
 using Eigen::Vector3d;
@@ -94,7 +96,7 @@ void InterfaceLoads::add_channels(FieldLayout& layout) const {
   }
 }
 
-Wrench InterfaceLoads::wrench_of(const Share& share, double t,
+Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
                                  const std::vector<dynamics::BodyMotion>& motions,
                                  const linalg::Vector& lambda, double load_factor) const {
   const auto motion = [&](const MarkerId& id) {
@@ -103,11 +105,12 @@ Wrench InterfaceLoads::wrench_of(const Share& share, double t,
   const bool is_first = share.side == Side::first;
   if (share.is_joint) {
     const model::Joint& joint = model_.joints[share.index];
-    return joint_wrench(joint, t, motion(joint.first), motion(joint.second), lambda,
+    return joint_wrench(joint, state.t, motion(joint.first), motion(joint.second), lambda,
                         is_first ? 0 : 6);
   }
   const model::Load& load = model_.loads[share.index];
-  const loads::Action action = load.element->evaluate(t, motion(load.first), motion(load.second));
+  const loads::Action action = dynamics::action_of(model_, share.index, state.t, state.inputs,
+                                                   motion(load.first), motion(load.second));
   Wrench out = is_first ? action.on_first : action.on_second;
   if (load.element->is_applied()) {
     out.force *= load_factor;
@@ -125,7 +128,7 @@ void InterfaceLoads::append(const model::State& state,
   for (const Place& place : places_) {
     Wrench sum;
     for (const Share& share : place.shares) {
-      Wrench one = wrench_of(share, state.t, motions, lambda, load_factor);
+      Wrench one = wrench_of(share, state, motions, lambda, load_factor);
       if (place.is_distributed) {
         const Vector3d at = dynamics::evaluate_marker(model_, marker_of(share), motions).motion.p;
         one.torque += (at - origin).cross(one.force);

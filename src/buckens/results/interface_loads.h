@@ -51,7 +51,7 @@ class InterfaceLoads {
   void add(const std::string& path, bool is_distributed, const Share& share);
   bool is_of_body(const model::MarkerId& id) const;
   const model::MarkerId& marker_of(const Share& share) const;
-  spatial::Wrench wrench_of(const Share& share, double t,
+  spatial::Wrench wrench_of(const Share& share, const model::State& state,
                             const std::vector<dynamics::BodyMotion>& motions,
                             const linalg::Vector& lambda, double load_factor) const;
 

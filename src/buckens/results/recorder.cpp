@@ -169,7 +169,9 @@ void Recorder::append_joints_and_loads(const Observation& now, std::vector<doubl
   for (const std::size_t k : recorded_loads_) {
     const loads::ForceElement& load = *model.loads[k].element;
     const double factor = load.is_applied() ? load_factor_ : 1.0;
-    const Vector3d given = factor * load.values(now.state.t);
+    const model::LoadInputs& inputs = now.state.inputs;
+    const bool is_given = !inputs.empty() && inputs[k];
+    const Vector3d given = factor * (is_given ? *inputs[k] : load.values(now.state.t));
     values.insert(values.end(), given.data(), given.data() + load.num_values());
   }
 }
@@ -222,6 +224,14 @@ Record Recorder::record(const model::State& state, WorkBalance work,
   energy_ = e;
   balance_ = now.work.balance;
   return record;
+}
+
+void Recorder::visit_saved(const base::SaveVisit& visit) {
+  visit.flag("started", started_);
+  visit.number("first_energy", first_energy_);
+  for (std::size_t k = 0; k < sensors_.size(); ++k) {
+    sensors_[k]->visit_saved(visit.inside("sensors").inside(k));
+  }
 }
 
 }  // namespace buckens::results

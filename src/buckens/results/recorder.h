@@ -43,6 +43,10 @@ class Recorder {
   const dynamics::Energy& last_energy() const { return energy_; }
   double last_balance() const { return balance_; }
 
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
  private:
   void add_channels();
   void add_mesh_channels(const model::WholeBody& whole, const fem::FeModel& mesh);

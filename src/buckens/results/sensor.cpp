@@ -69,6 +69,12 @@ class MarkerSensor final : public Sensor {
     if (along_) return values.push_back(along_->dot(components));
     push(components, values);
   }
+  void visit_saved(const base::SaveVisit& visit) override {
+    visit.fixed("p", start_.p);
+    visit.fixed("R", start_.R);
+    visit.fixed("v", start_.v);
+    visit.fixed("w", start_.w);
+  }
 
  private:
   Vector3d value(const MarkerObservation& marker) const {
@@ -171,6 +177,16 @@ class RelativeSensor final : public Sensor {
       case Q::angular_velocity:
         return push(F.R.transpose() * (M.w - F.w), values);
     }
+  }
+  void visit_saved(const base::SaveVisit& visit) override {
+    bool has_reference = reference_.has_value();
+    visit.flag("has_reference", has_reference);
+    if (!has_reference) return reference_.reset();
+    if (!reference_) reference_.emplace();
+    visit.fixed("reference", *reference_);
+    visit.number("angle", angle_);
+    visit.number("rate", rate_);
+    visit.number("t", t_);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/model/model_builder.h"
 #include "buckens/results/channel.h"
 #include "buckens/results/observation.h"
@@ -22,6 +23,8 @@ class Sensor {
   virtual void start(const Observation& /*now*/) {}
   /// Appends the values of all channels.
   virtual void append(const Observation& now, std::vector<double>& values) = 0;
+  /// Saves what later values depend on, or takes it back: where sensors count from.
+  virtual void visit_saved(const base::SaveVisit& /*visit*/) {}
 };
 
 /// Makes the sensor that a spec asks for.

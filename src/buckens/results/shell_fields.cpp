@@ -177,4 +177,9 @@ void ShellFields::append_extremes(std::vector<double>& values) const {
   values.insert(values.end(), times_.begin(), times_.end());
 }
 
+void ShellFields::visit_saved(const base::SaveVisit& visit) {
+  visit.list_or_none("largest", largest_, shells_.size());
+  visit.list_or_none("times", times_, largest_.size());
+}
+
 }  // namespace buckens::results

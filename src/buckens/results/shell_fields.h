@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/fem/shell_recovery.h"
 #include "buckens/model/field_places.h"
 #include "buckens/results/field_layout.h"
@@ -38,6 +39,8 @@ class ShellFields {
   /// Compares the stresses evaluated last with the largest so far. @param t [s]
   void update_extremes(double t);
   void append_extremes(std::vector<double>& values) const;
+  /// Saves the largest so far, or takes it back. @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   /// One body of the model with its shells among those that are recorded.

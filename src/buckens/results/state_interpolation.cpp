@@ -49,6 +49,7 @@ model::State interpolate(const model::State& before, const model::State& after, 
   }
   out.lambda = multipliers_at(before, after, t);
   out.lambda_time = t;
+  out.inputs = after.inputs;
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <deque>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/scheme.h"
@@ -38,10 +39,15 @@ class LocalError {
 
   /// Forgets the past: the motion begins here.
   void start(const model::State& state);
+  bool has_begun() const { return !past_.empty(); }
   /// Error of the step from the last accepted state to `end`.
   ErrorEstimate estimate(const model::State& end, const Scheme& scheme);
   /// Takes `end` as the next point of the motion.
   void accept(const model::State& end);
+
+  /// Saves what steps to come depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   /// Positions at one instant.

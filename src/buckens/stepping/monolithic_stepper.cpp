@@ -146,6 +146,7 @@ bool MonolithicStepper::corrects_positions() const {
 void MonolithicStepper::start(const model::State& state) {
   z_ = Vector::Zero(size_);
   lambda_ = state.lambda;
+  inputs_ = state.inputs;
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     z_[first_lambda_ + static_cast<int>(k)] = scheme_.force * lambda_[rows_in_use_[k]];
   }
@@ -199,7 +200,7 @@ void MonolithicStepper::evaluate(double t) {
   dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, end_);
   dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, evaluation_);
   dynamics::evaluate_soft_rows(model_, motions_evaluation_, soft_);
-  dynamics::evaluate_forces(model_, motions_evaluation_, t_e, forces_);
+  dynamics::evaluate_forces(model_, motions_evaluation_, t_e, inputs_, forces_);
   dynamics::add_joint_forces(evaluation_, lambda_, forces_);
 }
 
@@ -466,6 +467,7 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
+  next.inputs = state.inputs;
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Part& part = *parts_[b];
     const model::BodyState& old = state.bodies[b];

@@ -76,6 +76,7 @@ class MonolithicStepper {
   dynamics::Constraints end_, evaluation_;
   std::vector<dynamics::BodyMotion> motions_end_, motions_evaluation_;
   dynamics::Forces forces_;
+  model::LoadInputs inputs_;
 };
 
 }  // namespace buckens::stepping

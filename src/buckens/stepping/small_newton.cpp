@@ -90,7 +90,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
     if (!same) bodies[b].motion_at_evaluation(scheme_, operators_[b], evaluation_[b]);
   }
   const double t_e = scheme_.evaluation_time(t);
-  dynamics::evaluate_forces(model_, at_evaluation(), t_e, forces_);
+  dynamics::evaluate_forces(model_, at_evaluation(), t_e, *inputs_, forces_);
   if (same) {
     joints_.evaluate(end_, t + scheme_.h, residuals_, &lambda, &forces_);
   } else {
@@ -202,6 +202,8 @@ bool SmallNewton::condense(double t) {
   if (!condensation_) {
     condensation_ = std::make_unique<dynamics::MultiplierCondensation>(
         static_cast<int>(model_.bodies.size()), row_pattern(t));
+    condensation_->pivot_as(pivoted_);
+    pivoted_.clear();
   }
   set_joint_rows(t);
   set_soft_rows();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
@@ -29,6 +30,8 @@ class SmallNewton {
   SmallNewton(const model::Model& model, const Scheme& scheme, const StepSettings& settings,
               std::vector<const BodyStepOperator*> operators, std::vector<int> rows_in_use);
 
+  /// Values of loads in the steps that follow; they outlive these.
+  void use_inputs(const model::LoadInputs& inputs) { inputs_ = &inputs; }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
   void prepare(std::vector<BodyStep>& bodies, double t);
@@ -48,6 +51,10 @@ class SmallNewton {
   const std::vector<int>& rows_in_use() const { return rows_in_use_; }
   /// How often other rows were taken into use because pivots dropped or a row opened.
   int num_selections() const { return num_selections_; }
+
+  /// Saves what steps to come depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   struct Change {
@@ -106,8 +113,11 @@ class SmallNewton {
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   RowWatch watch_;
   bool has_quasi_static_ = false;
+  const model::LoadInputs no_inputs_;
+  const model::LoadInputs* inputs_ = &no_inputs_;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
+  std::vector<double> pivoted_;  // for a condensation that is yet to be made, see visit_saved()
 
   dynamics::JointSet joints_;
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use

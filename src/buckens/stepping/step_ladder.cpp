@@ -43,12 +43,17 @@ Stepper& StepLadder::rung(int k) {
   }
   // All factors have about the same size: that of the first says how much room the next needs.
   if (!rungs_.empty()) make_room(rungs_.front().stepper->factor_entries());
+  rungs_.push_back({k, uses_, make_stepper(k)});
+  return *rungs_.back().stepper;
+}
+
+std::unique_ptr<Stepper> StepLadder::make_stepper(int k) {
   StepSettings settings = settings_;
   settings.step = step(k);
-  rungs_.push_back({k, uses_, std::make_unique<Stepper>(model_, settings, rows_in_use_)});
+  auto out = std::make_unique<Stepper>(model_, settings, rows_in_use_);
   built_.resize(std::max(built_.size(), static_cast<std::size_t>(k) + 1), 0);
   ++built_[static_cast<std::size_t>(k)];
-  return *rungs_.back().stepper;
+  return out;
 }
 
 Stepper& StepLadder::latest() {

@@ -16,6 +16,7 @@ namespace buckens::stepping {
 class StepLadder {
  public:
   static constexpr std::size_t kMostKept = 8;
+  static constexpr int kMostRung = 20;
   static constexpr double kMostEntries = 1.25e8;  ///< 1 GB
 
   /// Factorises for the longest step. @param settings `step` is the longest
@@ -34,12 +35,18 @@ class StepLadder {
   /// Factorisations made for one rung, all bodies together.
   long factorisations(int k) const;
 
+  /// Saves what steps to come depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
  private:
   struct Rung {
     int k;
     long last_used;
     std::unique_ptr<Stepper> stepper;
   };
+  std::unique_ptr<Stepper> make_stepper(int k);
+  void take_rungs(const std::vector<int>& rungs, const std::vector<long>& last_used);
   void make_room(double entries);
   void retire(const Stepper& stepper);
 

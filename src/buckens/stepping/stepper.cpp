@@ -245,6 +245,7 @@ void Stepper::form_next_state(const model::State& state) {
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
+  next.inputs = state.inputs;
   for_bodies([&](std::size_t b) {
     const model::BodyState& old = state.bodies[b];
     model::BodyState& s = next.bodies[b];
@@ -306,6 +307,7 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   lambda_ = state.lambda;
   next_.bodies.resize(bodies_.size());
+  newton_->use_inputs(state.inputs);
   start_bodies(state);
   double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {

@@ -74,6 +74,10 @@ class Stepper {
   /// How often the joint equations in use were chosen anew.
   int num_row_selections() const { return newton_->num_selections(); }
 
+  /// Saves what steps to come depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
  private:
   struct Large;        // n-sized vectors of one flexible body
   struct FactorGroup;  // bodies that share a factor

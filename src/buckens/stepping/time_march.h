@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/stepping/local_error.h"
 #include "buckens/stepping/step_ladder.h"
 
@@ -62,6 +63,10 @@ class TimeMarch {
   const MarchReport& report() const { return report_; }
   /// Rungs in use, from the longest step to the shortest.
   std::vector<RungUse> rungs() const;
+
+  /// Saves what steps to come depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   int shortest() const { return error_ ? kShortestRung : kMostHalvings; }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace buckens::base {
+
+/// Named lists of numbers and texts: what a saved state consists of. Names are paths,
+/// "state/bodies/0/d".
+struct SavedValues {
+  std::map<std::string, std::vector<double>> numbers;
+  std::map<std::string, std::vector<std::int64_t>> counts;
+  std::map<std::string, std::vector<std::string>> texts;
+
+  bool operator==(const SavedValues&) const = default;
+};
+
+/// Goes through the members of an object that are to be saved, in either direction: each member is
+/// named once, so that writing and reading cannot differ.
+///
+/// Restoring checks every length and range before anything is taken over.
+/// @throws InputError naming the value that is missing or does not fit
+class SaveVisit {
+ public:
+  static SaveVisit saving(SavedValues& out) { return {&out, nullptr, ""}; }
+  static SaveVisit restoring(const SavedValues& from) { return {nullptr, &from, ""}; }
+
+  bool is_restoring() const { return from_ != nullptr; }
+  /// The same below a name.
+  SaveVisit inside(const std::string& name) const;
+  SaveVisit inside(std::size_t index) const { return inside(std::to_string(index)); }
+
+  void number(const std::string& name, double& value) const;
+  void flag(const std::string& name, bool& value) const;
+  /// @param least,most range of the value, both included
+  void count(const std::string& name, long& value, long least, long most) const;
+  void count(const std::string& name, int& value, int least, int most) const;
+  /// As many numbers as there are.
+  void numbers(const std::string& name, std::span<double> values) const;
+  /// A matrix or vector of fixed size.
+  template <int rows, int columns>
+  void fixed(const std::string& name, Eigen::Matrix<double, rows, columns>& value) const {
+    numbers(name, {value.data(), static_cast<std::size_t>(value.size())});
+  }
+  void rotation(const std::string& name, Eigen::Quaterniond& q) const;
+  /// A vector that has this size when it is restored.
+  void vector(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
+  /// The same for a vector that may also be empty.
+  void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
+  void list(const std::string& name, std::vector<double>& values, std::size_t size) const;
+  /// The same for a list that may also be empty, or hold not-a-number where there is nothing.
+  void list_or_none(const std::string& name, std::vector<double>& values, std::size_t size) const;
+  /// A list of any length. @param least,most range of the entries, both included
+  void counts(const std::string& name, std::vector<int>& values, int least, int most) const;
+  void counts(const std::string& name, std::vector<long>& values, long least, long most) const;
+  /// A list of any length.
+  void any_numbers(const std::string& name, std::vector<double>& values) const;
+  void texts(const std::string& name, std::vector<std::string>& values) const;
+
+  /// @throws InputError "the saved <path>: <what>"
+  [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
+
+ private:
+  SaveVisit(SavedValues* out, const SavedValues* from, std::string prefix)
+      : out_(out), from_(from), prefix_(std::move(prefix)) {}
+  const std::vector<double>& find_numbers(const std::string& name) const;
+  const std::vector<double>& find_numbers(const std::string& name, std::size_t size) const;
+
+  SavedValues* out_;
+  const SavedValues* from_;
+  std::string prefix_;
+};
+
+}  // namespace buckens::base

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/saved_state.h"
+
+#include <string>
+
+#include <fmt/format.h>
+
+namespace buckens::model {
+
+namespace {
+
+constexpr long kMostSteps = 1L << 60;
+
+void visit_coupling(const base::SaveVisit& visit, Eigen::Index n, Coupling& coupling) {
+  visit.number("t", coupling.t);
+  visit.fixed("J", coupling.moments.J);
+  visit.fixed("J_dot", coupling.moments.J_dot);
+  visit.fixed("l", coupling.moments.l);
+  visit.fixed("l_dot", coupling.moments.l_dot);
+  visit.vector_or_none("load", coupling.load, n);
+}
+
+void visit_body(const base::SaveVisit& visit, const body::Body& body, int history, BodyState& s) {
+  visit.fixed("p", s.frame.X_WB.p);
+  visit.rotation("q", s.frame.X_WB.q);
+  visit.fixed("w", s.frame.w);
+  visit.fixed("v", s.frame.v);
+  visit.fixed("w_dot", s.w_dot);
+  visit.fixed("v_dot", s.v_dot);
+  visit.fixed("w_alg", s.w_alg);
+  visit.fixed("v_alg", s.v_alg);
+  if (!body.is_flexible()) return;
+  const Eigen::Index n = body.num_dofs();
+  visit.vector("d", s.d, n);
+  visit.vector("d_dot", s.d_dot, n);
+  visit.vector("d_ddot", s.d_ddot, n);
+  visit.vector("d_alg", s.d_alg, n);
+  visit_saved(visit.inside("terms"), s.terms);
+  visit_coupling(visit.inside("coupling"), n, s.coupling);
+  visit_coupling(visit.inside("coupling_before"), n, s.coupling_before);
+  visit_coupling(visit.inside("coupling_earlier"), n, s.coupling_earlier);
+  // Steps extrapolate from what the history says is there.
+  const Coupling* known[] = {&s.coupling, &s.coupling_before, &s.coupling_earlier};
+  for (int k = 0; k < history && s.terms.have_load(); ++k) {
+    if (known[k]->load.size() != n) visit.refuse("coupling", "loads of its history are missing");
+  }
+}
+
+void visit_inputs(const base::SaveVisit& visit, const Model& model, LoadInputs& inputs) {
+  std::vector<int> given;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    if (inputs[k]) given.push_back(static_cast<int>(k));
+  }
+  visit.counts("given", given, 0, static_cast<int>(model.loads.size()) - 1);
+  inputs.resize(given.empty() ? 0 : model.loads.size());
+  for (const int k : given) {
+    auto& input = inputs[static_cast<std::size_t>(k)];
+    if (!model.loads[static_cast<std::size_t>(k)].element->takes_values()) {
+      visit.refuse("given", "a load there takes no values");
+    }
+    if (!input) input.emplace();
+    visit.fixed(std::to_string(k), *input);
+  }
+}
+
+}  // namespace
+
+void visit_saved(const base::SaveVisit& visit, body::CouplingTerms& terms) {
+  visit.flag("quad_ref", terms.quad_ref);
+  visit.flag("jvar", terms.jvar);
+  visit.flag("cor_ref", terms.cor_ref);
+  visit.flag("cent0", terms.cent0);
+  visit.flag("cent1", terms.cent1);
+  visit.flag("cor_fe", terms.cor_fe);
+  visit.flag("eul_fe", terms.eul_fe);
+  visit.flag("stiffening", terms.stiffening);
+}
+
+void visit_saved(const base::SaveVisit& visit, const Model& model, State& state) {
+  long bodies = static_cast<long>(state.bodies.size());
+  visit.count("num_bodies", bodies, 0, kMostSteps);
+  if (static_cast<std::size_t>(bodies) != model.bodies.size()) {
+    visit.refuse("num_bodies",
+                 fmt::format("it is {}, the model has {}", bodies, model.bodies.size()));
+  }
+  state.bodies.resize(model.bodies.size());
+  visit.number("t", state.t);
+  visit.vector("lambda", state.lambda, model.num_constraint_rows());
+  visit.number("lambda_time", state.lambda_time);
+  visit.number("last_step", state.last_step);
+  visit.count("history", state.history, 0, 3);
+  visit_inputs(visit.inside("inputs"), model, state.inputs);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    visit_body(visit.inside("bodies").inside(b), model.bodies[b], state.history, state.bodies[b]);
+  }
+}
+
+}  // namespace buckens::model

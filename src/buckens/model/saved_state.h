@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/base/saved_values.h"
+#include "buckens/model/state.h"
+
+namespace buckens::model {
+
+/// Saves a state of a model or takes it back, all that steps read of it.
+/// @throws InputError if what was saved belongs to another model
+void visit_saved(const base::SaveVisit& visit, const Model& model, State& state);
+
+/// The terms of the inertial coupling that a body keeps.
+void visit_saved(const base::SaveVisit& visit, body::CouplingTerms& terms);
+
+}  // namespace buckens::model

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "buckens/base/saved_values.h"
+
+namespace buckens::io {
+
+/// Writes a saved state into a file, aside and renamed: readers see a whole state or none.
+///
+/// An HDF5 file: of numbers, counts and texts a group each with `names` (joined by line ends),
+/// `lengths` and `values`. The last kStateTrailer bytes are text and say what file this is, and its
+/// checksum.
+/// @throws IoError
+void write_state(const base::SavedValues& state, const std::filesystem::path& path);
+
+/// @throws IoError if the file cannot be read, is none of a state, of another format, cut short or
+///   damaged
+base::SavedValues read_state(const std::filesystem::path& path);
+
+/// The content of such a file, for tests that damage it.
+std::string state_bytes(const base::SavedValues& state);
+/// @param name of the file in messages
+base::SavedValues parse_state(std::string_view bytes, const std::string& name);
+
+inline constexpr int kStateFormat = 1;
+inline constexpr std::size_t kStateTrailer = 80;
+
+}  // namespace buckens::io

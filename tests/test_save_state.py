@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A run that goes on from a saved state is the uninterrupted one, bit for bit."""
+
+import csv
+import json
+import shutil
+
+import pytest
+
+SLIDER_CRANK = """buckens: 1
+planar: xy
+parameters: {r: 150 mm, L: 300 mm, speed: 150}
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {stiffness: 1e-6 s}}}
+bodies:
+  crank:
+    rigid: {mass: 0.36 kg, com: ["r/2", 0, 0], inertia: [0, 0, 2.727e-3 kg m^2]}
+    markers: {shaft: {position: [0, 0, 0]}, pin: {position: [r, 0, 0]}}
+  rod:
+    beam: {to: [L, 0, 0], elements: 8, section: {circle: {diameter: 8 mm}}, material: steel}
+    at: {position: [r, 0, 0]}
+    ROD
+  slider:
+    rigid: {mass: 33 g, inertia: [0, 0, 1e-6 kg m^2]}
+    at: {position: ["r + L", 0, 0]}
+joints:
+  shaft: {revolute: {between: [ground, crank/shaft]}}
+  motor: {prescribed-rotation: {between: [ground, crank/shaft], angle: "speed*t rad"}}
+  big_end: {revolute: {between: [crank/pin, rod/start]}}
+  small_end: {revolute: {between: [rod/end, slider]}}
+  guide: {prismatic: {between: [ground, slider], axis: [1, 0, 0]}}
+loads:
+  leg: {spring-damper: {between: [ground, slider], stiffness: 2000 N/m, damping: 1 N s/m, length: 0.4 m}}
+simulation: {duration: 60 ms, step: 0.2 ms, STEP}
+output:
+  every: 0.7 ms
+  sensors:
+    turned: {relative: {between: [ground, crank], quantity: angle}}
+    moved: {displacement: slider}
+    mid: {deflection: {of: rod/mid, from: chord}}
+    guide: {joint-force: guide}
+    balance: {energy: balance}
+"""
+
+# Three parallel cranks on one coupler: which of the joint equations are independent changes as they
+# turn, so that others are chosen on the way (verification/row_selection).
+CRANKS = """buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}
+bodies:
+  first: {rigid: {mass: 1 kg, com: [0.1 m, 0, 0], inertia: [0, 0, 0.01 kg m^2]},
+          at: {orientation: {axis: [0, 0, 1], angle: 30.8 deg}},
+          markers: {pin: {position: [0.2 m, 0, 0]}}}
+  second: {like: first, at: {position: [1 m, 0, 0], orientation: {axis: [0, 0, 1], angle: 30.8 deg}}}
+  third: {like: first, at: {position: [2 m, 0, 0], orientation: {axis: [0, 0, 1], angle: 30.8 deg}}}
+  coupler:
+    rigid: {mass: 2 kg, com: [1 m, 0, 0], inertia: [0, 0, 0.5 kg m^2]}
+    at: {position: ["0.2*cos(30.8*pi/180) m", "0.2*sin(30.8*pi/180) m", 0]}
+    markers: {a: {position: [0, 0, 0]}, b: {position: [1 m, 0, 0]}, c: {position: [2 m, 0, 0]}}
+joints:
+  motor: {prescribed-rotation: {between: [ground, first/origin], axis: [0, 0, 1], angle: "320*t deg"}}
+  foot_a: {revolute: {between: [ground, first/origin]}}
+  foot_b: {revolute: {between: [{ground: [1 m, 0, 0]}, second/origin]}}
+  foot_c: {revolute: {between: [{ground: [2 m, 0, 0]}, third/origin]}}
+  pin_a: {revolute: {between: [first/pin, coupler/a]}}
+  pin_b: {revolute: {between: [second/pin, coupler/b]}}
+  pin_c: {revolute: {between: [third/pin, coupler/c]}}
+initial: {bodies: {first: {angular-velocity: [0, 0, 320 deg/s]}}}
+simulation: {duration: 3 s, step: 5 ms, STEP}
+output:
+  every: 7 ms
+  sensors:
+    angle: {relative: {between: [ground, third], quantity: angle}}
+    foot: {joint-force: foot_c}
+"""
+
+# A block on a hinge in space, with stresses and their extremes over the run.
+BLOCK = """buckens: 1
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 2 GPa, nu: 0.3, rho: 7870 kg/m^3}}
+bodies:
+  block:
+    mesh: {box: {size: [0.4, 0.05, 0.05], divisions: [4, 1, 1]}, material: steel}
+    interfaces: {root: {face: x0}}
+    ROD
+joints: {hinge: {revolute: {between: [ground, block/root], axis: [0, 1, 0]}}}
+simulation: {duration: 40 ms, step: 0.5 ms, STEP}
+output:
+  every: 1 ms
+  fields: {record: [von-mises], every: 3 ms, extremes: steps}
+  sensors: {hinge: {joint-force: hinge}}
+"""
+
+
+def model(text, rod="", step=""):
+    return text.replace("ROD", rod).replace(", STEP", ", " + step if step else "")
+
+
+CASES = {
+    **{f"method {m}": (model(SLIDER_CRANK, step=f"method: {m}"), 0.0301)
+       for m in ("generalized-alpha", "newmark", "hht", "wilson")},
+    "without projection": (model(SLIDER_CRANK, step="method: newmark, projection: off"), 0.03),
+    "iterated coupling": (model(SLIDER_CRANK, step="iterate-coupling: on"), 0.03),
+    "step control": (model(SLIDER_CRANK, step="tolerance: 1e-4"), 0.03),
+    "step control early": (model(SLIDER_CRANK, step="tolerance: 1e-4"), 1e-6),
+    "step control, newmark": (model(SLIDER_CRANK, step="tolerance: 1e-4, method: newmark"), 0.02),
+    "frames": (model(SLIDER_CRANK, "frames: 3"), 0.03),
+    "frames per element": (model(SLIDER_CRANK, "frames: per-element"), 0.03),
+    "free-free": (model(SLIDER_CRANK, "reduction: {free-free: 4}"), 0.03),
+    "craig-bampton": (model(SLIDER_CRANK, "reduction: {craig-bampton: 4}"), 0.03),
+    "quasi-static": (model(SLIDER_CRANK, "flexibility: quasi-static"), 0.03),
+    **{f"coupling {level}": (model(SLIDER_CRANK, f"coupling: {level}"), 0.03)
+       for level in ("full", "first-order", "none", "auto", "noquad", "nocor")},
+    "geometric stiffness": (model(SLIDER_CRANK, "geometric-stiffness: on"), 0.03),
+    "first step": (model(SLIDER_CRANK), 0.0002),
+    "cranks before": (model(CRANKS), 0.1),
+    "cranks after": (model(CRANKS), 1.0),
+    "cranks late": (model(CRANKS), 2.0),
+    "cranks, hht": (model(CRANKS, step="method: hht"), 1.0),
+    "cranks, step control": (model(CRANKS, step="tolerance: 1e-5"), 1.2),
+    "block": (model(BLOCK), 0.0102),
+    "block, free-free": (model(BLOCK, "reduction: {free-free: 6}"), 0.02),
+    "block, threads": (model(BLOCK, step="tolerance: 1e-4"), 0.02),
+}
+
+
+def rows(directory):
+    with open(directory / "sensors.csv") as file:
+        lines = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+    return [row for row in lines if row[0][0].isdigit()]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_resumed_run_is_the_uninterrupted_one(buckens, tmp_path, name):
+    text, t = CASES[name]
+    (tmp_path / "model.yaml").write_text(text)
+    threads = ("--threads", 2) if "threads" in name else ()
+    buckens("run", "model.yaml", "-q", "-o", "whole", "--save-state", "whole.state").must(0)
+    buckens("run", "model.yaml", "-q", "-o", "first", "--save-state", "half.state",
+            "--save-state-at", t).must(0)
+    buckens("run", "model.yaml", "-q", "-o", "rest", "--start-from", "half.state", "--save-state",
+            "end.state", *threads).must(0)
+
+    whole, rest = rows(tmp_path / "whole"), rows(tmp_path / "rest")
+    assert rows(tmp_path / "first") == whole  # saving changes nothing
+    assert 1 < len(rest) < len(whole) or t < 1e-3
+    assert float(rest[0][0]) > t
+    assert rest == whole[-len(rest):]
+    # Everything that steps to come depend on, and what the summary reports of the whole run.
+    assert (tmp_path / "end.state").read_bytes() == (tmp_path / "whole.state").read_bytes()
+    summaries = [json.loads((tmp_path / d / "summary.json").read_text()) for d in ("whole", "rest")]
+    for key in ("steps", "residuals", "energy_error", "newton_iterations"):
+        assert summaries[0][key] == summaries[1][key], key
+
+
+def test_rows_were_chosen_anew(buckens, tmp_path):
+    """What the case of the cranks is about: other rows are in use later than at the start."""
+    h5py = pytest.importorskip("h5py")
+    (tmp_path / "model.yaml").write_text(model(CRANKS))
+    chosen = []
+    for t in (0.1, 2.0):
+        buckens("run", "model.yaml", "-q", "-o", "out", "--save-state", "s", "--save-state-at",
+                t).must(0)
+        with h5py.File(tmp_path / "s") as file:
+            names = bytes(file["counts/names"][:]).decode().split("\n")
+            lengths = file["counts/lengths"][:]
+            at = names.index("march/ladder/rung/0/rows_in_use")
+            first = sum(lengths[:at])
+            chosen.append(list(file["counts/values"][first:first + lengths[at]]))
+    assert chosen[0] != chosen[1]
+
+
+def test_a_finished_run_goes_on_when_it_is_made_longer(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(model(SLIDER_CRANK))
+    buckens("run", "model.yaml", "-q", "-o", "long").must(0)
+    short = ("--set", "simulation.duration=30 ms")
+    buckens("run", "model.yaml", "-q", "-o", "a", *short, "--save-state", "s").must(0)
+    buckens("run", "model.yaml", "-q", "-o", "b", *short, "--start-from", "s").must(
+        2, "s: the state is that at the end of the run", "simulation.duration")
+    buckens("run", "model.yaml", "-q", "-o", "b", "--start-from", "s").must(0)
+    rest = rows(tmp_path / "b")
+    assert rest == rows(tmp_path / "long")[-len(rest):]
+
+
+def test_another_model_is_refused_by_name(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(model(SLIDER_CRANK))
+    buckens("run", "model.yaml", "-q", "-o", "out", "--save-state", "s", "--save-state-at",
+            0.01).must(0)
+    run = ("run", "model.yaml", "-q", "-o", "next", "--start-from", "s")
+    buckens(*run, "--set", "bodies.rod.beam.elements=6").must(
+        2, "s: the state belongs to another model", "bodies.rod.beam.elements was 8, is 6")
+    buckens(*run, "--set", "simulation.step=0.1 ms").must(2, "simulation.step was 0.0002, is 0.0001")
+    buckens(*run, "--set", "joints.motor.prescribed-rotation.angle=140*t rad").must(
+        2, "joints.motor.prescribed-rotation.angle was 150*t")
+    assert not (tmp_path / "next").exists()
+
+
+def test_files_that_are_no_states_are_refused(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(model(SLIDER_CRANK))
+    buckens("run", "model.yaml", "-q", "-o", "out", "--save-state", "s", "--save-state-at",
+            0.01).must(0)
+    run = ("run", "model.yaml", "-q", "-o", "next", "--start-from")
+    buckens(*run, "none").must(5, "none")
+    buckens(*run, "model.yaml").must(5, "this is no saved state")
+    buckens(*run, "out/results.h5").must(5, "this is no saved state")
+    state = (tmp_path / "s").read_bytes()
+    (tmp_path / "cut").write_bytes(state[:-100])
+    buckens(*run, "cut").must(5, "the end of the file is missing")
+    for place in range(0, len(state) - 80, len(state) // 20):
+        damaged = bytearray(state)
+        damaged[place] ^= 0x10
+        (tmp_path / "damaged").write_bytes(damaged)
+        buckens(*run, "damaged").must(5, "is damaged")
+    later = state.replace(b"\nformat 1\n", b"\nformat 2\n")
+    (tmp_path / "later").write_bytes(later)
+    buckens(*run, "later").must(5, "another format than 1")
+    (tmp_path / "empty").write_bytes(b"")
+    buckens(*run, "empty").must(5, "this is no saved state")
+
+
+def test_times_are_checked(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(model(SLIDER_CRANK))
+    run = ("run", "model.yaml", "-q", "-o", "out")
+    buckens(*run, "--save-state-at", 0.01).must(2, "add --save-state FILE")
+    buckens(*run, "--save-state", "s", "--save-state-at", 1).must(2, "goes from 0 to 0.06 s")
+    buckens(*run, "--save-state", "s", "--save-state-at", 0.02).must(0)
+    buckens("run", "model.yaml", "-q", "-o", "next", "--start-from", "s", "--save-state", "s2",
+            "--save-state-at", 0.01).must(2, "give a later time")
+    shutil.rmtree(tmp_path / "out")
