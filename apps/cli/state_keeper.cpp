@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/io/state_file.h"
+#include "buckens/run_store/state_file.h"
 
 namespace buckens::cli {
 
@@ -21,9 +21,10 @@ void StateArguments::check(double duration) const {
     throw InputError("--save-state-at: there is no file for the state; add --save-state FILE");
   }
   if (*save_at > 0.0 && *save_at <= duration * (1.0 + kSameInstant)) return;
-  throw InputError(fmt::format("--save-state-at {:g}: the run goes from 0 to {:g} s; give a time "
-                               "within",
-                               *save_at, duration));
+  throw InputError(
+      fmt::format("--save-state-at {:g}: the run goes from 0 to {:g} s; give a time "
+                  "within",
+                  *save_at, duration));
 }
 
 void add_state_options(CLI::App& verb, StateArguments& arguments) {
@@ -47,9 +48,10 @@ StateKeeper::StateKeeper(analysis::Simulation& simulation, const StateArguments&
   if (!arguments.start_from.empty()) start();
   if (!arguments.save_at) return;
   if (simulation.time() >= *arguments.save_at) {
-    throw InputError(fmt::format("--save-state-at {:g}: the run goes on from t = {:g} s; give a "
-                                 "later time",
-                                 *arguments.save_at, simulation.time()));
+    throw InputError(
+        fmt::format("--save-state-at {:g}: the run goes on from t = {:g} s; give a "
+                    "later time",
+                    *arguments.save_at, simulation.time()));
   }
   simulation.on_step([this](const analysis::StepView& now) {
     if (is_saved_ || now.time() < *arguments_.save_at - kSameInstant * now.step()) return;
@@ -59,23 +61,24 @@ StateKeeper::StateKeeper(analysis::Simulation& simulation, const StateArguments&
 
 void StateKeeper::start() {
   const std::string& file = arguments_.start_from;
-  const base::SavedValues state = io::read_state(file);
+  const base::SavedValues state = run_store::read_state(file);
   try {
     simulation_.restore(state);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
   }
   if (simulation_.is_done()) {
-    throw InputError(fmt::format("{}: the state is that at the end of the run, t = {:g} s; give "
-                                 "the model a longer simulation.duration, for example with --set",
-                                 file, simulation_.time()));
+    throw InputError(
+        fmt::format("{}: the state is that at the end of the run, t = {:g} s; give "
+                    "the model a longer simulation.duration, for example with --set",
+                    file, simulation_.time()));
   }
   journal_.say(base::LogLevel::info,
                fmt::format("goes on from {}, t = {:.6g} s", file, simulation_.time()));
 }
 
 void StateKeeper::save() {
-  io::write_state(simulation_.save(), arguments_.save);
+  run_store::write_state(simulation_.save(), arguments_.save);
   is_saved_ = true;
   journal_.say(base::LogLevel::info, fmt::format("state at t = {:.6g} s saved in {}",
                                                  simulation_.time(), arguments_.save));

@@ -14,7 +14,7 @@ namespace buckens::cli {
 
 /// What the user asks for about saved states.
 struct StateArguments {
-  std::string save, start_from;  ///< files; empty: none
+  std::string save, start_from;   ///< files; empty: none
   std::optional<double> save_at;  ///< [s]; none: at the end
 
   /// @throws InputError if the time lies outside of the run, or has no file

@@ -51,9 +51,10 @@ NodalViews::View NodalViews::velocities(std::size_t whole, const model::State& s
   const model::WholeBody& body = model_.wholes[whole];
   require_flexible(body);
   if (body.is_divided()) {
-    throw InputError(fmt::format("body \"{}\" has several frames, and its nodes have a velocity "
-                                 "relative to each; record the velocity of markers instead",
-                                 body.name));
+    throw InputError(
+        fmt::format("body \"{}\" has several frames, and its nodes have a velocity "
+                    "relative to each; record the velocity of markers instead",
+                    body.name));
   }
   const auto first = static_cast<std::size_t>(body.first);
   return show(velocities_[whole], first, state.bodies[first].d_dot);

@@ -21,8 +21,7 @@ std::size_t find_whole(const model::Model& model, const std::string& name) {
   if (found >= 0) return static_cast<std::size_t>(found);
   std::vector<std::string> known;
   for (const model::WholeBody& whole : model.wholes) known.push_back(whole.name);
-  throw InputError(
-      fmt::format("there is no body \"{}\".{}", name, base::suggestion(name, known)));
+  throw InputError(fmt::format("there is no body \"{}\".{}", name, base::suggestion(name, known)));
 }
 
 }  // namespace
@@ -56,9 +55,8 @@ results::RunSummary Simulation::finish() { return run_->finish(); }
 void Simulation::stop() { run_->stop(); }
 
 void Simulation::on_step(std::function<void(const StepView&)> callback) {
-  run_->callbacks.push_back([this, callback = std::move(callback)](double step) {
-    callback(StepView(*this, step));
-  });
+  run_->callbacks.push_back(
+      [this, callback = std::move(callback)](double step) { callback(StepView(*this, step)); });
 }
 
 void Simulation::record_into(results::RecordSink& sink) { run_->record_into(sink); }
@@ -81,8 +79,8 @@ Eigen::Map<const Eigen::VectorXd> Simulation::values(const std::string& path) co
   if (found < 0) {
     std::vector<std::string> known;
     for (const results::Channel& channel : layout.channels()) known.push_back(channel.path);
-    throw InputError(fmt::format("nothing is recorded as \"{}\".{}", path,
-                                 base::suggestion(path, known)));
+    throw InputError(
+        fmt::format("nothing is recorded as \"{}\".{}", path, base::suggestion(path, known)));
   }
   const auto index = static_cast<std::size_t>(found);
   return {run_->observe().data() + layout.offset(index),

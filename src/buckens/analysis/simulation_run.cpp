@@ -36,7 +36,10 @@ const model::SimulationSpec& simulation_of(const model::ModelDescription& descri
 }  // namespace
 
 SimulationRun::SimulationRun(const model::BuiltModel& built, SimulationOptions options)
-    : built_(built), options_(std::move(options)), spec_(simulation_of(built.description)), views_(built.model) {
+    : built_(built),
+      options_(std::move(options)),
+      spec_(simulation_of(built.description)),
+      views_(built.model) {
   set_up();
   base::return_free_memory();
   setup_seconds_ = seconds_since(created_);

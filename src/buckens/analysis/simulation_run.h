@@ -99,7 +99,7 @@ class SimulationRun {
   long observed_at_ = -1;         // number of steps, −1: out of date
   long steps_ = 0;                // in all; 0 where step control leaves that open
   long steps_taken_ = 0;
-  bool has_begun_ = false;   // the record of the start is written
+  bool has_begun_ = false;  // the record of the start is written
   bool is_stopped_ = false;
   bool is_finished_ = false;  // records are ended
   bool has_new_inputs_ = false;

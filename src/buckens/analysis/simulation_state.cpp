@@ -82,9 +82,10 @@ std::vector<std::size_t> SimulationRun::loads_with_values(const std::string& nam
   }
   if (!out.empty()) return out;
   if (known.empty()) {
-    throw InputError(fmt::format("no load \"{}\" takes a value from outside: the model has neither "
-                                 "forces nor torques; add `force: {{on: …, value: [0, 0, 0]}}`",
-                                 name));
+    throw InputError(
+        fmt::format("no load \"{}\" takes a value from outside: the model has neither "
+                    "forces nor torques; add `force: {{on: …, value: [0, 0, 0]}}`",
+                    name));
   }
   throw InputError(fmt::format("no load \"{}\" takes a value from outside.{}", name,
                                base::suggestion(name, known)));
@@ -146,15 +147,17 @@ void SimulationRun::restore(const base::SavedValues& saved) {
   visit.texts("version", version);
   visit.texts("model", lines);
   if (version != std::vector<std::string>{kVersion}) {
-    throw InputError(fmt::format("the state was saved by buckens {}, this is {}: a continuation "
-                                 "would not be the same; use that version, or run from the start",
-                                 fmt::join(version, ""), kVersion));
+    throw InputError(
+        fmt::format("the state was saved by buckens {}, this is {}: a continuation "
+                    "would not be the same; use that version, or run from the start",
+                    fmt::join(version, ""), kVersion));
   }
   const std::vector<std::string> here = identity();
   if (lines != here) {
-    throw InputError(fmt::format("the state belongs to another model: {}; use the model that it "
-                                 "was saved with (title and duration may change)",
-                                 differences(lines, here)));
+    throw InputError(
+        fmt::format("the state belongs to another model: {}; use the model that it "
+                    "was saved with (title and duration may change)",
+                    differences(lines, here)));
   }
   visit_saved(visit);
   observed_at_ = -1;

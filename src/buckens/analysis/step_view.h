@@ -14,8 +14,8 @@ class StepView {
  public:
   StepView(Simulation& simulation, double step) : simulation_(&simulation), step_(step) {}
 
-  double time() const;                      ///< end of the step [s]
-  double step() const { return step_; }     ///< its length [s]
+  double time() const;                   ///< end of the step [s]
+  double step() const { return step_; }  ///< its length [s]
   const Simulation& simulation() const { return *simulation_; }
 
   /// Ends the run after this step.

@@ -39,8 +39,8 @@ const std::vector<double>& SaveVisit::find_numbers(const std::string& name,
   if (values.size() != size) {
     refuse(name, fmt::format("it has {} values, expected {}", values.size(), size));
   }
-  const bool is_finite = std::all_of(values.begin(), values.end(),
-                                     [](double value) { return std::isfinite(value); });
+  const bool is_finite =
+      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   if (!is_finite) refuse(name, "it holds a value that is not finite");
   return values;
 }

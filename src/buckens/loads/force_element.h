@@ -56,7 +56,8 @@ class ForceElement {
   /// Whether values can be given from outside in place of the laws of time: forces and torques.
   virtual bool takes_values() const { return false; }
   /// What it does with these values, axes as for values(). @pre takes_values()
-  virtual Action act(const Eigen::Vector3d& /*values*/, const spatial::MarkerMotion& /*first*/) const {
+  virtual Action act(const Eigen::Vector3d& /*values*/,
+                     const spatial::MarkerMotion& /*first*/) const {
     return {};
   }
 

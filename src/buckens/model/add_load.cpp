@@ -150,8 +150,8 @@ void add_load(const loads::LoadSpec& spec, MarkerFinder& find) { LoadBuilder(fin
 
 void add_own_force(const OwnForce& force, MarkerFinder& find) {
   if (!force.element) {
-    throw InputError(force.where, fmt::format("load \"{}\" has no force law; give it one",
-                                              force.name));
+    throw InputError(force.where,
+                     fmt::format("load \"{}\" has no force law; give it one", force.name));
   }
   Load load;
   load.name = force.name;

@@ -23,9 +23,10 @@ ModelBuilder::ModelBuilder(std::string title) { description_.title = std::move(t
 
 void ModelBuilder::require_new(bool is_new, const std::string& name) {
   if (name.empty() || name.find('/') != name.npos) {
-    throw InputError(fmt::format("the name \"{}\" is empty or holds a slash; use letters, digits, "
-                                 "_ and -",
-                                 name));
+    throw InputError(
+        fmt::format("the name \"{}\" is empty or holds a slash; use letters, digits, "
+                    "_ and -",
+                    name));
   }
   if (!is_new) throw InputError(fmt::format("the name \"{}\" is taken; use another", name));
 }
@@ -60,8 +61,7 @@ void ModelBuilder::add_marker(const std::string& body, const std::string& name,
       return;
     }
   }
-  throw InputError(
-      fmt::format("there is no body \"{}\".{}", body, base::suggestion(body, known)));
+  throw InputError(fmt::format("there is no body \"{}\".{}", body, base::suggestion(body, known)));
 }
 
 void ModelBuilder::add_force(const std::string& name, const std::string& on,

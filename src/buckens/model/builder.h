@@ -64,7 +64,8 @@ class ModelBuilder {
   /// Force on a marker by a function of time and motion, see loads::FunctionForce.
   void add_force_law(const std::string& name, const std::string& on, loads::FunctionForce::Law law);
   /// A force law of one's own between two markers.
-  void add_force_element(const std::string& name, std::shared_ptr<const loads::ForceElement> element,
+  void add_force_element(const std::string& name,
+                         std::shared_ptr<const loads::ForceElement> element,
                          const std::string& first, const std::string& second = "ground");
 
   // ---- sensors and run

@@ -35,10 +35,10 @@ class LoadSensor final : public Sensor {
     for (const std::size_t k : loads_) {
       const model::Load& load = now.model.loads[k];
       const spatial::MarkerMotion first = motion(load.first);
-      const spatial::Wrench wrench = dynamics::action_of(now.model, k, now.state.t,
-                                                         now.state.inputs, first,
-                                                         motion(load.second))
-                                         .on_first;
+      const spatial::Wrench wrench =
+          dynamics::action_of(now.model, k, now.state.t, now.state.inputs, first,
+                              motion(load.second))
+              .on_first;
       sum +=
           about_ ? Vector3d(wrench.torque + (first.p - point).cross(wrench.force)) : wrench.force;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/io/state_file.h"
+#include "buckens/run_store/state_file.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/io/hdf5_file.h"
-#include "buckens/io/output_file.h"
+#include "buckens/files/output_file.h"
+#include "buckens/run_store/hdf5_file.h"
 
-namespace buckens::io {
+namespace buckens::run_store {
 
 namespace {
 
@@ -119,8 +119,8 @@ void take_group(hid_t file, const char* name, std::size_t size, Map& map) {
   const Hdf5Handle group(sound(H5Gopen2(file, name, H5P_DEFAULT), "find a group"), H5Gclose);
   const auto names = take<std::uint8_t>(group.get(), "names", size);
   const auto lengths = take<std::int64_t>(group.get(), "lengths", size / sizeof(std::int64_t));
-  const List values = take<typename List::value_type>(
-      group.get(), "values", size / sizeof(typename List::value_type));
+  const List values = take<typename List::value_type>(group.get(), "values",
+                                                      size / sizeof(typename List::value_type));
   std::size_t at = 0;
   auto letter = names.begin();
   for (const std::int64_t length : lengths) {
@@ -178,13 +178,15 @@ std::string_view checked(std::string_view bytes, const std::string& name) {
   if (end == expected) return content;
   const std::size_t first_line = expected.find('\n', kMark.size());
   if (end.substr(0, first_line) != std::string_view(expected).substr(0, first_line)) {
-    throw IoError(fmt::format("{}: the saved state has another format than {}; use the version of "
-                              "buckens that has written it",
-                              name, kStateFormat));
+    throw IoError(
+        fmt::format("{}: the saved state has another format than {}; use the version of "
+                    "buckens that has written it",
+                    name, kStateFormat));
   }
-  throw IoError(fmt::format("{}: the saved state is damaged: its checksum or size differs; save it "
-                            "again",
-                            name));
+  throw IoError(
+      fmt::format("{}: the saved state is damaged: its checksum or size differs; save it "
+                  "again",
+                  name));
 }
 
 }  // namespace
@@ -202,8 +204,10 @@ std::string state_bytes(const base::SavedValues& state) {
   sound(size < 0 ? -1 : 0, "complete a state");
   std::string out(static_cast<std::size_t>(size), '\0');
   sound(H5Fget_file_image(file.get(), out.data(), out.size()) < 0 ? -1 : 0, "complete a state");
-  return out + trailer(out);
+  return sealed(out);
 }
+
+std::string sealed(std::string_view content) { return std::string(content) + trailer(content); }
 
 base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
   const std::string_view content = checked(bytes, name);
@@ -227,11 +231,11 @@ base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
 }
 
 void write_state(const base::SavedValues& state, const std::filesystem::path& path) {
-  replace_text_file(path, state_bytes(state));
+  files::replace_text_file(path, state_bytes(state));
 }
 
 base::SavedValues read_state(const std::filesystem::path& path) {
-  return parse_state(read_text_file(path), path.string());
+  return parse_state(files::read_text_file(path), path.string());
 }
 
-}  // namespace buckens::io
+}  // namespace buckens::run_store

@@ -7,7 +7,7 @@
 
 #include "buckens/base/saved_values.h"
 
-namespace buckens::io {
+namespace buckens::run_store {
 
 /// Writes a saved state into a file, aside and renamed: readers see a whole state or none.
 ///
@@ -21,12 +21,14 @@ void write_state(const base::SavedValues& state, const std::filesystem::path& pa
 ///   damaged
 base::SavedValues read_state(const std::filesystem::path& path);
 
-/// The content of such a file, for tests that damage it.
+/// The content of such a file.
 std::string state_bytes(const base::SavedValues& state);
+/// The bytes of an HDF5 file with the trailer that belongs to them.
+std::string sealed(std::string_view content);
 /// @param name of the file in messages
 base::SavedValues parse_state(std::string_view bytes, const std::string& name);
 
 inline constexpr int kStateFormat = 1;
 inline constexpr std::size_t kStateTrailer = 80;
 
-}  // namespace buckens::io
+}  // namespace buckens::run_store

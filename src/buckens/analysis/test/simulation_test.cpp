@@ -128,12 +128,16 @@ TEST(Simulation, SeveralFramesShowOneTable) {
 TEST(Simulation, UnknownNamesAreRefusedWithTheNearest) {
   const auto built = swinging_beam().build();
   Simulation simulation(*built);
-  EXPECT_THAT([&] { simulation.sensor("tipp"); }, ThrowsMessage<InputError>(HasSubstr("sensors/tip")));
+  EXPECT_THAT([&] { simulation.sensor("tipp"); },
+              ThrowsMessage<InputError>(HasSubstr("sensors/tip")));
   EXPECT_THAT([&] { simulation.frame("rot"); }, ThrowsMessage<InputError>(HasSubstr("\"rod\"")));
   EXPECT_THAT([&] { simulation.set_load("pusch", Vector3d::Zero()); },
               ThrowsMessage<InputError>(HasSubstr("push")));
-  EXPECT_THAT([&] { simulation.set_load("push", {NAN, 0, 0}); },
-              ThrowsMessage<InputError>(HasSubstr("not finite")));
+  EXPECT_THAT(
+      [&] {
+        simulation.set_load("push", {NAN, 0, 0});
+      },
+      ThrowsMessage<InputError>(HasSubstr("not finite")));
 }
 
 TEST(Simulation, ACallbackCanStop) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The public face of the library: what programs include, and all that is installed.
+///
+/// This list is the one place that decides what is public; installed are these headers and those
+/// that they include. See docs/developers/cpp.md and examples/cpp.
+
+#include "buckens/analysis/simulation.h"
+#include "buckens/base/errors.h"
+#include "buckens/base/log.h"
+#include "buckens/base/version.h"
+#include "buckens/base/visit_fields.h"
+#include "buckens/model/builder.h"
+#include "buckens/model_file/load_model.h"
+#include "buckens/results/table.h"
+#include "buckens/run_store/run_directory.h"
+#include "buckens/run_store/run_reader.h"
+#include "buckens/run_store/state_file.h"
+
+namespace buckens {
+
+using analysis::Simulation;
+using analysis::SimulationOptions;
+using analysis::StepView;
+using model::BuiltModel;
+using model::ModelBuilder;
+using model_file::load_model;
+using results::RunSummary;
+using results::Table;
+using run_store::read_state;
+using run_store::RunDirectory;
+using run_store::RunReader;
+using run_store::write_state;
+
+using base::visit_fields;
+
+}  // namespace buckens
