@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/output.h"
 #include "cli/text_table.h"
@@ -22,8 +21,6 @@ namespace {
 
 using analysis::BodyReport;
 using analysis::ModelReport;
-using Json = nlohmann::ordered_json;
-using files::json_of;
 
 /// Columns of the frequency list; the rest stands in the JSON output.
 constexpr std::size_t kFrequenciesShown = 6;
@@ -85,6 +82,52 @@ std::string reductions_text(const ModelReport& report) {
   return entries.empty() ? "" : "reduced bodies\n" + text_list(entries);
 }
 
+std::string axis_text(const Eigen::Vector3d& v) {
+  const auto shown = [](double x) { return std::abs(x) > 1e-6 ? x : 0.0; };
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", shown(v.x()), shown(v.y()), shown(v.z()));
+}
+
+/// "16 elements, 5 mm in the plane x 20 mm across it; bends about (0, 0, 1) with EI = 41.7 N m^2"
+std::string section_text(const analysis::SectionReport& s) {
+  const std::string count = counted(s.elements, "element");
+  if (s.planar) {
+    return fmt::format(
+        "{}: {:.4g} m in the plane, {:.4g} m across it; bends about {} with EI = {:.4g} N m^2",
+        count, s.planar->extent_in_plane, s.planar->extent_across, axis_text(s.planar->axis),
+        s.planar->EI);
+  }
+  return fmt::format(
+      "{}: {:.4g} m along {}, {:.4g} m along {}; bends about {} with EI = {:.4g} N m^2, about {} "
+      "with {:.4g} N m^2",
+      count, s.width, axis_text(s.y), s.height, axis_text(s.z), axis_text(s.y), s.EI_y,
+      axis_text(s.z), s.EI_z);
+}
+
+/// Which way sections of beams lie, in the model axes of their body.
+std::string sections_text(const ModelReport& report) {
+  constexpr std::size_t kSectionsShown = 4;  // the rest stands in the JSON output
+  std::vector<std::pair<std::string, std::string>> entries;
+  for (const BodyReport& body : report.bodies) {
+    for (std::size_t i = 0; i < std::min(body.sections.size(), kSectionsShown); ++i) {
+      entries.emplace_back(i == 0 ? body.name : "", section_text(body.sections[i]));
+    }
+    if (body.sections.size() > kSectionsShown) {
+      entries.emplace_back("", fmt::format("and {} more", body.sections.size() - kSectionsShown));
+    }
+  }
+  return entries.empty() ? ""
+                         : "beam sections, in the model axes of the body\n" + text_list(entries);
+}
+
+/// What assembly did, body by body.
+std::string moves_text(const ModelReport& report) {
+  std::string out;
+  for (const analysis::AssemblyMove& move : report.moves) {
+    if (!move.is_large) out += "note: " + move.text() + '\n';
+  }
+  return out;
+}
+
 std::string markers_text(const ModelReport& report) {
   std::vector<std::pair<std::string, std::string>> entries;
   for (const BodyReport& body : report.bodies) {
@@ -126,64 +169,13 @@ std::string loads_table(const ModelReport& report) {
   return text_table(rows) + "  forces and torques at t = 0, torques about the mass centre\n";
 }
 
-Json json_of(const std::vector<analysis::LoadReport>& loads) {
-  Json out = Json::object();
-  for (const analysis::LoadReport& load : loads) {
-    out[load.name] = {{"kind", load.kind},
-                      {"on", load.place},
-                      {"extent", load.extent},
-                      {"unit", load.unit},
-                      {"force", json_of(load.force)},
-                      {"torque", json_of(load.torque)}};
-  }
-  return out;
-}
-
-Json json_of(const std::vector<analysis::InterfaceReport>& interfaces) {
-  Json out = Json::object();
-  for (const analysis::InterfaceReport& interface : interfaces) {
-    out[interface.name] = {{"kind", interface.is_rigid ? "rigid" : "average"},
-                           {"nodes", interface.nodes},
-                           {"area", interface.area},
-                           {"centre", json_of(interface.centre)},
-                           {"carries_moment", interface.carries_moment}};
-  }
-  return out;
-}
-
-Json json_of(const body::ReductionFigures& r) {
-  return {{"basis", r.basis},
-          {"modes", r.modes},
-          {"static_shapes", r.static_shapes},
-          {"full_dof", r.full_dofs},
-          {"highest_mode", r.highest_mode / kTurn},
-          {"static_share", r.static_share}};
-}
-
-Json json_of(const BodyReport& body) {
-  Json out = {{"flexible", body.is_flexible},
-              {"mass", body.mass},
-              {"com", json_of(body.com)},
-              {"inertia", json_of(body.inertia)},
-              {"principal_inertia", body.principal_inertia},
-              {"nodes", body.nodes},
-              {"elements", body.elements},
-              {"dof", body.dof},
-              {"frames", body.frames},
-              {"frame_coordinates", body.frame_coordinates},
-              {"frequencies", body.frequencies},
-              {"markers", body.markers},
-              {"interfaces", json_of(body.interfaces)}};
-  if (body.reduction) out["reduction"] = json_of(*body.reduction);
-  return out;
-}
-
 }  // namespace
 
 std::string report_text(const std::string& title, const ModelReport& report) {
   std::string out = title.empty() ? "" : title + '\n';
-  out += bodies_table(report) + frequencies_text(report) + reductions_text(report) +
-         markers_text(report) + interfaces_table(report) + loads_table(report);
+  out += bodies_table(report) + frequencies_text(report) + sections_text(report) +
+         reductions_text(report) + markers_text(report) + interfaces_table(report) +
+         loads_table(report);
   out += "mechanism\n";
   std::vector<std::pair<std::string, std::string>> entries = {
       {"joints", fmt::format("{} with {}, {} redundant", counted(report.joints, "joint"),
@@ -201,29 +193,10 @@ std::string report_text(const std::string& title, const ModelReport& report) {
   }
   out += text_list(entries);
   for (const std::string& text : report.redundant) out += "redundant: " + text + '\n';
+  out += moves_text(report);
   for (const std::string& text : report.notes) out += "note: " + text + '\n';
   for (const std::string& text : report.warnings) out += "warning: " + text + '\n';
   return out;
-}
-
-std::string report_json(const std::string& title, const ModelReport& report) {
-  Json bodies = Json::object();
-  for (const BodyReport& body : report.bodies) bodies[body.name] = json_of(body);
-  return to_text({{"title", title},
-                  {"bodies", std::move(bodies)},
-                  {"joints", report.joints},
-                  {"loads", report.loads},
-                  {"distributed_loads", json_of(report.distributed_loads)},
-                  {"constraint_rows", report.constraint_rows},
-                  {"redundant_rows", report.redundant_rows},
-                  {"redundant", report.redundant},
-                  {"degrees_of_freedom", report.degrees_of_freedom},
-                  {"assembly_gap", report.assembly_gap},
-                  {"step", report.step},
-                  {"highest_frequency", report.highest_frequency},
-                  {"result_bytes", report.result_bytes},
-                  {"notes", report.notes},
-                  {"warnings", report.warnings}});
 }
 
 }  // namespace buckens::cli

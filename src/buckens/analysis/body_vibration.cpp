@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "buckens/analysis/strain_energy_groups.h"
 #include "buckens/base/errors.h"
+#include "buckens/model/eliminate_links.h"
 
 namespace buckens::analysis {
 
@@ -49,8 +50,8 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
         "see its free vibrations",
         w.name));
   }
-  std::optional<body::FlexiblePart> undivided;
-  if (w.is_divided()) undivided.emplace(w.name, *w.mesh, b.flexible->coupling);
+  std::unique_ptr<body::FlexiblePart> undivided;
+  if (w.is_divided()) undivided = model::undivided_part(w, b.flexible->coupling);
   const body::FlexiblePart& part = undivided ? *undivided : *b.flexible;
   const double size = std::sqrt(0.5 * part.fe.shape.J0.trace() / w.mass);
   const auto begin = std::chrono::steady_clock::now();

@@ -20,12 +20,11 @@ constexpr double kRounding = 1e-10;
 DriveLaws::DriveLaws(const model::ModelDescription& description) {
   for (const joints::JointSpec& joint : description.joints) {
     if (const auto* turn = std::get_if<joints::PrescribedRotationSpec>(&joint.kind)) {
-      if (!turn->angle.is_constant()) {
-        drives_.push_back({joint.name, joint.where, &turn->angle, "rad"});
-      }
+      const base::TimeLaw law = turn->law();
+      if (!law.is_constant()) drives_.push_back({joint.name, joint.where, law, "rad"});
     } else if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
       if (!push->displacement.is_constant()) {
-        drives_.push_back({joint.name, joint.where, &push->displacement, "m"});
+        drives_.push_back({joint.name, joint.where, push->displacement, "m"});
       }
     }
   }
@@ -35,15 +34,15 @@ void DriveLaws::check(double from, double to) const {
   for (const Drive& drive : drives_) {
     double a = from;
     double b = to;
-    double f_a = drive.law->value(a);
-    double f_b = drive.law->value(b);
+    double f_a = drive.law.value(a);
+    double f_b = drive.law.value(b);
     double halfway = 0;
     // Follow the half in which more happens. A smooth law changes 64 times less in 64 times less
     // time, a jump stays.
     for (int halving = 0; halving < kHalvings; ++halving) {
       if (halving == kHalvings / 2) halfway = std::abs(f_b - f_a);
       const double middle = 0.5 * (a + b);
-      const double f = drive.law->value(middle);
+      const double f = drive.law.value(middle);
       if (std::abs(f - f_a) > std::abs(f_b - f)) {
         b = middle;
         f_b = f;
@@ -59,14 +58,14 @@ void DriveLaws::check(double from, double to) const {
         drive.where,
         fmt::format("joint \"{}\": its law {} jumps from {:.6g} to {:.6g} {} at t = {:.6g} s; "
                     "nothing can follow that: write a ramp or a smooth step in its place",
-                    drive.joint, drive.law->text(), f_a, f_b, drive.unit, b));
+                    drive.joint, drive.law.text(), f_a, f_b, drive.unit, b));
   }
 }
 
 std::vector<std::string> DriveLaws::corners(double duration) const {
   std::vector<std::string> out;
   for (const Drive& drive : drives_) {
-    const std::vector<double> times = drive.law->corners();
+    const std::vector<double> times = drive.law.corners();
     const auto inside =
         std::find_if(times.begin(), times.end(), [&](double t) { return t > 0.0 && t < duration; });
     if (inside == times.end()) continue;

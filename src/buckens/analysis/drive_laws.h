@@ -25,7 +25,7 @@ class DriveLaws {
   struct Drive {
     std::string joint;
     SourceLocation where;
-    const base::TimeLaw* law;
+    base::TimeLaw law;
     const char* unit;
   };
   std::vector<Drive> drives_;

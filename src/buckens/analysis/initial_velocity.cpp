@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/initial_velocity.h"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "buckens/analysis/nodal_field.h"
 #include "buckens/base/errors.h"
-#include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using linalg::Vector;
 
@@ -39,11 +37,7 @@ class Setter {
                                                 "without rates; remove `nodal-velocity`",
                                                 spec_.name));
     }
-    for_each_part([&](const body::Body& part, model::BodyState& s) {
-      s.d_dot = field(part);
-      if (!whole_.is_divided()) part.flexible->sieve.apply(s.d_dot);
-    });
-    if (whole_.is_divided()) share_out();
+    set_nodes(*spec_.nodal_velocity);
   }
 
  private:
@@ -79,43 +73,19 @@ class Setter {
     return left <= (whole_.is_divided() ? 1e-12 * (v.norm() + w.norm()) : 0.0);
   }
 
-  /// The nodal velocities as written.
-  Vector field(const body::Body& part) const {
-    const model::NodalVelocitySpec& laws = *spec_.nodal_velocity;
-    const model::PositionLaw* law[6] = {&laws.x, &laws.y, &laws.z, &laws.rx, &laws.ry, &laws.rz};
-    const fem::FeModel& fe = part.flexible->mesh();
-    Vector out = Vector::Zero(fe.M.rows());
-    for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
-      for (std::size_t k = 0; k < 6; ++k) {
-        const int dof = fe.dofs.node_dofs[node][k];
-        if (dof >= 0) out[dof] = (*law[k])(fe.nodes[node].position);
-      }
-    }
-    return part.flexible->coordinates(out);
-  }
-
-  /// Rigid motion of each part's field goes to its frame, less that of the whole.
-  void share_out() {
-    Vector3d momentum = Vector3d::Zero();
-    Vector3d spin_momentum = Vector3d::Zero();
-    Matrix3d J = Matrix3d::Zero();
-    for_each_part([&](const body::Body& part, model::BodyState& s) {
-      const auto mean = part.flexible->sieve.rigid_part(s.d_dot);
-      const Vector3d r = part.com - whole_.com;
-      momentum += part.mass * mean.head<3>();
-      spin_momentum += part.J0 * mean.tail<3>() + part.mass * r.cross(mean.head<3>());
-      const Matrix3d skew = spatial::skew(r);
-      J += part.J0 - part.mass * skew * skew;
+  void set_nodes(const model::NodalVelocitySpec& laws) {
+    std::vector<Vector> fields;
+    for_each_part([&](const body::Body& part, model::BodyState&) {
+      fields.push_back(
+          nodal_field(part, {&laws.x, &laws.y, &laws.z, &laws.rx, &laws.ry, &laws.rz}));
     });
-    const Vector3d v0 = momentum / whole_.mass;
-    const Vector3d w0 = J.completeOrthogonalDecomposition().solve(spin_momentum);
+    const std::vector<RigidShare> shares = sieve_field(model_, whole_, fields);
+    std::size_t k = 0;
     for_each_part([&](const body::Body& part, model::BodyState& s) {
-      const auto mean = part.flexible->sieve.rigid_part(s.d_dot);
-      const Vector3d r = part.com - whole_.com;
-      const Vector3d v = mean.head<3>() - v0 - w0.cross(r);
-      s.frame.v += within(part.translation_basis, s.frame.X_WB.q * v);
-      s.frame.w += within(part.rotation_basis, mean.tail<3>() - w0);
-      part.flexible->sieve.apply(s.d_dot);
+      s.frame.v += within(part.translation_basis, s.frame.X_WB.q * shares[k].translation);
+      s.frame.w += within(part.rotation_basis, shares[k].rotation);
+      s.d_dot = std::move(fields[k]);
+      ++k;
     });
   }
 

@@ -44,6 +44,13 @@ void add_body(const body::Body& body, BodyReport& out) {
   }
 }
 
+/// Normal of the plane of a planar model, in the model axes of a body.
+std::optional<Eigen::Vector3d> normal_of(const model::Model& model, const model::WholeBody& whole) {
+  if (!model.planar) return std::nullopt;
+  const spatial::Pose& placed = model.placed[static_cast<std::size_t>(whole.first)];
+  return Eigen::Vector3d(placed.q.conjugate() * spatial::normal(*model.planar));
+}
+
 BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
                        const body::FreeModes& modes) {
   BodyReport out;
@@ -62,11 +69,15 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
   if (whole.is_divided()) {
     out.inertia = whole.mesh->shape.J0;
     describe(whole.mesh.get(), modes, out);
+    out.sections = report_sections(*whole.mesh, normal_of(model, whole));
     return out;
   }
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   out.inertia = body.J0;
   describe(body.is_flexible() ? &body.flexible->mesh() : nullptr, modes, out);
+  if (body.is_flexible()) {
+    out.sections = report_sections(body.flexible->mesh(), normal_of(model, whole));
+  }
   if (body.is_flexible() && body.flexible->is_reduced()) out.reduction = body.flexible->reduction;
   return out;
 }
@@ -131,6 +142,10 @@ ModelReport report_model(const model::BuiltModel& built) {
   for (const model::WholeBody& whole : model.wholes) {
     const body::FreeModes modes = reported_modes(model, whole);
     out.bodies.push_back(report_body(model, whole, modes));
+    const double lowest = modes.omega.size() > 0 ? modes.omega[0] : 0.0;
+    if (const std::string doubt = judge_frequency(whole.name, lowest); !doubt.empty()) {
+      out.warnings.push_back(doubt);
+    }
     const ExcitedBand band = excited_band(model, whole, modes);
     out.highest_frequency = std::max(out.highest_frequency, band.highest / kTurn);
     const std::string advice = judge_step(whole.name, band, out.step, plan.finest);
@@ -147,6 +162,8 @@ ModelReport report_model(const model::BuiltModel& built) {
   out.redundant_rows = static_cast<int>(prepared.redundant_rows.size());
   out.redundant = prepared.redundant_text;
   out.notes = prepared.notes;
+  out.moves = prepared.moves;
+  for (const std::string& text : prepared.warnings) out.warnings.push_back(text);
 
   if (built.description.simulation) {
     const results::Recorder recorder(built, metric, !prepared.redundant_rows.empty());

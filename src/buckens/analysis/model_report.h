@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "buckens/model/model_builder.h"
+#include "buckens/analysis/assembly_moves.h"
+#include "buckens/analysis/section_report.h"
 
 namespace buckens::analysis {
 
@@ -35,6 +37,7 @@ struct BodyReport {
   std::vector<std::string> markers;                 ///< names that joints and sensors can use
   std::optional<body::ReductionFigures> reduction;  ///< of reduced bodies
   std::vector<InterfaceReport> interfaces;
+  std::vector<SectionReport> sections;  ///< of beams, each way in which one lies once
 };
 
 /// What can be said of a distributed load without running.
@@ -56,9 +59,10 @@ struct ModelReport {
   int degrees_of_freedom = 0;                ///< of the mechanism with rigid bodies
   std::vector<std::string> redundant;        ///< by joint
   double assembly_gap = 0;                   ///< largest |g| left by assembly [m] or [-]
+  std::vector<AssemblyMove> moves;           ///< what assembly did to the bodies as placed
   double result_bytes = 0;                   ///< of results.h5, 0 without a simulation
   double step = 0, highest_frequency = 0;    ///< [s]; of the modes that loads excite [Hz]
-  std::vector<std::string> notes, warnings;  ///< warnings carry advice on step size
+  std::vector<std::string> notes, warnings;  ///< warnings: steps, doubtful values, moves
 };
 
 /// Assembles the mechanism and reports on it.

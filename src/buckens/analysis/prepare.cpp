@@ -11,6 +11,7 @@
 #include "buckens/analysis/quasi_static_start.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/velocity_change.h"
+#include "buckens/analysis/initial_displacement.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 
@@ -42,12 +43,21 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   Prepared out;
   out.notes = model.notes;
   out.state = model::placed_state(model);
+  bool is_closed = false;
   try {
     assemble_positions(model, metric, out.state);
+    out.moves = assembly_moves(model, out.state);
+    is_closed = true;
   } catch (const ModelError&) {
     // Bodies that must be deformed to fit are closed by the static start.
     if (!initial.preload) throw;
     out.notes.push_back("bodies are deformed to close the joints (preload)");
+  }
+  out.warnings = built.description.warnings;
+  if (is_closed) {
+    for (std::string& text : judge_assembly(built, out.moves)) {
+      out.warnings.push_back(std::move(text));
+    }
   }
   const bool is_static = initial.start == model::StartKind::static_equilibrium;
   if (is_static || initial.preload) {
@@ -55,6 +65,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     out.setup_factorisations = report.factorisations;
     out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
   }
+  if (set_initial_displacements(built, out.state)) assemble_positions(model, metric, out.state);
   set_initial_velocities(built, out.state);
 
   dynamics::Constraints constraints;

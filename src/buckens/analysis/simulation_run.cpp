@@ -80,6 +80,10 @@ void SimulationRun::set_up() {
   statistics_.emplace(built_);
   watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
   summary_.redundant_constraints = prepared_->redundant_text;
+  for (const std::string& text : prepared_->warnings) warn(text);
+  for (const AssemblyMove& move : prepared_->moves) {
+    if (!move.is_large) summary_.notes.push_back(move.text());
+  }
   for (const std::string& text : prepared_->notes) warn(text);
   for (const std::string& text : drives_->corners(spec_.duration)) warn(text);
   advise_on_step();
@@ -120,6 +124,9 @@ void SimulationRun::advise(const std::string& body, const ExcitedBand& band) {
 }
 
 void SimulationRun::set_lowest_frequency(int body, double omega) {
+  const std::string& name =
+      built_.model.wholes[static_cast<std::size_t>(built_.model.whole_of(body))].name;
+  if (const std::string doubt = judge_frequency(name, omega); !doubt.empty()) warn(doubt);
   statistics_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
   watch_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
 }

@@ -50,6 +50,13 @@ void note_large_rotations(const model::Model& model, const model::State& state,
   }
 }
 
+/// Those without restoring force: any mixture of them is as good as the one that comes first.
+linalg::Matrix free_motions(const StaticModes& modes) {
+  Eigen::Index count = 0;
+  while (count < modes.stiffness.size() && modes.stiffness[count] <= modes.tolerance) ++count;
+  return modes.shapes.leftCols(std::max<Eigen::Index>(count, 1));
+}
+
 }  // namespace
 
 void settle_statically(const model::Model& model, StaticDescent& descent, StaticReport& report) {
@@ -63,8 +70,10 @@ void settle_statically(const model::Model& model, StaticDescent& descent, Static
     if (modes->stiffness[0] > modes->tolerance) return;
     if (modes->stiffness[0] >= -modes->tolerance) {
       report.lowest_stiffness = 0.0;
-      report.notes.push_back("the equilibrium is one of many: " + motion +
-                             " without any restoring force; it stays near its start");
+      report.notes.push_back(
+          "the equilibrium is one of many: " +
+          describe_motions(model, descent.system(), descent.point(), free_motions(*modes)) +
+          " without any restoring force; it stays near its start");
       return;
     }
     if (push == kMostPushes) {

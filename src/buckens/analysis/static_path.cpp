@@ -16,6 +16,7 @@
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/static_path_record.h"
 #include "buckens/analysis/static_state.h"
+#include "buckens/analysis/assembly_moves.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
@@ -125,12 +126,20 @@ StaticPoint Path::find_start() {
   model::State state = model::placed_state(model_);
   state.t = spec_.time;
   std::vector<std::string>& notes = record_.summary.warnings;
-  notes = model_.notes;
+  notes = built_.description.warnings;
+  notes.insert(notes.end(), model_.notes.begin(), model_.notes.end());
+  bool is_closed = false;
   try {
     assemble_positions(model_, metric_, state);
+    is_closed = true;
   } catch (const ModelError&) {
     if (!built_.description.initial.preload) throw;
     notes.push_back("bodies are deformed to close the joints (preload)");
+  }
+  if (is_closed) {
+    for (std::string& text : judge_assembly(built_, assembly_moves(model_, state))) {
+      notes.push_back(std::move(text));
+    }
   }
   StaticPoint start = static_point(model_, state);
   start.load_factor = spec_.load_factor[0];

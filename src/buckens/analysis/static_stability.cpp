@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "buckens/linalg/sparse_lu.h"
@@ -116,8 +117,10 @@ std::string direction_text(const Vector3d& direction) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", clean(n.x()), clean(n.y()), clean(n.z()));
 }
 
-std::string describe_motion(const model::Model& model, const StaticSystem& system,
-                            const StaticPoint& point, const Vector& step) {
+namespace {
+
+/// The body whose frame moves most in a step.
+std::size_t most_moved(const model::Model& model, const StaticSystem& system, const Vector& step) {
   std::size_t worst = 0;
   double largest = -1.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -128,13 +131,44 @@ std::string describe_motion(const model::Model& model, const StaticSystem& syste
     largest = size;
     worst = b;
   }
+  return worst;
+}
+
+/// "along (0, 0, 1)", or what several directions come to.
+std::string span_text(const Matrix& directions, const char* one, const char* plane,
+                      const char* any) {
+  constexpr double kSameDirection = 1e-3;
+  const Eigen::JacobiSVD<Matrix> svd(directions, Eigen::ComputeFullU);
+  const Vector& size = svd.singularValues();
+  const auto rank = (size.array() > kSameDirection * size[0]).count();
+  if (rank >= 3) return any;
+  if (rank == 2) return plane + direction_text(svd.matrixU().col(2));
+  return one + direction_text(directions.col(0));
+}
+
+}  // namespace
+
+std::string describe_motion(const model::Model& model, const StaticSystem& system,
+                            const StaticPoint& point, const Vector& step) {
+  return describe_motions(model, system, point, step);
+}
+
+std::string describe_motions(const model::Model& model, const StaticSystem& system,
+                             const StaticPoint& point, const Matrix& steps) {
+  const std::size_t worst = most_moved(model, system, steps.col(0));
   const body::Body& body = model.bodies[worst];
-  const Vector6 u = system.frame_step(worst, step);
-  if (u.head<3>().norm() * body.length_scale() > 0.5 * u.tail<3>().norm()) {
-    return fmt::format("body \"{}\" turns about {}", body.name,
-                       direction_text(point.poses[worst].q * u.head<3>()));
+  Matrix turns(3, steps.cols()), moves(3, steps.cols());
+  for (Eigen::Index k = 0; k < steps.cols(); ++k) {
+    const Vector6 u = system.frame_step(worst, steps.col(k));
+    turns.col(k) = point.poses[worst].q * Eigen::Vector3d(u.head<3>());
+    moves.col(k) = u.tail<3>();
   }
-  return fmt::format("body \"{}\" moves along {}", body.name, direction_text(u.tail<3>()));
+  if (turns.col(0).norm() * body.length_scale() > 0.5 * moves.col(0).norm()) {
+    return fmt::format("body \"{}\" turns {}", body.name,
+                       span_text(turns, "about ", "about any axis across ", "about any axis"));
+  }
+  return fmt::format("body \"{}\" moves {}", body.name,
+                     span_text(moves, "along ", "in any direction across ", "in any direction"));
 }
 
 }  // namespace buckens::analysis

@@ -35,4 +35,10 @@ std::string direction_text(const Eigen::Vector3d& direction);
 std::string describe_motion(const model::Model& model, const StaticSystem& system,
                             const StaticPoint& point, const linalg::Vector& step);
 
+/// The same for motions that occur together, such as all those without restoring force: "in any
+/// direction" and "about any axis" where no single one stands out.
+/// @param steps one column each, the first counts for which body moves most
+std::string describe_motions(const model::Model& model, const StaticSystem& system,
+                             const StaticPoint& point, const linalg::Matrix& steps);
+
 }  // namespace buckens::analysis

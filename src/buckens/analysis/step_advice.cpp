@@ -9,6 +9,7 @@
 #include "buckens/analysis/turn.h"
 #include "buckens/body/free_free_modes.h"
 #include "buckens/body/rigid_modes.h"
+#include "buckens/model/eliminate_links.h"
 
 namespace buckens::analysis {
 
@@ -62,8 +63,26 @@ ExcitedBand band_of_body(const body::Body& body, const body::FreeModes& modes) {
 
 }  // namespace
 
+namespace {
+
+/// Of the whole mesh; shapes over all its nodal variables.
+body::FreeModes modes_of_whole(const model::Model& model, const model::WholeBody& whole) {
+  const bool has_rigid_region = std::any_of(whole.interfaces.begin(), whole.interfaces.end(),
+                                            [](const auto& region) { return region.is_rigid; });
+  if (!has_rigid_region) return modes_of_mesh(*whole.mesh, kReportedModes);
+  const body::Body& first = model.bodies[static_cast<std::size_t>(whole.first)];
+  const auto part = model::undivided_part(whole, first.flexible->coupling);
+  body::FreeModes out = body::free_free_modes(*part, kReportedModes);
+  linalg::Matrix shapes(whole.mesh->M.rows(), out.shapes.cols());
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) shapes.col(k) = part->nodal(out.shapes.col(k));
+  out.shapes = std::move(shapes);
+  return out;
+}
+
+}  // namespace
+
 body::FreeModes reported_modes(const model::Model& model, const model::WholeBody& whole) {
-  if (whole.is_divided()) return modes_of_mesh(*whole.mesh, kReportedModes);
+  if (whole.is_divided()) return modes_of_whole(model, whole);
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   if (!body.is_flexible()) return {};
   if (body.flexible->is_quasi_static) return modes_of_mesh(body.flexible->mesh(), kReportedModes);
@@ -136,6 +155,16 @@ std::string judge_step(const std::string& body, const ExcitedBand& band, double 
       "step {:.3g} s follows vibrations of body \"{}\" up to {:.4g} Hz; those excited above that "
       "the records could show, up to {:.4g} Hz, are damped; use a step of {:.2g} s if they matter",
       h, body, followed, highest / kTurn, kResolved / highest);
+}
+
+std::string judge_frequency(const std::string& body, double omega) {
+  constexpr double kHardlyMeant = 1e6;  // [Hz]
+  const double frequency = omega / kTurn;
+  if (frequency <= kHardlyMeant) return {};
+  return fmt::format(
+      "body \"{}\": its lowest free vibration is at {:.3g} Hz, above 1 MHz; check the units of its "
+      "lengths, modulus and density",
+      body, frequency);
 }
 
 }  // namespace buckens::analysis

@@ -42,4 +42,9 @@ ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whol
 /// @param h step [s], @param every time between records [s]
 std::string judge_step(const std::string& body, const ExcitedBand& band, double h, double every);
 
+/// A warning about a lowest free vibration above 1 MHz, which no machine part has: most often a
+/// length, a density or a modulus is in another unit than was meant. Empty: none.
+/// @param omega [rad/s]
+std::string judge_frequency(const std::string& body, double omega);
+
 }  // namespace buckens::analysis

@@ -18,8 +18,9 @@ constexpr std::size_t kMostMembers = 50;
 
 using Parts = std::vector<std::pair<std::string, std::unique_ptr<fem::ElementBlock>>>;
 
+/// Members are counted from 1, as sensors and loads count them.
 std::string member(const char* kind, std::size_t index, std::size_t count) {
-  return count == 1 ? fmt::format("{}", kind) : fmt::format("{}[{}]", kind, index);
+  return count == 1 ? fmt::format("{}s", kind) : fmt::format("{} {}", kind, index + 1);
 }
 
 /// One block for each beam of the model file: its elements share their properties.
@@ -33,7 +34,7 @@ Parts split_beams(const fem::BeamBlock& block) {
     for (const int e : elements) {
       part->add(block.ends(e)[0], block.ends(e)[1], own, block.portion(e));
     }
-    parts.emplace_back(member("beams", parts.size(), members.size()), std::move(part));
+    parts.emplace_back(member("beam", parts.size(), members.size()), std::move(part));
   }
   return parts;
 }
@@ -46,7 +47,7 @@ Parts split_bars(const fem::BarBlock& block) {
     auto part = std::make_unique<fem::BarBlock>();
     const std::array<int, 2> ends = block.ends(element);
     part->add(ends[0], ends[1], *block.material(element), *block.section(element));
-    parts.emplace_back(member("bars", e, count), std::move(part));
+    parts.emplace_back(member("bar", e, count), std::move(part));
   }
   return parts;
 }

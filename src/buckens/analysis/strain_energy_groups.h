@@ -14,7 +14,7 @@ class StrainEnergyGroups {
  public:
   explicit StrainEnergyGroups(const fem::FeModel& fe);
 
-  /// "beams[0]" as the model file counts them, "bars[2]", "solids".
+  /// "beam 1", counted from 1 in the order of the model file, "bar 3", "solids".
   const std::vector<std::string>& names() const { return names_; }
   /// Energy of each group [J].
   std::vector<double> energies(const linalg::Vector& d) const;

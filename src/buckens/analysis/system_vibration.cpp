@@ -12,6 +12,7 @@
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/system_pencil.h"
+#include "buckens/analysis/assembly_moves.h"
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/inverse_iteration.h"
@@ -63,6 +64,12 @@ void SystemVibrations::find_position() {
   } catch (const ModelError&) {
     if (!initial.preload) throw;
     is_closed = false;
+  }
+  out_.notes = built_.description.warnings;
+  if (is_closed) {
+    for (std::string& text : judge_assembly(built_, assembly_moves(model_, out_.position))) {
+      out_.notes.push_back(std::move(text));
+    }
   }
   if (settings_.about == RestPosition::static_equilibrium || !is_closed) {
     const StaticReport report = find_static_equilibrium(model_, metric_, out_.position);

@@ -63,7 +63,7 @@ void append_parts(const model::Model& model, const model::WholeBody& whole,
     const auto b = static_cast<std::size_t>(copy.body);
     const BodyShape& shape = v.shape[b];
     const auto& dofs =
-        model.bodies[b].flexible->fe.dofs.node_dofs[static_cast<std::size_t>(copy.index)];
+        model.bodies[b].flexible->mesh().dofs.node_dofs[static_cast<std::size_t>(copy.index)];
     Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
     for (int k = 0; k < 6; ++k) {
       const int dof = dofs[static_cast<std::size_t>(k)];

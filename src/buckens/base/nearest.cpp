@@ -10,7 +10,8 @@ namespace {
 
 // Longer words are no slips of the pen, and the cost is quadratic.
 constexpr std::size_t kLongestWord = 100;
-constexpr std::size_t kMostListed = 12;
+// Long enough for the keys and names of a model; of the nodes of a mesh nobody reads more.
+constexpr std::size_t kMostListed = 60;
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -60,7 +61,9 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) {
     list += (i == 0 ? "" : ", ") + candidates[i];
   }
-  return " Known are: " + list + (candidates.size() > kMostListed ? ", ..." : ".");
+  if (candidates.size() <= kMostListed) return " Known are: " + list + ".";
+  return " Known are: " + list + " and " + std::to_string(candidates.size() - kMostListed) +
+         " more.";
 }
 
 }  // namespace buckens::base

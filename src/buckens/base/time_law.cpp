@@ -9,6 +9,7 @@
 
 #include "buckens/base/differentiate.h"
 #include "buckens/base/errors.h"
+#include "buckens/base/running_integral.h"
 
 namespace buckens::base {
 
@@ -179,6 +180,26 @@ class Table final : public TimeLaw::Body {
   SourceLocation where_;
 };
 
+/// What has a given rate and is zero at t = 0.
+class Integral final : public TimeLaw::Body {
+ public:
+  explicit Integral(const TimeLaw& rate)
+      : rate_(rate), sum_([rate](double t) { return rate.value(t); }, rate.corners()) {}
+
+  double value(double t) const override {
+    return rate_.is_constant() ? rate_.value(t) * t : sum_.to(t);
+  }
+  double rate(double t) const override { return rate_.value(t); }
+  double acceleration(double t) const override { return rate_.rate(t); }
+  bool is_constant() const override { return rate_.is_constant() && rate_.value(0.0) == 0.0; }
+  std::optional<TimeRange> range() const override { return rate_.range(); }
+  std::string text() const override { return "with the speed " + rate_.text(); }
+
+ private:
+  TimeLaw rate_;
+  RunningIntegral sum_;
+};
+
 void check_table(const std::vector<double>& times, const std::vector<double>& values) {
   if (times.empty() || times.size() != values.size()) {
     throw InputError(
@@ -219,6 +240,10 @@ TimeLaw TimeLaw::table(std::vector<double> times, std::vector<double> values,
   if (times.size() == 1) return constant(values.front());
   return TimeLaw(std::make_shared<const Table>(std::move(times), std::move(values), interpolation,
                                                extrapolation, std::move(where)));
+}
+
+TimeLaw TimeLaw::integral(const TimeLaw& rate) {
+  return TimeLaw(std::make_shared<const Integral>(rate));
 }
 
 double TimeLaw::value(double t) const { return body_ ? body_->value(t) : constant_; }

@@ -61,6 +61,10 @@ class TimeLaw {
                        Extrapolation extrapolation = Extrapolation::refuse,
                        SourceLocation where = {});
 
+  /// ∫₀ᵗ rate(s) ds: the angle of a drive that is given by its speed. Exact for constants, else by
+  /// quadrature (RunningIntegral); the rate is that law itself and the acceleration its rate.
+  static TimeLaw integral(const TimeLaw& rate);
+
   /// f(t) in SI units.
   /// @throws NumericalError naming the expression, its place, t and the value if f(t) is no number;
   ///         naming the table and its range if t lies outside

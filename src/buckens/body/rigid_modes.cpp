@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/node_label.h"
 
 namespace buckens::body {
 
@@ -59,11 +60,11 @@ void check_stiffness_is_free(const std::string& body, const linalg::SparseMatrix
     Eigen::Index worst = 0;
     residual.cwiseAbs().maxCoeff(&worst);
     throw ModelError(fmt::format(
-        "body \"{}\": the rigid {} strains its mesh (|K q| = {:.3g}, largest at node {}); a spring "
-        "to "
+        "body \"{}\": the rigid {} strains its mesh (|K q| = {:.3g}, largest at {}); a spring to "
         "ground or an element that resists rigid motion is inside the body: take it out and attach "
         "it by a joint or a load",
-        body, names[static_cast<std::size_t>(mode)], residual.norm(), node_of_dof(fe.dofs, worst)));
+        body, names[static_cast<std::size_t>(mode)], residual.norm(),
+        fem::node_label(fe.nodes, node_of_dof(fe.dofs, worst))));
   }
 }
 

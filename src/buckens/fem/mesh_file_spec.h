@@ -86,6 +86,7 @@ struct GroupMaterials {
   std::vector<GroupSectionSpec> sections;
   std::vector<PointMassSpec> masses;
   std::optional<StructureLinksSpec> links;
+  std::optional<SolidIntegration> integration;  ///< of the hex8; default: SolidForm::usual
   /// In SI units; set by the reader of model files.
   std::shared_ptr<const ImportedMesh> imported;
 

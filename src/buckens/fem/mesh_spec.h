@@ -197,6 +197,12 @@ struct MeshSpec : GroupMaterials {
                       "of a file: unit of mass of the constants in it; time is in seconds")
               .like("t")
               .otherwise("t with millimetres, so that stresses are in MPa; else kg"));
+    visit(base::field("integration", integration,
+                      "of a file: how its hex8 are integrated; `full` takes their shape functions "
+                      "alone, as plain C3D8 of other programs do. Generated shapes have a key of "
+                      "this name of their own")
+              .like("full")
+              .otherwise("incompatible-modes"));
     material_fields(visit);
     section_fields(visit);
     visit(base::field("masses", masses,

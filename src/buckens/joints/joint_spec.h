@@ -114,7 +114,14 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kDoc =
       "drives the rotation about the axis; add a joint that "
       "carries the other directions";
-  base::TimeLaw angle;  ///< counted from the position as placed [rad]
+  // Exactly one of the two is given.
+  std::optional<base::TimeLaw> angle;  ///< counted from the position as placed [rad]
+  std::optional<base::TimeLaw> speed;  ///< [rad/s]; the angle is its integral from t = 0
+
+  /// The angle as a law of time.
+  base::TimeLaw law() const {
+    return speed ? base::TimeLaw::integral(*speed) : angle.value_or(base::TimeLaw());
+  }
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -123,8 +130,14 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
                       "angle of the second marker about the axis, counted from "
                       "the position as placed")
               .in(base::kAngle)
-              .required()
-              .like("\"150*t\""));
+              .like("\"150*t\"")
+              .otherwise("give this or `speed`"));
+    visit(base::field("speed", speed,
+                      "angular velocity of the second marker about the axis; the angle is its "
+                      "integral from t = 0 and begins at the position as placed")
+              .in(base::kAngularVelocity)
+              .like("3000 rpm")
+              .otherwise("give this or `angle`"));
   }
 };
 

@@ -48,6 +48,9 @@ class TorsionalSpring final : public ForceElement {
   TorsionalSpring(const Eigen::Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed,
                   double stiffness, double damping, double free_angle);
 
+  /// Unit vector in the first marker.
+  const Eigen::Vector3d& axis() const { return axis_F_; }
+
   /// @throws NumericalError beyond ±3 rad
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;

@@ -50,7 +50,7 @@ class JointBuilder {
     if constexpr (requires { kind.axis; }) {
       placement.axis_F = find_.axis_or_normal(kind.axis, placement.R_WF, what, spec.where);
     }
-    if constexpr (requires { kind.angle; }) placement.law = kind.angle;
+    if constexpr (requires { kind.law(); }) placement.law = kind.law();
     if constexpr (requires { kind.displacement; }) placement.law = kind.displacement;
     try {
       joint.axis_F = joints::unit_axis(placement);

@@ -157,8 +157,10 @@ void Import::add_solid(const fem::ImportedBlock& block, const std::vector<int>& 
   const int number = materials_.number(block, element);
   const auto [known, is_new] = solid_materials_.emplace(number, 0);
   if (is_new) known->second = solids.add_material(materials_.material(number));
-  places_.back() = {Place::Block::solids,
-                    solids.add(fem::SolidForm::usual(*kind), nodes, known->second)};
+  fem::SolidForm form = fem::SolidForm::usual(*kind);
+  if (*kind == fem::SolidKind::hex8)
+    form.integration = given_.integration.value_or(form.integration);
+  places_.back() = {Place::Block::solids, solids.add(form, nodes, known->second)};
 }
 
 void Import::refuse_without_section(const fem::ImportedBlock& block, const char* what,

@@ -44,6 +44,29 @@ struct NodalVelocitySpec {
   }
 };
 
+/// Displacements of the nodal variables relative to the body frame, in model axes. Rigid motion in
+/// it is sieved out.
+struct NodalDisplacementSpec {
+  SourceLocation where;
+  PositionLaw x, y, z;     ///< [m]
+  PositionLaw rx, ry, rz;  ///< [rad]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("x", x, "displacement along model x")
+              .in(base::kLength)
+              .like("\"0.1*sin(pi*x) mm\""));
+    visit(base::field("y", y, "displacement along model y").in(base::kLength));
+    visit(base::field("z", z, "displacement along model z").in(base::kLength));
+    visit(base::field("rx", rx,
+                      "rotation about model x; beams and shells have rotations of their "
+                      "own, which belong to the slope of the displacements")
+              .in(base::kAngle));
+    visit(base::field("ry", ry, "rotation about model y").in(base::kAngle));
+    visit(base::field("rz", rz, "rotation about model z").in(base::kAngle));
+  }
+};
+
 /// Motion of one body at t = 0.
 struct InitialBodySpec {
   std::string name;  ///< of the body
@@ -51,6 +74,7 @@ struct InitialBodySpec {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the mass centre, world [m/s]
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< model axes [rad/s]
   std::optional<NodalVelocitySpec> nodal_velocity;
+  std::optional<NodalDisplacementSpec> nodal_displacement;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -66,6 +90,11 @@ struct InitialBodySpec {
                       "frame: formulas in the model coordinates x, y, "
                       "z [m]; rigid motion is taken out")
               .otherwise("none"));
+    visit(base::field("nodal-displacement", nodal_displacement,
+                      "shape in which the body starts: displacement of the nodes relative to the "
+                      "body frame, formulas in the model coordinates x, y, z [m]; rigid motion is "
+                      "taken out, and frames move as far as joints ask for")
+              .otherwise("undeformed"));
   }
 };
 
@@ -82,7 +111,7 @@ struct InitialSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("bodies", bodies, "velocities by name of the body"));
+    visit(base::field("bodies", bodies, "velocities and shapes by name of the body"));
     visit(base::field("start", start,
                       "`static` begins in equilibrium under gravity and constant loads"));
     visit(base::field("preload", preload, "accept bodies that must be deformed to fit together"));

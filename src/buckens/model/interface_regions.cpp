@@ -44,8 +44,8 @@ class RegionFinder {
     fail(face.where, known.empty()
                          ? "the mesh has no named faces; select its nodes by `set`, `sphere`, "
                            "`box`, `cylinder` or `plane`"
-                         : fmt::format("the mesh has no face \"{}\".{} Faces there: {}", face.name,
-                                       base::suggestion(face.name, known), fmt::join(known, ", ")));
+                         : fmt::format("the mesh has no face \"{}\".{}", face.name,
+                                       base::suggestion(face.name, known)));
   }
 
   fem::NodeRegion operator()(const fem::NodeSetSpec& set) const {

@@ -24,14 +24,25 @@ int beam_number(const std::string& text) {
 
 }  // namespace
 
+namespace {
+
+/// What to do where a mesh has nothing of a kind that could be named.
+std::string remedy_without(const std::string& kind) {
+  if (kind == "face") return "select nodes of its surface by an entry under `interfaces`";
+  return "define sets in the program that made the mesh, or load the whole body";
+}
+
+}  // namespace
+
 void LoadPlaceFinder::fail(const std::string& what) const {
   throw InputError(on_.where, fmt::format("load \"{}\" on \"{}\": {}", load_, on_.text, what));
 }
 
 void LoadPlaceFinder::fail_unknown(const char* kind, const std::vector<std::string>& known) const {
   fail(fmt::format("body \"{}\" has no {} \"{}\".{}", body_.name, kind, on_.part(),
-                   known.empty() ? fmt::format(" It has no {}s at all", kind)
-                                 : base::suggestion(on_.part(), known)));
+                   known.empty()
+                       ? fmt::format(" It has no {}s at all; {}", kind, remedy_without(kind))
+                       : base::suggestion(on_.part(), known)));
 }
 
 LoadedFaces LoadPlaceFinder::faces() const {

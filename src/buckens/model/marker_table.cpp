@@ -274,6 +274,18 @@ int MarkerTable::nearest_of(const std::vector<int>& nodes, const Vector3d& posit
                            [&](int a, int b) { return distance(a) < distance(b); });
 }
 
+std::string MarkerTable::mesh_points() const {
+  std::vector<std::string> points = mesh_->names;
+  for (const InterfaceRegion& interface : mesh_->interfaces) points.push_back(interface.name);
+  for (const body::MarkerSpec& own : spec_.markers) {
+    if (holds(own.name)) points.push_back(own.name);
+  }
+  if (!points.empty()) return fmt::format("use one of: {}", fmt::join(points, ", "));
+  if (mesh_->numbers.empty()) return "define an interface on its mesh";
+  return fmt::format("define an interface, or use a node of the file such as \"n{}\"",
+                     mesh_->numbers.begin()->first);
+}
+
 int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
   const std::string name = ref.marker.empty() ? "com" : ref.marker;
   const auto known = found_.find(name);
@@ -283,10 +295,9 @@ int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
       !body_.markers[static_cast<std::size_t>(index)].follows_mesh()) {
     throw InputError(
         ref.where,
-        fmt::format(
-            "\"{}\" is no point of the mesh of the flexible body \"{}\": a force there would "
-            "act on nothing; use one of: {}",
-            ref.text, spec_.name, fmt::join(mesh_->names, ", ")));
+        fmt::format("\"{}\" is no point of the mesh of the flexible body \"{}\": a force "
+                    "there would act on nothing; {}",
+                    ref.text, spec_.name, mesh_points()));
   }
   return index;
 }

@@ -73,6 +73,8 @@ class MarkerTable {
   /// @throws InputError saying how far from the mesh the marker lies
   [[noreturn]] void refuse_place(const body::MarkerSpec& marker) const;
   std::string suggestion(const std::string& name) const;
+  /// "use one of: …": the places that follow the mesh, for messages.
+  std::string mesh_points() const;
   std::optional<MeshPlace> find_place(const std::string& name) const;
   std::optional<MeshPlace> place_at(const Eigen::Vector3d& position) const;
   std::pair<int, int> rows_at(const MeshPlace& place);

@@ -18,6 +18,7 @@
 #include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
 #include "buckens/model/reduce_bodies.h"
+#include "buckens/model/check/flat_mesh.h"
 
 namespace buckens::model {
 
@@ -201,6 +202,7 @@ class Builder {
       body.com = rigid->com;
       body.J0 = rigid->inertia_matrix();
     } else {
+      if (normal_B) require_flat(spec.name, spec.where, mesh->structure, *normal_B);
       fem::FeModel fe = assemble(*mesh, model_.planar);
       body.mass = fe.shape.mass;
       body.com = fe.shape.com;
@@ -210,7 +212,7 @@ class Builder {
       const bool has_links = !mesh->structure.links.empty();
       if (!has_links) refuse_mechanisms(body);
       if (spec.geometric_stiffness) body.flexible->stiffen();
-      eliminate_links(*mesh, whole.is_divided(), body);
+      eliminate_links(*mesh, body);
       if (has_links) refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {
@@ -266,12 +268,9 @@ class Builder {
             if (kind.in) look(*kind.in);
           }
           if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, DeflectionSensor>) {
+            if (kind.from == DeflectionBase::other) look(kind.from.marker);
             if (kind.from == DeflectionBase::chord && !kind.of.is_ground()) {
-              base::MarkerRef end = kind.of;
-              for (const char* name : {"start", "end"}) {
-                end.marker = name;
-                look(end);
-              }
+              for (const base::MarkerRef& end : kind.chord_ends()) look(end);
             }
           }
         },

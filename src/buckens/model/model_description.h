@@ -54,6 +54,11 @@ struct OwnForce {
   std::shared_ptr<const loads::ForceElement> element;
 };
 
+/// What happens where joints are open as the bodies are placed.
+enum class AssemblyRule { adjust, strict };
+
+constexpr std::array<const char*, 2> choice_names(AssemblyRule) { return {"adjust", "strict"}; }
+
 /// Everything a model file says, in SI units, names resolved and checked as far as one can without
 /// building the model.
 struct ModelDescription {
@@ -62,6 +67,7 @@ struct ModelDescription {
   std::string base;  ///< as `directory`, as it is written: relative to the model file, or empty
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
   std::optional<spatial::Plane> planar;
+  AssemblyRule assembly = AssemblyRule::adjust;
   std::vector<ParameterSpec> parameters;
   std::vector<fem::MaterialSpec> materials;
   std::vector<fem::SectionSpec> sections;
@@ -77,6 +83,7 @@ struct ModelDescription {
   std::string directory;  ///< relative names of files begin here
   /// Text of a file that is this model: the one that was read, with overrides in their places.
   std::string source;
+  std::vector<std::string> warnings;  ///< about values that are hardly meant; see plausibility.h
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -92,6 +99,10 @@ struct ModelDescription {
               .in(base::kAcceleration)
               .like("[0, -9.81 m/s^2, 0]"));
     visit(base::field("planar", planar, "plane of a planar model").otherwise("a model in space"));
+    visit(base::field("assembly", assembly,
+                      "where joints are open as bodies are placed: `adjust` moves bodies by the "
+                      "least change and reports it, `strict` refuses more than 1e-3 of the model's "
+                      "size or 1e-3 rad"));
     visit(base::field("materials", materials, "materials by name")
               .like("{steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}"));
     visit(base::field("sections", sections, "cross-sections by name")

@@ -59,24 +59,52 @@ struct AngularVelocitySensor : MarkerSensor {
   static constexpr const char* kDoc = "angular velocity of a marker";
 };
 
-enum class DeflectionBase { chord, frame };
+/// From where the deflection of a marker is seen.
+struct DeflectionBase {
+  enum Kind { chord, frame, other };
+  static constexpr std::array<const char*, 2> kWords = {"chord", "frame"};
 
-constexpr std::array<const char*, 2> choice_names(DeflectionBase) { return {"chord", "frame"}; }
+  Kind kind = chord;
+  base::MarkerRef marker;  ///< only of `other`: a marker of the same body
 
-/// Elastic displacement of a marker of a flexible body, in the body frame.
+  DeflectionBase(Kind k = chord) : kind(k) {}
+  friend bool operator==(const DeflectionBase& base, Kind k) { return base.kind == k; }
+};
+
+/// Elastic displacement of a marker of a flexible body.
 struct DeflectionSensor {
   static constexpr const char* kKey = "deflection";
   static constexpr const char* kDoc =
-      "elastic displacement of a marker, seen from the chord "
-      "between the ends of the beam or from the body frame";
+      "elastic displacement of a marker, seen from a chord between two markers, from another "
+      "marker "
+      "or from the body frame";
   base::MarkerRef of;
-  DeflectionBase from = DeflectionBase::chord;
+  DeflectionBase from;
+  std::optional<std::array<base::MarkerRef, 2>> chord;  ///< in place of start and end
+
+  /// The given ends of the chord, or start and end of the body.
+  std::array<base::MarkerRef, 2> chord_ends() const {
+    if (chord) return *chord;
+    std::array<base::MarkerRef, 2> ends = {of, of};
+    ends[0].marker = "start";
+    ends[1].marker = "end";
+    return ends;
+  }
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("of", of, "marker that is observed").required().shorthand().like("rod/mid"));
-    visit(base::field("from", from,
-                      "line between `start` and `end` (beams only), or the body frame"));
+    visit(
+        base::field("from", from,
+                    "`chord`: from the straight line between `start` and `end` of a beam or "
+                    "between the two markers of `chord`, in axes that turn with it; `frame`: from "
+                    "the body frame, in its axes; a marker of the same body: from where that "
+                    "moves and how it turns, in its axes"));
+    visit(base::field("chord", chord,
+                      "the two markers of the body between which the chord runs; the observed one "
+                      "is compared with the point of the chord that it is beside when undeformed")
+              .like("[rod/start, rod/mid]")
+              .otherwise("`start` and `end` of a beam"));
   }
 };
 
@@ -98,7 +126,9 @@ struct RelativeSensor {
   void fields(Visitor& visit) {
     visit(base::field("between", between, "the two markers").required().like("[crank, rod]"));
     visit(
-        base::field("quantity", quantity, "what is recorded; `angle` counts turns about the axis"));
+        base::field("quantity", quantity,
+                    "what is recorded; `angle` counts turns about the axis and is zero as placed, "
+                    "before assembly and static start move the bodies"));
     visit(base::field("axis", axis, "axis of `angle` in the first marker's axes")
               .like("[0, 0, 1]")
               .otherwise("planar models: the normal of the plane"));
@@ -160,6 +190,42 @@ struct LoadTorqueSensor {
   }
 };
 
+/// Force of a spring, damper or bushing, tension positive.
+struct SpringForceSensor {
+  static constexpr const char* kKey = "spring-force";
+  static constexpr const char* kDoc =
+      "force of a spring-damper or bushing on its first marker: of a spring-damper the tension "
+      "between its markers, positive where it pulls them together; of a bushing three components "
+      "in "
+      "the axes of its first marker, positive where the second marker is pulled back";
+  std::string spring;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("spring", spring, "name of the load or bushing")
+              .required()
+              .shorthand()
+              .like("strut"));
+  }
+};
+struct SpringTorqueSensor {
+  static constexpr const char* kKey = "spring-torque";
+  static constexpr const char* kDoc =
+      "torque of a torsional-spring or bushing: of a torsional spring about its axis, positive "
+      "where "
+      "it turns the second marker back against a positive angle; of a bushing three components in "
+      "the axes of its first marker, with the same sign";
+  std::string spring;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("spring", spring, "name of the load or bushing")
+              .required()
+              .shorthand()
+              .like("strut"));
+  }
+};
+
 /// Section of a beam: at a marker on the mesh, or at an end of a numbered element. Solid elements
 /// around a node, or a numbered one.
 struct SectionPlace {
@@ -211,7 +277,13 @@ constexpr std::array<const char*, 7> choice_names(EnergyKind) {
 
 struct EnergySensor {
   static constexpr const char* kKey = "energy";
-  static constexpr const char* kDoc = "energy of the whole model";
+  static constexpr const char* kDoc =
+      "energy of the whole model: `kinetic`; `strain` of deformed bodies; `potential` is strain "
+      "plus "
+      "gravity plus springs; `total` is kinetic plus potential; `work` of loads and drives and "
+      "what "
+      "dampers `dissipated` since t = 0; `balance` is what these two leave open of the change of "
+      "the total since t = 0";
   EnergyKind kind = EnergyKind::total;
 
   template <class Visitor>
@@ -227,7 +299,8 @@ struct SensorSpec {
   std::variant<PositionSensor, DisplacementSensor, VelocitySensor, AccelerationSensor,
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
-               SectionForceSensor, StressSensor, EnergySensor>
+               SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
+               EnergySensor>
       kind;
 
   template <class Visitor>

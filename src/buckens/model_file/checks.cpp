@@ -43,19 +43,86 @@ Finding flexible_problem(const base::MarkerRef& marker, const char* key,
   return Problem{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
 }
 
+/// A deflection is seen from markers of the same body.
+Finding other_body_problem(const model::DeflectionSensor& spec, const base::MarkerRef& marker,
+                           const char* key) {
+  if (marker.body == spec.of.body && marker.text != spec.of.text) return std::nullopt;
+  return Problem{
+      key, marker.body == spec.of.body
+               ? fmt::format("\"{}\" is the observed marker itself; name another", marker.text)
+               : fmt::format("\"{}\" is not on body \"{}\", whose deformation is observed; use a "
+                             "`relative` sensor between two bodies",
+                             marker.text, spec.of.body)};
+}
+
 /// A chord runs between two named ends.
 Finding deflection_problem(const model::DeflectionSensor& spec, const ReadContext& context) {
+  using model::DeflectionBase;
   if (Finding found = flexible_problem(spec.of, "of", context)) return found;
-  if (spec.from == model::DeflectionBase::frame) return std::nullopt;
+  if (spec.chord && !(spec.from == DeflectionBase::chord)) {
+    return Problem{"chord", "it belongs to `from: chord`; remove one of them"};
+  }
+  if (spec.from == DeflectionBase::other) {
+    return other_body_problem(spec, spec.from.marker, "from");
+  }
+  if (spec.from == DeflectionBase::frame) return std::nullopt;
+  if (spec.chord) {
+    for (const base::MarkerRef& end : *spec.chord) {
+      if (Finding found = other_body_problem(spec, end, "chord")) return found;
+    }
+    return ends_problem(*spec.chord, false);
+  }
   const auto names = marker_names(*base::find_named(context.model->bodies, spec.of.body));
   for (const char* end : {"start", "end"}) {
     if (std::find(names.begin(), names.end(), end) != names.end()) continue;
     return Problem{"from",
                    fmt::format("body \"{}\" has no marker \"{}\", between `start` and `end` "
-                               "runs the chord; write `from: frame`, or define both",
+                               "runs the chord; name its ends with `chord`, or write `from: frame`",
                                spec.of.body, end)};
   }
   return std::nullopt;
+}
+
+/// Springs are found among the loads, bushings among the joints.
+Finding spring_problem(const std::string& name, bool torque, const ReadContext& context) {
+  std::vector<std::string> known;
+  for (const loads::LoadSpec& load : context.model->loads) {
+    const bool has_it = torque ? std::holds_alternative<loads::TorsionalSpringSpec>(load.kind)
+                               : std::holds_alternative<loads::SpringDamperSpec>(load.kind);
+    if (has_it) known.push_back(load.name);
+  }
+  for (const joints::JointSpec& joint : context.model->joints) {
+    if (std::holds_alternative<joints::BushingSpec>(joint.kind)) known.push_back(joint.name);
+  }
+  if (std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
+  const char* what = torque ? "torsional-spring or bushing" : "spring-damper or bushing";
+  return Problem{"spring", fmt::format("there is no {} \"{}\".{}", what, name,
+                                       known.empty() ? " The model has none."
+                                                     : base::suggestion(name, known))};
+}
+
+/// Users look for the force of a spring at a joint sensor, too.
+Finding joint_problem(const std::string& name, const ReadContext& context) {
+  if (base::find_named(context.model->joints, name) != nullptr) return std::nullopt;
+  if (const auto* load = base::find_named(context.model->loads, name)) {
+    const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind);
+    const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind);
+    return Problem{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
+                                        turns       ? "spring-torque"
+                                        : is_spring ? "spring-force"
+                                                    : "load-force")};
+  }
+  return Problem{"joint", fmt::format("unknown joint \"{}\".{}", name,
+                                      base::suggestion(name, names_of(context.model->joints)))};
+}
+
+/// A rotation is driven by its angle or its speed.
+Finding drive_problem(const joints::PrescribedRotationSpec& spec) {
+  if (spec.angle.has_value() != spec.speed.has_value()) return std::nullopt;
+  return Problem{
+      spec.angle ? "speed" : "",
+      "exactly one of the keys angle and speed is needed, for example angle: \"150*t\" or "
+      "speed: 1500 rpm"};
 }
 
 /// Rules of the alternatives; overloads for those that have any.
@@ -72,6 +139,9 @@ struct AlternativeRules {
       return spec.quantity == model::RelativeQuantity::angle
                  ? needed_axis_problem(spec.axis, context)
                  : std::nullopt;
+    } else if constexpr (std::is_same_v<T, joints::PrescribedRotationSpec>) {
+      if (Finding found = drive_problem(spec)) return found;
+      return needed_axis_problem(spec.axis, context);
     } else if constexpr (requires { spec.axis.has_value(); }) {
       return needed_axis_problem(spec.axis, context);
     } else if constexpr (requires { spec.axis.norm(); }) {
@@ -86,10 +156,9 @@ struct AlternativeRules {
       if (!spec.on.is_ground()) return std::nullopt;
       return Problem{"on", "a load on the ground has no effect; name a body"};
     } else if constexpr (requires { spec.joint; }) {
-      if (base::find_named(context.model->joints, spec.joint) != nullptr) return std::nullopt;
-      const auto known = names_of(context.model->joints);
-      return Problem{"joint", fmt::format("unknown joint \"{}\".{}", spec.joint,
-                                          base::suggestion(spec.joint, known))};
+      return joint_problem(spec.joint, context);
+    } else if constexpr (requires { spec.spring; }) {
+      return spring_problem(spec.spring, std::is_same_v<T, model::SpringTorqueSensor>, context);
     } else if constexpr (requires { spec.load; }) {
       if (base::find_named(context.model->loads, spec.load) != nullptr) return std::nullopt;
       const auto known = names_of(context.model->loads);
@@ -106,7 +175,7 @@ struct AlternativeRules {
 };
 
 template <class Variant>
-Finding alternative_problem(const Variant& kind, const ReadContext& context,
+Finding alternative_problem(const sweep::Variant& kind, const ReadContext& context,
                             bool is_joint = false) {
   const AlternativeRules rules{context, is_joint};
   return std::visit([&]<class T>(const T& spec) { return under(T::kKey, rules(spec)); }, kind);

@@ -18,6 +18,7 @@
 #include "buckens/model_file/checks.h"
 #include "buckens/model_file/field_types.h"
 #include "buckens/model_file/names.h"
+#include "buckens/model_file/number_look_alikes.h"
 #include "buckens/model_file/values.h"
 
 /// Reading by field lists: any spec is filled from a YAML value by visiting its fields.
@@ -167,6 +168,9 @@ template <class Sequence>
 void read_items(const ReadPlace& place, const base::FieldNote& note, ReadContext& context,
                 int count, Sequence&& item) {
   const auto given = static_cast<int>(place.node.items.size());
+  if (place.node.is_list() && count >= 0 && given > count) {
+    if (const auto found = cut_item_problem(place.node, count)) fail(place, *found);
+  }
   if (!place.node.is_list() || (count >= 0 && given != count)) {
     const std::string number = count < 0 ? "" : fmt::format(" of {} values", count);
     const std::string example = note.example.empty() ? "" : " such as " + note.example;
@@ -221,6 +225,8 @@ void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext
     out = read_position_law(place, note, context);
   } else if constexpr (std::is_same_v<T, base::MarkerRef>) {
     out = read_marker(place, context);
+  } else if constexpr (std::is_same_v<T, model::DeflectionBase>) {
+    out = read_deflection_base(place, context);
   } else if constexpr (kIsOptional<T>) {
     read_value(place, note, context, out.emplace());
   } else if constexpr (kIsArray<T>) {

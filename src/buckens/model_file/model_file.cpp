@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/files/text_file.h"
 #include "buckens/files/text_lines.h"
+#include "buckens/model_file/doubts.h"
 #include "buckens/model_file/effective_text.h"
 #include "buckens/model_file/fields.h"
 #include "buckens/model_file/overrides.h"
@@ -98,7 +99,7 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
                                              root.description()));
   }
   const YamlNode as_written = root;
-  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  apply_overrides(root, overrides);
 
   files::FilesRead files;
   model::ModelDescription out;
@@ -108,6 +109,7 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
   context.step_meshes = &meshes;
   read_record({root, ""}, context, out);
   check_table_ranges(out);
+  out.warnings = doubt_warnings(root, model::doubtful_values(out));
   out.where = {name, 0, 0};
   out.directory = context.directory.string();
   if (needs_files(out, files)) fix_base(root, context.directory);

@@ -11,6 +11,7 @@
 #include "buckens/fem/generate_mesh.h"
 #include "buckens/model_file/body_mesh.h"
 #include "buckens/model_file/checks.h"
+#include "buckens/model_file/wishes.h"
 
 namespace buckens::model_file {
 
@@ -80,12 +81,33 @@ void check_markers(const body::BodySpec& body, const ReadPlace& place) {
 
 }  // namespace
 
+namespace {
+
+/// Within braces a comma ends a value, and what follows it is taken for a key.
+bool is_cut_at_comma(const YamlEntry& entry) {
+  const bool begins_like_number =
+      !entry.key.empty() && std::isdigit(static_cast<unsigned char>(entry.key[0])) != 0;
+  return entry.value.kind == YamlNode::Kind::null &&
+         (begins_like_number || entry.key.find(')') != std::string::npos);
+}
+
+}  // namespace
+
 void check_keys(const ReadPlace& place, const std::vector<std::string>& known) {
   for (const YamlEntry& entry : place.node.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-    throw InputError(entry.where, fmt::format("unknown key \"{}\"{}.{}", entry.key,
-                                              place.path.empty() ? "" : " in " + place.path,
-                                              base::suggestion(entry.key, known)));
+    const std::string what = fmt::format("unknown key \"{}\"{}", entry.key,
+                                         place.path.empty() ? "" : " in " + place.path);
+    if (is_cut_at_comma(entry)) {
+      throw InputError(entry.where,
+                       what +
+                           ": within braces a comma ends a value; write decimals with a point "
+                           "(1.5) and put expressions with commas in quotes (\"max(1, 2)\")");
+    }
+    if (const auto advice = advice_on_key(entry.key, place.path)) {
+      throw InputError(entry.where, what + ": " + *advice);
+    }
+    throw InputError(entry.where, what + "." + base::suggestion(entry.key, known));
   }
 }
 
@@ -143,6 +165,15 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) 
   if (body == nullptr) {
     std::vector<std::string> known = names_of(bodies);
     known.push_back("ground");
+    // "rod.start" where a slash is meant.
+    const std::size_t mark = out.body.find_first_of(".:");
+    const std::string head = out.body.substr(0, mark);
+    if (mark != std::string::npos && base::find_named(bodies, head) != nullptr) {
+      fail(place,
+           fmt::format("unknown body \"{}\". Did you mean \"{}/{}\"? A slash stands before the "
+                       "name of a marker",
+                       out.text, head, out.text.substr(mark + 1)));
+    }
     fail_unknown(place, "body", out.body, known);
   }
   if (slash == std::string::npos) return out;
@@ -152,6 +183,15 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) 
     fail(place, fmt::format("body \"{}\" has no marker \"{}\".{}", out.body, out.marker,
                             base::suggestion(out.marker, markers)));
   }
+  return out;
+}
+
+model::DeflectionBase read_deflection_base(const ReadPlace& place, const ReadContext& context) {
+  using model::DeflectionBase;
+  if (place.node.is_scalar() && place.node.text == "chord") return DeflectionBase::chord;
+  if (place.node.is_scalar() && place.node.text == "frame") return DeflectionBase::frame;
+  DeflectionBase out(DeflectionBase::other);
+  out.marker = read_marker(place, context);
   return out;
 }
 
@@ -221,6 +261,11 @@ void finish_entry(model::InitialBodySpec& initial, const ReadPlace& place, ReadC
     throw InputError(initial.where,
                      fmt::format("{}: unknown body \"{}\".{}", place.path, initial.name,
                                  base::suggestion(initial.name, names_of(bodies))));
+  }
+  if (body->is_rigid() && initial.nodal_displacement) {
+    throw InputError(initial.where, fmt::format("{}: body \"{}\" is rigid and has no nodes to "
+                                                "displace; remove the key \"nodal-displacement\"",
+                                                place.path, initial.name));
   }
   if (body->is_rigid() && initial.nodal_velocity) {
     throw InputError(initial.where, fmt::format("{}: body \"{}\" is rigid and has no nodal "

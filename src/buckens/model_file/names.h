@@ -23,6 +23,9 @@ void check_name(const YamlEntry& entry, const std::string& path);
 /// Reads "body/marker" or {ground: [x, y, z]} and makes sure that body and marker exist.
 base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context);
 
+/// Reads `chord`, `frame` or a marker.
+model::DeflectionBase read_deflection_base(const ReadPlace& place, const ReadContext& context);
+
 /// Names that may follow the slash after a body.
 std::vector<std::string> marker_names(const body::BodySpec& body);
 

@@ -70,6 +70,12 @@ std::optional<std::string> look_alike_problem(const std::string& text,
     return fmt::format("{} could be meant as an octal number; write {}", text,
                        digits.substr(significant));
   }
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos && comma + 1 < text.size() && comma > 0 &&
+      base::parse_number(std::string(text).replace(comma, 1, "."))) {
+    return fmt::format("{} has a decimal comma; write {}", text,
+                       std::string(text).replace(comma, 1, "."));
+  }
   std::string lower = text;
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -94,6 +100,39 @@ std::optional<std::string> foreign_character_problem(const std::string& formula,
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> cut_item_problem(const YamlNode& list, int count) {
+  const std::vector<YamlNode>& items = list.items;
+  int pairs = 0;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k + 1 < items.size(); ++k) {
+    const YamlNode& left = items[k];
+    const YamlNode& right = items[k + 1];
+    if (!left.is_scalar() || !right.is_scalar() || left.is_quoted || right.is_quoted) continue;
+    const auto number = [](const std::string& text, char c) {
+      return std::count(text.begin(), text.end(), c);
+    };
+    if (number(left.text, '(') > number(left.text, ')') &&
+        number(right.text, ')') > number(right.text, '(')) {
+      return fmt::format(
+          "the comma in {},{} cuts the expression in two; put it in quotes: \"{}, {}\"", left.text,
+          right.text, left.text, right.text);
+    }
+    const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+    const std::string_view whole = without_sign(left.text);
+    const bool is_tight =
+        left.where.line == right.where.line &&
+        right.where.column == left.where.column + static_cast<int>(left.text.size()) + 1;
+    if (is_tight && !whole.empty() && std::all_of(whole.begin(), whole.end(), is_digit) &&
+        is_digit(right.text[0])) {
+      if (pairs++ == 0) first = k;
+    }
+  }
+  if (pairs == 0 || static_cast<int>(items.size()) - pairs != count) return std::nullopt;
+  return fmt::format("{},{} is taken for two items; write decimals with a point: {}.{}",
+                     items[first].text, items[first + 1].text, items[first].text,
+                     items[first + 1].text);
 }
 
 }  // namespace buckens::model_file

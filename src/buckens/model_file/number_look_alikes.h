@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "buckens/model_file/yaml_tree.h"
+
 /// Texts that look like numbers and are none; each is told with what to write in its place.
 namespace buckens::model_file {
 
@@ -19,5 +21,10 @@ std::optional<std::string> size_problem(const std::string& formula);
 /// and blanks of word processors, signs of multiplication, π. Empty if there is none.
 /// @param has_unit the text may hold a unit, to which ·, ² and ³ belong
 std::optional<std::string> foreign_character_problem(const std::string& formula, bool has_unit);
+
+/// A list that has more items than it should because commas within numbers or expressions cut them:
+/// "1,5" and "max(1, 2)". Says which, and how to write it; empty for other lists.
+/// @param count items that the list should have
+std::optional<std::string> cut_item_problem(const YamlNode& list, int count);
 
 }  // namespace buckens::model_file

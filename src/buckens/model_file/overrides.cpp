@@ -2,6 +2,7 @@
 #include "buckens/model_file/overrides.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <vector>
 
@@ -22,8 +23,11 @@ class OverrideWalk {
       : node_(&root), shape_(&model_file_shape()), where_(std::move(where)) {}
 
   YamlNode& node() { return *node_; }
+  /// Name of a parameter that was not there before, or empty.
+  const std::string& added_parameter() const { return added_parameter_; }
 
-  void enter(const std::string& key) {
+  /// @param is_last the value goes here
+  void enter(const std::string& key, bool is_last) {
     names_entry_ = shape_ != nullptr && shape_->kind == Shape::Kind::reference;
     while (shape_ != nullptr &&
            (shape_->kind == Shape::Kind::reference || shape_->kind == Shape::Kind::time_law)) {
@@ -35,7 +39,7 @@ class OverrideWalk {
                shape_->shorthand() != nullptr) {
       // A value that stands for its record, such as the position of a node.
       shape_ = &shape_->shorthand()->shape;
-      enter(key);
+      enter(key, is_last);
       return;
     }
     switch (shape_->kind) {
@@ -43,7 +47,7 @@ class OverrideWalk {
         enter_record(key);
         break;
       case Shape::Kind::named:
-        enter_named(key);
+        enter_named(key, is_last);
         break;
       case Shape::Kind::list:
         enter_list(key);
@@ -76,28 +80,39 @@ class OverrideWalk {
                        base::suggestion(key, shape_->keys())));
     }
     YamlNode* found = child(key);
-    if (found == nullptr) {
-      const SourceLocation place{where_, 0, 0};
-      YamlNode empty;
-      empty.where = place;
-      node_->entries.push_back({key, place, empty});
-      found = &node_->entries.back().value;
-    }
+    if (found == nullptr) found = &append(key);
     node_ = found;
     shape_ = &field->shape;
     example_ = field->note.example;
   }
 
-  void enter_named(const std::string& key) {
+  /// A new entry is added, unless its name looks like a slip of the pen and only a part of it is
+  /// given.
+  void enter_named(const std::string& key, bool is_last) {
     YamlNode* found = child(key);
     if (found == nullptr) {
       std::vector<std::string> known;
       for (const YamlEntry& entry : node_->entries) known.push_back(entry.key);
-      fail(fmt::format("the model file has no \"{}\" in {}.{}", key, path_,
-                       base::suggestion(key, known)));
+      const bool is_slip = !is_last && !base::nearest(key, known).empty();
+      if (key.empty() || is_slip) {
+        fail(fmt::format(
+            "the model file has no \"{}\" in {}.{}{}", key, path_, base::suggestion(key, known),
+            is_slip ? fmt::format(" To add it, set it as a whole: {}.{}={{...}}", path_, key)
+                    : ""));
+      }
+      if (path_ == "parameters") added_parameter_ = key;
+      found = &append(key);
     }
     node_ = found;
     shape_ = shape_->element.data();
+  }
+
+  YamlNode& append(const std::string& key) {
+    const SourceLocation place{where_, 0, 0};
+    YamlNode empty;
+    empty.where = place;
+    node_->entries.push_back({key, place, empty});
+    return node_->entries.back().value;
   }
 
   void enter_list(const std::string& key) {
@@ -122,13 +137,43 @@ class OverrideWalk {
   const Shape* shape_;
   std::string where_;
   std::string path_;
-  std::string example_;       // of the field entered last
+  std::string example_;  // of the field entered last
+  std::string added_parameter_;
   bool names_entry_ = false;  // the value may be the name of an entry elsewhere
 };
 
-}  // namespace
+/// Whether any value holds the name as a word of its own.
+bool uses_name(const YamlNode& node, const std::string& name) {
+  const auto is_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (std::size_t at = node.text.find(name); at != std::string::npos;
+       at = node.text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    const bool begins = at == 0 || !is_word(node.text[at - 1]);
+    if (begins && (end == node.text.size() || !is_word(node.text[end]))) return true;
+  }
+  const auto uses = [&](const YamlNode& inner) { return uses_name(inner, name); };
+  return std::any_of(node.items.begin(), node.items.end(), uses) ||
+         std::any_of(node.entries.begin(), node.entries.end(),
+                     [&](const YamlEntry& entry) { return uses(entry.value); });
+}
 
-void apply_override(YamlNode& root, const std::string& assignment) {
+/// A new parameter that nothing uses changes nothing: most likely it was to be another one.
+void require_use(const YamlNode& root, const std::string& name) {
+  if (name.empty() || uses_name(root, name)) return;
+  std::vector<std::string> known;
+  for (const YamlEntry& entry : root.find("parameters")->entries) {
+    if (entry.key != name) known.push_back(entry.key);
+  }
+  throw InputError(
+      {"--set parameters." + name, 0, 0},
+      fmt::format("the model file has no \"{}\" in parameters, and no value uses it.{}", name,
+                  base::suggestion(name, known)));
+}
+
+/// @return name of a parameter that it added, or empty
+std::string apply_override(YamlNode& root, const std::string& assignment) {
   const std::size_t sign = assignment.find('=');
   if (sign == std::string::npos || sign == 0) {
     throw InputError(
@@ -145,10 +190,21 @@ void apply_override(YamlNode& root, const std::string& assignment) {
   OverrideWalk walk(root, where);
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('.', begin), path.size());
-    walk.enter(path.substr(begin, end - begin));
+    walk.enter(path.substr(begin, end - begin), end == path.size());
     begin = end + 1;
   }
   walk.node() = std::move(value);
+  return walk.added_parameter();
+}
+
+}  // namespace
+
+void apply_overrides(YamlNode& root, const std::vector<std::string>& assignments) {
+  std::vector<std::string> added;
+  for (const std::string& assignment : assignments) {
+    added.push_back(apply_override(root, assignment));
+  }
+  for (const std::string& name : added) require_use(root, name);
 }
 
 }  // namespace buckens::model_file

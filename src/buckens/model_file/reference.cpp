@@ -106,6 +106,8 @@ std::string type_text(const Shape& shape, const base::FieldNote& note) {
       return quantity_text(note) + " or formula in x, y, z";
     case Shape::Kind::marker:
       return "marker";
+    case Shape::Kind::word_or_marker:
+      return fmt::format("`{}` or marker", fmt::join(shape.choices, "`, `"));
     case Shape::Kind::list:
       if (takes_single_text(shape)) return "text or list of text";
       return fmt::format("list of {}{}", shape.count < 0 ? "" : fmt::format("{} × ", shape.count),

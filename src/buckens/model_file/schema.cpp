@@ -140,6 +140,8 @@ Json schema_of(const Shape& shape, const base::FieldNote& note) {
       return {{"type", {"number", "string"}}};
     case Shape::Kind::marker:
       return marker_schema();
+    case Shape::Kind::word_or_marker:
+      return any_of({Json{{"enum", shape.choices}}, marker_schema()});
     case Shape::Kind::list:
       if (!takes_single_text(shape)) return list_schema(shape, note);
       return any_of({schema_of(shape.element[0], note), list_schema(shape, note)});

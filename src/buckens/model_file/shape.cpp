@@ -30,6 +30,8 @@ std::string default_text(const T& value, const base::FieldNote& note) {
     return value;
   } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
     return fmt::format("{}", value.count);
+  } else if constexpr (std::is_same_v<T, model::DeflectionBase>) {
+    return T::kWords[0];
   } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
     return fmt::format("[{:g}, {:g}, {:g}]", value.x(), value.y(), value.z());
   } else {
@@ -118,6 +120,10 @@ Shape shape_of() {
     return simple(Shape::Kind::position_law);
   } else if constexpr (std::is_same_v<T, base::MarkerRef>) {
     return simple(Shape::Kind::marker);
+  } else if constexpr (std::is_same_v<T, model::DeflectionBase>) {
+    Shape out = simple(Shape::Kind::word_or_marker);
+    out.choices = {T::kWords.begin(), T::kWords.end()};
+    return out;
   } else if constexpr (kIsOptional<T>) {
     return shape_of<typename T::value_type>();
   } else if constexpr (kIsArray<T>) {

@@ -24,6 +24,7 @@ struct Shape {
     time_law,
     position_law,
     marker,
+    word_or_marker,
     list,
     reference,  ///< a name, or the record in place
     named,      ///< a map of names to records

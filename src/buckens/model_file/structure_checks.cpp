@@ -168,8 +168,13 @@ Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
   const char* of_files = spec.section             ? "section"
                          : !spec.sections.empty() ? "sections"
                          : spec.links             ? "links"
+                         : spec.integration       ? "integration"
                                                   : nullptr;
   if (of_files != nullptr) {
+    if (std::string(of_files) == "integration" &&
+        !std::holds_alternative<fem::PlateMeshSpec>(spec.shape)) {
+      return Problem{"integration", "of a generated mesh it is a key of its shape; move it there"};
+    }
     return Problem{of_files, "only meshes of files take this key; remove it"};
   }
   if (spec.length_unit || spec.mass_unit) {

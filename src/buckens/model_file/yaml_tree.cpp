@@ -12,6 +12,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/utf8.h"
+#include "buckens/model_file/open_bracket.h"
 
 namespace buckens::model_file {
 
@@ -258,6 +259,16 @@ YamlNode parse_yaml(const std::string& text, const std::string& name, bool singl
     }
     return root;
   } catch (const YAML::Exception& error) {
+    // The parser tells of a missing bracket where it gives up, most often on the next line.
+    if (!single_line && error.msg.find("flow") != std::string::npos) {
+      if (const auto open = unclosed_bracket(text, error.mark.pos)) {
+        throw InputError(
+            {name, open->line, open->column},
+            fmt::format("the bracket {} that opens here is not closed; add {} where its "
+                        "content ends",
+                        open->bracket, open->bracket == '[' ? ']' : '}'));
+      }
+    }
     throw InputError(builder.place(error.mark),
                      "YAML syntax: " + error.msg + hint(text, error.mark));
   }

@@ -40,13 +40,13 @@ void DividedBody::append_displacements(const Observation& now, std::vector<doubl
     const auto b = static_cast<std::size_t>(copy.body);
     const body::Body& part = model_.bodies[b];
     const model::BodyState& s = now.state.bodies[b];
-    const auto& dofs = part.flexible->fe.dofs.node_dofs[static_cast<std::size_t>(copy.index)];
+    const auto& dofs = part.flexible->mesh().dofs.node_dofs[static_cast<std::size_t>(copy.index)];
     Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
     bool turns = false;
     for (int k = 0; k < 6; ++k) {
       const int dof = dofs[static_cast<std::size_t>(k)];
       if (dof < 0) continue;
-      own[k] = s.d[dof];
+      own[k] = now.nodal[b][dof];
       turns = turns || k >= 3;
     }
     const Vector3d& at = whole_.mesh->nodes[n].position;

@@ -63,9 +63,13 @@ std::unique_ptr<Sensor> make_load_sensor(const model::BuiltModel& built,
   for (std::size_t k = 0; k < built.model.loads.size(); ++k) {
     if (built.model.loads[k].name != load) continue;
     if (!built.model.loads[k].element->is_applied()) {
-      throw InputError(spec.where, fmt::format("sensor \"{}\": \"{}\" acts between two markers "
-                                               "with opposite forces; observe its `joint-force`",
-                                               spec.name, load));
+      throw InputError(
+          spec.where,
+          fmt::format(
+              "sensor \"{}\": \"{}\" acts between two markers with opposite forces; observe "
+              "its `{}`",
+              spec.name, load,
+              built.model.loads[k].kind == "torsional-spring" ? "spring-torque" : "spring-force"));
     }
     found.push_back(k);
   }

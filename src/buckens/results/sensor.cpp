@@ -14,9 +14,11 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/fem/recovery.h"
 #include "buckens/fem/solid_recovery.h"
+#include "buckens/results/deflection_sensor.h"
 #include "buckens/results/divided_body.h"
 #include "buckens/results/load_sensor.h"
 #include "buckens/results/model_geometry.h"
+#include "buckens/results/spring_sensor.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::results {
@@ -101,49 +103,6 @@ class MarkerSensor final : public Sensor {
   Axes axes_;
   std::optional<Vector3d> along_;
   spatial::MarkerMotion start_;
-};
-
-/// Elastic displacement in body axes, from the frame or from the chord between two markers.
-class DeflectionSensor final : public Sensor {
- public:
-  DeflectionSensor(Channel channel, std::vector<MarkerId> markers)
-      : channel_(std::move(channel)), markers_(std::move(markers)) {}
-
-  std::vector<Channel> channels() const override { return {channel_}; }
-  void append(const Observation& now, std::vector<double>& values) override {
-    push(markers_.size() == 3 ? from_chord(now) : displacement(now, markers_[0]), values);
-  }
-
- private:
-  static DividedBody whole(const Observation& now, const MarkerId& id) {
-    const auto w = static_cast<std::size_t>(now.model.whole_of(id.body));
-    return DividedBody(now.model, now.model.wholes[w]);
-  }
-  static Vector3d displacement(const Observation& now, const MarkerId& id) {
-    const auto b = static_cast<std::size_t>(id.body);
-    if (now.model.wholes[static_cast<std::size_t>(now.model.whole_of(id.body))].is_divided()) {
-      return whole(now, id).displacement(now, id);
-    }
-    const body::Marker& m = now.model.bodies[b].markers[static_cast<std::size_t>(id.marker)];
-    if (!m.follows_mesh()) return Vector3d::Zero();
-    return now.motions[b].y.segment<3>(m.translation_row);
-  }
-  Vector3d from_chord(const Observation& now) const {
-    const DividedBody body = whole(now, markers_[0]);
-    const Vector3d p0 = body.place(markers_[0]);
-    const Vector3d a0 = body.place(markers_[1]);
-    const Vector3d b0 = body.place(markers_[2]);
-    const Vector3d a = a0 + displacement(now, markers_[1]);
-    const Vector3d b = b0 + displacement(now, markers_[2]);
-    const double share = (p0 - a0).dot(b0 - a0) / (b0 - a0).squaredNorm();
-    const Vector3d off = p0 + displacement(now, markers_[0]) - (a + share * (b - a));
-    const Vector3d off0 = p0 - (a0 + share * (b0 - a0));
-    // Seen in axes that turn with the chord.
-    return Eigen::Quaterniond::FromTwoVectors(b - a, b0 - a0) * off - off0;
-  }
-
-  Channel channel_;
-  std::vector<MarkerId> markers_;
 };
 
 class RelativeSensor final : public Sensor {
@@ -385,8 +344,7 @@ class Maker {
     return marker(s, MarkerQuantity::spin, "rad/s", "angular velocity");
   }
   std::unique_ptr<Sensor> operator()(const model::DeflectionSensor&) const {
-    return std::make_unique<DeflectionSensor>(
-        vector_channel(spec_.name, "m", "elastic displacement in body axes"), place_.markers);
+    return make_deflection_sensor(built_, spec_, place_.markers);
   }
   std::unique_ptr<Sensor> operator()(const model::RelativeSensor& s) const {
     static const char* const units[] = {"m", "m", "m/s", "rad", "rad", "rad/s"};
@@ -433,6 +391,12 @@ class Maker {
   }
   std::unique_ptr<Sensor> operator()(const model::LoadTorqueSensor& s) const {
     return make_load_sensor(built_, spec_, s.load, true, place_.markers);
+  }
+  std::unique_ptr<Sensor> operator()(const model::SpringForceSensor& s) const {
+    return make_spring_sensor(built_, spec_, s.spring, false);
+  }
+  std::unique_ptr<Sensor> operator()(const model::SpringTorqueSensor& s) const {
+    return make_spring_sensor(built_, spec_, s.spring, true);
   }
   std::unique_ptr<Sensor> operator()(const model::EnergySensor& s) const {
     return std::make_unique<EnergySensor>(spec_.name, s.kind);

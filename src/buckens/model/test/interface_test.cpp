@@ -200,11 +200,20 @@ TEST(Interfaces, RigidOnesTakeTheirNodesAway) {
   EXPECT_NEAR((moved - expected).norm(), 0, 1e-14);
 }
 
-TEST(Interfaces, RigidOnesNeedABodyOfOneFrame) {
+TEST(Interfaces, RigidOnesLieInOnePartOfADividedBody) {
   Described m = block({interface("hinge", face("x0"), body::InterfaceKind::rigid)});
   m.d.bodies[0].frames.count = 2;
-  expect_refused<ModelError>(
-      m, {"test.yaml:10:1", "\"block\"", "rigid interface \"hinge\"", "`average` interfaces only"});
+  const auto built = m.build();
+  const Model& model = built->model;
+  int eliminated = 0;
+  for (const body::Body& part : model.bodies) {
+    // The nodes of the face lose their variables, and six of the region come in their place.
+    if (part.num_dofs() == static_cast<Eigen::Index>(part.flexible->mesh().dofs.num_dofs)) continue;
+    ++eliminated;
+    const auto lost = 3 * model.wholes[0].interfaces[0].region.nodes.size() - 6;
+    EXPECT_EQ(part.num_dofs(), part.flexible->mesh().dofs.num_dofs - static_cast<int>(lost));
+  }
+  EXPECT_EQ(eliminated, 1);
 }
 
 TEST(Interfaces, RigidOnesHaveNoNodeInCommon) {

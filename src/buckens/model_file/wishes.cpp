@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model_file/wishes.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace buckens::model_file {
+
+namespace {
+
+/// A name under which users look for something, and what they can do.
+struct Wish {
+  std::string_view name;     // lower case, without separators
+  std::string_view section;  // of the model file to which it belongs; empty: any
+  std::string_view instead;
+};
+
+constexpr std::string_view kLosses =
+    "friction is not supported yet; instead use damping: of a `bushing`, a `spring-damper` or a "
+    "`torsional-spring`, or a torque or force as a law of time";
+constexpr std::string_view kContact =
+    "contact is not supported yet; instead hold parts together by a joint, or by a `spring-damper` "
+    "or `bushing` of the stiffness of the contact where it stays closed";
+constexpr std::string_view kLimits =
+    "limits of joints are not supported yet; instead keep the motion inside them by a drive, or "
+    "watch it with a `relative` sensor";
+constexpr std::string_view kGears =
+    "gears and other transmissions are not supported yet; instead drive both shafts by "
+    "`prescribed-rotation` with speeds in the ratio of the transmission";
+constexpr std::string_view kControl =
+    "control is not supported yet; instead give the motion by `prescribed-rotation` or "
+    "`prescribed-translation`, or the torque as a law of time";
+constexpr std::string_view kUniversal =
+    "universal joints are not supported yet; instead put a small rigid body between two `revolute` "
+    "joints with crossing axes";
+constexpr std::string_view kCylindrical =
+    "cylindrical joints are not supported yet; instead put a small rigid body between a `revolute` "
+    "and a `prismatic` joint with the same axis";
+constexpr std::string_view kScrew =
+    "screw joints are not supported yet; instead drive a `prescribed-rotation` and a "
+    "`prescribed-translation` in the ratio of the pitch";
+constexpr std::string_view kPlane =
+    "planar and point-on-surface joints are not supported yet; instead put small rigid bodies "
+    "between two `prismatic` joints";
+constexpr std::string_view kMaterial =
+    "nonlinear materials are not supported yet, they are linear elastic: E, nu, rho, or "
+    "`orthotropic`";
+constexpr std::string_view kHeat =
+    "temperatures and thermal loads are not supported yet; instead use `initial: {preload: true}` "
+    "with parts whose lengths include the expansion";
+constexpr std::string_view kPlace =
+    "the position and orientation of a body at the start are those of its key `at`: "
+    "bodies: {NAME: {at: {position: [...], orientation: {...}}}}";
+
+constexpr std::array<Wish, 62> kWishes = {{
+    {"friction", "", kLosses},
+    {"drag", "loads", kLosses},
+    {"contact", "", kContact},
+    {"impact", "", kContact},
+    {"collision", "", kContact},
+    {"limit", "", kLimits},
+    {"limits", "", kLimits},
+    {"stop", "joints", kLimits},
+    {"stops", "joints", kLimits},
+    {"gear", "", kGears},
+    {"gears", "", kGears},
+    {"belt", "", kGears},
+    {"chain", "", kGears},
+    {"rackpinion", "", kGears},
+    {"rackandpinion", "", kGears},
+    {"cam", "", kGears},
+    {"pulley", "", kGears},
+    {"coupler", "joints", kGears},
+    {"pid", "", kControl},
+    {"controller", "", kControl},
+    {"controllers", "", kControl},
+    {"control", "", kControl},
+    {"universal", "joints", kUniversal},
+    {"hooke", "joints", kUniversal},
+    {"cardan", "joints", kUniversal},
+    {"constantvelocity", "joints", kUniversal},
+    {"cylindrical", "joints", kCylindrical},
+    {"screw", "joints", kScrew},
+    {"helical", "joints", kScrew},
+    {"planar", "joints", kPlane},
+    {"inplane", "joints", kPlane},
+    {"pointonsurface", "joints", kPlane},
+    {"plasticity", "", kMaterial},
+    {"yield", "", kMaterial},
+    {"hyperelastic", "", kMaterial},
+    {"viscoelastic", "", kMaterial},
+    {"temperature", "", kHeat},
+    {"thermal", "", kHeat},
+    {"thermalexpansion", "", kHeat},
+    {"hinge", "joints", "a hinge is called `revolute` here"},
+    {"pin", "joints", "a pin joint is called `revolute` here"},
+    {"rotational", "joints", "a joint that lets its parts turn is called `revolute` here"},
+    {"ball", "joints", "a ball joint is called `spherical` here"},
+    {"slider", "joints", "a slider is called `prismatic` here"},
+    {"translational", "joints", "a joint that lets its parts slide is called `prismatic` here"},
+    {"translation", "joints", "a joint that lets its parts slide is called `prismatic` here"},
+    {"weld", "joints", "a weld is called `fixed` here"},
+    {"rigid", "joints", "a rigid connection is called `fixed` here"},
+    {"motor", "joints", "a motor is a `prescribed-rotation` here, or a load `torque`"},
+    {"actuator", "joints", "a drive is a `prescribed-rotation` or `prescribed-translation` here"},
+    {"motion", "joints", "a drive is a `prescribed-rotation` or `prescribed-translation` here"},
+    {"spring", "", "springs are the loads `spring-damper` and `torsional-spring`, or a `bushing`"},
+    {"damper", "", "dampers are the loads `spring-damper` and `torsional-spring` with `damping`"},
+    {"moment", "loads", "a moment is called `torque` here"},
+    {"gravity", "loads", "gravity is a key of the whole model: gravity: [0, -9.81 m/s^2, 0]"},
+    {"acceleration", "loads", "accelerations of the base are the load `base-acceleration`"},
+    {"position", "initial", kPlace},
+    {"orientation", "initial", kPlace},
+    {"rotation", "initial", kPlace},
+    {"angle", "initial", kPlace},
+    {"displacement", "initial",
+     "nodes are displaced by `nodal-displacement`, bodies by their key `at`"},
+    {"at", "initial", kPlace},
+}};
+
+}  // namespace
+
+std::optional<std::string> advice_on_key(const std::string& key, const std::string& path) {
+  std::string plain;
+  for (const char c : key) {
+    if (c != '-' && c != '_' && c != ' ') {
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  const std::string_view section = std::string_view(path).substr(0, path.find('.'));
+  const auto found = std::find_if(kWishes.begin(), kWishes.end(), [&](const Wish& wish) {
+    return wish.name == plain && (wish.section.empty() || wish.section == section);
+  });
+  if (found == kWishes.end()) return std::nullopt;
+  return std::string(found->instead);
+}
+
+}  // namespace buckens::model_file

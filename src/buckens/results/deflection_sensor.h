@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/results/sensor.h"
+
+namespace buckens::results {
+
+/// @param markers the observed one alone (from the body frame); and one more, from which it is
+/// seen; or and two more, the ends of a chord
+/// @throws ModelError if the marker from which it is seen has no rotation
+std::unique_ptr<Sensor> make_deflection_sensor(const model::BuiltModel& built,
+                                               const model::SensorSpec& spec,
+                                               const std::vector<model::MarkerId>& markers);
+
+}  // namespace buckens::results

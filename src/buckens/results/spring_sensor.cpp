@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/results/spring_sensor.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+#include "buckens/loads/bushing.h"
+#include "buckens/loads/spring_damper.h"
+
+namespace buckens::results {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// What a force element does to its first marker as the second moves away, in the axes of the
+/// first.
+class SpringSensor final : public Sensor {
+ public:
+  enum class Part { along_line, about_axis, force, torque };
+
+  /// @param axis_F of Part::about_axis, unit vector in the first marker
+  SpringSensor(Channel channel, std::size_t load, Part part, const Vector3d& axis_F)
+      : channel_(std::move(channel)), load_(load), part_(part), axis_F_(axis_F) {}
+
+  std::vector<Channel> channels() const override { return {channel_}; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const model::Load& load = now.model.loads[load_];
+    const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
+    const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
+    const loads::Action action = load.element->evaluate(now.state.t, first, second);
+    const Vector3d force = first.R.transpose() * action.on_first.force;
+    // About the second marker: that on the first carries the lever of the force, too.
+    const Vector3d torque = -(first.R.transpose() * action.on_second.torque);
+    switch (part_) {
+      case Part::along_line: {
+        const Vector3d line = first.R.transpose() * (second.p - first.p);
+        return values.push_back(line.isZero(0.0) ? 0.0 : force.dot(line.normalized()));
+      }
+      case Part::about_axis:
+        return values.push_back(torque.dot(axis_F_));
+      case Part::force:
+        values.insert(values.end(), {force.x(), force.y(), force.z()});
+        return;
+      case Part::torque:
+        values.insert(values.end(), {torque.x(), torque.y(), torque.z()});
+        return;
+    }
+  }
+
+ private:
+  Channel channel_;
+  std::size_t load_;
+  Part part_;
+  Vector3d axis_F_;
+};
+
+/// Which part of an element is asked for, if it has that.
+std::optional<SpringSensor::Part> part_of(const loads::ForceElement& element, bool torque) {
+  using Part = SpringSensor::Part;
+  if (dynamic_cast<const loads::Bushing*>(&element) != nullptr) {
+    return torque ? Part::torque : Part::force;
+  }
+  if (!torque && dynamic_cast<const loads::SpringDamper*>(&element) != nullptr) {
+    return Part::along_line;
+  }
+  if (torque && dynamic_cast<const loads::TorsionalSpring*>(&element) != nullptr) {
+    return Part::about_axis;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::unique_ptr<Sensor> make_spring_sensor(const model::BuiltModel& built,
+                                           const model::SensorSpec& spec, const std::string& spring,
+                                           bool torque) {
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < built.model.loads.size(); ++k) {
+    const model::Load& load = built.model.loads[k];
+    const auto part = part_of(*load.element, torque);
+    if (part) known.push_back(load.name);
+    if (load.name != spring || !part) continue;
+    const bool is_scalar =
+        *part == SpringSensor::Part::along_line || *part == SpringSensor::Part::about_axis;
+    Channel channel{"sensors/" + spec.name,
+                    torque ? "N m" : "N",
+                    {},
+                    fmt::format("{} of {} {}, tension positive", torque ? "torque" : "force",
+                                load.kind, load.name),
+                    {}};
+    if (!is_scalar) {
+      channel.shape = {3};
+      channel.components = {"x", "y", "z"};
+    }
+    const auto* turning = dynamic_cast<const loads::TorsionalSpring*>(load.element.get());
+    return std::make_unique<SpringSensor>(std::move(channel), k, *part,
+                                          turning != nullptr ? turning->axis() : Vector3d::UnitZ());
+  }
+  throw InputError(spec.where,
+                   fmt::format("sensor \"{}\": there is no {} \"{}\".{}", spec.name,
+                               torque ? "torsional spring or bushing" : "spring-damper or bushing",
+                               spring, base::suggestion(spring, known)));
+}
+
+}  // namespace buckens::results
