@@ -13,7 +13,6 @@
 #include "cli/text_table.h"
 
 #include "buckens/analysis/output_plan.h"
-#include "buckens/files/vector_json.h"
 
 namespace buckens::cli {
 

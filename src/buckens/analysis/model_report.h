@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "buckens/model/model_builder.h"
 #include "buckens/analysis/assembly_moves.h"
 #include "buckens/analysis/section_report.h"
+#include "buckens/model/model_builder.h"
 
 namespace buckens::analysis {
 

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/initial_displacement.h"
 #include "buckens/analysis/initial_velocity.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/quasi_static_start.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/velocity_change.h"
-#include "buckens/analysis/initial_displacement.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 

@@ -10,13 +10,13 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/assembly_moves.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/static_continuation.h"
 #include "buckens/analysis/static_descent.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/static_path_record.h"
 #include "buckens/analysis/static_state.h"
-#include "buckens/analysis/assembly_moves.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"

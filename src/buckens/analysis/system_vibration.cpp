@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/assembly_moves.h"
 #include "buckens/analysis/body_vibration.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/system_pencil.h"
-#include "buckens/analysis/assembly_moves.h"
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/inverse_iteration.h"

@@ -12,13 +12,13 @@
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
 #include "buckens/model/add_ties.h"
+#include "buckens/model/check/flat_mesh.h"
 #include "buckens/model/eliminate_links.h"
 #include "buckens/model/find_section.h"
 #include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
 #include "buckens/model/reduce_bodies.h"
-#include "buckens/model/check/flat_mesh.h"
 
 namespace buckens::model {
 
