@@ -54,7 +54,8 @@ TEST(ModelFileErrors, Files) {
 TEST(ModelFileErrors, YamlThatIsNotWhatItSeems) {
   expect_messages(
       {
-          {"{a: {rigid: {mass: 1}}\n", {"m.yaml:3:1: YAML syntax: end of map flow not found"}},
+          {"{a: {rigid: {mass: 1}}\n",
+           {"m.yaml:2:9: the bracket { that opens here is not closed; add }"}},
           {"\"abc", {"YAML syntax"}},
           {"{a: {rigid: {mass: 1, mass: 2}}}",
            {"m.yaml:2:31", "\"mass\" stands here a second time, first at m.yaml:2:22"}},
@@ -423,7 +424,7 @@ TEST(ModelFileErrors, Overrides) {
                 "Did you mean \"rod\"?"));
   EXPECT_THAT(set("bodies.rod.beam.elemnts=8"), HasSubstr("Did you mean \"elements\"?"));
   EXPECT_THAT(set("bodis.rod=8"), HasSubstr("unknown key \"bodis\". Did you mean \"bodies\"?"));
-  EXPECT_THAT(set("parameters.L=3"), HasSubstr("has no \"L\" in parameters"));
+  EXPECT_THAT(set("parameters.L=3"), HasSubstr("has no \"L\" in parameters, and no value uses"));
   EXPECT_THAT(set("bodies.rod.beam.elements=-8"), HasSubstr("must be positive"));
   EXPECT_THAT(set("bodies.rod.beam.elements"), HasSubstr("write PATH=VALUE"));
   EXPECT_THAT(set("bodies.rod.beam.elements="), HasSubstr("is missing"));
