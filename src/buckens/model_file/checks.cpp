@@ -175,7 +175,7 @@ struct AlternativeRules {
 };
 
 template <class Variant>
-Finding alternative_problem(const sweep::Variant& kind, const ReadContext& context,
+Finding alternative_problem(const Variant& kind, const ReadContext& context,
                             bool is_joint = false) {
   const AlternativeRules rules{context, is_joint};
   return std::visit([&]<class T>(const T& spec) { return under(T::kKey, rules(spec)); }, kind);
