@@ -220,7 +220,7 @@ def test_step_size(run, model, step):
 def test_duplicate_names(run, model, text):
     following = text.split("\n")[-1]
     doubled = model(following, text)
-    run(doubled).must(2, "model.yaml:", "second time", text.split(":")[0].strip())
+    run(doubled).must(2, "model.yaml:", "twice", text.split(":")[0].strip())
 
 
 def test_no_simulation(run, model):

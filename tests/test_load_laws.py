@@ -118,7 +118,7 @@ def test_the_report_lists_distributed_loads(buckens, tmp_path):
     ("pressure: {on: bar/x1, value: 5 N}", ["\"5 N\"", "a force", "a stress"]),
     ("pressure: {on: bar/x1}", ["\"value\" is missing"]),
     ("traction: {on: bar/x1, value: [1 MPa, 0]}", ["3 values"]),
-    ("traction: {on: bar/x1, value: [1, 0, 0], axes: body}", ["\"body\" is none of fixed, following"]),
+    ("traction: {on: bar/x1, value: [1, 0, 0], axes: body}", ["must be one of fixed, following, not \"body\""]),
     ("line-load: {on: bar, value: [1, 0, 0]}", ["no beams and bars", "traction"]),
     ("body-force: {on: bar}", ["exactly one", "per-mass"]),
     ("body-force: {on: bar, per-mass: [1, 0, 0], per-volume: [1, 0, 0]}", ["exactly one"]),

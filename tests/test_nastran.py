@@ -160,7 +160,7 @@ def test_a_mean_takes_the_components_that_count(solved, buckens, tmp_path):
     _, same = solved(FILE)
     assert same == pytest.approx(full, rel=1e-9)
     write_mean(902, None, 900, 123456, "1.", 1, *corners)
-    buckens("check", "model.yaml").must(3, "RBE3 902", "do not tell the displacement along y")
+    buckens("check", "model.yaml").must(3, "RBE3 902", "do not determine the displacement along y")
 
 
 def test_a_missing_deck_is_named(buckens, tmp_path):

@@ -280,7 +280,7 @@ def test_a_basis_is_made_once(run, rod, tmp_path, buckens):
         buckens("check", rod, *settings).must(2, "rod.basis.h5", "remove the file", "reduction.file")
     assert file.stat().st_mtime_ns == made
     file.write_text("no HDF5")
-    buckens("check", rod, "--set", f"bodies.rod.reduction={basis}").must(2, "crank.yaml:", "rod.basis.h5", "no reduced basis")
+    buckens("check", rod, "--set", f"bodies.rod.reduction={basis}").must(2, "crank.yaml:", "rod.basis.h5", "not a reduced basis")
 
 
 SQUARE_BLOCK = """

@@ -301,9 +301,9 @@ def test_bad_plates_are_refused(buckens, tmp_path, change, code, words):
 
 
 @pytest.mark.parametrize("old, new, code, words", [
-    ("[a0, a1, b1, b0]", "[a0, a1]", 2, ["2 nodes stand here; a shell has 3 or 4"]),
+    ("[a0, a1, b1, b0]", "[a0, a1]", 2, ["a shell has 3 or 4 nodes, found 2"]),
     ("[a0, a1, b1, b0]", "[a0, a1, b1, x]", 2, ["unknown node \"x\""]),
-    ("[a0, a1, b1, b0]", "[a0, a1, b1, a0]", 2, ["stands here twice"]),
+    ("[a0, a1, b1, b0]", "[a0, a1, b1, a0]", 2, ["appears twice"]),
     ("[a0, a1, b1, b0]", "[a0, b1, a1, b0]", 3, ["shell element 1", "folded"]),
 ])
 def test_bad_shells_are_refused(buckens, tmp_path, old, new, code, words):

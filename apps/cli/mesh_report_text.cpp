@@ -67,7 +67,7 @@ std::string box_text(const MeshReport& report) {
 std::vector<std::string> complaints(const MeshReport& report) {
   std::vector<std::string> out = report.warnings;
   if (!report.inverted.empty()) {
-    out.push_back(fmt::format("{} turned inside out or flat: {}",
+    out.push_back(fmt::format("{} inverted or flat: {}",
                               report.inverted.size() == 1 ? "an element is" : "elements are",
                               some_of(report.inverted)));
   }
@@ -179,7 +179,7 @@ std::string mesh_report_text(const fem::ImportedMesh& mesh, const MeshReport& re
   entries.emplace_back("pieces", fmt::to_string(report.pieces));
   if (!report.free_nodes.empty()) {
     entries.emplace_back("free nodes",
-                         fmt::format("{}: {}; they are left out", report.free_nodes.size(),
+                         fmt::format("{}: {}; they are ignored", report.free_nodes.size(),
                                      some_of(report.free_nodes)));
   }
   out += text_list(entries) + sets_text(report);

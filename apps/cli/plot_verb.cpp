@@ -94,7 +94,7 @@ std::vector<double> taken(const std::vector<double>& values,
 run_store::RunCurve single_curve(const run_store::RunReader& run, const std::string& name) {
   std::vector<run_store::RunCurve> curves = run_store::find_curves(run, name);
   if (curves.size() == 1) return std::move(curves.front());
-  throw InputError(fmt::format("--x {}: one curve is expected; name a component such as {}", name,
+  throw InputError(fmt::format("--x {}: expected one curve; name a component such as {}", name,
                                curves.front().name));
 }
 

@@ -186,7 +186,7 @@ TEST(TimeMarch, GivesUpWithTheNameOfWhatResists) {
   model::State after;
   EXPECT_THAT(
       [&] { march.advance(start.state, after); },
-      ThrowsMessage<NumericalError>(AllOf(HasSubstr("does not settle"), HasSubstr("joint \"j"),
+      ThrowsMessage<NumericalError>(AllOf(HasSubstr("does not converge"), HasSubstr("joint \"j"),
                                           HasSubstr("shortened 8 times, down to 0.000391 s"))));
   EXPECT_EQ(march.report().failed, 9);
 }

@@ -214,15 +214,15 @@ DeformationVerdict judge_deformation(const DeformedBody& body, const Deformation
   if (found.rotation > kLargeRotation) {
     out.trust.push_back(fmt::format(
         "body \"{}\" bends by up to {:.2g} rad within a frame, more than the {:.1f} rad that "
-        "linear elasticity bears; divide it into several bodies or give it more `frames`",
+        "linear elasticity allows; give it more `frames` or divide it into several bodies",
         body.most_bent_part, found.rotation, kLargeRotation));
   }
   if (found.strain > kLargeStrain) {
     auto& list = found.strain > kDoubtedStrain ? out.trust : out.warnings;
-    list.push_back(fmt::format(
-        "body \"{}\" is strained by up to {:.2g}, more than the {:.2f} that linear elasticity "
-        "bears; more frames do not help: stiffen it or reduce its loads",
-        body.name, found.strain, kLargeStrain));
+    list.push_back(
+        fmt::format("body \"{}\" is strained by up to {:.2g}, more than the {:.2f} that linear "
+                    "elasticity allows; more frames do not help: stiffen it or reduce its loads",
+                    body.name, found.strain, kLargeStrain));
   }
   const std::string axial = doubt_axial_load(body, found);
   if (!axial.empty()) out.trust.push_back(axial);

@@ -57,7 +57,7 @@ void DriveLaws::check(double from, double to) const {
     throw NumericalError(
         drive.where,
         fmt::format("joint \"{}\": its law {} jumps from {:.6g} to {:.6g} {} at t = {:.6g} s; "
-                    "nothing can follow that: write a ramp or a smooth step in its place",
+                    "nothing can follow that: use a ramp or a smooth step instead",
                     drive.joint, drive.law.text(), f_a, f_b, drive.unit, b));
   }
 }

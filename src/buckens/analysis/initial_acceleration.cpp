@@ -45,8 +45,8 @@ class Accelerations {
       }
     }
     throw NumericalError(
-        "initial accelerations of frames and meshes do not settle: an initial deformation is too "
-        "large for linear elasticity; reduce it or stiffen the body");
+        "the initial accelerations of frames and meshes do not converge: an initial deformation is "
+        "too large for linear elasticity; reduce it or stiffen the body");
   }
 
  private:

@@ -46,8 +46,8 @@ OutputPlan plan_output(const model::ModelDescription& description) {
   plan.fields_stride = std::max(1L, std::lround(stride));
   if (std::abs(stride - static_cast<double>(plan.fields_stride)) > 1e-6 * stride) {
     throw InputError(output.field_output->where,
-                     fmt::format("output.fields: `every` is {:.6g} s, which is no multiple of the "
-                                 "{:.6g} s between two records; use {:.6g} s",
+                     fmt::format("output.fields: `every` is {:.6g} s, which is not a multiple of "
+                                 "the {:.6g} s between two records; use {:.6g} s",
                                  *output.field_output->every, plan.every,
                                  static_cast<double>(plan.fields_stride) * plan.every));
   }

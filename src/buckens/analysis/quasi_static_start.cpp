@@ -71,8 +71,8 @@ void settle_accelerations(const model::Model& model, const dynamics::MassMetric&
     if (change <= kShapeSettled) return;
   }
   throw NumericalError(fmt::format(
-      "the deformation of the quasi-static body \"{}\" at the start does not settle: its loads "
-      "change too much with its shape; stiffen it, or make it `flexibility: elastic`",
+      "the initial deformation of the quasi-static body \"{}\" does not converge: its loads change "
+      "too much with its shape; stiffen it, or make it `flexibility: elastic`",
       model.bodies[restless].name));
 }
 

@@ -213,7 +213,7 @@ PathPoint StaticContinuation::begin(const StaticPoint& start, double sign) {
   std::optional<PathPoint> out = correct(start, along, kFarFromPrediction);
   if (!out || out->direction.size() == 0) {
     throw NumericalError(fmt::format(
-        "static path: there is no way on from its start at load factor {:.6g} ({}); start at "
+        "static path: it cannot be continued from its start at load factor {:.6g} ({}); start at "
         "another load factor",
         start.load_factor, resisting_.empty() ? "a limit point or a mechanism" : resisting_));
   }

@@ -262,8 +262,7 @@ void StaticDescent::check_dependent_rows() {
   const auto [joint, row] = model_.owner_of_row(static_cast<int>(worst));
   throw ModelError(fmt::format(
       "joint \"{}\" ({} between {} and {}) cannot be closed: {:.3g} {} are left in equilibrium, "
-      "and "
-      "nothing that could deform would close them; correct the placement or remove a joint",
+      "and no deformation would close them; correct the placement or remove a joint",
       joint->name, joints::to_string(joint->type), joint->first.text, joint->second.text,
       std::abs(g[worst]), joint->rows[static_cast<std::size_t>(row)].is_length() ? "m" : "rad"));
 }

@@ -43,10 +43,10 @@ void note_large_rotations(const model::Model& model, const model::State& state,
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const double largest = largest_nodal_rotation(model.bodies[b], state.bodies[b].d);
     if (largest <= kLargestNodalRotation) continue;
-    notes.push_back(fmt::format(
-        "body \"{}\" is bent by {:.3g} rad in its equilibrium; linear elasticity holds up to about "
-        "{} rad: split it into several bodies or stiffen it",
-        model.bodies[b].name, largest, kLargestNodalRotation));
+    notes.push_back(
+        fmt::format("body \"{}\" is bent by {:.3g} rad in its equilibrium; linear elasticity is "
+                    "valid up to about {} rad: give it more `frames` or stiffen it",
+                    model.bodies[b].name, largest, kLargestNodalRotation));
   }
 }
 
@@ -71,7 +71,7 @@ void settle_statically(const model::Model& model, StaticDescent& descent, Static
     if (modes->stiffness[0] >= -modes->tolerance) {
       report.lowest_stiffness = 0.0;
       report.notes.push_back(
-          "the equilibrium is one of many: " +
+          "the equilibrium is not unique: " +
           describe_motions(model, descent.system(), descent.point(), free_motions(*modes)) +
           " without any restoring force; it stays near its start");
       return;

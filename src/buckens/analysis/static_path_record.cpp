@@ -209,7 +209,7 @@ void StaticPathRecord::add_body(const model::WholeBody& whole) {
   if (largest_rotation_[bent] <= kLargestNodalRotation) return;
   summary.trust.push_back(fmt::format(
       "body \"{}\" bends by up to {:.2g} rad within its frame, more than the {:.1f} rad that "
-      "linear elasticity bears; divide it into several bodies or give it more `frames`",
+      "linear elasticity allows; give it more `frames` or divide it into several bodies",
       model_.bodies[bent].name, largest_rotation_[bent], kLargestNodalRotation));
 }
 

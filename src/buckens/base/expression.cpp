@@ -64,11 +64,10 @@ void refuse_unknown_names(const std::string& text, const std::vector<std::string
     const std::string word = text.substr(i, end - i);
     if (is_identifier(word) && std::find(names.begin(), names.end(), word) == names.end()) {
       if (parse_unit(word)) {
-        throw InputError(
-            shifted(where, static_cast<int>(i)),
-            fmt::format("expression \"{}\": unknown name \"{}\"; if the unit is meant, "
-                        "it stands at the end after a blank",
-                        text, word));
+        throw InputError(shifted(where, static_cast<int>(i)),
+                         fmt::format("expression \"{}\": unknown name \"{}\"; if this is a unit, "
+                                     "write it at the end after a space",
+                                     text, word));
       }
       throw InputError(shifted(where, static_cast<int>(i)),
                        fmt::format("expression \"{}\": unknown name \"{}\".{}", text, word,
@@ -122,9 +121,10 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
                      fmt::format("expression \"{}\": {}", text, error.GetMsg()));
   }
   if (parsed->is_constant && !std::isfinite(parsed->constant)) {
-    throw InputError(where, fmt::format("expression \"{}\" has the value {}; a finite number is "
-                                        "needed (division by zero?)",
-                                        text, parsed->constant));
+    throw InputError(
+        where,
+        fmt::format("expression \"{}\" has the value {}; it must be finite (division by zero?)",
+                    text, parsed->constant));
   }
   parsed_ = std::move(parsed);
 }
@@ -148,9 +148,8 @@ double Expression::operator()(std::initializer_list<double> values) const {
     ++i;
   }
   throw NumericalError(parsed_->where,
-                       fmt::format("expression \"{}\" has the value {} at {}; a finite number is "
-                                   "needed (division by zero, root or logarithm of a negative "
-                                   "number?)",
+                       fmt::format("expression \"{}\" has the value {} at {}; it must be finite "
+                                   "(division by zero, root or logarithm of a negative number?)",
                                    parsed_->text, value, at));
 }
 

@@ -136,8 +136,8 @@ class Table final : public TimeLaw::Body {
     const double rounding = kRangeRounding * (t_.back() - t_.front());
     if (is_held_ || (t >= t_.front() - rounding && t <= t_.back() + rounding)) return;
     throw NumericalError(
-        where_, fmt::format("the table goes from t = {:.9g} s to {:.9g} s and is asked for its "
-                            "value at t = {:.9g} s; add points, or write `extrapolation: hold`",
+        where_, fmt::format("the table covers t = {:.9g} s to {:.9g} s, but its value at t = "
+                            "{:.9g} s is needed; add points, or write `extrapolation: hold`",
                             t_.front(), t_.back(), t));
   }
 
@@ -202,13 +202,13 @@ class Integral final : public TimeLaw::Body {
 
 void check_table(const std::vector<double>& times, const std::vector<double>& values) {
   if (times.empty() || times.size() != values.size()) {
-    throw InputError(
-        fmt::format("a table needs as many times as values, at least one, not {} and {}",
-                    times.size(), values.size()));
+    throw InputError(fmt::format(
+        "a table needs as many times as values, and at least one; found {} times and {} values",
+        times.size(), values.size()));
   }
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || !std::isfinite(values[i])) {
-      throw InputError(fmt::format("row {} of the table holds {} and {}; finite numbers are needed",
+      throw InputError(fmt::format("row {} of the table contains {} and {}; both must be finite",
                                    i + 1, times[i], values[i]));
     }
     if (i > 0 && times[i] <= times[i - 1]) {

@@ -130,8 +130,8 @@ PointRows average_rows(const std::vector<Node>& nodes, const DofMap& dofs, const
       const int dof = dofs.node_dofs[static_cast<std::size_t>(link.reference)][k];
       if (!link.variables[k] || dof < 0 || fit.tells()[k]) continue;
       throw ModelError(fmt::format(
-          "{}: the chosen displacements of its {} nodes do not tell the {} {} of {}; let more of "
-          "them count, or let {} follow in less",
+          "{}: the chosen displacements of its {} nodes do not determine the {} {} of {}; use more "
+          "of them, or let {} follow in fewer",
           link.label, link.nodes.size(), k < 3 ? "displacement along" : "rotation about",
           "xyz"[k % 3], node_label(nodes, link.reference), node_label(nodes, link.reference)));
     }
@@ -141,11 +141,11 @@ PointRows average_rows(const std::vector<Node>& nodes, const DofMap& dofs, const
   const bool is_beside = follows_translation(link) &&
                          (node_place(nodes, link.reference) - region.centre).norm() > 1e-6 * length;
   if (!region.turns() && (is_beside || follows_rotation(dofs, link))) {
-    throw ModelError(fmt::format(
-        "{}: its {} nodes lie on one line or in one point and tell no rotation, which {} {}; take "
-        "nodes that span a surface",
-        link.label, region.nodes.size(), node_label(nodes, link.reference),
-        is_beside ? "beside them needs" : "has"));
+    throw ModelError(
+        fmt::format("{}: its {} nodes lie on one line or at one point and determine no rotation, "
+                    "which {} {}; use nodes that span a surface",
+                    link.label, region.nodes.size(), node_label(nodes, link.reference),
+                    is_beside ? "beside them needs" : "has"));
   }
   return region_rows(nodes, dofs, region, node_place(nodes, link.reference));
 }

@@ -156,7 +156,7 @@ void ShellBlock::check(const MeshView& mesh) const {
       throw ModelError(fmt::format(
           "{}: it is {}; list its nodes around it, and move one if two of them are at one place or "
           "three on one line",
-          where, is_flat ? "squashed flat at a corner" : "folded or turned inside out"));
+          where, is_flat ? "flat at a corner" : "folded or inverted"));
     }
     if (const auto& direction = shell_section(e).direction) {
       const double across = direction->normalized().cross(mean.normalized()).norm();

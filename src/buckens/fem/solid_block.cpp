@@ -37,10 +37,10 @@ void refuse_collapsed(Where&& where, std::span<const int> nodes, const std::vect
         nodes.begin() + static_cast<std::ptrdiff_t>(k)) {
       continue;
     }
-    throw ModelError(fmt::format(
-        "{}: {} stands in it twice; write it as an element with fewer corners (wedge6, pyramid5, "
-        "tet4)",
-        where(), node_label(all, nodes[k])));
+    throw ModelError(
+        fmt::format("{}: {} appears in it twice; write it as an element with fewer corners "
+                    "(wedge6, pyramid5, tet4)",
+                    where(), node_label(all, nodes[k])));
   }
 }
 
@@ -120,8 +120,7 @@ void SolidBlock::check(const MeshView& mesh) const {
     // bounding cube is flat.
     if (!(8.0 * least > 1e-12 * size * size * size)) {
       throw ModelError(fmt::format(
-          "{}: its Jacobian falls to {:.3g} m³, so it is turned inside out or squashed flat; {}, "
-          "or move a node",
+          "{}: its Jacobian falls to {:.3g} m³, so it is inverted or flat; {}, or move a node",
           where(), least, order_of_nodes(topology)));
     }
     check_solid_material(where(), *material(e));

@@ -290,10 +290,10 @@ std::vector<int> choose_parts(const Structure& structure, int count) {
   const std::vector<Holder> holders = holders_of(structure);
   const auto most = static_cast<int>(holders.size());
   if (count < 1 || count > most) {
-    throw ModelError(fmt::format(
-        "{} frames for {} elements; every frame carries one element at least: use fewer frames or "
-        "more elements",
-        count, most));
+    throw ModelError(
+        fmt::format("{} frames for {} elements; every frame carries at least one element: use "
+                    "fewer frames or more elements",
+                    count, most));
   }
   const auto at_node = holders_at_nodes(structure.nodes.size(), holders);
   if (const auto chain = as_chain(holders, at_node)) return divide_chain(holders, *chain, count);

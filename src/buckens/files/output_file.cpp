@@ -115,7 +115,7 @@ std::string system_reason(int error) {
 std::string read_text_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    throw IoError(fmt::format("{}: is a directory; a file is expected.", path.string()));
+    throw IoError(fmt::format("{}: is a directory; expected a file.", path.string()));
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) {

@@ -103,8 +103,8 @@ void SparseCholesky::Backend::factorise(const SparseMatrix& A, const CholeskyOpt
     const int column = static_cast<const int*>(factor->Perm)[factor->minor];
     throw NumericalError("a matrix of size " + std::to_string(size) +
                          " is not positive definite (column " + std::to_string(column) +
-                         "); check masses and materials of the body; a mesh far finer than its "
-                         "sections also comes to this: use fewer elements");
+                         "); check masses and materials of the body; over-refined beams can cause "
+                         "this: use fewer elements");
   }
   entries = common.lnz;
   if (factor->is_super != 0 && options.route != SolveRoute::cholmod) lay_out(options.simd);

@@ -35,7 +35,7 @@ void MeshText::fail(const std::string& text) const {
 
 void MeshText::require(std::size_t size, std::string_view what) const {
   if (remaining() >= size) return;
-  fail(fmt::format("the file ends in the middle of its data, where {} should stand", what));
+  fail(fmt::format("the file ends in the middle of its data, where {} is expected", what));
 }
 
 void MeshText::check_count(std::string_view what, std::uint64_t count,
@@ -107,7 +107,7 @@ std::int64_t MeshText::integer(std::string_view what, std::int64_t least, std::i
   std::int64_t out = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), out);
   if (result.ec != std::errc() || result.ptr != digits.data() + digits.size()) {
-    fail(fmt::format("\"{}\" stands where {} should stand, a whole number", shown(text), what));
+    fail(fmt::format("expected {1}, a whole number, found \"{0}\"", shown(text), what));
   }
   check_range(what, out, least, most);
   return out;
@@ -124,7 +124,7 @@ double MeshText::number(std::string_view what) {
   const std::string_view text = word(what);
   const auto out = files::deck_number(text);
   if (!out) {
-    fail(fmt::format("\"{}\" stands where {} should stand, a finite number", shown(text), what));
+    fail(fmt::format("expected {1}, a finite number, found \"{0}\"", shown(text), what));
   }
   return *out;
 }

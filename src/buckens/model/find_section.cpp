@@ -93,10 +93,9 @@ void find_section(const SectionPlace& kind, bool of_forces, MarkerFinder& find,
   }
   const bool is_solid = !found.solids.empty() || fem::line_elements(fe).empty();
   if (!of_forces || !is_solid) return;
-  throw ModelError(kind.of.where,
-                   fmt::format("\"{}\" is no section of a beam or bar; solids have no section "
-                               "forces, observe their `stress`",
-                               kind.of.text));
+  throw ModelError(kind.of.where, fmt::format("\"{}\" is not a section of a beam or bar; solids "
+                                              "have no section forces, observe their `stress`",
+                                              kind.of.text));
 }
 
 }  // namespace buckens::model

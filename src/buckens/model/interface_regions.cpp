@@ -143,7 +143,7 @@ std::string why_no_moment(const InterfaceRegion& interface) {
       count < 3 ? fmt::format("it has {} node{}, three are needed for a moment", count,
                               count == 1 ? "" : "s")
                 : fmt::format("its {} nodes lie on one line and hold no moment about it", count);
-  return reason + "; take nodes that span a surface";
+  return reason + "; use nodes that span a surface";
 }
 
 std::vector<InterfaceRegion> find_interfaces(const body::BodySpec& spec,

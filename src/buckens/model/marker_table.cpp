@@ -293,11 +293,9 @@ int MarkerTable::find(const base::MarkerRef& ref, bool needs_mesh) {
   if (index < 0) index = add(name, target(ref));
   if (needs_mesh && mesh_ != nullptr &&
       !body_.markers[static_cast<std::size_t>(index)].follows_mesh()) {
-    throw InputError(
-        ref.where,
-        fmt::format("\"{}\" is no point of the mesh of the flexible body \"{}\": a force "
-                    "there would act on nothing; {}",
-                    ref.text, spec_.name, mesh_points()));
+    throw InputError(ref.where, fmt::format("\"{}\" is not a point of the mesh of the flexible "
+                                            "body \"{}\": a force there would act on nothing; {}",
+                                            ref.text, spec_.name, mesh_points()));
   }
   return index;
 }

@@ -18,9 +18,11 @@ using Eigen::Vector3d;
 Finding inertia_problem(const std::vector<double>& entries) {
   if (entries.empty()) return std::nullopt;
   if (entries.size() != 3 && entries.size() != 6) {
-    return Problem{"inertia", fmt::format("{} values stand here; expected are 3 (Ixx, Iyy, Izz) or "
-                                          "6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz)",
-                                          entries.size())};
+    return Problem{
+        "inertia",
+        fmt::format(
+            "expected 3 values (Ixx, Iyy, Izz) or 6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz), found {}",
+            entries.size())};
   }
   const Vector3d principal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fem::symmetric_matrix(entries))
@@ -83,7 +85,7 @@ Finding problem(const fem::PointMassSpec& spec, const ReadContext&) {
 
 Finding problem(const fem::CylinderSelection& spec, const ReadContext&) {
   if ((spec.to - spec.from).norm() > 0.0) return std::nullopt;
-  return Problem{"to", "the cylinder has the length zero: \"from\" and \"to\" are the same point"};
+  return Problem{"to", "the cylinder has zero length: \"from\" and \"to\" are the same point"};
 }
 
 Finding problem(const fem::PlaneSelection& spec, const ReadContext&) {
@@ -96,7 +98,7 @@ Finding problem(const body::CouplingSpec& spec, const ReadContext&) {
     return Problem{"drop", "`auto` chooses the terms itself; drop terms from another level"};
   }
   if (spec.tolerance > 1.0) {
-    return Problem{"tolerance", "more than all cannot be neglected; give 1 % or the like"};
+    return Problem{"tolerance", "the share must be below 100 %; 1 % is usual"};
   }
   return std::nullopt;
 }
@@ -136,7 +138,7 @@ Finding matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& ma
     return Problem{"frames", "a body given by matrices cannot be divided; remove the key"};
   }
   if (spec.geometric_stiffness) {
-    return Problem{"geometric-stiffness", "it belongs to beams and bars; remove the key"};
+    return Problem{"geometric-stiffness", "it applies to beams and bars only; remove the key"};
   }
   if (spec.damping && !matrices.damping.empty()) {
     return Problem{
@@ -169,9 +171,9 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
       std::holds_alternative<fem::GeometrySpec>(spec.kind) ||
       (structure != nullptr && structure->beams.empty() && structure->bars.empty());
   if (is_solid && spec.geometric_stiffness) {
-    return Problem{"geometric-stiffness",
-                   "it belongs to beams and bars, a solid has none; remove the key, or give the "
-                   "body more `frames`"};
+    return Problem{
+        "geometric-stiffness",
+        "it applies to beams and bars only; remove the key, or give the body more `frames`"};
   }
   if (structure != nullptr) {
     for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {

@@ -31,7 +31,7 @@ Finding ends_problem(const std::array<base::MarkerRef, 2>& between, bool is_join
   const bool is_same =
       is_joint ? between[0].body == between[1].body : between[0].text == between[1].text;
   if (!is_same) return std::nullopt;
-  return Problem{"between", fmt::format("\"{}\" and \"{}\" are {}; two different ones are needed",
+  return Problem{"between", fmt::format("\"{}\" and \"{}\" are {}; two different bodies are needed",
                                         between[0].text, between[1].text,
                                         is_joint ? "on the same body" : "the same marker")};
 }
@@ -148,7 +148,7 @@ struct AlternativeRules {
       return axis_problem(spec.axis);
     } else if constexpr (requires { spec.along; }) {
       if (!spec.along || spec.along->norm() > 0.0) return std::nullopt;
-      return Problem{"along", "[0, 0, 0] is no direction; give for example [0, -1, 0]"};
+      return Problem{"along", "[0, 0, 0] is not a direction; give for example [0, -1, 0]"};
     } else if constexpr (std::is_same_v<T, loads::BodyForceSpec>) {
       if (spec.per_mass.has_value() != spec.per_volume.has_value()) return std::nullopt;
       return Problem{"", "exactly one of the keys per-mass and per-volume is needed"};
@@ -224,14 +224,16 @@ Finding method_problem(const model::SimulationSpec& spec) {
   using model::IntegrationMethod;
   const char* chosen = choice_names(IntegrationMethod{})[static_cast<std::size_t>(spec.method)];
   if (spec.alpha && spec.method != IntegrationMethod::hht) {
-    return Problem{"alpha", fmt::format("alpha belongs to method: hht, and {} has no use for it; "
-                                        "leave one of them out",
-                                        chosen)};
+    return Problem{
+        "alpha",
+        fmt::format("`alpha` belongs to `method: hht`; {} does not use it. Remove one of them",
+                    chosen)};
   }
   if (spec.theta && spec.method != IntegrationMethod::wilson) {
-    return Problem{"theta", fmt::format("theta belongs to method: wilson, and {} has no use for "
-                                        "it; leave one of them out",
-                                        chosen)};
+    return Problem{
+        "theta",
+        fmt::format("`theta` belongs to `method: wilson`; {} does not use it. Remove one of them",
+                    chosen)};
   }
   if (spec.alpha && !(*spec.alpha >= -1.0 / 3.0 && *spec.alpha <= 0.0)) {
     return Problem{"alpha", fmt::format("alpha must lie between -1/3 and 0, not {}: outside, the "
@@ -253,9 +255,9 @@ Finding method_problem(const model::SimulationSpec& spec) {
 Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
   if (Finding found = method_problem(spec)) return found;
   if (spec.tolerance && *spec.tolerance > 0.1) {
-    return Problem{"tolerance", fmt::format("an error of {:g} in every step leaves nothing of the "
-                                            "motion; 1e-4 is coarse, 1e-6 fine",
-                                            *spec.tolerance)};
+    return Problem{"tolerance",
+                   fmt::format("an error of {:g} would swamp the motion; 1e-4 is coarse, 1e-6 fine",
+                               *spec.tolerance)};
   }
   if (spec.tolerance && *spec.tolerance < kLeastTolerance) {
     return Problem{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
@@ -290,7 +292,7 @@ Finding problem(const model::StaticSpec& spec, const ReadContext&) {
   }
   if (spec.steps > kMostStaticPoints || spec.max_points > kMostStaticPoints) {
     return Problem{spec.steps > kMostStaticPoints ? "steps" : "max-points",
-                   fmt::format("more than {} points of a path are refused", kMostStaticPoints)};
+                   fmt::format("a path may have at most {} points", kMostStaticPoints)};
   }
   return std::nullopt;
 }

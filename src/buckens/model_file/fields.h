@@ -131,7 +131,7 @@ void read_record(const ReadPlace& place, ReadContext& context, T& out) {
     KeyCollector known;
     out.fields(known);
     if (!place.node.is_map()) {
-      fail(place, fmt::format("{} stands here; expected is a map with the keys {}",
+      fail(place, fmt::format("expected a map with the keys {1}, found {0}",
                               place.node.description(), fmt::join(known.keys, ", ")));
     }
     check_keys(place, known.keys);
@@ -148,8 +148,8 @@ void read_record(const ReadPlace& place, ReadContext& context, T& out) {
 template <class T>
 void read_named(const ReadPlace& place, ReadContext& context, std::vector<T>& out) {
   if (!place.node.is_map()) {
-    fail(place, fmt::format("{} stands here; expected is a map of names to entries",
-                            place.node.description()));
+    fail(place,
+         fmt::format("expected a map of names to entries, found {}", place.node.description()));
   }
   for (const YamlEntry& entry : place.node.entries) {
     const std::string path = join_path(place.path, entry.key);
@@ -176,7 +176,7 @@ void read_items(const ReadPlace& place, const base::FieldNote& note, ReadContext
     const std::string example = note.example.empty() ? "" : " such as " + note.example;
     const std::string what =
         place.node.is_list() ? fmt::format("a list of {} values", given) : place.node.description();
-    fail(place, fmt::format("{} stands here; expected is a list{}{}", what, number, example));
+    fail(place, fmt::format("expected a list{1}{2}, found {0}", what, number, example));
   }
   for (int i = 0; i < given; ++i) {
     item(ReadPlace{place.node.items[static_cast<std::size_t>(i)],

@@ -94,9 +94,9 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
     throw InputError({name, 0, 0}, "the model file is empty; it begins with \"buckens: 1\"");
   }
   if (!root.is_map()) {
-    throw InputError(root.where, fmt::format("{} stands here; a model file is a map of keys such "
-                                             "as buckens, bodies, joints",
-                                             root.description()));
+    throw InputError(root.where,
+                     fmt::format("expected a map of keys such as buckens, bodies, joints, found {}",
+                                 root.description()));
   }
   const YamlNode as_written = root;
   apply_overrides(root, overrides);

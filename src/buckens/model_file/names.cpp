@@ -145,8 +145,8 @@ std::vector<std::string> marker_names(const body::BodySpec& body) {
 base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) {
   if (place.node.is_map()) return read_ground_point(place, context);
   if (!place.node.is_scalar() || place.node.text.empty()) {
-    fail(place, fmt::format("{} stands here; expected is a marker such as ground, rod, rod/end or "
-                            "{{ground: [100 mm, 0, 0]}}",
+    fail(place, fmt::format("expected a marker such as ground, rod, rod/end or {{ground: [100 mm, "
+                            "0, 0]}}, found {}",
                             place.node.description()));
   }
   base::MarkerRef out;
@@ -217,21 +217,21 @@ void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadC
                             parameter.name));
   }
   if (std::find(reserved.begin(), reserved.end(), parameter.name) != reserved.end()) {
-    fail(place, fmt::format("\"{}\" has a meaning in expressions already; choose another name",
+    fail(place, fmt::format("\"{}\" already has a meaning in expressions; choose another name",
                             parameter.name));
   }
   context.parameters[parameter.name] = parameter.value;
 }
 
 void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& context) {
-  if (body.name == "ground") fail(place, "\"ground\" is the world itself; choose another name");
+  if (body.name == "ground") fail(place, "\"ground\" means the world itself; choose another name");
   if (const auto* like = std::get_if<body::LikeSpec>(&body.kind)) {
     const auto& bodies = context.model->bodies;
     const body::BodySpec* other = base::find_named(bodies, like->body);
     if (other == nullptr) {
       fail({*place.node.find("like"), place.path + ".like"},
-           fmt::format("unknown body \"{}\" (bodies above this one can be named).{}", like->body,
-                       base::suggestion(like->body, names_of(bodies))));
+           fmt::format("unknown body \"{}\" (only bodies listed above this one can be named).{}",
+                       like->body, base::suggestion(like->body, names_of(bodies))));
     }
     body.like = other->like.empty() ? other->name : other->like;
     take_over(other->markers, body.markers);

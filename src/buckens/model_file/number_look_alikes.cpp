@@ -80,7 +80,7 @@ std::optional<std::string> look_alike_problem(const std::string& text,
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::find(kWords.begin(), kWords.end(), lower) != kWords.end()) {
-    return fmt::format("\"{}\" is not a number; expected is {}", text, expected);
+    return fmt::format("\"{}\" is not a number; expected {}", text, expected);
   }
   return std::nullopt;
 }
@@ -95,7 +95,7 @@ std::optional<std::string> foreign_character_problem(const std::string& formula,
     for (const ForeignCharacter& foreign : kForeignCharacters) {
       if (std::string_view(formula).substr(i, foreign.text.size()) != foreign.text) continue;
       if (foreign.is_of_units && has_unit) continue;
-      return fmt::format("\"{}\" holds the character \"{}\" ({}); write {} in its place", formula,
+      return fmt::format("\"{}\" contains the character \"{}\" ({}); write {} instead", formula,
                          foreign.text, foreign.code, foreign.remedy);
     }
   }

@@ -118,7 +118,7 @@ class OverrideWalk {
   void enter_list(const std::string& key) {
     if (!node_->is_list()) {
       const bool is_missing = node_->kind == YamlNode::Kind::null;
-      fail(fmt::format("the model file has {} at \"{}\", no list; set it as a whole{}",
+      fail(fmt::format("the model file has {} at \"{}\", not a list; set it as a whole{}",
                        is_missing ? "nothing" : node_->description(), path_,
                        example_.empty() ? "" : fmt::format(": {}={}", path_, example_)));
     }
@@ -126,7 +126,7 @@ class OverrideWalk {
     const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
     const bool is_number = error == std::errc() && end == key.data() + key.size() && !key.empty();
     if (!is_number || index >= node_->items.size()) {
-      fail(fmt::format("\"{}\" is no item of {}; it has {} items, counted from 0", key, path_,
+      fail(fmt::format("\"{}\" is not an item of {}; it has {} items, counted from 0", key, path_,
                        node_->items.size()));
     }
     node_ = &node_->items[index];

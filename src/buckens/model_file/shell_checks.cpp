@@ -22,8 +22,7 @@ Finding thickness_problem(const fem::ShellPropertySpec& spec) {
 
 Finding problem(const fem::ShellMemberSpec& spec, const ReadContext&) {
   if (spec.nodes.size() != 3 && spec.nodes.size() != 4) {
-    return Problem{"nodes",
-                   fmt::format("{} nodes stand here; a shell has 3 or 4", spec.nodes.size())};
+    return Problem{"nodes", fmt::format("a shell has 3 or 4 nodes, found {}", spec.nodes.size())};
   }
   return thickness_problem(spec);
 }
@@ -64,7 +63,7 @@ Finding problem(const fem::GroupSectionSpec& spec, const ReadContext&) {
 Finding problem(const fem::AverageLinkSpec& spec, const ReadContext&) {
   if (spec.nodes.empty()) return Problem{"nodes", "name at least one node"};
   if (spec.weights.empty() || spec.weights.size() == spec.nodes.size()) return std::nullopt;
-  return Problem{"weights", fmt::format("{} weights stand here for {} nodes", spec.weights.size(),
+  return Problem{"weights", fmt::format("found {} weights for {} nodes", spec.weights.size(),
                                         spec.nodes.size())};
 }
 

@@ -16,8 +16,7 @@ Finding form_problem(const fem::SolidElementSpec& spec) {
   if (form.integration == fem::SolidIntegration::full || form.kind == fem::SolidKind::hex8) {
     return std::nullopt;
   }
-  return Problem{"integration",
-                 "only hex8 has incompatible modes; remove the key, or write `full`"};
+  return Problem{"integration", "only hex8 has incompatible modes; remove the key or write `full`"};
 }
 
 /// Findings about measures that are positive and finite each by itself.
@@ -48,7 +47,7 @@ Finding problem(const fem::SolidMemberSpec& spec, const ReadContext&) {
   if (spec.nodes.size() == count) return form_problem(spec);
   return Problem{
       "nodes",
-      fmt::format("{} nodes stand here; a {} has {}", spec.nodes.size(),
+      fmt::format("a {1} has {2} nodes, found {0}", spec.nodes.size(),
                   fem::choice_names(spec.element)[static_cast<std::size_t>(spec.element)], count)};
 }
 
@@ -62,8 +61,9 @@ Finding problem(const fem::CylinderMeshSpec& spec, const ReadContext&) {
 Finding problem(const fem::TubeMeshSpec& spec, const ReadContext&) {
   if (Finding found = length_problem(spec.shape())) return found;
   if (spec.inner_diameter >= spec.outer_diameter) {
-    return Problem{"inner-diameter", fmt::format("{:g} m is not below the outer diameter, {:g} m",
-                                                 spec.inner_diameter, spec.outer_diameter)};
+    return Problem{"inner-diameter",
+                   fmt::format("{:g} m must be less than the outer diameter, {:g} m",
+                               spec.inner_diameter, spec.outer_diameter)};
   }
   return round_problem(spec, spec.inner_diameter);
 }
@@ -71,8 +71,8 @@ Finding problem(const fem::TubeMeshSpec& spec, const ReadContext&) {
 Finding problem(const fem::DiscMeshSpec& spec, const ReadContext&) {
   if (spec.axis.norm() == 0.0) return Problem{"axis", "a direction cannot be zero"};
   if (spec.bore >= spec.diameter) {
-    return Problem{
-        "bore", fmt::format("{:g} m is not below the diameter, {:g} m", spec.bore, spec.diameter)};
+    return Problem{"bore", fmt::format("{:g} m must be less than the diameter, {:g} m", spec.bore,
+                                       spec.diameter)};
   }
   return round_problem(spec, spec.bore);
 }
@@ -99,9 +99,9 @@ Finding problem(const fem::MaterialSpec& spec, const ReadContext&) {
     return Problem{"", "the key \"E\" is missing; example: E: 200 GPa (or give `orthotropic`)"};
   }
   if (spec.E == 0.0 && spec.nu == 0.0 && !spec.G) return std::nullopt;
-  return Problem{"orthotropic",
-                 "the nine constants stand in place of \"E\", \"nu\" and \"G\"; remove these or "
-                 "\"orthotropic\""};
+  return Problem{
+      "orthotropic",
+      "the nine constants replace \"E\", \"nu\" and \"G\"; remove these or \"orthotropic\""};
 }
 
 }  // namespace buckens::model_file

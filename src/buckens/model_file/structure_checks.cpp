@@ -27,7 +27,7 @@ Finding up_problem(const std::optional<Vector3d>& up, const Vector3d& along) {
 Finding path_problem(const fem::BeamPropertySpec& spec) {
   if (spec.path != fem::BeamPath::polyline && spec.through.empty()) {
     return Problem{"path",
-                   "it needs points between the ends; give them as `through`, or remove it"};
+                   "it needs points between the ends; give them in `through`, or remove it"};
   }
   if (spec.path == fem::BeamPath::arc && spec.through.size() > 1) {
     return Problem{"through", fmt::format("an arc goes through one point between its ends; {} are "
@@ -45,12 +45,13 @@ Finding problem(const fem::BeamSpec& spec, const ReadContext&) {
   if (Finding found = path_problem(spec)) return found;
   const double length = (spec.to - spec.from).norm();
   if (spec.through.empty() && !(length > 0)) {
-    return Problem{"to", "the beam has the length zero: \"from\" and \"to\" are the same point"};
+    return Problem{"to", "the beam has zero length: \"from\" and \"to\" are the same point"};
   }
   for (const auto& mass : spec.masses) {
     if (mass.at != "start" && mass.at != "mid" && mass.at != "end") {
-      return Problem{"masses",
-                     fmt::format("unknown place \"{}\"; a beam has start, mid and end", mass.at)};
+      return Problem{
+          "masses",
+          fmt::format("unknown place \"{}\"; a beam has `start`, `mid` and `end`", mass.at)};
     }
     if (mass.at == "mid" && spec.elements % 2 != 0) {
       return Problem{"elements", fmt::format("a mass at mid needs an even number of elements, "
@@ -89,9 +90,10 @@ Finding member_problem(const fem::StructureSpec& spec, const Member& member, con
     if (!member.through.empty()) return std::nullopt;
   }
   if (!(along.norm() > 0)) {
-    return Problem{key + ".between", fmt::format("the member has the length zero: its nodes \"{}\" "
-                                                 "and \"{}\" are the same point",
-                                                 member.between[0], member.between[1])};
+    return Problem{
+        key + ".between",
+        fmt::format("the member has zero length: its nodes \"{}\" and \"{}\" are the same point",
+                    member.between[0], member.between[1])};
   }
   if constexpr (requires { member.up; }) return under(key.c_str(), up_problem(member.up, along));
   return std::nullopt;
@@ -106,9 +108,10 @@ Finding corner_problem(const fem::StructureSpec& spec, const std::vector<std::st
     }
     if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) !=
         nodes.begin() + static_cast<std::ptrdiff_t>(i)) {
-      return Problem{key, fmt::format("node \"{}\" stands here twice; the corners of an element "
-                                      "are different nodes",
-                                      nodes[i])};
+      return Problem{
+          key, fmt::format(
+                   "node \"{}\" appears twice; the corners of an element must be different nodes",
+                   nodes[i])};
     }
   }
   return std::nullopt;
@@ -163,7 +166,7 @@ Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
     return Problem{"", "the key \"material\" is missing; add it, for example material: steel"};
   }
   if (!spec.materials.empty()) {
-    return Problem{"materials", "a generated mesh is of one `material`; remove this key"};
+    return Problem{"materials", "a generated mesh has one `material`; remove this key"};
   }
   const char* of_files = spec.section             ? "section"
                          : !spec.sections.empty() ? "sections"
@@ -179,7 +182,7 @@ Finding problem(const fem::MeshSpec& spec, const ReadContext&) {
   }
   if (spec.length_unit || spec.mass_unit) {
     return Problem{spec.length_unit ? "length-unit" : "mass-unit",
-                   "only files need to be told their units; write the unit behind the number"};
+                   "this key is for mesh files only; write the unit after the number"};
   }
   if (const auto found = fem::size_problem(spec)) return Problem{"", *found};
   return mass_problem(spec.masses, fem::named_nodes(spec));

@@ -54,8 +54,8 @@ double cell_value(const std::vector<std::string>& cells, int column, const Sourc
     where.column += static_cast<int>(cells[static_cast<std::size_t>(k)].size()) + 1;
   }
   throw InputError(where,
-                   fmt::format("\"{}\" is not a number; write decimals such as 1.5e-3, with "
-                               "a point, and separate columns by commas, semicolons or blanks",
+                   fmt::format("\"{}\" is not a number; write decimals such as 1.5e-3, with a "
+                               "point, and separate columns with commas, semicolons or spaces",
                                shown_cell(cell)));
 }
 
@@ -93,11 +93,11 @@ CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
     may_be_heading = false;
     if (is_heading) continue;
     if (static_cast<int>(cells.size()) < column) {
-      throw InputError(where,
-                       fmt::format("the row has {} column{}, but the values are looked for in "
-                                   "column {}; separate columns by commas, semicolons or "
-                                   "blanks, or give another `column`",
-                                   cells.size(), cells.size() == 1 ? "" : "s", column));
+      throw InputError(
+          where, fmt::format(
+                     "the row has {} column{}, but the values are looked for in column {}; "
+                     "separate columns with commas, semicolons or spaces, or give another `column`",
+                     cells.size(), cells.size() == 1 ? "" : "s", column));
     }
     out.times.push_back(cell_value(cells, 1, where));
     out.values.push_back(cell_value(cells, column, where));
@@ -134,7 +134,7 @@ base::TimeLaw read_table_law(const ReadPlace& given, const base::FieldNote& note
     const ReadPlace unit_place{*place.node.find("unit"), place.path + ".unit"};
     if (!unit || !base::accepts(note.dimension, unit->dimension)) {
       fail(unit_place,
-           fmt::format("\"{}\" is no unit of {}, such as {}", spec.unit,
+           fmt::format("\"{}\" is not a unit of {}, such as {}", spec.unit,
                        base::dimension_name(note.dimension), base::si_unit(note.dimension)));
     }
     for (double& value : columns.values) value *= unit->factor;

@@ -71,7 +71,7 @@ std::string unknown_unit(const std::string& text) {
     const std::string near = base::nearest(unit, base::unit_names());
     if (!near.empty()) advice = fmt::format(" Did you mean \"{}\"?", near);
   }
-  fail(place, fmt::format("unknown unit \"{}\" in \"{}\".{} Expected is {}", unit, place.node.text,
+  fail(place, fmt::format("unknown unit \"{}\" in \"{}\".{} Expected {}", unit, place.node.text,
                           advice, expectation(note)));
 }
 
@@ -85,7 +85,7 @@ double unit_scale(const ReadPlace& place, const FieldNote& note, const std::stri
       note.dimension == base::kAngularVelocity && unit->dimension == base::kFrequency;
   const std::string advice =
       is_turn_rate ? " (hertz count turns: write \"2*pi*50 rad/s\" or 3000 rpm for 50 Hz)" : "";
-  fail(place, fmt::format("\"{}\" is {}{}; expected is {}", place.node.text,
+  fail(place, fmt::format("\"{}\" is {}{}; expected {}", place.node.text,
                           base::dimension_name(unit->dimension), advice, expectation(note)));
 }
 
@@ -134,7 +134,7 @@ void expect_scalar(const ReadPlace& place, const std::string& expected) {
   if (place.node.is_scalar() && !place.node.text.empty()) return;
   const std::string given =
       place.node.is_scalar() ? std::string("an empty text") : place.node.description();
-  fail(place, fmt::format("{} stands here; expected is {}", given, expected));
+  fail(place, fmt::format("expected {1}, found {0}", given, expected));
 }
 
 /// A quantity without an expression in it; most are, and need no parser.
@@ -213,7 +213,7 @@ body::FrameDivision read_frames(const ReadPlace& place, const FieldNote& note,
                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                            "-_ ") == std::string::npos;
   if (is_word && !context.parameters.contains(text)) {
-    fail(place, fmt::format("\"{}\" is no number of frames; expected is a whole number or {}", text,
+    fail(place, fmt::format("\"{}\" is not a number of frames; expected a whole number or {}", text,
                             word));
   }
   return read_integer(place, note, context);
@@ -233,7 +233,7 @@ bool read_truth(const ReadPlace& place, const FieldNote& note) {
   const std::string& text = place.node.text;
   if (text == "true" || (note.is_switch && text == "on")) return true;
   if (text == "false" || (note.is_switch && text == "off")) return false;
-  fail(place, fmt::format("\"{}\" stands here; expected is {}", text, expected));
+  fail(place, fmt::format("expected {1}, found \"{0}\"", text, expected));
 }
 
 std::string read_text(const ReadPlace& place) {
@@ -253,7 +253,7 @@ std::size_t read_choice(const ReadPlace& place, const std::vector<std::string>& 
                             fmt::join(allowed, ", ")));
   }
   const std::string near = base::nearest(text, allowed);
-  fail(place, fmt::format("\"{}\" is none of {}.{}", text, fmt::join(allowed, ", "),
+  fail(place, fmt::format("must be one of {1}, not \"{0}\".{2}", text, fmt::join(allowed, ", "),
                           near.empty() ? "" : fmt::format(" Did you mean \"{}\"?", near)));
 }
 
@@ -261,7 +261,7 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
                             const ReadContext& context) {
   if (place.node.is_map()) return read_table_law(place, note, context);
   if (!place.node.is_scalar()) {
-    fail(place, fmt::format("{} stands here; expected is {}, an expression of t, or a table",
+    fail(place, fmt::format("expected {1}, an expression of t, or a table, found {0}",
                             place.node.description(), expectation(note)));
   }
   if (const auto plain = plain_quantity(place, note)) {
@@ -272,9 +272,9 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
   // Every run needs the value at its beginning, so a bad one is bad input.
   const double first = formula.scale * formula.expression.unchecked({0.0});
   if (!std::isfinite(first)) {
-    fail(place, fmt::format("\"{}\" has the value {} at t = 0; a finite number is needed "
-                            "(division by zero?)",
-                            place.node.text, first));
+    fail(place,
+         fmt::format("\"{}\" has the value {} at t = 0; it must be finite (division by zero?)",
+                     place.node.text, first));
   }
   return base::TimeLaw::expression(std::move(formula.expression), formula.scale);
 }

@@ -25,10 +25,11 @@ constexpr std::size_t kDeepestTree = 60;
 
 void check_encoding(const std::string& text, const std::string& name) {
   if (text.size() > kLargestText) {
-    throw InputError({name, 0, 0},
-                     fmt::format("the text has {} bytes; a model file must not exceed {}. Put "
-                                 "tables into CSV files",
-                                 text.size(), kLargestText));
+    throw InputError(
+        {name, 0, 0},
+        fmt::format(
+            "the text has {} bytes; a model file must not exceed {}. Move tables to CSV files",
+            text.size(), kLargestText));
   }
   SourceLocation where{name, 1, 1};
   for (std::size_t i = 0; i < text.size();) {
@@ -111,7 +112,7 @@ class TreeBuilder final : public YAML::EventHandler {
     }
     if (++count_ > kMostNodes) {
       throw InputError(place(mark),
-                       fmt::format("more than {} values; put tables into CSV files", kMostNodes));
+                       fmt::format("more than {} values; move tables to CSV files", kMostNodes));
     }
     YamlNode node;
     node.kind = kind;
@@ -132,10 +133,10 @@ class TreeBuilder final : public YAML::EventHandler {
     }
     const auto [first, is_new] = level.keys.emplace(key.text, key.where);
     if (!is_new) {
-      throw InputError(key.where,
-                       fmt::format("the key \"{}\" stands here a second time, first at {}; remove "
-                                   "or rename one of them",
-                                   key.text, first->second.text()));
+      throw InputError(
+          key.where,
+          fmt::format("the key \"{}\" appears twice, first at {}; remove or rename one of them",
+                      key.text, first->second.text()));
     }
     level.node.entries.push_back({key.text, key.where, {}});
     level.has_key = true;
@@ -192,7 +193,7 @@ std::string hint(const std::string& text, const YAML::Mark& mark) {
   }
   const std::size_t first = line.find_first_not_of(' ');
   const bool has_tab = first != std::string::npos && line[first] == '\t';
-  return has_tab ? "; the line begins with a tab, indent with blanks" : "";
+  return has_tab ? "; the line begins with a tab, indent with spaces" : "";
 }
 
 }  // namespace

@@ -78,8 +78,8 @@ std::optional<body::ReducedBasis> BasisFiles::find(const std::string& file, std:
   const Hdf5File in = open_basis(path, texts);
   if (!in.is_open()) {
     throw InputError(
-        fmt::format("{}: is no reduced basis of this version of Buckens; name another "
-                    "file (`reduction.file`) or remove it",
+        fmt::format("{}: is not a reduced basis of this version of Buckens; name another file "
+                    "(`reduction.file`) or remove it",
                     path.string()));
   }
   if (read_string(in, "/", "key") != text_of(key)) {

@@ -42,10 +42,9 @@ void create_or_accept(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw IoError(
-        fmt::format("{}: is a file; a directory for the results is expected. Choose "
-                    "another name (-o).",
-                    path.string()));
+    throw IoError(fmt::format(
+        "{}: is a file; expected a directory for the results. Choose another name (-o).",
+        path.string()));
   }
   fs::create_directories(path, error);
   if (error) {

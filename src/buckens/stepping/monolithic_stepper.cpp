@@ -455,8 +455,8 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
     before = change;
   }
   throw NumericalError(
-      fmt::format("step at t = {:.6g} s failed: the monolithic iteration does not settle within {} "
-                  "iterations (last change {:.3g} m); use a smaller step than {:.3g} s",
+      fmt::format("step at t = {:.6g} s failed: the monolithic iteration does not converge within "
+                  "{} iterations (last change {:.3g} m); use a smaller step than {:.3g} s",
                   t, settings_.max_newton, before, scheme_.h));
 }
 

@@ -139,7 +139,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   if (!dependent_.empty()) report.worst_row = dependent_.front();
   if (residuals_.g.size() > 0) report.position_residual = residuals_.g.cwiseAbs().maxCoeff();
   fail(t, report,
-       rows_in_use_.empty() ? "stiffnesses of parallel springs or bushings exceed all proportion"
+       rows_in_use_.empty() ? "the stiffnesses of parallel springs or bushings differ too much"
                             : "joint equations have become dependent (a singular position)");
 }
 
@@ -336,7 +336,7 @@ SmallNewton::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, V
   solve_multipliers();
   const Change change = update(bodies, lambda);
   ++report.newton_iterations;
-  if (!(change.size < HUGE_VAL)) fail(t, report, "the motion is no longer finite");
+  if (!(change.size < HUGE_VAL)) fail(t, report, "the motion has diverged");
   motion_ = change.motion;
   return change;
 }
@@ -351,7 +351,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     if (settled(change, before)) break;
     before = change;
     if (iteration >= settings_.max_newton) {
-      fail(t, report, "the step's iteration does not settle");
+      fail(t, report, "the step's iteration does not converge");
     }
     find_residuals(bodies);
     change = move(bodies, t, lambda, report);

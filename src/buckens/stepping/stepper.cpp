@@ -91,10 +91,10 @@ std::unique_ptr<BodyStepOperator> factorised(
 
 /// @throws StepFailure naming the body whose motion is no longer a number
 [[noreturn]] void fail_infinite(const body::Body& body, double t) {
-  throw StepFailure(fmt::format(
-      "the motion of body \"{}\" is no longer finite at t = {:.6g} s; a load, a velocity or a "
-      "deformation has grown beyond any sense: check their units, or use a smaller step",
-      body.name, t));
+  throw StepFailure(
+      fmt::format("the motion of body \"{}\" has diverged at t = {:.6g} s; a load, a velocity or a "
+                  "deformation has diverged: check units, or use a smaller step",
+                  body.name, t));
 }
 
 bool is_frame_finite(const model::BodyState& s) {
@@ -322,11 +322,11 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
     if (is_second && (change <= kSecondSolve || is_small)) break;
     last_change = change;
     if (is_last || !std::isfinite(change)) {
-      throw StepFailure(fmt::format(
-          "step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not settle "
-          "(relative change {:.3g} after {} solves); the deformation is too large for linear "
-          "elasticity in one frame, or the step {:.3g} s is too long",
-          state.t, model_.bodies[least_settled_].name, change, round + 1, scheme_.h));
+      throw StepFailure(
+          fmt::format("step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not "
+                      "converge (relative change {:.3g} after {} solves); the deformation is too "
+                      "large for linear elasticity in one frame, or the step {:.3g} s is too long",
+                      state.t, model_.bodies[least_settled_].name, change, round + 1, scheme_.h));
     }
     take_over_coupling();
   }

@@ -104,9 +104,9 @@ void TimeMarch::give_up(const std::string& why) const {
   if (!why.empty()) {
     const std::string tried =
         k_ > first_failed_
-            ? fmt::format("steps shortened {} times, down to {:.3g} s, failed too",
+            ? fmt::format("steps shortened {} times, down to {:.3g} s, also failed",
                           k_ - first_failed_, ladder_.step(k_))
-            : fmt::format("it had been shortened to 1/{} before and goes no further", 1L << k_);
+            : fmt::format("it had already been shortened to 1/{}, the limit", 1L << k_);
     throw NumericalError(fmt::format("{}; {}", why, tried));
   }
   throw NumericalError(fmt::format(

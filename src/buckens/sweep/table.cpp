@@ -52,12 +52,14 @@ void check_paths(const std::vector<std::string>& paths, const SourceLocation& wh
   std::set<std::string> seen;
   for (const std::string& path : paths) {
     if (path.empty() || path.find('=') != std::string::npos) {
-      throw InputError(where, fmt::format("\"{}\" is no path of the model file; write for instance "
-                                          "bodies.rod.beam.elements",
-                                          path));
+      throw InputError(
+          where,
+          fmt::format(
+              "\"{}\" is not a path of the model file; write for instance bodies.rod.beam.elements",
+              path));
     }
     if (!seen.insert(path).second) {
-      throw InputError(where, fmt::format("the path \"{}\" stands twice; remove one", path));
+      throw InputError(where, fmt::format("the path \"{}\" appears twice; remove one", path));
     }
   }
 }
@@ -82,9 +84,8 @@ std::vector<TableLine> table_lines(const std::filesystem::path& file) {
     const SourceLocation where{file.string(), number, 1};
     const auto cells = files::split_csv_row(line);
     if (!cells) {
-      throw InputError(where,
-                       "a double quote is not closed in this line; a quote within quotes is "
-                       "written twice");
+      throw InputError(
+          where, "a double quote is not closed on this line; write a quote within quotes twice");
     }
     out.push_back({where, *cells});
     for (std::string& cell : out.back().cells) cell = trimmed(cell);
@@ -129,9 +130,10 @@ SweepTable read_sweep_table(const std::filesystem::path& file) {
     }
     check_name(variant.name, line.where);
     if (!names.insert(variant.name).second) {
-      throw InputError(line.where, fmt::format("the name \"{}\" stands twice; every variant needs "
-                                               "a directory of its own",
-                                               variant.name));
+      throw InputError(
+          line.where,
+          fmt::format("the name \"{}\" appears twice; every variant needs its own directory",
+                      variant.name));
     }
     out.variants.push_back(std::move(variant));
   }

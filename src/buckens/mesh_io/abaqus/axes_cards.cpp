@@ -49,7 +49,7 @@ void read_additional_rotation(AbaqusReading& in, AbaqusOrientation& out) {
   const double axis = in.lines.number_or(row, 0, 1.0, "axis of the additional rotation");
   const double angle = in.lines.number_or(row, 1, 0.0, "angle of the additional rotation");
   if (axis != 1.0 && axis != 2.0 && axis != 3.0) {
-    in.lines.fail(row.place, fmt::format("{:g} is no axis; it is 1, 2 or 3", axis));
+    in.lines.fail(row.place, fmt::format("{:g} is not an axis; it must be 1, 2 or 3", axis));
   }
   out.normal = static_cast<int>(axis) - 1;
   const Vector3d about = out.axes.col(*out.normal);

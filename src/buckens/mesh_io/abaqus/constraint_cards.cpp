@@ -17,8 +17,8 @@ constexpr std::int64_t kMostTerms = 100000;
 int variable_of(AbaqusReading& in, std::string_view text, DeckPlace place) {
   const auto value = files::deck_integer(text);
   if (value && *value >= 1 && *value <= 6) return static_cast<int>(*value) - 1;
-  in.lines.fail(place, fmt::format("\"{}\" is no degree of freedom of a body; they are 1 to 3 for "
-                                   "displacements, 4 to 6 for rotations",
+  in.lines.fail(place, fmt::format("\"{}\" is not a degree of freedom of a body; they are 1 to 3 "
+                                   "for displacements, 4 to 6 for rotations",
                                    std::string(text.substr(0, 40))));
 }
 
@@ -57,7 +57,7 @@ void read_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
   if (const std::string text = in.optional_parameter(keyword, "INFLUENCERADIUS"); !text.empty()) {
     link.radius = files::deck_number(text);
     if (!link.radius || *link.radius <= 0.0) {
-      in.lines.fail(keyword.place, fmt::format("INFLUENCE RADIUS={} is no radius", text));
+      in.lines.fail(keyword.place, fmt::format("INFLUENCE RADIUS={} is not a radius", text));
     }
   }
   link.is_turned = keyword.has("ORIENTATION");
@@ -192,7 +192,7 @@ void read_equation(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
     equation.place = row.place;
     const auto count = files::deck_integer(row.cell(0));
     if (!count || *count < 1 || *count > kMostTerms || row.cells.size() != 1) {
-      in.lines.fail(row.place, "the number of terms of the equation must stand alone on this line");
+      in.lines.fail(row.place, "the number of terms of the equation must be alone on this line");
     }
     while (static_cast<std::int64_t>(equation.terms.size()) < *count) {
       if (!in.lines.next_row(row)) {

@@ -74,7 +74,7 @@ class DeckReader {
     check_beginning();
     while (in_.lines.next_keyword(keyword)) read(keyword);
     if (!open_.name.empty()) {
-      in_.lines.fail(open_.place, fmt::format("{} has no {}; the file seems to be cut off",
+      in_.lines.fail(open_.place, fmt::format("{} has no {}; the file seems to be truncated",
                                               open_.written, end_of(open_.name)));
     }
     finish();
@@ -86,8 +86,8 @@ class DeckReader {
     DeckRow row;
     if (!in_.lines.next_row(row)) return;
     in_.lines.fail(row.place,
-                   "this line stands before any keyword; a deck of Abaqus or CalculiX "
-                   "begins with a line such as *HEADING or *NODE");
+                   "this line comes before any keyword; a deck of Abaqus or CalculiX begins with a "
+                   "line such as *HEADING or *NODE");
   }
 
   static std::string end_of(const std::string& name) { return "*END " + name; }
@@ -138,14 +138,12 @@ class DeckReader {
                                                     "SHEARCENTER"};
     if (is_among(kFromModel, keyword.name)) {
       return fmt::format(
-          "{} is left out: loads, supports and initial values come from the model "
-          "file",
+          "{} is ignored: loads, supports and initial values come from the model file",
           keyword.written);
     }
     if (is_among(kHolding, keyword.name)) {
       return fmt::format(
-          "{} is left out, although it changes how the parts hold together, where they are stiff "
-          "or "
+          "{} is ignored, although it changes how the parts hold together, how stiff they are or "
           "what they weigh",
           keyword.written);
     }
@@ -158,18 +156,17 @@ class DeckReader {
     while (in_.lines.next_keyword(keyword)) {
       if (keyword.name != "ENDSTEP") continue;
       in_.note(step.place,
-               "*STEP … *END STEP is left out: loads, supports and output come from the "
-               "model file",
+               "*STEP … *END STEP is ignored: loads, supports and output come from the model file",
                true);
       return;
     }
-    in_.lines.fail(step.place, "*STEP has no *END STEP; the file seems to be cut off");
+    in_.lines.fail(step.place, "*STEP has no *END STEP; the file seems to be truncated");
   }
 
   [[noreturn]] void refuse_nested(const DeckKeyword& keyword) {
     in_.lines.fail(
         keyword.place,
-        fmt::format("{} stands within {}, which began at line {}; {} is missing", keyword.written,
+        fmt::format("{} appears within {}, which began at line {}; {} is missing", keyword.written,
                     open_.written, open_.place.line, end_of(open_.name)));
   }
 
@@ -234,8 +231,7 @@ class DeckReader {
 
   void close(const DeckKeyword& keyword) {
     if (keyword.name != "END" + open_.name) {
-      in_.lines.fail(keyword.place,
-                     fmt::format("{} stands without its beginning", keyword.written));
+      in_.lines.fail(keyword.place, fmt::format("{} has no beginning", keyword.written));
     }
     open_.name.clear();
     in_.scope = &in_.deck.root;

@@ -110,7 +110,7 @@ void AbaqusLines::open(const fs::path& path, const DeckPlace* from) {
     }
     // Reading a pipe or a terminal would wait for ever.
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
-      fail(*from, fmt::format("\"{}\" is no file that can be included", path.string()));
+      fail(*from, fmt::format("\"{}\" is not a file that can be included", path.string()));
     }
     try {
       source->text = files::read_text_file(path, "included file", kMostBytes);
@@ -133,7 +133,7 @@ void AbaqusLines::open(const fs::path& path, const DeckPlace* from) {
   sources_.push_back(std::move(source));
   if (binary != std::string::npos) {
     fail({stack_.back(), static_cast<int>(newlines) + 1},
-         "a zero byte stands here: this is no text, hence no deck of Abaqus or CalculiX");
+         "found a zero byte: this is not text, so not a deck of Abaqus or CalculiX");
   }
   if (from != nullptr && bytes_ > kMostBytes) {
     fail(*from, fmt::format("the included files are larger than {} GB together", kMostBytes >> 30));
@@ -214,15 +214,15 @@ DeckKeyword AbaqusLines::parse_keyword(std::string line, DeckPlace place) const 
   const auto parts = split_keyword(line);
   out.name = squeezed(parts[0].substr(1));
   out.written = upper(parts[0].substr(0, 40));
-  if (out.name.empty()) fail(place, "a star stands alone; a keyword such as *NODE must follow it");
+  if (out.name.empty()) fail(place, "found a lone star; a keyword such as *NODE must follow it");
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (parts[i].empty()) continue;
     const std::size_t equals = parts[i].find('=');
     DeckKeyword::Parameter& parameter = out.parameters.emplace_back();
     parameter.key = squeezed(parts[i].substr(0, equals));
     if (std::isdigit(static_cast<unsigned char>(parameter.key[0])) != 0) {
-      fail(place, fmt::format("\"{}\" is no parameter of {}; a comma at the end of a keyword line "
-                              "makes the next line part of it, so take it away before data",
+      fail(place, fmt::format("\"{}\" is not a parameter of {}; a comma at the end of a keyword "
+                              "line makes the next line part of it, so remove it before data",
                               parameter.key.substr(0, 40), out.written));
     }
     if (equals == std::string_view::npos) continue;
@@ -275,7 +275,7 @@ double AbaqusLines::number_or(const DeckRow& row, std::size_t i, double otherwis
 std::int64_t AbaqusLines::label(std::string_view text, DeckPlace place, const char* what) const {
   const auto value = files::deck_integer(text);
   if (value && *value >= 1 && *value <= kLargestLabel) return *value;
-  fail(place, fmt::format("{}: \"{}\" is no number from 1 to {}", what,
+  fail(place, fmt::format("{}: \"{}\" is not a number from 1 to {}", what,
                           std::string(text.substr(0, 40)), kLargestLabel));
 }
 

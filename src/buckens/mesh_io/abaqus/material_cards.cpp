@@ -141,8 +141,7 @@ void read_damping(AbaqusReading& in, const DeckKeyword& keyword) {
     }
     const auto value = files::deck_number(parameter.value);
     if (!value || *value < 0.0) {
-      in.lines.fail(keyword.place, fmt::format("{}={}: a number that is not negative must stand "
-                                               "here",
+      in.lines.fail(keyword.place, fmt::format("{}={}: expected a number that is not negative",
                                                parameter.key, parameter.value));
     }
     (parameter.key == "ALPHA" ? damping.mass : damping.stiffness) = *value;

@@ -221,7 +221,7 @@ void read_surface(AbaqusReading& in, const DeckKeyword& keyword) {
     item.instance = in.optional_parameter(keyword, "INSTANCE");
     item.place = row.place;
     if (item.reference.empty()) {
-      in.lines.fail(row.place, "an element, a node or a set must stand first on this line");
+      in.lines.fail(row.place, "this line must begin with an element, a node or a set");
     }
     if (!surface.is_of_nodes) continue;
     item.area = in.lines.number_or(row, 1, 1.0, "area of the node");

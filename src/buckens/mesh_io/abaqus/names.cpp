@@ -144,8 +144,8 @@ std::vector<int> AbaqusNames::nodes(int scope, const std::string& reference, Dec
 int AbaqusNames::node(int scope, const std::string& reference, DeckPlace place) {
   const auto found = nodes(scope, reference, place);
   if (found.size() == 1) return found.front();
-  lines_.fail(
-      place, fmt::format("\"{}\" has {} nodes; one node must stand here", reference, found.size()));
+  lines_.fail(place,
+              fmt::format("\"{}\" has {} nodes; expected a single node", reference, found.size()));
 }
 
 std::vector<AbaqusElementAt> AbaqusNames::elements(int scope, const std::string& reference,

@@ -35,7 +35,7 @@ double read_offset(AbaqusReading& in, const DeckKeyword& keyword) {
   if (text == "SPOS") return 0.5;
   if (text == "SNEG") return -0.5;
   if (const auto value = files::deck_number(text)) return *value;
-  in.lines.fail(keyword.place, fmt::format("OFFSET={}: expected is SPOS, SNEG or a number (offsets "
+  in.lines.fail(keyword.place, fmt::format("OFFSET={}: expected SPOS, SNEG or a number (offsets "
                                            "from node to node are not supported)",
                                            text));
 }
@@ -246,7 +246,7 @@ void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword) {
   if (const std::string density = in.optional_parameter(keyword, "DENSITY"); !density.empty()) {
     const auto value = files::deck_number(density);
     if (!value || *value < 0.0) {
-      in.lines.fail(keyword.place, fmt::format("DENSITY={} is no density", density));
+      in.lines.fail(keyword.place, fmt::format("DENSITY={} is not a density", density));
     }
     material.rho = *value;
   }

@@ -24,9 +24,9 @@ struct MshVersion {
 
 MshVersion read_version(MeshText& text) {
   while (!text.at_end() && text.peek_line().empty()) text.next_line("$MeshFormat");
-  if (text.at_end()) text.fail("the file is empty; a mesh of Gmsh begins with $MeshFormat");
+  if (text.at_end()) text.fail("the file is empty; a Gmsh mesh begins with $MeshFormat");
   if (text.next_line("$MeshFormat") != "$MeshFormat") {
-    text.fail("this is no mesh of Gmsh: it does not begin with $MeshFormat");
+    text.fail("this is not a Gmsh mesh: it does not begin with $MeshFormat");
   }
   MshVersion out;
   const std::string version(text.word("the version"));
@@ -42,7 +42,7 @@ MshVersion read_version(MeshText& text) {
   if (text.integer("the size of numbers") != 8) text.fail("numbers must have 8 bytes");
   text.next_line("$EndMeshFormat");
   if (out.is_binary && text.binary<std::int32_t>("the number one") != 1) {
-    text.fail("the order of bytes is that of another machine; save the mesh as text");
+    text.fail("the byte order is that of another machine; save the mesh as text");
   }
   return out;
 }
@@ -71,24 +71,24 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
     const std::string section(text.next_line("a section"));
     if (section.empty()) continue;
     if (!section.starts_with('$') || section.size() > 60) {
-      text.fail("the head of a section should stand here, such as $Nodes");
+      text.fail("expected the head of a section, such as $Nodes");
     }
     bool known = section == "$PhysicalNames";
     if (known) reader.read_physical_names();
     if (section == "$Elements" && seen.count("$Nodes") == 0) {
-      text.fail("the section $Elements stands before $Nodes");
+      text.fail("the section $Elements comes before $Nodes");
     }
     known = known || (version.is_4 ? sections.read(section) : read_section_2(reader, section));
     if (known && !seen.insert(section).second) {
-      text.fail(fmt::format("the section {} stands here for the second time", section));
+      text.fail(fmt::format("the section {} appears twice", section));
     }
     if (known) {
       reader.expect_end(section);
       if (!text.at_end()) text.next_line(section);
     } else if (!text.skip_to("$End" + section.substr(1))) {
-      text.fail(fmt::format("the section {} has no end; the file seems to be cut off", section));
+      text.fail(fmt::format("the section {} has no end; the file seems to be truncated", section));
     } else if (section != "$Comments" && section != "$Periodic") {
-      mesh.notes.push_back({fmt::format("the section {} is left out", section), text.line(), 1});
+      mesh.notes.push_back({fmt::format("the section {} is ignored", section), text.line(), 1});
     }
   }
   for (const char* needed : {"$Nodes", "$Elements"}) {

@@ -34,10 +34,9 @@ std::size_t GmshReader::count64(std::string_view what, std::size_t text_bytes,
 void GmshReader::expect_end(const std::string& section) {
   const std::string mark = "$End" + section.substr(1);
   if (text_.word(mark) == mark) return;
-  text_.fail(
-      fmt::format("{} should stand here; a number at the head of the section {} is wrong, "
-                  "or data are missing",
-                  mark, section));
+  text_.fail(fmt::format(
+      "expected {}; a number at the head of the section {} is wrong, or data are missing", mark,
+      section));
 }
 
 void GmshReader::read_physical_names() {
@@ -54,7 +53,7 @@ void GmshReader::read_physical_names() {
 
 void GmshReader::add_node(std::int64_t id, const Eigen::Vector3d& position) {
   if (!numbers_.emplace(id, static_cast<int>(mesh_.positions.size())).second) {
-    text_.fail(fmt::format("node {} stands here for the second time", id));
+    text_.fail(fmt::format("node {} appears twice", id));
   }
   mesh_.node_ids.push_back(id);
   mesh_.positions.push_back(position);

@@ -208,10 +208,10 @@ class BodyReader {
     for (int column = 0; column < rest.outerSize(); ++column) {
       for (linalg::SparseMatrix::InnerIterator it(rest, column); it; ++it) {
         if (std::abs(it.value()) <= kSymmetric * largest) continue;
-        throw InputError({file.file, 0, 0},
-                         fmt::format("the matrix is not symmetric: {:g} and {:g} stand across the "
-                                     "diagonal",
-                                     A.coeff(it.row(), column), A.coeff(column, it.row())));
+        throw InputError(
+            {file.file, 0, 0},
+            fmt::format("the matrix is not symmetric: {:g} and {:g} are mirror entries",
+                        A.coeff(it.row(), column), A.coeff(column, it.row())));
       }
     }
     return 0.5 * (A + T);

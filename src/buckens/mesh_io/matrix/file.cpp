@@ -39,7 +39,7 @@ class MatrixReader {
   MatrixFile run() {
     std::string_view line;
     if (text_.find('\0') != std::string::npos) {
-      fail(1, "this is no text; write the matrix as Matrix Market or by *MATRIX OUTPUT of Abaqus");
+      fail(1, "this is not text; write the matrix as Matrix Market or by *MATRIX OUTPUT of Abaqus");
     }
     if (!lines_.next(line)) fail(0, "the file is empty");
     if (line.starts_with("%%MatrixMarket")) {
@@ -65,7 +65,7 @@ class MatrixReader {
   std::int64_t count(std::string_view word, std::int64_t largest, const char* what) const {
     const auto value = files::deck_integer(word);
     if (value && *value >= 1 && *value <= largest) return *value;
-    fail(lines_.number(), fmt::format("{}: \"{}\" is no number from 1 to {}", what,
+    fail(lines_.number(), fmt::format("{}: \"{}\" is not a number from 1 to {}", what,
                                       std::string(word.substr(0, 40)), largest));
   }
 
@@ -82,7 +82,7 @@ class MatrixReader {
     std::vector<std::string> kind;
     for (const auto word : words_) kind.push_back(lower(word));
     if (kind.size() != 5 || kind[1] != "matrix") {
-      fail(1, "expected is a line such as %%MatrixMarket matrix coordinate real symmetric");
+      fail(1, "expected a line such as %%MatrixMarket matrix coordinate real symmetric");
     }
     if (kind[3] != "real" && kind[3] != "integer" && kind[3] != "double") {
       fail(1, fmt::format("the entries are {}; real numbers are needed", kind[3]));
@@ -96,11 +96,11 @@ class MatrixReader {
     files::split_words(line, words_);
     const bool is_array = kind[2] == "array";
     if (!is_array && kind[2] != "coordinate") {
-      fail(1, fmt::format("\"{}\" is none of coordinate and array", kind[2]));
+      fail(1, fmt::format("must be coordinate or array, not \"{}\"", kind[2]));
     }
     if (words_.size() != (is_array ? 2u : 3u)) {
-      fail(lines_.number(), is_array ? "expected are the numbers of rows and columns"
-                                     : "expected are the numbers of rows, columns and entries");
+      fail(lines_.number(), is_array ? "expected the numbers of rows and columns"
+                                     : "expected the numbers of rows, columns and entries");
     }
     out_.size = count(words_[0], kMostRows, "number of rows");
     if (count(words_[1], kMostRows, "number of columns") != out_.size) {
@@ -119,15 +119,15 @@ class MatrixReader {
     while (next(line, '%')) {
       files::split_words(line, words_);
       if (words_.size() != 3) {
-        fail(lines_.number(), "expected are row, column and value");
+        fail(lines_.number(), "expected row, column and value");
       }
       add_plain();
     }
     const auto found = static_cast<std::int64_t>(out_.entries.size());
     if (found != announced) {
-      fail(lines_.number(), fmt::format("{} entries are announced, {} are there; the file seems to "
-                                        "be cut off",
-                                        announced, found));
+      fail(lines_.number(),
+           fmt::format("{} entries are announced but {} found; the file seems to be truncated",
+                       announced, found));
     }
     check_triangle();
   }
@@ -164,9 +164,9 @@ class MatrixReader {
       }
     }
     if (column <= out_.size) {
-      fail(lines_.number(), fmt::format("the values end in column {} of {}; the file seems to be "
-                                        "cut off",
-                                        column, out_.size));
+      fail(lines_.number(),
+           fmt::format("the values end in column {} of {}; the file seems to be truncated", column,
+                       out_.size));
     }
   }
 
@@ -190,18 +190,18 @@ class MatrixReader {
     out_.is_labelled = words_.size() == 5;
     if (!out_.is_labelled && words_.size() != 3) {
       fail(lines_.number(),
-           fmt::format("here are {} values; expected are row, column, value (Matrix Market begins "
-                       "with %%MatrixMarket; of Abaqus FORMAT=COORDINATE), or row node, row degree "
-                       "of freedom, column node, column degree of freedom, value (of Abaqus "
-                       "FORMAT=MATRIX INPUT)",
-                       words_.size()));
+           fmt::format(
+               "found {} values; expected row, column, value (Matrix Market begins with "
+               "%%MatrixMarket; of Abaqus FORMAT=COORDINATE), or row node, row degree of freedom, "
+               "column node, column degree of freedom, value (of Abaqus FORMAT=MATRIX INPUT)",
+               words_.size()));
     }
     const std::size_t width = words_.size();
     do {
       files::split_words(line, words_);
       if (words_.size() != width) {
         fail(lines_.number(),
-             fmt::format("{} values stand here, {} in the lines above", words_.size(), width));
+             fmt::format("found {} values, but {} in the lines above", words_.size(), width));
       }
       if (out_.is_labelled) {
         add_labelled();

@@ -69,7 +69,7 @@ class TableReader {
       const auto at = std::find(kColumns.begin(), kColumns.end(), name);
       if (at == kColumns.end()) {
         fail(
-            fmt::format("\"{}\" is no column of a table of nodes.{} The heading is node,x,y,z, "
+            fmt::format("\"{}\" is not a column of a table of nodes.{} The heading is node,x,y,z, "
                         "perhaps followed by ux,uy,uz,rx,ry,rz",
                         name.substr(0, 40), base::suggestion(name.substr(0, 40), kColumns)));
       }
@@ -77,7 +77,7 @@ class TableReader {
     }
     for (int needed = 0; needed < 4; ++needed) {
       if (std::count(columns_.begin(), columns_.end(), needed) == 1) continue;
-      fail(fmt::format("the column \"{}\" must be there once",
+      fail(fmt::format("the column \"{}\" must appear exactly once",
                        kColumns[static_cast<std::size_t>(needed)]));
     }
     out_.has_rows = columns_.size() > 4;
@@ -103,7 +103,7 @@ class TableReader {
       }
     }
     if (seen_.add(node.number, 1) >= 0) {
-      fail(fmt::format("node {} is in the table a second time", node.number));
+      fail(fmt::format("node {} appears in the table twice", node.number));
     }
     out_.nodes.push_back(node);
   }
@@ -113,7 +113,7 @@ class TableReader {
   std::int64_t whole(std::string_view cell, std::int64_t largest) const {
     const auto value = files::deck_integer(cell);
     if (value && *value >= 1 && *value <= largest) return *value;
-    fail(fmt::format("\"{}\" is no whole number from 1 to {}", short_text(cell), largest));
+    fail(fmt::format("\"{}\" is not a whole number from 1 to {}", short_text(cell), largest));
   }
 
   std::string text_;

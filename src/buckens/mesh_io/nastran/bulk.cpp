@@ -82,13 +82,13 @@ NastranGrid read_grid(const NastranCard& card, NastranNotes& notes) {
   grid.cd = card.integer(5, NastranGrid::kBlank);
   for (const int field : {1, 5}) {
     if (!card.blank(field) && card.integer(field) < 0) {
-      card.fail(field, fmt::format("{} is no coordinate system; fluid points are not supported",
+      card.fail(field, fmt::format("{} is not a coordinate system; fluid points are not supported",
                                    card.integer(field)));
     }
   }
   grid.place = {card.file, card.line};
   if (!card.blank(6) && card.text(6) != "0") {
-    notes.add("GRID: supports in field 8 (PS) are left out; joints of the model hold bodies",
+    notes.add("GRID: supports in field 8 (PS) are ignored; bodies are held by joints of the model",
               grid.place);
   }
   return grid;
@@ -98,19 +98,18 @@ void read_grid_defaults(const NastranCard& card, NastranBulk& bulk) {
   bulk.default_cp = card.integer(1, 0);
   bulk.default_cd = card.integer(5, 0);
   for (const int field : {1, 5}) {
-    if (card.integer(field, 0) < 0) card.fail(field, "this is no coordinate system");
+    if (card.integer(field, 0) < 0) card.fail(field, "this is not a coordinate system");
   }
 }
 
 void note_unused(const NastranCard& card, NastranNotes& notes) {
   const NastranPlace place{card.file, card.line};
   if (support_names().contains(card.name)) {
-    notes.add(fmt::format("{}: left out; supports and loads stand in the model file", card.name),
+    notes.add(fmt::format("{}: ignored; supports and loads belong in the model file", card.name),
               place, true);
   } else {
-    notes.add(
-        fmt::format("{}: left out; it is no part of a mesh that can be taken over", card.name),
-        place);
+    notes.add(fmt::format("{}: ignored; it is not part of a mesh that can be imported", card.name),
+              place);
   }
 }
 

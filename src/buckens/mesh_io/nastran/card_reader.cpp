@@ -119,7 +119,7 @@ void check_mark(std::string_view announced, std::string_view found, const Nastra
     return trimmed(mark);
   };
   if (core(announced).empty() || core(found).empty() || core(announced) == core(found)) return;
-  fail(line, fmt::format("continuation {} stands where {} should follow; put the lines of a card "
+  fail(line, fmt::format("found continuation {} where {} should follow; put the lines of a card "
                          "one after the other",
                          quoted_excerpt(found), quoted_excerpt(announced)));
 }

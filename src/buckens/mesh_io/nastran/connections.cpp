@@ -93,7 +93,7 @@ void ConnectionBuilder::add_rbe2(const NastranCard& card) {
     }
     const int follower = node(card, field);
     if (!seen.insert(follower).second) {
-      card.fail(field, fmt::format("node {} stands there twice", card.id(field)));
+      card.fail(field, fmt::format("node {} appears there twice", card.id(field)));
     }
     check_axes(card, link.variables, follower);
     link.nodes.push_back(follower);
@@ -166,7 +166,7 @@ void ConnectionBuilder::add_rbe3(const NastranCard& card) {
     if (card.is_word(field)) {
       // UM chooses other variables to eliminate, which changes nothing.
       if (card.word(field) != "UM" && card.word(field) != "ALPHA") {
-        card.fail(field, fmt::format("{} stands where a node should", card.word(field)));
+        card.fail(field, fmt::format("{} is given where a node is expected", card.word(field)));
       }
       if (card.word(field) == "ALPHA") notes_.add("RBE3: ALPHA is left out", place);
       break;

@@ -55,8 +55,7 @@ void NastranCoordinates::add_nodes(const NastranBulk& bulk, NastranNotes& notes)
                          fmt::format("GRID {}: there is another node with this number in {}:{}",
                                      grid.id, first.place.file->name, first.place.line));
       }
-      notes.add("GRID: nodes that stand there twice with the same coordinates are taken once",
-                grid.place);
+      notes.add("GRID: repeated nodes with the same coordinates are taken once", grid.place);
       continue;
     }
     grids_.push_back(grid);
@@ -115,7 +114,7 @@ void NastranCoordinates::add_system(const System& system, NastranNotes& notes) {
                                  "{}:{}",
                                  system.id, first.place.file->name, first.place.line));
   }
-  notes.add("coordinate systems that stand there twice alike are taken once", system.place);
+  notes.add("repeated identical coordinate systems are taken once", system.place);
 }
 
 const NastranCoordinates::System& NastranCoordinates::system(std::int64_t id,

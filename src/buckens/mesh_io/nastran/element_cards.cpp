@@ -30,7 +30,7 @@ void add_nodes(const NastranCard& card, int first, int count, NastranBulk& bulk,
     const std::int64_t node = card.id(first + i);
     const auto begin = bulk.element_nodes.begin() + element.first_node;
     if (std::find(begin, bulk.element_nodes.end(), node) != bulk.element_nodes.end()) {
-      card.fail(first + i, fmt::format("node {} stands there twice", node));
+      card.fail(first + i, fmt::format("node {} appears there twice", node));
     }
     bulk.element_nodes.push_back(node);
   }

@@ -233,9 +233,11 @@ void read_shape(const NastranCard& card, NastranNotes& notes, NastranSection& ou
   // SO and X/XB of further stations may be blank, "YES" and 1 by default.
   for (; card.name == "PBEAML" && field < card.size(); field += count + 3) {
     if (!card.blank(field) && !is_station(card, field)) {
-      card.fail(field, fmt::format("\"{}\" stands where SO should: YES or NO; the section of type "
-                                   "{} has {} dimensions",
-                                   card.text(field), type, count));
+      card.fail(
+          field,
+          fmt::format(
+              "expected SO, YES or NO, found \"{}\"; the section of type {} has {} dimensions",
+              card.text(field), type, count));
     }
     last = dim;
     read(field + 2, last);

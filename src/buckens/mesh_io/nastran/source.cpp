@@ -126,7 +126,7 @@ fs::path NastranSource::resolve(const std::string& argument, const NastranFile& 
 void NastranSource::include(const NastranLine& line) {
   const SourceLocation where{line.file->name, line.number, 1};
   const std::string argument = include_argument(line);
-  if (argument.empty()) throw InputError(where, "INCLUDE without the name of a file");
+  if (argument.empty()) throw InputError(where, "INCLUDE has no file name");
   if (argument.size() > 4096) throw InputError(where, "INCLUDE: the name of the file is too long");
   const fs::path path = resolve(argument, *line.file);
   const std::string key = key_of(path);
@@ -138,10 +138,10 @@ void NastranSource::include(const NastranLine& line) {
                                         quoted_excerpt(argument)));
   }
   if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) {
-    throw InputError(where,
-                     fmt::format("INCLUDE {}: the file was included before; its numbers would "
-                                 "be there twice",
-                                 quoted_excerpt(argument)));
+    throw InputError(
+        where, fmt::format(
+                   "INCLUDE {}: the file has already been included; its numbers would appear twice",
+                   quoted_excerpt(argument)));
   }
   if (files_.size() >= kMostIncludes) {
     throw InputError(where, fmt::format("INCLUDE: more than {} files", kMostIncludes));

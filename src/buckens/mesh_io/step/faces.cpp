@@ -84,11 +84,11 @@ class FaceSelection {
     }
     if (!out.empty()) return out;
     throw InputError(
-        spec.where, labels.empty()
-                        ? "the STEP file gives no names to faces; choose them by color, numbers or "
-                          "place"
-                        : fmt::format("no face of the part has the name \"{}\".{}", spec.label,
-                                      base::suggestion(spec.label, labels)));
+        spec.where,
+        labels.empty()
+            ? "the STEP file does not name its faces; choose them by color, numbers or place"
+            : fmt::format("no face of the part has the name \"{}\".{}", spec.label,
+                          base::suggestion(spec.label, labels)));
   }
 
   /// Shades are told apart as finely as the file is read: one of 256 steps of the linear scale.

@@ -157,7 +157,7 @@ std::string mesh_with_gmsh(const Order& order) {
 
 void check_step(const std::string& text, const std::string& file) {
   if (text.find("ISO-10303-21;") > 200) {
-    throw InputError({file, 1, 1}, "this is no STEP file: it does not begin with ISO-10303-21");
+    throw InputError({file, 1, 1}, "this is not a STEP file: it does not begin with ISO-10303-21");
   }
   if (text.find("END-ISO-10303-21;") != std::string::npos) return;
   const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
@@ -220,11 +220,10 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, double size, i
   const Order task{step.string(), named.string(), mesh.string(), size, order, copy.names.size()};
   const files::IsolatedResult result = files::do_isolated([&] { return mesh_with_gmsh(task); });
   if (!result.is_complete) {
-    throw InputError(
-        {file, 0, 0},
-        fmt::format("the library of Gmsh did not survive this file (signal {}); is the "
-                    "geometry broken? Try another size, or export it anew",
-                    result.signal));
+    throw InputError({file, 0, 0},
+                     fmt::format("Gmsh's library crashed on this file (signal {}); is the geometry "
+                                 "broken? Try another size, or export the part again",
+                                 result.signal));
   }
   if (result.output.starts_with("error ")) {
     std::string reason = result.output.substr(6);
@@ -240,8 +239,7 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, double size, i
   const int straightened = order == 2 ? fem::straighten_inverted(out.mesh) : 0;
   if (straightened > 0) {
     out.mesh.notes.push_back(
-        {"elements that the curved surface would turn inside out have straight edges", 0,
-         straightened});
+        {"elements that the curved surface would invert have straight edges", 0, straightened});
   }
   return out;
 }

@@ -53,8 +53,8 @@ TEST_F(AbaqusMalformed, FilesThatAreNoDecks) {
   refuses("", {"deck.inp", "no *NODE"});
   refuses("*HEADING\nnothing else\n", {"no *NODE"});
   refuses("1, 2, 3\n*NODE\n", {"deck.inp:1:1", "before any keyword"});
-  refuses("*\n", {"deck.inp:1:1", "a star stands alone"});
-  refuses("*NODE\n1,0,0,0\n" + std::string(3, '\0') + "ELF", {"deck.inp:3:1", "no text"});
+  refuses("*\n", {"deck.inp:1:1", "a lone star"});
+  refuses("*NODE\n1,0,0,0\n" + std::string(3, '\0') + "ELF", {"deck.inp:3:1", "not text"});
   std::string garbage;
   unsigned state = 1;
   for (int k = 0; k < 100000; ++k) {
@@ -109,7 +109,7 @@ TEST_F(AbaqusMalformed, ManyInstancesAreLookedUpAtOnce) {
 }
 
 TEST_F(AbaqusMalformed, DataThatAKeywordLineSwallows) {
-  refuses("*NODE,\n1, 0, 0, 0\n", {"deck.inp:1:1", "\"1\" is no parameter of *NODE", "comma"});
+  refuses("*NODE,\n1, 0, 0, 0\n", {"deck.inp:1:1", "\"1\" is not a parameter of *NODE", "comma"});
 }
 
 TEST_F(AbaqusMalformed, ASetMayHaveANumberForItsName) {
@@ -162,7 +162,7 @@ TEST_F(AbaqusMalformed, IncludedFilesAreNamedWithTheirOwnLines) {
   refuses("*INCLUDE, INPUT=nowhere.inc\n", {"deck.inp:1:1", "nowhere.inc", "no such file"});
   refuses("*INCLUDE\n", {"*INCLUDE needs the name of a file"});
   refuses("*INCLUDE, INPUT=/dev/tty\n",
-          {"deck.inp:1:1", "/dev/tty", "no file that can be included"});
+          {"deck.inp:1:1", "/dev/tty", "not a file that can be included"});
 }
 
 TEST_F(AbaqusMalformed, CirclesAndCascadesOfIncludedFilesEnd) {
@@ -202,10 +202,10 @@ TEST_F(AbaqusMalformed, EveryBeginningOfADeckIsReadOrRefused) {
 }
 
 TEST_F(AbaqusMalformed, WhatIsCutOffOrNestedWrongly) {
-  refuses("*PART, NAME=P\n*NODE\n1,0,0,0\n", {"deck.inp:1:1", "*PART", "cut off"});
+  refuses("*PART, NAME=P\n*NODE\n1,0,0,0\n", {"deck.inp:1:1", "*PART", "truncated"});
   refuses(with_nodes("*STEP\n*STATIC\n"), {"deck.inp:10:1", "no *END STEP"});
-  refuses("*PART, NAME=P\n*PART, NAME=Q\n", {"deck.inp:2:1", "stands within *PART"});
-  refuses("*END PART\n", {"without its beginning"});
+  refuses("*PART, NAME=P\n*PART, NAME=Q\n", {"deck.inp:2:1", "appears within *PART"});
+  refuses("*END PART\n", {"has no beginning"});
   refuses("*PART, NAME=P\n*NODE\n1,0,0,0\n*END PART\n", {"no *INSTANCE"});
   refuses("*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n", {"no part \"P\""});
   refuses("*PART, NAME=P\n*END PART\n*PART, NAME=p\n*END PART\n", {"second time"});
@@ -258,7 +258,7 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(with_nodes("*EQUATION\n3\n1,1,1.,2,1,-1.\n"), {"deck.inp:11:1", "3 terms, 2 are there"});
   refuses(with_nodes("*EQUATION\n1\n1,1,1.,2,1,-1.\n"), {"1 terms, here are 2"});
   refuses(with_nodes("*EQUATION\n1000000000\n1,1,1.\n"), {"number of terms"});
-  refuses(with_nodes("*EQUATION\n2\n1,7,1.,2,1,-1.\n"), {"\"7\" is no degree of freedom"});
+  refuses(with_nodes("*EQUATION\n2\n1,7,1.,2,1,-1.\n"), {"\"7\" is not a degree of freedom"});
   refuses(with_nodes("*EQUATION\n2\n1,1,0.,2,1,-1.\n"), {"first coefficient is zero"});
   refuses(with_nodes("*MPC\nSLIDER, 1, 2, 3\n"), {"type \"SLIDER\" is not supported", "LINK"});
   refuses(with_nodes("*NODE\n9,0,0,0\n*MPC\nLINK, 1, 9\n"), {"deck.inp:13:1", "at one place"});

@@ -309,18 +309,16 @@ TEST(GmshMesh, SaysWhatIsWrongAndWhere) {
   const std::string two = kTwo22, four = kTwo41;
   EXPECT_THAT(gmsh_message(""), HasSubstr("the file is empty"));
   EXPECT_EQ(gmsh_message(std::string("\x89PNG\r\n\x1a\n\0\0", 10)),
-            "part.msh:1:1: this is no mesh of Gmsh: it does not begin with $MeshFormat");
+            "part.msh:1:1: this is not a Gmsh mesh: it does not begin with $MeshFormat");
   EXPECT_THAT(gmsh_message(test::replaced(two, "2.2 0", "4.0 0")), HasSubstr("version 4.0"));
   EXPECT_EQ(gmsh_message(test::replaced(two, "$Nodes\n5", "$Nodes\n6")),
-            "part.msh:19:1: \"$EndNodes\" stands where the number of a node should stand, a whole "
-            "number");
+            "part.msh:19:1: expected the number of a node, a whole number, found \"$EndNodes\"");
   EXPECT_THAT(gmsh_message(test::replaced(two, "$Nodes\n5", "$Nodes\n4")),
-              HasSubstr("part.msh:18:1: $EndNodes should stand here"));
+              HasSubstr("part.msh:18:1: expected $EndNodes"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "$Nodes\n5", "$Nodes\n999999999999")),
               HasSubstr("more than the rest of the file"));
   EXPECT_EQ(gmsh_message(test::replaced(two, "1 1 1.5e0", "1 nan 1")),
-            "part.msh:18:6: \"nan\" stands where a coordinate of a node should stand, a finite "
-            "number");
+            "part.msh:18:6: expected a coordinate of a node, a finite number, found \"nan\"");
   EXPECT_THAT(gmsh_message(test::replaced(two, "20 1 0 0", "10 1 0 0")),
               HasSubstr("node 10 stands"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "20 30 40 50", "20 30 40 77")),

@@ -162,29 +162,29 @@ TEST_F(MatrixBody, MalformedMatricesAreRefusedWithFileAndLine) {
   with("%%MatrixMarket matrix coordinate complex symmetric\n1 1 1\n1 1 1 1\n",
        {"k.mtx:1:1", "complex"});
   with("%%MatrixMarket matrix coordinate real skew-symmetric\n", {"skew-symmetric"});
-  with("%%MatrixMarket vector\n", {"expected is a line such as"});
+  with("%%MatrixMarket vector\n", {"expected a line such as"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 6\n1 1 1\n", {"k.mtx:2:1", "entries"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 5 1\n1 1 1\n", {"not square"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 6 9\n1 1 1\n",
-       {"9 entries are announced, 1 are there"});
+       {"9 entries are announced but 1 found"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 6 1\n7 1 1\n",
        {"k.mtx:3:1", "row", "1 to 6"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 6 1\n1 1 nan\n", {"k.mtx:3:1", "nan"});
   with("%%MatrixMarket matrix coordinate real symmetric\n99999999999 99999999999 1\n1 1 1\n",
        {"number of rows"});
-  with("%%MatrixMarket matrix array real general\n6 6\n1 2 3\n", {"column 1 of 6", "cut off"});
+  with("%%MatrixMarket matrix array real general\n6 6\n1 2 3\n", {"column 1 of 6", "truncated"});
   with("%%MatrixMarket matrix coordinate real general\n6 6 2\n1 2 5\n2 1 4\n", {"not symmetric"});
   with("%%MatrixMarket matrix coordinate real symmetric\n9 9 1\n1 1 1\n", {"9 rows"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 6 3\n1 1 5\n4 1 -5\n1 4 -5\n",
        {"k.mtx:5:1", "both sides", "general"});
   with("%%MatrixMarket matrix coordinate real symmetric\n6 6 1\n1 x 1\n", {"k.mtx:3:1", "\"x\""});
-  with("1,1,1,1\n", {"here are 4 values"});
+  with("1,1,1,1\n", {"found 4 values"});
   with("1 1 5.0\n1 1\n", {"k.mtx:2:1", "2 values"});
   with("7,1,7,8,1.0\n", {"degree of freedom", "\"8\""});
   with("-1,1,7,1,1.0\n", {"internal nodes"});
   with("8,1,8,1,1.0\n", {"k.mtx:1:1", "node 8 is not in the table"});
   with("7,4,7,4,1.0\n7,1,7,1,1.\n", {"rx of node 7 is not among the variables"});
-  with("1 1 5\n" + std::string(1, '\0'), {"no text"});
+  with("1 1 5\n" + std::string(1, '\0'), {"not text"});
   spec_.stiffness = "missing.mtx";
   EXPECT_THROW(read(), IoError);
 }
@@ -219,10 +219,10 @@ TEST_F(MatrixBody, MalformedTablesAreRefusedWithFileAndLine) {
   };
   with("", {"empty"});
   with("node,x,y\n", {"nodes.csv:1:1", "\"z\""});
-  with("node,x,y,zz\n", {"\"zz\" is no column", "\"z\""});
+  with("node,x,y,zz\n", {"\"zz\" is not a column", "\"z\""});
   with("node,x,y,z\n7,0,0\n", {"nodes.csv:2:1", "3 cells, the heading 4"});
   with("node,x,y,z\n7,0,0,inf\n", {"inf"});
-  with("node,x,y,z\n7,0,0,0\n7,1,0,0\n", {"nodes.csv:3:1", "second time"});
+  with("node,x,y,z\n7,0,0,0\n7,1,0,0\n", {"nodes.csv:3:1", "twice"});
   with("node,x,y,z\n99999999999,0,0,0\n", {"99999999999"});
   with("node,x,y,z\n7,0,0,0\n3,1,0,0\n9,2,0,0\n", {"6 rows, the table 3 nodes"});
   with("node,x,y,z,ux,uy,uz\n7,0,0,0,1,2,3\n3,1,0,0,4,5,9\n", {"nodes.csv:3:1", "row 9"});

@@ -62,7 +62,7 @@ TEST(NastranMalformed, numbers_used_twice) {
   expect_words(refusal(kTetra + "CTETRA,1,1,1,2,3,4\n"), {"deck.bdf:8:1: ", "deck.bdf:5"});
   expect_words(refusal(kTetra + "PSOLID,1,1\n"), {"deck.bdf:8:1: ", "another property"});
   expect_words(refusal(kTetra + "MAT8,1,1.,1.,.3,1.\n"), {"deck.bdf:8:1: ", "another material"});
-  expect_words(refusal(kTetra + "CTETRA,2,1,1,2,3,3\n"), {"node 3 stands there twice"});
+  expect_words(refusal(kTetra + "CTETRA,2,1,1,2,3,3\n"), {"node 3 appears there twice"});
 }
 
 TEST(NastranMalformed, circles_of_coordinate_systems) {

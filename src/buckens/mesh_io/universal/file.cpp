@@ -108,7 +108,7 @@ void UniversalReader::read_nodes() {
     for (double& x : position) x = text_.number("a coordinate of a node");
     text_.next_line("the next node");
     if (!nodes_.emplace(id, static_cast<int>(mesh_.positions.size())).second) {
-      text_.fail(fmt::format("node {} stands here for the second time", id));
+      text_.fail(fmt::format("node {} appears twice", id));
     }
     mesh_.node_ids.push_back(id);
     mesh_.positions.push_back(position);
@@ -147,13 +147,13 @@ void UniversalReader::read_elements() {
       const auto found = nodes_.find(node);
       if (found == nodes_.end()) {
         text_.fail(
-            fmt::format("element {} refers to node {}, which does not stand before it", id, node));
+            fmt::format("element {} refers to node {}, which is not defined before it", id, node));
       }
       element.nodes.push_back(found->second);
     }
     text_.next_line("the next element");
     if (!element_numbers_.emplace(id, static_cast<int>(elements_.size())).second) {
-      text_.fail(fmt::format("element {} stands here for the second time", id));
+      text_.fail(fmt::format("element {} appears twice", id));
     }
     elements_.push_back(std::move(element));
   }
@@ -218,7 +218,7 @@ void UniversalReader::read() {
     const std::string_view line = trimmed(text_.next_line("a data set"));
     if (line.empty()) continue;
     if (line != "-1") {
-      text_.fail("-1, with which a data set begins, should stand here; is this a universal file?");
+      text_.fail("expected -1, which begins a data set; is this a universal file?");
     }
     if (text_.at_end()) break;
     const std::int64_t set = text_.integer("the number of a data set", 0);
@@ -234,7 +234,7 @@ void UniversalReader::read() {
       if (set == 164) read_units();
       while (!at_mark()) text_.next_line("-1, the end of the data set,");
       if (set != 164 && set != 151) {
-        mesh_.notes.push_back({fmt::format("the data set {} is left out", set), text_.line(), 1});
+        mesh_.notes.push_back({fmt::format("the data set {} is ignored", set), text_.line(), 1});
       }
     }
     text_.next_line("-1, the end of the data set,");

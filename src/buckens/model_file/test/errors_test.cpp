@@ -41,12 +41,12 @@ TEST(ModelFileErrors, Files) {
   expect_messages({
       {"", {"m.yaml: the model file is empty"}},
       {"\n# only a comment\n", {"empty"}},
-      {"hello", {"m.yaml:1:1", "\"hello\" stands here"}},
-      {"- 1", {"a list stands here"}},
+      {"hello", {"m.yaml:1:1", "found \"hello\""}},
+      {"- 1", {"found a list"}},
       {"buckens: 1\n", {"the key \"bodies\" is missing"}},
       {"buckens: 2\nbodies: {}", {"m.yaml:1:10: buckens: this program reads format 1, not 2"}},
       {"buckens: 1\nbodies: {}", {"at least one body"}},
-      {"buckens: 1\nbodies:\n", {"no value stands here"}},
+      {"buckens: 1\nbodies:\n", {"found no value"}},
       {"buckens: 1\nbodis: {}", {"m.yaml:2:1: unknown key \"bodis\"", "Did you mean \"bodies\"?"}},
   });
 }
@@ -58,8 +58,8 @@ TEST(ModelFileErrors, YamlThatIsNotWhatItSeems) {
            {"m.yaml:2:9: the bracket { that opens here is not closed; add }"}},
           {"\"abc", {"YAML syntax"}},
           {"{a: {rigid: {mass: 1, mass: 2}}}",
-           {"m.yaml:2:31", "\"mass\" stands here a second time, first at m.yaml:2:22"}},
-          {"{a: {rigid: {mass: 1}}, a: {rigid: {mass: 1}}}", {"a second time"}},
+           {"m.yaml:2:31", "\"mass\" appears twice, first at m.yaml:2:22"}},
+          {"{a: {rigid: {mass: 1}}, a: {rigid: {mass: 1}}}", {"appears twice"}},
           {"{a: &x {rigid: {mass: 1}}, b: *x}", {"m.yaml:2:13: anchors and aliases"}},
           {"{a: {<<: {rigid: {mass: 1}}}}", {"merge keys"}},
           {"{a: {rigid: {mass: !!float 1}}}", {"tag", "is not supported"}},
@@ -75,7 +75,7 @@ TEST(ModelFileErrors, Numbers) {
   expect_messages(
       {
           {"-0.36 kg", {"m.yaml:2:28: bodies.a.rigid.mass: -0.36 kg", "must not be negative"}},
-          {"3 m", {"\"3 m\" is a length; expected is a mass such as 0.36 kg"}},
+          {"3 m", {"\"3 m\" is a length; expected a mass such as 0.36 kg"}},
           {"3 kgg", {"unknown unit \"kgg\"", "Did you mean \"kg\"?"}},
           {"3 kg/m s", {"unknown unit \"kg/m s\"", "kg/m/s"}},
           {"010", {"octal", "write 10"}},
@@ -92,10 +92,10 @@ TEST(ModelFileErrors, Numbers) {
           {"sqrt(-1)", {"has the value"}},
           {"1e200*1e200", {"has the value inf"}},
           {"\"1,5 kg\"", {"decimals are written 1.5"}},
-          {"''", {"an empty text stands here"}},
-          {"", {"no value stands here"}},
-          {"[1]", {"a list stands here"}},
-          {"{a: 1}", {"a map stands here"}},
+          {"''", {"found an empty text"}},
+          {"", {"found no value"}},
+          {"[1]", {"found a list"}},
+          {"{a: 1}", {"found a map"}},
           {"2*Lenght", {"unknown name \"Lenght\"", "Did you mean \"Length\"?"}},
       },
       "buckens: 1\nbodies: {a: {rigid: {mass: ", "}}}\nparameters: {Length: 1}\n");
@@ -116,11 +116,11 @@ TEST(ModelFileErrors, Bodies) {
           {"{rigid: {mass: 1, inertia: [1, 1, 5]}}", {"exceeds the sum of the others"}},
           {"{rigid: {mass: 1, inertia: [1, 1, -5]}}", {"none can be negative"}},
           {"{rigid: {mass: 1, inertia: [1, 1, 1, 5, 0, 0]}}", {"none can be negative"}},
-          {"{rigid: {mass: 1, inertia: [1, 1]}}", {"expected are 3", "or 6"}},
+          {"{rigid: {mass: 1, inertia: [1, 1]}}", {"expected 3 values", "or 6"}},
           {"{rigid: {mass: 1}, coupling: ful}", {"Did you mean \"full\"?"}},
           {"{rigid: {mass: 1}, geometric-stiffness: on}", {"a rigid body has no stiffness"}},
           {"{rigid: {mass: 1}, frames: 2}", {"a rigid body has one frame"}},
-          {"{rigid: {mass: 1}, frames: per-node}", {"\"per-node\" is no number of frames"}},
+          {"{rigid: {mass: 1}, frames: per-node}", {"\"per-node\" is not a number of frames"}},
           {"{rigid: {mass: 1}, damping: {mass: 1}}", {"has no damping of its own"}},
           {"{rigid: {mass: 1}, markers: {com: {at: origin}}}", {"\"com\" is taken"}},
           {"{rigid: {mass: 1}, markers: {q: {at: end}}}", {"body \"a\" has no place \"end\""}},
@@ -129,7 +129,7 @@ TEST(ModelFileErrors, Bodies) {
           {"{rigid: {mass: 1}, at: {orientation: {axis: [1, 0, 0]}}}", {"belong together"}},
           {"{rigid: {mass: 1}, at: {orientation: {}}}", {"in one way"}},
           {"{like: nix}", {"unknown body \"nix\""}},
-          {"{beam: {to: [0, 0, 0], " + steel + "}}", {"bodies.a.beam.to", "the length zero"}},
+          {"{beam: {to: [0, 0, 0], " + steel + "}}", {"bodies.a.beam.to", "zero length"}},
           {"{beam: {to: [1, 0, 0], elements: 0, " + steel + "}}", {"must be positive"}},
           {"{beam: {to: [1, 0, 0], elements: 2.5, " + steel + "}}", {"not a whole number"}},
           {"{beam: {to: [1, 0, 0], up: [2, 0, 0], " + steel + "}}", {"parallel to the beam"}},
@@ -152,7 +152,7 @@ TEST(ModelFileErrors, Bodies) {
            {"bars.0.between: unknown node \"b\""}},
           {"{structure: {nodes: {a: [0, 0, 0], b: [0, 0, 0]}, beams: [{between: [a, b], " + steel +
                "}]}}",
-           {"beams.0.between", "the length zero"}},
+           {"beams.0.between", "zero length"}},
       },
       "buckens: 1\nmaterials: {steel: {E: 1, rho: 7}}\nbodies: {a: ", "}\n");
   EXPECT_THAT(message("buckens: 1\nbodies: {ground: {rigid: {mass: 1}}}"), HasSubstr("the world"));
@@ -213,11 +213,11 @@ TEST(ModelFileErrors, Solids) {
           {"{mesh: {" + unit + "}, material: m}, markers: {q: {at: corner_002}}}",
            {"no place \"corner_002\"", "corner_00"}},
           {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d], material: m}]}}",
-           {"solids.0.nodes: 4 nodes stand here; a hex8 has 8"}},
+           {"solids.0.nodes: a hex8 has 8 nodes, found 4"}},
           {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d, e, f, g, i], material: m}]}}",
            {"solids.0.nodes: unknown node \"i\""}},
           {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d, e, f, g, a], material: m}]}}",
-           {"node \"a\" stands here twice"}},
+           {"node \"a\" appears twice"}},
           {"{structure: {" + nodes + ", solids: [{nodes: [a, b, c, d, e, f, g, h]}]}}",
            {"solids.0: the key \"material\" is missing"}},
       },
@@ -242,18 +242,18 @@ TEST(ModelFileErrors, KindsOfSolids) {
            {"cylinder.integration"}},
           {"{" + bar + "[1000, 4000, 4000]}", {"these are 2e+10 elements", "use fewer"}},
           {"{" + tube + "0.1, divisions: [1, 8, 2]}",
-           {"tube.inner-diameter", "not below the outer diameter"}},
+           {"tube.inner-diameter", "less than the outer diameter"}},
           {"{" + tube + "0.05, divisions: [1, 2, 2]}", {"tube.divisions.1"}},
           {"{" + disc + "axis: [0, 0, 0], divisions: [1, 8, 1]}", {"disc.axis", "cannot be zero"}},
           {"{" + disc + "bore: 0.2, divisions: [1, 8, 1]}",
-           {"disc.bore", "not below the diameter"}},
+           {"disc.bore", "less than the diameter"}},
           {"{" + disc + "divisions: [1, 9, 1]}", {"disc.divisions.1", "divisible by 4"}},
       },
       "buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: {mesh: ", ", material: m}}}\n");
   EXPECT_THAT(message("buckens: 1\nmaterials: {m: {E: 1, rho: 7}}\nbodies: {a: {structure: {nodes: "
                       "{a: [0, 0, 0], b: [1, 0, 0], c: [0, 1, 0]}, solids: [{element: tet4, nodes: "
                       "[a, b, c], material: m}]}}}"),
-              HasSubstr("3 nodes stand here; a tet4 has 4"));
+              HasSubstr("a tet4 has 4 nodes, found 3"));
 }
 
 TEST(ModelFileErrors, OrthotropicMaterials) {
@@ -263,7 +263,7 @@ TEST(ModelFileErrors, OrthotropicMaterials) {
       {
           {"", {"the key \"E\" is missing", "E: 200 GPa"}},
           {", E: 1, orthotropic: {E1: 135e9, E2: 1e10, E3: 1e10, nu12: 0.3, " + rest + "}",
-           {"materials.m.orthotropic", "in place of \"E\""}},
+           {"materials.m.orthotropic", "replace \"E\""}},
           {", orthotropic: {E1: 135e9, E3: 1e10, nu12: 0.3, " + rest + "}", {"\"E2\" is missing"}},
           {", orthotropic: {E1: 135e9, E2: 1e10, E3: 1e10, nu12: 4, " + rest + "}",
            {"|nu12| must be below sqrt(E1/E2) = 3.674"}},
@@ -297,7 +297,7 @@ TEST(ModelFileErrors, Interfaces) {
           {"{mesh: {" + unit +
                "}, material: m}, interfaces: {q: {cylinder: {from: [1, 1, 1], to: [1, 1, 1], "
                "radius: 1}}}}",
-           {"interfaces.q.cylinder.to", "length zero"}},
+           {"interfaces.q.cylinder.to", "zero length"}},
           {"{mesh: {" + unit +
                "}, material: m}, interfaces: {q: {plane: {point: [1, 1, 1], normal: [0, 0, 0]}}}}",
            {"interfaces.q.plane.normal", "cannot be [0, 0, 0]"}},
@@ -313,7 +313,7 @@ TEST(ModelFileErrors, Coupling) {
       {
           {"{rigid: {mass: 1}, coupling: first-ordr}", {"Did you mean \"first-order\"?"}},
           {"{rigid: {mass: 1}, coupling: {drop: [cent2]}}", {"Did you mean \"cent0\"?"}},
-          {"{rigid: {mass: 1}, coupling: {drop: cent0}}", {"expected is a list"}},
+          {"{rigid: {mass: 1}, coupling: {drop: cent0}}", {"expected a list"}},
           {"{rigid: {mass: 1}, coupling: {level: auto, drop: [jvar]}}",
            {"chooses the terms itself"}},
           {"{rigid: {mass: 1}, coupling: {level: auto, tolerance: 200 %}}", {"more than all"}},
@@ -346,7 +346,7 @@ TEST(ModelFileErrors, Joints) {
           {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: 150*x}}",
            {"unknown name \"x\""}},
           {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: 150*t mm}}",
-           {"\"150*t mm\" is a length; expected is an angle"}},
+           {"\"150*t mm\" is a length; expected an angle"}},
           {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: 150*t/0}}",
            {"has the value", "at t = 0"}},
           {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: {table: [[0, 1], "
@@ -354,7 +354,7 @@ TEST(ModelFileErrors, Joints) {
            {"the times of a table must increase"}},
           {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: {table: [[0, 1]], "
            "unit: mm}}}",
-           {"\"mm\" is no unit of an angle"}},
+           {"\"mm\" is not a unit of an angle"}},
           {"{prescribed-rotation: {between: [rod, box], axis: [0, 0, 1], angle: {}}}",
            {"exactly one of the keys table and file"}},
       },
@@ -374,25 +374,25 @@ TEST(ModelFileErrors, LoadsInitialSimulationOutput) {
           {"initial: {bodies: {box: {angular-velocity: [0, 0, 50 Hz]}}}",
            {"\"50 Hz\" is a frequency", "2*pi*50 rad/s"}},
           {"initial: {bodies: {box: {nodal-velocity: {x: 1}}}}", {"is rigid"}},
-          {"initial: {preload: yes}", {"\"yes\" stands here; expected is true or false"}},
+          {"initial: {preload: yes}", {"expected true or false, found \"yes\""}},
           {"simulation: {duration: 1 s, step: 0 s}", {"simulation.step: 0 s", "must be positive"}},
           {"simulation: {duration: -1 s, step: 1 ms}", {"must be positive"}},
           {"simulation: {duration: 1 ms, step: 1 s}", {"longer than the duration"}},
           {"simulation: {duration: 1 s, step: 1e-15}", {"steps are more than"}},
           {"simulation: {duration: 1 s}", {"the key \"step\" is missing"}},
           {"simulation: {duration: 1 s, setp: 1 ms}", {"Did you mean \"step\"?"}},
-          {"simulation: {duration: 1 s, step: 1 ms, projection: yes}", {"expected is on or off"}},
+          {"simulation: {duration: 1 s, step: 1 ms, projection: yes}", {"expected on or off"}},
           {"simulation: {duration: 1 s, step: 1 ms, rho-inf: 1.2}", {"between 0 and 1"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: houbolt}", {"none of", "wilson"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: wilson, theta: 1.3}",
            {"simulation.theta", "at least 1.366", "not 1.3", "grow"}},
           {"simulation: {duration: 1 s, step: 1 ms, theta: 1.4}",
-           {"simulation.theta", "belongs to method: wilson", "generalized-alpha"}},
+           {"simulation.theta", "belongs to `method: wilson`", "generalized-alpha"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: hht, alpha: -0.4}",
            {"simulation.alpha", "between -1/3 and 0", "-0.4"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: hht, alpha: 0.1}", {"-1/3 and 0"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: newmark, alpha: -0.1}",
-           {"belongs to method: hht", "newmark"}},
+           {"belongs to `method: hht`", "newmark"}},
           {"simulation: {duration: 1 s, step: atuo}", {"simulation.step", "atuo"}},
           {"simulation: {duration: 1 s, step: auto, tolerance: 0}", {"must be positive"}},
           {"simulation: {duration: 1 s, step: auto, tolerance: 2}", {"leaves nothing"}},

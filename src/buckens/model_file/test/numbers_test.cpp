@@ -68,20 +68,19 @@ TEST(ModelFileNumbers, AnExpressionShowsItsValue) {
 TEST(ModelFileNumbers, LettersThatOnlyLookLikeThoseOfFormulas) {
   EXPECT_THAT(model_refusal(mass_model("\u22125 kg")), HasSubstr("(U+2212); write - in its place"));
   EXPECT_THAT(model_refusal(mass_model("5 \u2212 L")), HasSubstr("(U+2212); write - in its place"));
-  EXPECT_THAT(model_refusal(mass_model("5\u00a0kg")),
-              HasSubstr("(U+00A0); write a blank in its place"));
+  EXPECT_THAT(model_refusal(mass_model("5\u00a0kg")), HasSubstr("(U+00A0); write a blank instead"));
   EXPECT_THAT(model_refusal(mass_model("5\u00b7L")), HasSubstr("(U+00B7); write * in its place"));
   EXPECT_THAT(model_refusal(mass_model("2*\u03c0")), HasSubstr("(U+03C0); write pi in its place"));
   // They belong to units.
   EXPECT_THAT(model_refusal(mass_model("5 kg\u00b7foo")),
               HasSubstr("unknown unit \"kg\u00b7foo\""));
-  EXPECT_THAT(model_refusal(mass_model("5 m\u00b2")), HasSubstr("is an area; expected is a mass"));
+  EXPECT_THAT(model_refusal(mass_model("5 m\u00b2")), HasSubstr("is an area; expected a mass"));
 }
 
 TEST(ModelFileNumbers, AUnitInsideAFormulaIsToldFromAMisspeltName) {
   EXPECT_THAT(
       model_refusal(mass_model("L*kg")),
-      HasSubstr("unknown name \"kg\"; if the unit is meant, it stands at the end after a blank"));
+      HasSubstr("unknown name \"kg\"; if this is a unit, write it at the end after a space"));
   EXPECT_THAT(model_refusal(mass_model("2*(L)kg")), HasSubstr("if the unit is meant"));
 }
 
@@ -103,7 +102,7 @@ TEST(ModelFileNumbers, LawsOfTimeAreFiniteInSiUnits) {
 
 TEST(ModelFileNumbers, PlacesOfMissingValues) {
   EXPECT_THAT(model_refusal("buckens: 1\nbodies:\n  a:\njoints: {}\n"),
-              HasSubstr("m.yaml:3:3: bodies.a: no value stands here"));
+              HasSubstr("m.yaml:3:3: bodies.a: expected"));
   EXPECT_THAT(model_refusal(mass_model("~")),
               HasSubstr("m.yaml:3:28: bodies.a.rigid.mass: no value"));
 }
