@@ -31,9 +31,9 @@ constexpr std::array<double, 4> kGauss = {
     0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
 
 // The rules differ by much more than the better one errs: by about err^(2/3).
-constexpr double kAgreement = 1e-11;
+constexpr double kQuadratureAgreement = 1e-11;
 // Panels grow again where the rules agree much better than they need to.
-constexpr double kEasy = 1e-3 * kAgreement;
+constexpr double kEasy = 1e-3 * kQuadratureAgreement;
 constexpr double kFirstWidth = 1e-12;  // [s]; doubles 40 times on the way to 1 s
 // Relative to t: a jump of f within such a panel is placed well enough.
 constexpr double kLeastWidth = 1e-12;
@@ -43,7 +43,7 @@ constexpr int kMostPieces = 500;
 
 struct Panel {
   double value = 0, difference = 0, magnitude = 0;
-  bool agrees() const { return difference <= kAgreement * magnitude; }
+  bool agrees() const { return difference <= kQuadratureAgreement * magnitude; }
   bool is_easy() const { return difference <= kEasy * magnitude; }
 };
 

@@ -71,6 +71,10 @@ class LineCollector {
     add_special(path, value.body + "/" + value.marker);
     if (value.point) add_special(path, point);
   }
+  void add_special(const std::string& path, const DeflectionBase& value) {
+    if (value == DeflectionBase::other) return add_special(path, value.marker);
+    put(path, DeflectionBase::kWords[static_cast<std::size_t>(value.kind)]);
+  }
   void add_special(const std::string& path, const body::FrameDivision& value) {
     put(path, value.per_element ? "per-element" : std::to_string(value.count));
   }
