@@ -137,9 +137,10 @@ def test_a_beam_spun_up_in_one_frame_is_not_trusted(run):
     # 3.282 rad/s where 4.5126 is right; with axial forces in the equations 4.509.
     model = EXAMPLES / "rotating_beam" / "rotating_beam.yaml"
     _, one, _ = run(model, "--set", "bodies.beam.frames=1", out="one")
-    # rho A Omega^2 L^2 / 2 over pi^2 EI / L^2 is 1.563; the beam starts unstretched and swings to twice that.
+    # rho A Omega^2 L^2 / 2 over pi^2 EI / L^2 is 1.563; the beam starts unstretched and swings along its axis to twice
+    # that, of which records three times per swing see more than cos(30 deg).
     load = one["bodies"]["beam"]["largest_axial_load_over_buckling_load"]
-    assert load == pytest.approx(2 * 0.5 * 1.2 * 6**2 * 10**4 / (math.pi**2 * 1.4e4), rel=0.02)
+    assert load == pytest.approx(2 * 0.5 * 1.2 * 6**2 * 10**4 / (math.pi**2 * 1.4e4), rel=0.13)
     assert "in tension" in trust_of(one, "buckling load")
     _, eight, _ = run(model, out="eight")
     assert eight["trust"] == "ok"
