@@ -53,7 +53,8 @@ def same_run(one, other):
 CHANGES = ["simulation.step=0.25 ms", "gravity.1=-2*4.905 m/s^2", "bodies.beam.beam.elements=6",
            "loads.push.force.value=[0, \"max(0, 0.7*sin(50*t)) N\", 0]", "title=\"With: changes\"",
            "sections.strip={circle: {diameter: 8 mm}}", "simulation.rho-inf=0.9",
-           "output.sensors.tip={velocity: beam/end}"]
+           "output.sensors.tip={velocity: beam/end}", "output.sensors.more={position: beam/mid}",
+           "loads.extra={force: {on: beam/end, value: [1 N, 0, 0]}}"]
 
 
 def options(changes):

@@ -11,7 +11,7 @@ namespace {
 std::string after(const std::string& text, const std::vector<std::string>& overrides) {
   const YamlNode before = parse_yaml(text, "model.yaml");
   YamlNode changed = before;
-  for (const std::string& assignment : overrides) apply_override(changed, assignment);
+  apply_overrides(changed, overrides);
   const std::string out = effective_text(text, before, changed);
   EXPECT_TRUE(same_content(parse_yaml(out, "again.yaml"), changed)) << out;
   return out;

@@ -233,7 +233,10 @@ TEST(ModelFile, OverridesChangeTheTree) {
   EXPECT_THAT(m.source, testing::StartsWith("# sample.yaml was read with these changes:\n#   --set "
                                             "bodies.rod.beam.elements=8\n"));
   // What was run can be read again.
-  EXPECT_EQ(read_model_text(m.source, "copy.yaml").bodies.size(), m.bodies.size());
+  const ModelDescription copy = read_model_text(m.source, "copy.yaml");
+  EXPECT_EQ(std::get<fem::BeamSpec>(entry(copy.bodies, "rod").kind).elements, 8);
+  EXPECT_EQ(copy.gravity, m.gravity);
+  EXPECT_EQ(copy.source, m.source);
   EXPECT_EQ(sample().source, kSampleModel);
 }
 
