@@ -3,7 +3,6 @@
 
 import pathlib
 
-import numpy
 import pytest
 
 EXAMPLES = pathlib.Path(__file__).parents[1] / "examples"
@@ -77,17 +76,3 @@ def test_what_cannot_be_compared_is_refused(crank, buckens):
     buckens("compare", "a", "m").must(2, "vibrations", "motion")
     buckens("compare", "a", "nothing").must(5, "nothing")
     buckens("compare", "a", "a", "--tolerance", "-1").must(2, "tolerance")
-
-
-def test_a_sensor_may_be_called_pose(buckens, tmp_path):
-    """Of bodies' poses the sign of the quaternion means nothing; a sensor of that name has none."""
-    models = EXAMPLES.parent / "tests" / "models"
-    for out, load in (("a", "0.5"), ("b", "-0.5")):
-        buckens("run", "-q", models / "beam.yaml", "-o", out,
-                "--set", "output.sensors={pose: {position: beam/end}}", "--set", "gravity=[0, 0, 0]",
-                "--set", f"loads.push.force.value=[0, \"{load}*sin(40*t) N\", 0]").must(0)
-    found = buckens("compare", "a", "b", "--json").must(0).json["quantities"]
-    reported = next(q for q in found if q["quantity"] == "sensors/pose")["difference"]
-    tables = [numpy.loadtxt(tmp_path / out / "sensors.csv", delimiter=",", skiprows=1)
-              for out in ("a", "b")]
-    assert reported == pytest.approx(numpy.abs(tables[0] - tables[1]).max(), rel=1e-12)

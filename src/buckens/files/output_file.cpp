@@ -12,6 +12,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "buckens/base/errors.h"
@@ -104,7 +105,14 @@ void OutputFile::close() {
 }
 
 int open_anew(const char* path, int flags) {
-  if (::unlink(path) != 0 && errno != ENOENT) return -1;
+  struct stat found {};
+  if (::lstat(path, &found) == 0) {
+    // A device or pipe is meant as it is, never to be removed.
+    if (!S_ISREG(found.st_mode) && !S_ISLNK(found.st_mode)) {
+      return ::open(path, flags | O_NOFOLLOW | O_CLOEXEC);
+    }
+    if (::unlink(path) != 0 && errno != ENOENT) return -1;
+  }
   return ::open(path, flags | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 

@@ -46,7 +46,7 @@ class OutputFile {
 };
 
 /// Creates a file of this name where nobody else's is written to: an old file or symbolic link goes
-/// first, and one that somebody puts there in between is an error.
+/// first, and one that somebody puts there in between is an error. Devices and pipes are opened.
 /// @param flags of open() besides those for creation
 /// @return the descriptor, −1 with errno as open() has it
 int open_anew(const char* path, int flags);

@@ -53,5 +53,24 @@ TEST(RunComparison, PiecesOfAChannelAddUp) {
   }
 }
 
+/// A run of eight records with one sensor, which is `value` in the fifth and else zero.
+void write_pose_sensor(const std::filesystem::path& path, double value) {
+  RunDirectory run(path);
+  results::RecordLayout layout;
+  layout.add({"sensors/pose", "m", {}, "called as what bodies have", {}});
+  run.begin(layout, test::sample_geometry());
+  for (int i = 0; i < 8; ++i) run.write({1e-3 * i, {i == 4 ? value : 0.0}});
+  run.finish(test::finished_summary());
+}
+
+TEST(RunComparison, OnlyPosesOfBodiesHaveQuaternions) {
+  const buckens::test::TemporaryDirectory directory;
+  write_pose_sensor(directory / "a", 9);
+  write_pose_sensor(directory / "b", -9);
+  const RunComparison found = compare_runs(RunReader(directory / "a"), RunReader(directory / "b"));
+  ASSERT_EQ(found.quantities.size(), 1U);
+  EXPECT_EQ(found.quantities[0].difference, 18.0);
+}
+
 }  // namespace
 }  // namespace buckens::run_store

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -77,6 +78,30 @@ TEST(OutputFile, SaysWhyItCannotBeOpened) {
               ThrowsMessage<IoError>(HasSubstr("cannot read")));
   EXPECT_THAT([] { files::read_text_file("/"); },
               ThrowsMessage<IoError>(HasSubstr("is a directory")));
+}
+
+TEST(OutputFile, BeganAnewNoOtherFileIsTouched) {
+  const TemporaryDirectory directory;
+  const auto anew = files::OutputFile::Start::anew;
+  const auto other = directory / "other";
+  files::OutputFile(other).write("other");
+  std::filesystem::create_symlink(other, directory / "link");
+  std::filesystem::create_hard_link(other, directory / "twin");
+  for (const char* name : {"link", "twin", "new"}) {
+    files::OutputFile(directory / name, anew).write("text");
+    EXPECT_EQ(files::read_text_file(directory / name), "text") << name;
+    EXPECT_TRUE(
+        std::filesystem::is_regular_file(std::filesystem::symlink_status(directory / name)));
+  }
+  EXPECT_EQ(files::read_text_file(other), "other");
+  std::filesystem::create_symlink(other, directory / "log");
+  EXPECT_THAT([&] { files::OutputFile(directory / "log", files::OutputFile::Start::as_it_is); },
+              ThrowsMessage<IoError>(HasSubstr("symbolic link")));
+  std::filesystem::create_directory(directory / "folder");
+  EXPECT_THROW(files::OutputFile(directory / "folder", anew), IoError);
+  EXPECT_TRUE(std::filesystem::is_directory(directory / "folder"));
+  files::OutputFile("/dev/null", anew).write("text");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
 TEST(OutputFile, ReplacesAFileAsAWhole) {
