@@ -51,6 +51,8 @@ const kWords: Record<string, string> = {
   max: 'Most in a step',
   position: 'Position [m or rad]',
   velocity: 'Velocity [m/s or rad/s]',
+  opening: 'Position, over the length of the model',
+  opening_rate: 'Velocity, over the length of the model [1/s]',
   sieve: 'Rigid part of nodal variables, relative',
   steps_with_repeated_solve: 'Share of steps with a repeated solve',
   kind: 'Kind',
