@@ -26,6 +26,7 @@ sections:
             stress-points: [[10 mm, 20 mm], [-10 mm, 20 mm], [-10 mm, -20 mm], [10 mm, -20 mm], [0, 0]]}}
 bodies:
   tapered: {beam: {to: [1 m, 0, 0], elements: 2, section: flat, end-section: thin, material: plain}}
+  long: {beam: {from: [0, 5 m, 0], to: [1 m, 5 m, 0], elements: 7, section: flat, end-section: thin, material: plain}}
   upright: {beam: {from: [0, 1 m, 0], to: [1 m, 1 m, 0], up: [0, 1, 0], elements: 1, section: hollow, material: plain}}
   round: {beam: {from: [0, 2 m, 0], to: [0, 2 m, 1 m], elements: 1, section: pipe, material: plain}}
   given: {beam: {from: [0, 3 m, 0], to: [1 m, 3 m, 0], elements: 1, section: profile, material: plain}}
@@ -82,6 +83,9 @@ def test_sections_are_kept_as_they_are(buckens, page_of, tmp_path):
     assert [list(size(section[0]).round(6)) for section in outline["tapered"]] == pytest.approx(
         [[0.04, 0.01], [0.03, 0.01], [0.02, 0.01]])
     assert list(ints(bodies["tapered"]["elementSections"])) == [0, 1, 1, 2]
+    # Neighbours share a section also where their places along the beam are rounded.
+    long = ints(bodies["long"]["elementSections"])
+    assert list(long[1:-1:2]) == list(long[2::2]) and len(outline["long"]) == 8
     (hollow,) = outline["upright"]
     assert size(hollow[0]) == pytest.approx([0.06, 0.04]) and size(hollow[1]) == pytest.approx([0.05, 0.03])
     (pipe,) = outline["round"]
@@ -113,7 +117,7 @@ def test_runs_without_sections_are_still_drawn(buckens, page_of, tmp_path):
         for body in file["geometry/bodies"].values():
             for name in ("section_loops", "section_points", "element_sections", "element_y"):
                 del body[name]
-    upright = page_of("out")[0]["bodies"][1]
+    (upright,) = [body for body in page_of("out")[0]["bodies"] if body["name"] == "upright"]
     assert "sections" not in upright
     assert upright["radius"] == [[pytest.approx(0.5 * numpy.hypot(0.06, 0.04))] * 2]
 

@@ -103,10 +103,14 @@ class SectionNumbers {
   explicit SectionNumbers(GeometryBody& shape) : shape_(shape) {}
 
   int of(const fem::Section& section) {
-    std::vector<double> key;
+    // The sections of a taper on both sides of a node differ by rounding.
+    const double grain = std::ldexp(1e-9, std::ilogb(section.outer_radius));
+    std::vector<double> key = {grain};
     for (const fem::SectionLoop& loop : section.outline) {
       key.push_back(static_cast<double>(loop.size()));
-      for (const Eigen::Vector2d& p : loop) key.insert(key.end(), {p.x(), p.y()});
+      for (const Eigen::Vector2d& p : loop) {
+        key.insert(key.end(), {std::round(p.x() / grain), std::round(p.y() / grain)});
+      }
     }
     const auto [at, is_new] = known_.emplace(key, static_cast<int>(shape_.sections.size()));
     if (is_new) shape_.sections.push_back(section.outline);
