@@ -5,12 +5,30 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/buckens")
 
 install(TARGETS buckens EXPORT buckensTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(
-  DIRECTORY "${PROJECT_SOURCE_DIR}/src/buckens" "${BUCKENS_GENERATED_DIR}/buckens"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-  FILES_MATCHING
-  PATTERN "*.h"
-  PATTERN "test" EXCLUDE)
+
+# Public headers: include/buckens/buckens.h, and all that it includes, directly or through others.
+set(pending buckens/buckens.h)
+set(public_headers "")
+while(pending)
+  list(POP_FRONT pending header)
+  list(APPEND public_headers ${header})
+  foreach(root IN ITEMS "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src"
+                        "${BUCKENS_GENERATED_DIR}")
+    if(NOT EXISTS "${root}/${header}")
+      continue()
+    endif()
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES "${root}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${root}/${header}")
+    file(STRINGS "${root}/${header}" includes REGEX "^#include \"buckens/")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included "${line}")
+      if(NOT included IN_LIST public_headers AND NOT included IN_LIST pending)
+        list(APPEND pending ${included})
+      endif()
+    endforeach()
+  endforeach()
+endwhile()
 install(EXPORT buckensTargets NAMESPACE buckens:: DESTINATION "${package_dir}")
 configure_package_config_file(cmake/buckensConfig.cmake.in
                               "${PROJECT_BINARY_DIR}/buckensConfig.cmake"
