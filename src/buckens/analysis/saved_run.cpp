@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the accounts of a run save, so that a continued run reports the whole of it.
+#include <string>
+
 #include "buckens/analysis/coupling_watch.h"
 #include "buckens/analysis/run_recording.h"
 #include "buckens/analysis/run_statistics.h"
@@ -49,6 +51,21 @@ void WorkAccount::visit_saved(const base::SaveVisit& visit) {
   }
 }
 
+void JointTrust::visit_saved(const base::SaveVisit& visit) {
+  visit.number("opening", opening_);
+  visit.number("opening_rate", opening_rate_);
+  visit.count("most_open_row", most_open_row_, -1, model_.num_constraint_rows() - 1);
+  visit.number("speed", speed_);
+}
+
+void EnergyTrust::visit_saved(const base::SaveVisit& visit) {
+  for (std::size_t b = 0; b < leaves_out_.size(); ++b) {
+    bool leaves_out = leaves_out_[b];
+    visit.flag(std::to_string(b), leaves_out);
+    leaves_out_[b] = leaves_out;
+  }
+}
+
 void RunStatistics::visit_saved(const base::SaveVisit& visit) {
   visit.count("steps", steps_, 0, kMostCounted);
   visit.count("iterations", iterations_, 0, kMostCounted);
@@ -61,11 +78,14 @@ void RunStatistics::visit_saved(const base::SaveVisit& visit) {
   visit.number("largest_balance", largest_balance_);
   visit.number("energy_scale", energy_scale_);
   visit.list("largest_spin", largest_spin_, largest_spin_.size());
+  joints_.visit_saved(visit.inside("joints"));
+  energy_.visit_saved(visit.inside("energy"));
   for (std::size_t b = 0; b < deformation_.size(); ++b) {
     const base::SaveVisit body = visit.inside("deformation").inside(b);
     body.number("rotation", deformation_[b].rotation);
     body.number("strain", deformation_[b].strain);
-    body.number("axial_load", deformation_[b].axial_load);
+    body.number("tension", deformation_[b].tension);
+    body.number("compression", deformation_[b].compression);
   }
 }
 

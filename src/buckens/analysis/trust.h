@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/step_settings.h"
@@ -29,6 +30,9 @@ class JointTrust {
   /// @param duration of the run [s]
   std::string doubt(double duration) const;
 
+  /// Saves what was collected so far, or takes it back. @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
  private:
   const model::Model& model_;
   double opening_ = 0, opening_rate_ = 0;
@@ -49,6 +53,9 @@ class EnergyTrust {
   /// A reason to doubt the results; empty: none.
   /// @param error of the balance, relative to the energy involved
   std::string doubt(double error) const;
+
+  /// As JointTrust::visit_saved.
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   const model::Model& model_;

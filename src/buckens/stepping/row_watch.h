@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/model/model.h"
@@ -28,6 +29,9 @@ class RowWatch {
   /// Whether a row not in use has opened since rows were chosen.
   bool has_open_rows() const { return has_open_rows_; }
   void rows_are_chosen() { has_open_rows_ = false; }
+
+  /// Saves what steps to come depend on, or takes it back. @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
 
   /// What to say of a row that look() returned: its joint, the joints it contradicts, the instant
   /// and how far it is open.

@@ -48,12 +48,16 @@ void visit_nodal(const base::SaveVisit& visit, const model::Model& model,
 
 }  // namespace
 
+void RowWatch::visit_saved(const base::SaveVisit& visit) {
+  visit.number("largest_gap", largest_gap_);
+  visit.flag("has_open_rows", has_open_rows_);
+}
+
 void SmallNewton::visit_saved(const base::SaveVisit& visit) {
   visit_rows(visit, "rows_in_use", model_, rows_in_use_);
   visit.counts("dependent", dependent_, 0, model_.num_constraint_rows() - 1);
   visit.number("trusted_pivots", trusted_pivots_);
-  visit.number("largest_gap", largest_gap_);
-  visit.flag("has_open_rows", has_open_rows_);
+  watch_.visit_saved(visit.inside("watch"));
   visit.count("num_selections", num_selections_, 0, 1 << 30);
   std::vector<double> pivoted = condensation_ ? condensation_->pivoted_values() : pivoted_;
   visit.any_numbers("pivoted", pivoted);
