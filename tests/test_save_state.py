@@ -65,9 +65,9 @@ joints:
   pin_b: {revolute: {between: [second/pin, coupler/b]}}
   pin_c: {revolute: {between: [third/pin, coupler/c]}}
 initial: {bodies: {first: {angular-velocity: [0, 0, 320 deg/s]}}}
-simulation: {duration: 3 s, step: 5 ms, STEP}
+simulation: {duration: 2.2 s, step: 5 ms, STEP}
 output:
-  every: 7 ms
+  every: 35 ms
   sensors:
     angle: {relative: {between: [ground, third], quantity: angle}}
     foot: {joint-force: foot_c}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ball falls through air: a force law of one's own, evaluated within each step. After four seconds
-// a parachute opens, which a callback between steps does by a load with a value from outside.
+// A ball falls through air: a force law of one's own, evaluated within each step. After four
+// seconds a parachute opens, which a callback between steps does by a load with a value from
+// outside.
 #include <cmath>
 #include <cstdio>
 

@@ -42,8 +42,8 @@ int main() {
       before = now;
     }
     const double frequency = (crossings - 1) / (2 * (last - first));
-    const double exact = 1.8751041 * 1.8751041 / (2 * M_PI) * std::sqrt(E * I / (rho * A)) /
-                         (length * length);
+    const double exact =
+        1.8751041 * 1.8751041 / (2 * M_PI) * std::sqrt(E * I / (rho * A)) / (length * length);
     std::printf("diameter %.3f sag %.6e exact %.6e m frequency %.3f exact %.3f Hz\n", diameter, sag,
                 load * std::pow(length, 3) / (3 * E * I), frequency, exact);
   }

@@ -32,6 +32,5 @@ int main() {
   second.restore(simulation.save());
   simulation.run();
   second.run();
-  std::printf("difference %g rad\n",
-              second.sensor("angle")[0] - simulation.sensor("angle")[0]);
+  std::printf("difference %g rad\n", second.sensor("angle")[0] - simulation.sensor("angle")[0]);
 }

@@ -43,8 +43,7 @@ bool runs_agree() {
   whole.advance_to(5e-3);
   buckens::write_state(whole.save(), "half.h5");
   rest.restore(buckens::read_state("half.h5"));
-  return whole.run().finished && rest.run().finished &&
-         whole.sensor("tip") == rest.sensor("tip") &&
+  return whole.run().finished && rest.run().finished && whole.sensor("tip") == rest.sensor("tip") &&
          buckens::RunReader("out").times().size() == 11;
 }
 
