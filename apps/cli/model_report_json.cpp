@@ -20,6 +20,18 @@ using analysis::ModelReport;
 using files::json_of;
 using Json = nlohmann::ordered_json;
 
+Json json_of(const std::vector<analysis::ModeDamping>& modes) {
+  Json out = Json::array();
+  for (const analysis::ModeDamping& mode : modes) {
+    out.push_back({{"frequency", mode.frequency},
+                   {"ratio", mode.ratio},
+                   {"asked", mode.asked ? Json(*mode.asked) : Json(nullptr)},
+                   {"body", mode.body},
+                   {"energy_share", mode.share}});
+  }
+  return out;
+}
+
 Json json_of(const std::vector<analysis::LoadReport>& loads) {
   Json out = Json::object();
   for (const analysis::LoadReport& load : loads) {
@@ -118,6 +130,7 @@ std::string report_json(const std::string& title, const ModelReport& report) {
                   {"redundant", report.redundant},
                   {"degrees_of_freedom", report.degrees_of_freedom},
                   {"assembly_gap", report.assembly_gap},
+                  {"damping", json_of(report.damping)},
                   {"assembly_moves", json_of(report.moves)},
                   {"step", report.step},
                   {"highest_frequency", report.highest_frequency},

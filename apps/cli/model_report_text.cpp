@@ -168,13 +168,26 @@ std::string loads_table(const ModelReport& report) {
   return text_table(rows) + "  forces and torques at t = 0, torques about the mass centre\n";
 }
 
+/// Ratios that vibrations of the assembled model have, whatever the bodies alone would have.
+std::string damping_table(const ModelReport& report) {
+  if (report.damping.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {
+      {"vibration as assembled [Hz]", "damping [%]", "asked [%]", "energy in"}};
+  for (const analysis::ModeDamping& mode : report.damping) {
+    rows.push_back({number(mode.frequency), fmt::format("{:.3g}", 100.0 * mode.ratio),
+                    mode.asked ? fmt::format("{:.3g}", 100.0 * *mode.asked) : "-",
+                    fmt::format("{} {:.0f} %", mode.body, 100.0 * mode.share)});
+  }
+  return text_table(rows);
+}
+
 }  // namespace
 
 std::string report_text(const std::string& title, const ModelReport& report) {
   std::string out = title.empty() ? "" : title + '\n';
   out += bodies_table(report) + frequencies_text(report) + sections_text(report) +
          reductions_text(report) + markers_text(report) + interfaces_table(report) +
-         loads_table(report);
+         loads_table(report) + damping_table(report);
   out += "mechanism\n";
   std::vector<std::pair<std::string, std::string>> entries = {
       {"joints", fmt::format("{} with {}, {} redundant", counted(report.joints, "joint"),

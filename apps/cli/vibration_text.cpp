@@ -46,6 +46,9 @@ std::string modes_table(const VibrationReport& report) {
   if (system) {
     for (const char* axis : {"x", "y", "z"}) rows[0].push_back(fmt::format("eff. {} [%]", axis));
   }
+  const bool damped = system && std::any_of(report.vibrations.begin(), report.vibrations.end(),
+                                            [](const auto& v) { return v.damping_ratio > 0.0; });
+  if (damped) rows[0].emplace_back("damping [%]");
   rows[0].emplace_back("error");
   rows[0].emplace_back("energy in");
   std::array<double, 3> sums{};
@@ -58,6 +61,7 @@ std::string modes_table(const VibrationReport& report) {
       sums[a] += v.effective_mass[a];
       rows.back().push_back(fmt::format("{:.2f}", 100.0 * v.effective_mass[a] / report.mass));
     }
+    if (damped) rows.back().push_back(fmt::format("{:.3g}", 100.0 * v.damping_ratio));
     rows.back().push_back(fmt::format("{:.0e}", v.error));
     rows.back().push_back(shares_text(report, v));
   }
@@ -66,7 +70,7 @@ std::string modes_table(const VibrationReport& report) {
     for (const double sum : sums) {
       rows.back().push_back(fmt::format("{:.2f}", 100.0 * sum / report.mass));
     }
-    rows.back().insert(rows.back().end(), {"", ""});
+    rows.back().resize(rows[0].size());
   }
   return text_table(rows);
 }
@@ -105,6 +109,7 @@ Json json_of(const VibrationReport& report, const Vibration& v) {
               {"energy_shares", std::move(shares)}};
   if (report.is_system()) {
     out["effective_mass"] = v.effective_mass;
+    out["damping_ratio"] = v.damping_ratio;
   } else {
     out["residual"] = v.residual;
   }

@@ -2,6 +2,7 @@
 #include "buckens/analysis/model_report.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -128,6 +129,11 @@ std::vector<LoadReport> report_loads(const model::Model& model, const model::Sta
   return out;
 }
 
+void add_damping(ModeDampingReport damping, ModelReport& out) {
+  out.damping = std::move(damping.modes);
+  out.notes.insert(out.notes.end(), damping.notes.begin(), damping.notes.end());
+}
+
 }  // namespace
 
 ModelReport report_model(const model::BuiltModel& built) {
@@ -187,7 +193,7 @@ ModelReport report_model(const model::BuiltModel& built) {
   }
   out.degrees_of_freedom =
       coordinates - static_cast<int>(metric.split(rigid_rows).independent.size());
-
+  add_damping(report_mode_damping(built, prepared.state), out);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/analysis/assembly_moves.h"
+#include "buckens/analysis/mode_damping.h"
 #include "buckens/analysis/section_report.h"
 #include "buckens/model/model_builder.h"
 
@@ -61,6 +62,7 @@ struct ModelReport {
   double assembly_gap = 0;                   ///< largest |g| left by assembly [m] or [-]
   std::vector<AssemblyMove> moves;           ///< what assembly did to the bodies as placed
   double result_bytes = 0;                   ///< of results.h5, 0 without a simulation
+  std::vector<ModeDamping> damping;          ///< of the lowest vibrations as assembled
   double step = 0, highest_frequency = 0;    ///< [s]; of the modes that loads excite [Hz]
   std::vector<std::string> notes, warnings;  ///< warnings: steps, doubtful values, moves
 };

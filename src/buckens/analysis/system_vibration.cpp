@@ -10,6 +10,7 @@
 
 #include "buckens/analysis/assembly_moves.h"
 #include "buckens/analysis/body_vibration.h"
+#include "buckens/analysis/mode_damping.h"
 #include "buckens/analysis/position_assembly.h"
 #include "buckens/analysis/static_equilibrium.h"
 #include "buckens/analysis/system_pencil.h"
@@ -202,6 +203,7 @@ void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, c
     shape.frame /= largest;
     shape.d /= largest;
   }
+  v.damping_ratio = damping_ratio(model_, out_.position, v);
   out_.vibrations.push_back(std::move(v));
 }
 

@@ -27,6 +27,7 @@ struct Vibration {
   double residual = 0;  ///< ‖Kφ − ω²Mφ‖/‖ω²Mφ‖, see body::FreeFreeModes; bodies only
   double error = 0;     ///< bound of the relative error of ω² + μ, see body::FreeFreeModes
   std::vector<double> energy_shares;  ///< of the potential energy, in the order of the groups
+  double damping_ratio = 0;           ///< of critical damping, see damping_ratio(); systems only
   /// Mass that a support moving along x, y, z sees in this mode [kg]; systems only.
   std::array<double, 3> effective_mass{};
   /// Of a free body one entry, of a system one per body of the model.

@@ -85,6 +85,7 @@ std::unique_ptr<FlexiblePart> reduce(const std::string& body, const FlexiblePart
   fe.K = diagonal(basis.omega.cwiseAbs2());
   fe.K_damping = projected(part.fe.K_damping, Z);
   fe.mass_damping = part.fe.mass_damping;
+  fe.damps_held_motion = part.fe.damps_held_motion;
   fe.shape = projected(part, Z);
   if (part.is_quasi_static) drop_rates(fe);
   auto out = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);

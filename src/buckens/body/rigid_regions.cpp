@@ -200,6 +200,7 @@ std::unique_ptr<FlexiblePart> with_links(const std::string& body, FlexiblePart& 
   fe.K = elimination.condensed(full->K);
   fe.K_damping = elimination.condensed(full->K_damping);
   fe.mass_damping = full->mass_damping;
+  fe.damps_held_motion = full->damps_held_motion;
   fe.shape = condensed(full->shape, elimination);
   if (!links.empty()) refuse_massless(body, fe);
   auto out = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);

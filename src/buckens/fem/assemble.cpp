@@ -180,22 +180,30 @@ SparseMatrix to_sparse(int n, const std::vector<Triplet>& triplets) {
   return A;
 }
 
-double common_mass_damping(const Blocks& blocks) {
-  std::optional<double> alpha;
-  for (const auto& block : blocks) {
+/// α and what it acts on, common to all materials.
+void set_mass_damping(FeModel& fe) {
+  const Material* first = nullptr;
+  for (const auto& block : fe.blocks) {
     for (int e = 0; e < block->num_elements(); ++e) {
       const Material* material = block->material(e);
       if (material == nullptr) continue;
-      if (alpha && *alpha != material->damping_mass) {
+      if (first == nullptr) first = material;
+      if (first->damping_mass != material->damping_mass) {
         throw ModelError(fmt::format(
             "its materials have different mass damping, {:g} and {:g} 1/s; mass damping "
             "is one value per body",
-            *alpha, material->damping_mass));
+            first->damping_mass, material->damping_mass));
       }
-      alpha = material->damping_mass;
+      if (first->damps_held_motion != material->damps_held_motion) {
+        throw ModelError(
+            "one of its materials is damped as the joints hold the body, another one otherwise; "
+            "give the body a `damping` of its own");
+      }
     }
   }
-  return alpha.value_or(0.0);
+  if (first == nullptr) return;
+  fe.mass_damping = first->damping_mass;
+  fe.damps_held_motion = first->damps_held_motion;
 }
 
 /// Ms ⊗ 1 over the DOF.
@@ -273,7 +281,7 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   for (const auto& block : fe.blocks) block->add_stiffness(mesh, stiffness);
   fe.K = to_sparse(fe.dofs.num_dofs, stiffness.K);
   fe.K_damping = to_sparse(fe.dofs.num_dofs, stiffness.K_damping);
-  fe.mass_damping = common_mass_damping(fe.blocks);
+  set_mass_damping(fe);
   return fe;
 }
 

@@ -133,6 +133,7 @@ FeModel assemble(const BodyMatrices& body, const RayleighFactors& damping) {
   }
   check_free(body, body.K, body.K.norm(), Phi, "stiffness");
   fe.mass_damping = damping.mass;
+  fe.damps_held_motion = damping.damps_held_motion;
   fe.K_damping.resize(body.dofs.num_dofs, body.dofs.num_dofs);
   if (body.C.nonZeros() > 0 && body.C.norm() > 0.0) {
     check_minors(body, body.C, "damping");

@@ -23,8 +23,9 @@ struct BodyMatrices {
 
 /// Rayleigh damping of the model file, C = α M + β K, in place of a damping matrix.
 struct RayleighFactors {
-  double mass = 0;       ///< α [1/s]
-  double stiffness = 0;  ///< β [s]
+  double mass = 0;                 ///< α [1/s]
+  double stiffness = 0;            ///< β [s]
+  bool damps_held_motion = false;  ///< see FeModel
 };
 
 /// Makes a body without elements from its matrices.

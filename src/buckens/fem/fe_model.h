@@ -23,6 +23,8 @@ struct FeModel {
   linalg::SparseMatrix K;          ///< stiffness, n×n [N/m, N, N m]
   linalg::SparseMatrix K_damping;  ///< Σ β K over materials, n×n; no entries where undamped
   double mass_damping = 0;         ///< α [1/s], one value per body
+  /// α acts on the motion of the body as its joints hold it, not on that relative to its frame.
+  bool damps_held_motion = false;
   ShapeIntegrals shape;
   /// The elements, by kind. Elements are numbered through all blocks in this order.
   std::vector<std::shared_ptr<const ElementBlock>> blocks;

@@ -31,6 +31,7 @@ struct Material {
   double damping_stiffness = 0;  ///< β [s]
   /// Solids and layers of shells: stands in place of E, ν and G.
   std::optional<Orthotropy> orthotropy = std::nullopt;
+  bool damps_held_motion = false;  ///< what α acts on, see FeModel::damps_held_motion
 
   /// G = E / (2 (1 + ν)).
   static Material isotropic(double E, double nu, double rho) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -13,24 +14,46 @@
 
 namespace buckens::fem {
 
-/// Rayleigh damping C = αM + βK, given by α and β or by a damping ratio at two frequencies.
+/// Whose vibrations a damping ratio is meant for.
+enum class DampedModes { held, free };
+
+constexpr std::array<const char*, 2> choice_names(DampedModes) { return {"held", "free"}; }
+
+/// Rayleigh damping C = αM + βK, given by α and β or by a damping ratio at one or two frequencies.
+///
+/// α acts on motion relative to the body frame. That is all motion of a vibration of the free body,
+/// but little of one of the body as its joints hold it, since the frame follows; see
+/// FeModel::damps_held_motion.
 struct DampingSpec {
   SourceLocation where;
-  double mass = 0;                          ///< α [1/s]
-  double stiffness = 0;                     ///< β [s]
-  std::optional<double> ratio;              ///< ζ at both frequencies
-  std::optional<std::array<double, 2>> at;  ///< f1 < f2 [Hz]
+  double mass = 0;              ///< α [1/s]
+  double stiffness = 0;         ///< β [s]
+  std::optional<double> ratio;  ///< ζ at all frequencies of `at`
+  std::vector<double> at;       ///< f1, or f1 < f2 [Hz]
+  DampedModes of = DampedModes::held;
 
-  /// α, also where ζ is given: α = 2ζ ω1 ω2/(ω1+ω2).
-  double alpha() const { return ratio && at ? kFactor * *ratio * product() / sum() : mass; }
-  /// β, also where ζ is given: β = 2ζ/(ω1+ω2).
-  double beta() const { return ratio && at ? 2.0 * *ratio / (kTwoPi * sum()) : stiffness; }
+  /// α, also where ζ is given: at two frequencies 2ζ ω1 ω2/(ω1+ω2), at one 0.
+  double alpha() const {
+    if (!ratio) return mass;
+    return at.size() == 2 ? 2.0 * kTurn * *ratio * at[0] * at[1] / (at[0] + at[1]) : 0.0;
+  }
+  /// β, also where ζ is given: at two frequencies 2ζ/(ω1+ω2), at one 2ζ/ω1.
+  double beta() const {
+    if (!ratio) return stiffness;
+    double sum = 0;
+    for (const double frequency : at) sum += kTurn * frequency;
+    return sum > 0.0 ? 2.0 * *ratio / sum : 0.0;
+  }
+  /// Whether α acts on the motion that the joints leave the body, in place of that relative to the
+  /// frame.
+  bool is_of_held_motion() const { return ratio && at.size() == 2 && of == DampedModes::held; }
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("mass", mass,
                       "factor α [1/s] of the mass matrix; one value per body, it acts on motion "
-                      "relative to the body frame")
+                      "relative to the body frame and hardly on the low vibrations of a body that "
+                      "its joints hold")
               .in(base::kFrequency)
               .non_negative()
               .like("2 1/s"));
@@ -39,21 +62,24 @@ struct DampingSpec {
               .non_negative()
               .like("1e-7 s"));
     visit(base::field("ratio", ratio,
-                      "damping ratio at the two frequencies `at`, instead of `mass` and "
-                      "`stiffness`")
+                      "damping ratio at the frequencies `at`, instead of `mass` and `stiffness`; "
+                      "`buckens check` lists the ratios of the assembled model")
               .within(base::Range::fraction)
               .like("2 %"));
-    visit(base::field("at", at, "the two frequencies at which `ratio` holds")
+    visit(base::field("at", at,
+                      "two frequencies at which `ratio` holds; between them it is less, outside "
+                      "more. One frequency: stiffness share alone, the ratio grows with the "
+                      "frequency")
               .in(base::kFrequency)
               .positive()
               .like("[10 Hz, 200 Hz]"));
+    visit(base::field("of", of,
+                      "vibrations that have `ratio`. held: of the body as its joints hold it at "
+                      "t = 0; free: of the body alone in space"));
   }
 
  private:
-  static constexpr double kTwoPi = 6.283185307179586477;
-  static constexpr double kFactor = 2.0 * kTwoPi;
-  double product() const { return (*at)[0] * (*at)[1]; }
-  double sum() const { return (*at)[0] + (*at)[1]; }
+  static constexpr double kTurn = 6.283185307179586477;
 };
 
 /// Constants of an orthotropic material for solids.

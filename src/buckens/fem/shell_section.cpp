@@ -133,7 +133,8 @@ void check_shell_section(const std::string& where, const ShellSection& section) 
     }
     check_solid_material(where, layer.material);
     if (layer.material.damping_mass == first.damping_mass &&
-        layer.material.damping_stiffness == first.damping_stiffness) {
+        layer.material.damping_stiffness == first.damping_stiffness &&
+        layer.material.damps_held_motion == first.damps_held_motion) {
       continue;
     }
     throw ModelError(where +

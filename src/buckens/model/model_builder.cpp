@@ -15,6 +15,7 @@
 #include "buckens/model/check/flat_mesh.h"
 #include "buckens/model/eliminate_links.h"
 #include "buckens/model/find_section.h"
+#include "buckens/model/held_damping.h"
 #include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
@@ -64,6 +65,7 @@ class Builder {
     }
     model_.length = characteristic_length();
     reduce_bodies(out_->description, model_, bases_);
+    hold_damping(model_);
     return std::move(out_);
   }
 

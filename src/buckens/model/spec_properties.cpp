@@ -19,6 +19,7 @@ fem::Material make_material(const fem::MaterialSpec& spec,
   if (damping) {
     material.damping_mass = damping->alpha();
     material.damping_stiffness = damping->beta();
+    material.damps_held_motion = damping->is_of_held_motion();
   }
   return material;
 }

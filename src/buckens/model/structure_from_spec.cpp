@@ -200,7 +200,9 @@ void StructureBuilder::add_matrices(const fem::MatricesSpec& matrices) {
   for (std::size_t k = 0; k < matrices.imported->numbers.size(); ++k) {
     out_.numbers.emplace(matrices.imported->numbers[k], static_cast<int>(k));
   }
-  if (spec_.damping) out_.rayleigh = {spec_.damping->alpha(), spec_.damping->beta()};
+  if (!spec_.damping) return;
+  out_.rayleigh = {spec_.damping->alpha(), spec_.damping->beta(),
+                   spec_.damping->is_of_held_motion()};
 }
 
 int StructureBuilder::node_called(const std::string& name, const SourceLocation& where) const {

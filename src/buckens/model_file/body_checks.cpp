@@ -49,15 +49,24 @@ Finding inertia_problem(const std::vector<double>& entries) {
 }  // namespace
 
 Finding problem(const fem::DampingSpec& spec, const ReadContext&) {
-  if (spec.ratio.has_value() != spec.at.has_value()) {
+  if (spec.ratio.has_value() == spec.at.empty()) {
     return Problem{spec.ratio ? "ratio" : "at",
                    "\"ratio\" and \"at\" belong together: {ratio: 2 %, at: [10 Hz, 200 Hz]}"};
   }
-  if (!spec.ratio) return std::nullopt;
+  if (!spec.ratio) {
+    if (spec.of == fem::DampedModes::held) return std::nullopt;
+    return Problem{"of",
+                   "it says whose vibrations have a `ratio`; `mass` and `stiffness` are what "
+                   "they are, remove the key"};
+  }
   if (spec.mass != 0 || spec.stiffness != 0) {
     return Problem{"ratio", "give either \"ratio\" and \"at\", or \"mass\" and \"stiffness\""};
   }
-  if ((*spec.at)[0] >= (*spec.at)[1]) {
+  if (spec.at.size() > 2) {
+    return Problem{"at", fmt::format("a ratio can be had at one or two frequencies, not at {}",
+                                     spec.at.size())};
+  }
+  if (spec.at.size() == 2 && spec.at[0] >= spec.at[1]) {
     return Problem{"at", "the second frequency must be higher than the first"};
   }
   return std::nullopt;
