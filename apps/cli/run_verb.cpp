@@ -3,11 +3,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/build.h"
+#include "cli/error_statement.h"
 #include "cli/failure.h"
 #include "cli/interruption.h"
 #include "cli/journaled_sink.h"
@@ -18,6 +20,7 @@
 #include "cli/summary_text.h"
 #include "cli/verbs.h"
 
+#include "buckens/analysis/error_variants.h"
 #include "buckens/analysis/output_plan.h"
 #include "buckens/analysis/simulation.h"
 #include "buckens/base/errors.h"
@@ -38,6 +41,7 @@ struct RunArguments {
   std::string model, out;
   std::vector<std::string> overrides;
   bool quiet = false;
+  bool error = false;
   int threads = 1;
   StateArguments state;
 
@@ -89,26 +93,30 @@ class Watch {
   double next_record_ = 0;
 };
 
+/// Runs the model; where an error statement follows, the directory is not completed yet.
+/// @param curves gets the sensors on their way to the directory; null: no error statement
 results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink,
-                             const RunArguments& arguments, ProgressDisplay& display,
+                             analysis::SensorCurves* curves, const RunArguments& arguments,
+                             const Interruption& interruption, ProgressDisplay& display,
                              RunJournal& journal) {
-  // Said to whoever pressed the key, not into a pipe.
-  const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   Watch watch(display, journal, interruption);
   analysis::SimulationOptions options;
   options.stop_reason = "interrupted by the user";
   options.threads = arguments.threads;
   options.on_progress = [&watch](const analysis::Progress& progress) { return watch(progress); };
+  results::RecordSink& records =
+      curves != nullptr ? static_cast<results::RecordSink&>(*curves) : sink;
   try {
     analysis::Simulation simulation(built, options);
     StateKeeper states(simulation, arguments.state, journal);
-    simulation.record_into(sink);
+    simulation.record_into(records);
     results::RunSummary summary = simulation.run();
     display.clear();
     states.save_end();
     return summary;
   } catch (...) {
     display.clear();
+    if (curves != nullptr && curves->summary()) sink.finish(*curves->summary());
     sink.abandon(describe_failure(std::current_exception()).message);
     if (sink.has_earlier_run_back()) {
       journal.say(LogLevel::warning, fmt::format("the earlier run in {} is as it was",
@@ -124,29 +132,9 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
   }
 }
 
-ExitCode run(const RunArguments& arguments, bool json) {
-  const bool silent = json || arguments.quiet;
-  ProgressDisplay display(stderr, silent ? ProgressDisplay::Style::none : style_for(stderr));
-  RunJournal journal(display, json              ? LogLevel::error
-                              : arguments.quiet ? LogLevel::warning
-                                                : LogLevel::info);
+void tell_summary(const RunArguments& arguments, bool json, const results::RunSummary& summary,
+                  RunJournal& journal) {
   const fs::path path = arguments.directory();
-  journal.record(fmt::format("buckens {}, model {}", kVersion, arguments.model));
-  for (const std::string& text : arguments.overrides) journal.record("--set " + text);
-  const auto built = read_and_build(arguments);
-  // What is wrong with the output is said before an earlier run is replaced.
-  if (built->description.simulation) {
-    analysis::plan_output(built->description);
-    arguments.state.check(built->description.simulation->duration);
-  }
-
-  run_store::RunDirectory directory(path,
-                                    {built->description.title, built->description.source, {}});
-  journal.open(directory);
-  journal.say(LogLevel::info, fmt::format("results go to {}", path.string()));
-  JournaledSink sink(directory, journal);
-  const results::RunSummary summary = simulate(*built, sink, arguments, display, journal);
-
   if (json) {
     print(files::read_text_file(path / run_store::kSummaryName));
   } else if (!arguments.quiet) {
@@ -156,7 +144,54 @@ ExitCode run(const RunArguments& arguments, bool json) {
     // The summary that would say so is not shown.
     for (const std::string& text : summary.trust) journal.warn_once(text);
   }
-  return summary.finished ? ExitCode::ok : ExitCode::interrupted;
+}
+
+/// @throws InputError where there would be nothing to state, or nothing to compare with
+void check_error_statement(const RunArguments& arguments,
+                           const model::ModelDescription& description) {
+  analysis::require_sensors(description);
+  if (arguments.state.start_from.empty()) return;
+  throw InputError(
+      "an error statement repeats the whole run and cannot begin at a saved state; "
+      "leave out --start-from, or --error (`error: off`)");
+}
+
+ExitCode run(const RunArguments& arguments, bool json) {
+  const bool silent = json || arguments.quiet;
+  ProgressDisplay display(stderr, silent ? ProgressDisplay::Style::none : style_for(stderr));
+  RunJournal journal(display, json              ? LogLevel::error
+                              : arguments.quiet ? LogLevel::warning
+                                                : LogLevel::info);
+  const fs::path path = arguments.directory();
+  journal.record(fmt::format("buckens {}, model {}", kVersion, arguments.model));
+  for (const std::string& text : arguments.overrides) journal.record("--set " + text);
+  auto built = read_and_build(arguments);
+  // What is wrong with the output is said before an earlier run is replaced.
+  analysis::plan_output(built->description);
+  arguments.state.check(built->description.simulation->duration);
+  const bool has_errors = arguments.error || built->description.simulation->error;
+  if (has_errors) check_error_statement(arguments, built->description);
+
+  run_store::RunDirectory directory(path,
+                                    {built->description.title, built->description.source, {}});
+  journal.open(directory);
+  journal.say(LogLevel::info, fmt::format("results go to {}", path.string()));
+  JournaledSink sink(directory, journal);
+  // Said to whoever pressed the key, not into a pipe.
+  const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
+  analysis::SensorCurves curves(&sink, analysis::bodies_to_watch(built->description));
+  results::RunSummary summary = simulate(*built, sink, has_errors ? &curves : nullptr, arguments,
+                                         interruption, display, journal);
+  if (has_errors) {
+    if (summary.finished) {
+      add_error_statement({arguments.model, arguments.overrides, arguments.threads},
+                          std::move(built), curves, interruption, display, journal, summary);
+    }
+    sink.finish(summary);
+  }
+  tell_summary(arguments, json, summary, journal);
+  const bool is_complete = summary.finished && !(summary.errors && !summary.errors->is_complete);
+  return is_complete ? ExitCode::ok : ExitCode::interrupted;
 }
 
 constexpr char kRunFooter[] = R"(
@@ -170,6 +205,11 @@ The directory OUT holds results.h5 (everything recorded), sensors.csv (the senso
 file), summary.json (effort, residuals, energy, trust), model.yaml (the model as it was read) and
 log.txt. It can be read while the run goes on. An earlier run in OUT is replaced once the set-up of
 this one has succeeded; a directory that holds anything else is refused.
+
+With --error (or `error: on` in `simulation`) further runs improve one thing each: half the step, a
+finer mesh, more frames on beams, full coupling, full meshes. From what they differ the summary gives
+every sensor an uncertainty. It takes several times as long as the run. See
+docs/tutorials/error-statement.md.
 
 Ctrl-C (or SIGTERM) finishes the current step and completes the files; a second one ends the program
 at once, and then at most the last second of results is missing.
@@ -190,6 +230,9 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
   verb.add_flag(
       "-q,--quiet", arguments->quiet,
       "No progress and no summary; warnings, reasons to doubt the results and\nerrors only");
+  verb.add_flag("--error", arguments->error,
+                "State by how much each sensor may be off: repeats the run with half the\n"
+                "step, finer meshes, and more of what the model reduces");
   verb.add_option("--threads", arguments->threads,
                   "Threads that advance bodies at the same time, two of them also one large\n"
                   "body; 1 if not given. Results are the same to the last bit")

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/error_text.h"
 #include "cli/text_table.h"
 
 namespace buckens::cli {
@@ -120,6 +121,7 @@ std::string summary_text(const results::RunSummary& summary) {
     if (body.dof > 0) entries.emplace_back("body " + body.name, limits_text(body));
   }
   out += text_list(entries);
+  if (summary.errors) out += error_text(*summary.errors);
   for (const std::string& text : summary.redundant_constraints) out += "redundant: " + text + '\n';
   for (const std::string& text : summary.notes) out += "note: " + text + '\n';
   return out;

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "buckens/fem/solid_block.h"
+#include "buckens/fem/solid_element.h"
 
 namespace buckens::fem {
 
@@ -181,9 +182,9 @@ SolidStrains::InnerProducts SolidStrains::inner_inverse(const Element& element) 
 }
 
 /// Fixed sizes let the compiler unroll.
-template <int nodes>
+template <int nodes, class AtNode, class AtCentre>
 void SolidStrains::evaluate_element(const Element& element, const linalg::Vector& d,
-                                    TensorColumns& at_places, TensorColumns& at_elements) const {
+                                    const AtNode& at_node, const AtCentre& at_centre) const {
   constexpr int kMost = nodes == Eigen::Dynamic ? kMostSolidNodes : nodes;
   using Vectors = Eigen::Matrix<double, 3, nodes, 0, 3, kMost>;
   const std::span<const int> own = element.block->nodes(element.index);
@@ -206,7 +207,7 @@ void SolidStrains::evaluate_element(const Element& element, const linalg::Vector
     return Matrix3d(Matrix3d(u.lazyProduct(slope.transpose())) * J.inverse());
   };
   if (element.row >= 0) {
-    at_elements.col(element.row) = strain_of(gradient_at(sampling.centre, nullptr));
+    at_centre(element.row, strain_of(gradient_at(sampling.centre, nullptr)));
   }
   if (element.first_corner < 0) return;
   const std::size_t num_points = sampling.points.size();
@@ -227,9 +228,22 @@ void SolidStrains::evaluate_element(const Element& element, const linalg::Vector
   }
   for (Eigen::Index k = 0; k < count; ++k) {
     const int place = corner_places_[static_cast<std::size_t>(element.first_corner + k)];
-    if (place < 0) continue;
-    at_places.col(place) +=
-        share_[static_cast<std::size_t>(place)] * (strain * sampling.to_nodes.row(k).transpose());
+    if (place >= 0) at_node(place, k, Tensor(strain * sampling.to_nodes.row(k).transpose()));
+  }
+}
+
+template <class AtNode, class AtCentre>
+void SolidStrains::evaluate_any(const Element& element, const linalg::Vector& d,
+                                const AtNode& at_node, const AtCentre& at_centre) const {
+  switch (element.block->nodes(element.index).size()) {
+    case 8:
+      return evaluate_element<8>(element, d, at_node, at_centre);
+    case 10:
+      return evaluate_element<10>(element, d, at_node, at_centre);
+    case 20:
+      return evaluate_element<20>(element, d, at_node, at_centre);
+    default:
+      return evaluate_element<Eigen::Dynamic>(element, d, at_node, at_centre);
   }
 }
 
@@ -237,21 +251,36 @@ void SolidStrains::evaluate(const linalg::Vector& d, TensorColumns& at_places,
                             TensorColumns& at_elements) const {
   at_places.setZero(6, static_cast<Eigen::Index>(places_.size()));
   at_elements.resize(6, num_elements());
+  const auto at_node = [&](int place, Eigen::Index /*corner*/, const Tensor& strain) {
+    at_places.col(place) += share_[static_cast<std::size_t>(place)] * strain;
+  };
+  const auto at_centre = [&](int row, const Tensor& strain) { at_elements.col(row) = strain; };
+  for (const Element& element : elements_) evaluate_any(element, d, at_node, at_centre);
+}
+
+EnergyOfError SolidStrains::energy_of_error(const linalg::Vector& d,
+                                            const TensorColumns& at_places) const {
+  EnergyOfError out;
+  TensorColumns own, off;
+  const auto at_node = [&](int place, Eigen::Index corner, const Tensor& strain) {
+    own.col(corner) = strain;
+    off.col(corner) = at_places.col(place) - strain;
+  };
+  const auto at_centre = [](int /*row*/, const Tensor& /*strain*/) {};
   for (const Element& element : elements_) {
-    switch (element.block->nodes(element.index).size()) {
-      case 8:
-        evaluate_element<8>(element, d, at_places, at_elements);
-        break;
-      case 10:
-        evaluate_element<10>(element, d, at_places, at_elements);
-        break;
-      case 20:
-        evaluate_element<20>(element, d, at_places, at_elements);
-        break;
-      default:
-        evaluate_element<Eigen::Dynamic>(element, d, at_places, at_elements);
-    }
+    if (element.first_corner < 0) continue;
+    const auto count = static_cast<Eigen::Index>(element.block->nodes(element.index).size());
+    own.setZero(6, count);
+    off.setZero(6, count);
+    evaluate_any(element, d, at_node, at_centre);
+    const Elasticity& D = elasticities_[static_cast<std::size_t>(element.material)];
+    const NodeProducts V =
+        solid_volume_products(element.block->form(element.index).kind,
+                              element.block->positions(fe_.nodes, element.index));
+    out.error += (D * off * V).cwiseProduct(off).sum();
+    out.energy += (D * own * V).cwiseProduct(own).sum();
   }
+  return out;
 }
 
 void SolidStrains::stresses(const TensorColumns& strain_at_places,

@@ -20,6 +20,12 @@ struct StrainPlace {
   int material = -1;  ///< index into SolidStrains::elasticities(); −1: no solid is there
 };
 
+/// Twice the strain energy of a difference of strains, and of the strains themselves [J].
+struct EnergyOfError {
+  double error = 0;
+  double energy = 0;
+};
+
 /// Strains of solid elements at nodes and at centres.
 ///
 /// In each element strains are taken at the points of solid_sampling(), those of the incompatible
@@ -54,6 +60,11 @@ class SolidStrains {
   void stresses(const TensorColumns& strain_at_places, const TensorColumns& strain_at_elements,
                 TensorColumns& at_places, TensorColumns& at_elements) const;
 
+  /// How far the strains of the elements are from continuous ones, in energy (Zienkiewicz & Zhu,
+  /// 1987); docs/theory/21-errors.md (E2).
+  /// @param at_places of evaluate(); elements without wanted nodes do not count
+  EnergyOfError energy_of_error(const linalg::Vector& d, const TensorColumns& at_places) const;
+
   /// Place of a node among places() with the material of a solid element, −1 if it is not wanted.
   int place_of(int node, int element) const;
 
@@ -71,9 +82,12 @@ class SolidStrains {
   int material_of(const SolidBlock& block, int element);
   void add_places(const std::vector<int>& nodes);
   InnerProducts inner_inverse(const Element& element) const;
-  template <int nodes>
-  void evaluate_element(const Element& element, const linalg::Vector& d, TensorColumns& at_places,
-                        TensorColumns& at_elements) const;
+  template <int nodes, class AtNode, class AtCentre>
+  void evaluate_element(const Element& element, const linalg::Vector& d, const AtNode& at_node,
+                        const AtCentre& at_centre) const;
+  template <class AtNode, class AtCentre>
+  void evaluate_any(const Element& element, const linalg::Vector& d, const AtNode& at_node,
+                    const AtCentre& at_centre) const;
 
   const FeModel& fe_;
   std::vector<StrainPlace> places_;

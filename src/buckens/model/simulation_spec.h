@@ -34,6 +34,7 @@ struct SimulationSpec {
   bool iterate_coupling = false;
   int max_iterations = 40;
   int max_outer_iterations = 30;
+  bool error = false;
 
   bool has_step_control() const { return tolerance.has_value() || step.value_or(0.0) == 0.0; }
 
@@ -93,6 +94,9 @@ struct SimulationSpec {
               .positive());
     visit(base::field("max-outer-iterations", max_outer_iterations, "most large solves in a step")
               .positive());
+    visit(base::field("error", error,
+                      "on: `buckens run` says by how much each sensor may be off, as with --error")
+              .on_off());
   }
 };
 

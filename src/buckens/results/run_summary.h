@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "buckens/results/error_statement.h"
+
 namespace buckens::results {
 
 /// How much work one body caused.
@@ -94,6 +96,7 @@ struct RunSummary {
   std::vector<std::string> notes;                  ///< what else happened, such as changes of level
   std::vector<std::string> redundant_constraints;  ///< rows found redundant, by joint
   std::optional<StaticPathSummary> static_path;    ///< of `buckens static`
+  std::optional<ErrorStatement> errors;            ///< where it was asked for
   /// Further figures of the run, by name.
   std::vector<std::pair<std::string, double>> measures;
 };

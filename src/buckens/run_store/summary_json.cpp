@@ -78,6 +78,41 @@ Json step_control_json(const results::StepControlEffort& control) {
           {"sizes", std::move(sizes)}};
 }
 
+Json uncertain_json(const results::UncertainValue& value,
+                    const std::vector<results::ErrorSource>& sources) {
+  Json parts = Json::object();
+  for (std::size_t k = 0; k < value.parts.size(); ++k) parts[sources[k].name] = value.parts[k];
+  return {{"value", value.value},
+          {"t", value.at},
+          {"uncertainty", value.uncertainty},
+          {"parts", std::move(parts)}};
+}
+
+Json errors_json(const results::ErrorStatement& errors) {
+  Json runs = Json::array();
+  for (const results::ErrorSource& source : errors.sources) {
+    runs.push_back({{"source", source.name},
+                    {"change", source.what},
+                    {"refinement", source.refinement},
+                    {"factor", source.factor},
+                    {"steps", source.steps},
+                    {"seconds", source.seconds}});
+  }
+  Json sensors = Json::object();
+  for (const results::SensorErrors& sensor : errors.sensors) {
+    sensors[sensor.name] = {{"unit", sensor.unit},
+                            {"resolved", sensor.is_resolved},
+                            {"sampling", sensor.sampling},
+                            {"peak", uncertain_json(sensor.peak, errors.sources)},
+                            {"final", uncertain_json(sensor.last, errors.sources)},
+                            {"curve", uncertain_json(sensor.curve, errors.sources)}};
+  }
+  return {{"complete", errors.is_complete},
+          {"runs", std::move(runs)},
+          {"notes", errors.notes},
+          {"sensors", std::move(sensors)}};
+}
+
 }  // namespace
 
 std::string to_string(RunStatus status) {
@@ -126,6 +161,7 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
   json["notes"] = summary.notes;
   json["redundant_constraints"] = summary.redundant_constraints;
   if (summary.static_path) json["static_path"] = static_path_json(*summary.static_path);
+  if (summary.errors) json["errors"] = errors_json(*summary.errors);
   if (!summary.measures.empty()) json["measures"] = by_name(summary.measures);
   return dump(json);
 }

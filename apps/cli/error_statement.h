@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/interruption.h"
+#include "cli/progress_display.h"
+#include "cli/run_journal.h"
+
+#include "buckens/analysis/sensor_curves.h"
+#include "buckens/model/model_builder.h"
+
+namespace buckens::cli {
+
+/// What an error statement is made from besides the run.
+struct ErrorStatementInput {
+  std::string model;                   ///< the file, read again where a part is meshed anew
+  std::vector<std::string> overrides;  ///< of the run
+  int threads = 1;
+};
+
+/// Makes the further runs of an error statement and puts it into the summary, with what it means
+/// for `trust`.
+/// @param built of the run; freed before the further runs begin
+/// @param curves sensors of the run, finished
+void add_error_statement(const ErrorStatementInput& input, std::unique_ptr<model::BuiltModel> built,
+                         const analysis::SensorCurves& curves, const Interruption& interruption,
+                         ProgressDisplay& display, RunJournal& journal,
+                         results::RunSummary& summary);
+
+}  // namespace buckens::cli

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "buckens/results/error_statement.h"
+
+namespace buckens::cli {
+
+/// Table of the peak of each sensor with its uncertainty and where that comes from, then notes.
+std::string error_text(const results::ErrorStatement& errors);
+
+}  // namespace buckens::cli
