@@ -12,6 +12,7 @@
 #include "buckens/model/add_joint.h"
 #include "buckens/model/add_load.h"
 #include "buckens/model/add_ties.h"
+#include "buckens/model/check/check_description.h"
 #include "buckens/model/check/flat_mesh.h"
 #include "buckens/model/eliminate_links.h"
 #include "buckens/model/find_section.h"
@@ -43,7 +44,6 @@ class Builder {
     model_.title = d.title;
     model_.gravity = d.gravity;
     model_.planar = d.planar;
-    check_gravity();
     add_bodies();
     MarkerFinder find(model_, tables_);
     for (std::size_t w = 0; w < divisions_.size(); ++w) {
@@ -71,15 +71,6 @@ class Builder {
 
  private:
   // ---- bodies
-  void check_gravity() const {
-    if (!model_.planar) return;
-    if (std::abs(model_.gravity.dot(spatial::normal(*model_.planar))) > 0.0) {
-      throw InputError(out_->description.where,
-                       "gravity of a planar model must lie in its plane; set the component normal "
-                       "to it to zero");
-    }
-  }
-
   void add_bodies() {
     const auto& specs = out_->description.bodies;
     meshes_.resize(specs.size());
@@ -117,12 +108,7 @@ class Builder {
     whole.name = spec.name;
     whole.where = spec.where;
     if (spec.geometric_stiffness) note_stiffening(spec);
-    if (std::holds_alternative<body::RigidSpec>(spec.kind)) {
-      if (spec.frames.is_one()) return;
-      throw InputError(spec.where, fmt::format("body \"{}\" is rigid and has one frame; remove "
-                                               "`frames`",
-                                               spec.name));
-    }
+    if (std::holds_alternative<body::RigidSpec>(spec.kind)) return;
     meshes_[w] = std::make_unique<NamedStructure>(structure_from_spec(spec));
     // Loads on offset shells find the directors that their inertia has.
     meshes_[w]->structure.shells.choose_directors(meshes_[w]->structure.nodes);
@@ -324,6 +310,7 @@ class Builder {
 }  // namespace
 
 std::unique_ptr<BuiltModel> build_model(ModelDescription description, body::BasisStore* bases) {
+  require_sound(description);
   return Builder(std::move(description), bases).run();
 }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model_file/body_mesh.h"
 
-#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/node_number.h"
 #include "buckens/mesh_io/matrix/body.h"
 #include "buckens/mesh_io/mesh_file.h"
 #include "buckens/model_file/step_mesh_cache.h"
@@ -18,15 +16,6 @@ namespace {
 /// Files of other programs are found from the directory of the model file.
 std::filesystem::path full_path(const std::string& name, const ReadContext& context) {
   return context.directory / name;
-}
-
-/// Numbers of the nodes in the file of the body, null if it has none.
-const std::vector<std::int64_t>* node_numbers(const body::BodySpec& body) {
-  const fem::GroupMaterials* source = std::get_if<fem::MeshSpec>(&body.kind);
-  if (source == nullptr) source = std::get_if<fem::GeometrySpec>(&body.kind);
-  if (source != nullptr) return source->imported ? &source->imported->node_ids : nullptr;
-  const auto* matrices = std::get_if<fem::MatricesSpec>(&body.kind);
-  return matrices != nullptr && matrices->imported ? &matrices->imported->numbers : nullptr;
 }
 
 void load_matrices(fem::MatricesSpec& matrices, const ReadContext& context) {
@@ -73,13 +62,6 @@ void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
     if (error.where().line > 0) throw;  // a place in the mesh file says more
     throw InputError(source.where, error.what());
   }
-}
-
-bool is_numbered_node(const body::BodySpec& body, const std::string& name) {
-  const std::vector<std::int64_t>* known = node_numbers(body);
-  const auto number = fem::node_number(name);
-  if (known == nullptr || !number) return false;
-  return std::find(known->begin(), known->end(), *number) != known->end();
 }
 
 }  // namespace buckens::model_file

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "buckens/body/body_spec.h"
 #include "buckens/model_file/values.h"
 
@@ -12,8 +10,5 @@ namespace buckens::model_file {
 /// stay as they are.
 /// @throws InputError with the place of the file name where it cannot be read
 void load_body_mesh(body::BodySpec& body, const ReadContext& context);
-
-/// Whether a name stands for a node of the body's mesh file: `n` and the number there.
-bool is_numbered_node(const body::BodySpec& body, const std::string& name);
 
 }  // namespace buckens::model_file

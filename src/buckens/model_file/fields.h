@@ -13,12 +13,14 @@
 #include <fmt/format.h>
 
 #include "buckens/base/field.h"
+#include "buckens/base/field_types.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/nearest.h"
-#include "buckens/model_file/checks.h"
-#include "buckens/model_file/field_types.h"
+#include "buckens/model/check/marker_names.h"
+#include "buckens/model/check/spec_findings.h"
 #include "buckens/model_file/names.h"
 #include "buckens/model_file/number_look_alikes.h"
+#include "buckens/model_file/table.h"
 #include "buckens/model_file/values.h"
 
 /// Reading by field lists: any spec is filled from a YAML value by visiting its fields.
@@ -28,8 +30,8 @@ template <class T>
 void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext& context, T& out);
 
 /// Reads a map into a spec, or the single value that stands for it. Unknown and missing keys are
-/// errors, and so is what problem() finds afterwards.
-template <HasFields T>
+/// errors, and so is what model::problem() finds afterwards.
+template <base::HasFields T>
 void read_record(const ReadPlace& place, ReadContext& context, T& out);
 
 /// The keys that a record takes, those of its alternatives included.
@@ -40,8 +42,8 @@ class KeyCollector {
 
   template <class T>
   void operator()(const base::Field<T>& field) {
-    if constexpr (kIsVariant<T>) {
-      for (const auto& alternative : alternatives_of<T>()) {
+    if constexpr (base::kIsVariant<T>) {
+      for (const auto& alternative : base::alternatives_of<T>()) {
         keys.push_back(alternative.key);
         alternatives.push_back(alternative.key);
       }
@@ -61,7 +63,7 @@ class ShorthandReader {
 
   template <class T>
   void operator()(const base::Field<T>& field) {
-    if constexpr (!kIsVariant<T>) {
+    if constexpr (!base::kIsVariant<T>) {
       const bool is_whole_content = field.note.name.empty();
       const bool is_short = field.note.is_shorthand && !place_.node.is_map();
       if (!is_whole_content && !is_short) return;
@@ -82,7 +84,7 @@ class RecordReader {
 
   template <class T>
   void operator()(const base::Field<T>& field) {
-    if constexpr (kIsVariant<T>) {
+    if constexpr (base::kIsVariant<T>) {
       read_alternative(field.member);
     } else if (const YamlNode* node = place_.node.find(field.note.name)) {
       read_value(inside(*node, field.note.name), field.note, context_, field.member);
@@ -122,7 +124,7 @@ class RecordReader {
   ReadContext& context_;
 };
 
-template <HasFields T>
+template <base::HasFields T>
 void read_record(const ReadPlace& place, ReadContext& context, T& out) {
   if constexpr (requires { out.where; }) out.where = place.node.where;
   ShorthandReader shorthand(place, context);
@@ -138,9 +140,10 @@ void read_record(const ReadPlace& place, ReadContext& context, T& out) {
     RecordReader reader(place, context);
     out.fields(reader);
   }
-  if (const auto found = problem(out, context)) {
-    const std::string path = join_path(place.path, found->key);
-    fail({place.node.deepest(found->key), path}, found->text);
+  if constexpr (std::is_same_v<T, TableLawSpec>) {
+    fail_if_found(problem(out), place);
+  } else {
+    fail_if_found(model::problem(out, *context.model), place);
   }
 }
 
@@ -153,7 +156,7 @@ void read_named(const ReadPlace& place, ReadContext& context, std::vector<T>& ou
   }
   for (const YamlEntry& entry : place.node.entries) {
     const std::string path = join_path(place.path, entry.key);
-    if constexpr (!kIsForeignNamed<T>) check_name(entry, path);
+    if constexpr (!base::kIsForeignNamed<T>) check_name(entry, path);
     T value;
     value.name = entry.key;
     read_record({entry.value, path}, context, value);
@@ -193,7 +196,7 @@ void read_reference(const ReadPlace& place, const base::FieldNote& note, ReadCon
   out.name = place.node.text;
   const auto& known = definitions(context, &out.value);
   const T* found = base::find_named(known, out.name);
-  if (found == nullptr) fail_unknown(place, note.name, out.name, names_of(known));
+  if (found == nullptr) fail_unknown(place, note.name, out.name, model::names_of(known));
   out.value = *found;
 }
 
@@ -215,7 +218,7 @@ void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext
   } else if constexpr (std::is_same_v<T, std::string>) {
     out = read_text(place);
   } else if constexpr (std::is_enum_v<T>) {
-    out = static_cast<T>(read_choice(place, choices_of<T>(), planned_of<T>()));
+    out = static_cast<T>(read_choice(place, base::choices_of<T>(), base::planned_of<T>()));
   } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
     read_items(place, note, context, 3,
                [&](const ReadPlace& item, int i) { out[i] = read_quantity(item, note, context); });
@@ -227,19 +230,19 @@ void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext
     out = read_marker(place, context);
   } else if constexpr (std::is_same_v<T, model::DeflectionBase>) {
     out = read_deflection_base(place, context);
-  } else if constexpr (kIsOptional<T>) {
+  } else if constexpr (base::kIsOptional<T>) {
     read_value(place, note, context, out.emplace());
-  } else if constexpr (kIsArray<T>) {
+  } else if constexpr (base::kIsArray<T>) {
     read_items(place, note, context, static_cast<int>(out.size()), read_item(out));
-  } else if constexpr (kIsReference<T>) {
+  } else if constexpr (base::kIsReference<T>) {
     read_reference(place, note, context, out);
-  } else if constexpr (kIsNamedList<T>) {
+  } else if constexpr (base::kIsNamedList<T>) {
     read_named(place, context, out);
   } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
     if (place.node.is_scalar()) return read_value(place, note, context, out.emplace_back());
     out.resize(place.node.items.size());
     read_items(place, note, context, -1, read_item(out));
-  } else if constexpr (kIsVector<T>) {
+  } else if constexpr (base::kIsVector<T>) {
     out.resize(place.node.items.size());
     read_items(place, note, context, -1, read_item(out));
   } else {

@@ -8,9 +8,9 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
-#include "buckens/fem/generate_mesh.h"
+#include "buckens/model/check/marker_names.h"
+#include "buckens/model/check/spec_findings.h"
 #include "buckens/model_file/body_mesh.h"
-#include "buckens/model_file/checks.h"
 #include "buckens/model_file/wishes.h"
 
 namespace buckens::model_file {
@@ -45,38 +45,6 @@ base::MarkerRef read_ground_point(const ReadPlace& place, const ReadContext& con
   out.text =
       fmt::format("ground [{:g}, {:g}, {:g}]", out.point->x(), out.point->y(), out.point->z());
   return out;
-}
-
-void check_markers(const body::BodySpec& body, const ReadPlace& place) {
-  std::vector<std::string> places = marker_names(body);
-  for (const auto& marker : body.markers) {
-    if (std::count(places.begin(), places.end(), marker.name) > 1) {
-      throw InputError(marker.where,
-                       fmt::format("{}.markers: the name \"{}\" is taken by a node or "
-                                   "predefined marker; choose another",
-                                   place.path, marker.name));
-    }
-  }
-  for (const auto& interface : body.interfaces) {
-    if (std::count(places.begin(), places.end(), interface.name) == 1) continue;
-    throw InputError(interface.where,
-                     fmt::format("{}.interfaces: the name \"{}\" is taken by a node or "
-                                 "predefined marker; choose another",
-                                 place.path, interface.name));
-  }
-  for (const auto& marker : body.markers) {
-    std::erase(places, marker.name);
-  }
-  for (const auto& marker : body.markers) {
-    if (marker.at.empty() || is_numbered_node(body, marker.at) ||
-        std::find(places.begin(), places.end(), marker.at) != places.end()) {
-      continue;
-    }
-    throw InputError(
-        marker.where,
-        fmt::format("{}.markers.{}.at: body \"{}\" has no place \"{}\".{}", place.path, marker.name,
-                    body.name, marker.at, base::suggestion(marker.at, places)));
-  }
 }
 
 }  // namespace
@@ -125,21 +93,10 @@ void fail_unknown(const ReadPlace& place, const std::string& kind, const std::st
   fail(place, fmt::format("unknown {} \"{}\".{}", kind, shortened(name), rest));
 }
 
-std::vector<std::string> marker_names(const body::BodySpec& body) {
-  std::vector<std::string> out = {"origin", "com"};
-  if (std::holds_alternative<fem::BeamSpec>(body.kind)) {
-    out.insert(out.end(), {"start", "mid", "end"});
-  }
-  if (const auto* structure = std::get_if<fem::StructureSpec>(&body.kind)) {
-    for (const auto& node : structure->nodes) out.push_back(node.name);
-  }
-  if (const auto* mesh = std::get_if<fem::MeshSpec>(&body.kind)) {
-    const auto names = fem::named_nodes(*mesh);
-    out.insert(out.end(), names.begin(), names.end());
-  }
-  for (const auto& interface : body.interfaces) out.push_back(interface.name);
-  for (const auto& marker : body.markers) out.push_back(marker.name);
-  return out;
+void fail_if_found(const model::Found& found, const ReadPlace& place) {
+  if (!found) return;
+  fail({place.node.deepest(found->field_path), join_path(place.path, found->field_path)},
+       found->text);
 }
 
 base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) {
@@ -155,33 +112,11 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) 
   const std::size_t slash = out.text.find('/');
   out.body = out.text.substr(0, slash);
   if (slash != std::string::npos) out.marker = out.text.substr(slash + 1);
-  if (out.is_ground()) {
-    if (slash == std::string::npos) return out;
-    fail(place,
-         fmt::format("\"{}\": the ground has no markers; write {{ground: [x, y, z]}}", out.text));
+  if (slash != std::string::npos && out.marker.empty()) {
+    fail(place, fmt::format("\"{}\": the name of a marker is missing after the slash", out.text));
   }
-  const auto& bodies = context.model->bodies;
-  const body::BodySpec* body = base::find_named(bodies, out.body);
-  if (body == nullptr) {
-    std::vector<std::string> known = names_of(bodies);
-    known.push_back("ground");
-    // "rod.start" where a slash is meant.
-    const std::size_t mark = out.body.find_first_of(".:");
-    const std::string head = out.body.substr(0, mark);
-    if (mark != std::string::npos && base::find_named(bodies, head) != nullptr) {
-      fail(place,
-           fmt::format("unknown body \"{}\". Did you mean \"{}/{}\"? A slash stands before the "
-                       "name of a marker",
-                       out.text, head, out.text.substr(mark + 1)));
-    }
-    fail_unknown(place, "body", out.body, known);
-  }
-  if (slash == std::string::npos) return out;
-  const std::vector<std::string> markers = marker_names(*body);
-  if (std::find(markers.begin(), markers.end(), out.marker) == markers.end() &&
-      !is_numbered_node(*body, out.marker)) {
-    fail(place, fmt::format("body \"{}\" has no marker \"{}\".{}", out.body, out.marker,
-                            base::suggestion(out.marker, markers)));
+  if (const model::Found found = model::marker_problem(out, *context.model)) {
+    fail(place, found->text);
   }
   return out;
 }
@@ -224,14 +159,13 @@ void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadC
 }
 
 void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& context) {
-  if (body.name == "ground") fail(place, "\"ground\" means the world itself; choose another name");
   if (const auto* like = std::get_if<body::LikeSpec>(&body.kind)) {
     const auto& bodies = context.model->bodies;
     const body::BodySpec* other = base::find_named(bodies, like->body);
     if (other == nullptr) {
       fail({*place.node.find("like"), place.path + ".like"},
            fmt::format("unknown body \"{}\" (only bodies listed above this one can be named).{}",
-                       like->body, base::suggestion(like->body, names_of(bodies))));
+                       like->body, base::suggestion(like->body, model::names_of(bodies))));
     }
     body.like = other->like.empty() ? other->name : other->like;
     take_over(other->markers, body.markers);
@@ -240,38 +174,14 @@ void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& con
     // The variant's old content is destroyed here; nothing of it is used from now on.
     body.kind = std::variant(other->kind);
     // What the keys of this body ask for was judged before it was known what it is made of.
-    if (const Finding found = problem(body, context)) {
-      fail({place.node.deepest(found->key), join_path(place.path, found->key)}, found->text);
-    }
+    fail_if_found(model::problem(body, *context.model), place);
   }
   load_body_mesh(body, context);
-  if (body.is_rigid() && body.damping) {
-    fail(place, "a rigid body has no damping of its own; remove the key \"damping\"");
-  }
-  if (body.is_rigid() && !body.interfaces.empty()) {
-    fail(place, "a rigid body has no mesh and no interfaces; use `markers`");
-  }
-  check_markers(body, place);
+  fail_if_found(model::problem_when_complete(body, *context.model), place);
 }
 
 void finish_entry(model::InitialBodySpec& initial, const ReadPlace& place, ReadContext& context) {
-  const auto& bodies = context.model->bodies;
-  const body::BodySpec* body = base::find_named(bodies, initial.name);
-  if (body == nullptr) {
-    throw InputError(initial.where,
-                     fmt::format("{}: unknown body \"{}\".{}", place.path, initial.name,
-                                 base::suggestion(initial.name, names_of(bodies))));
-  }
-  if (body->is_rigid() && initial.nodal_displacement) {
-    throw InputError(initial.where, fmt::format("{}: body \"{}\" is rigid and has no nodes to "
-                                                "displace; remove the key \"nodal-displacement\"",
-                                                place.path, initial.name));
-  }
-  if (body->is_rigid() && initial.nodal_velocity) {
-    throw InputError(initial.where, fmt::format("{}: body \"{}\" is rigid and has no nodal "
-                                                "velocity; remove the key \"nodal-velocity\"",
-                                                place.path, initial.name));
-  }
+  fail_if_found(model::problem_when_complete(initial, *context.model), place);
 }
 
 }  // namespace buckens::model_file

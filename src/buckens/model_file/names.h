@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/base/marker_ref.h"
+#include "buckens/model/check/finding.h"
 #include "buckens/model/model_description.h"
 #include "buckens/model_file/values.h"
 
@@ -26,9 +27,6 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context);
 /// Reads `chord`, `frame` or a marker.
 model::DeflectionBase read_deflection_base(const ReadPlace& place, const ReadContext& context);
 
-/// Names that may follow the slash after a body.
-std::vector<std::string> marker_names(const body::BodySpec& body);
-
 inline const std::vector<fem::MaterialSpec>& definitions(const ReadContext& context,
                                                          const fem::MaterialSpec* /*type*/) {
   return context.model->materials;
@@ -38,12 +36,9 @@ inline const std::vector<fem::SectionSpec>& definitions(const ReadContext& conte
   return context.model->sections;
 }
 
-template <class T>
-std::vector<std::string> names_of(const std::vector<T>& list) {
-  std::vector<std::string> out;
-  for (const T& entry : list) out.push_back(entry.name);
-  return out;
-}
+/// Throws what was found in the spec that was read from `place`.
+/// @throws InputError with the place of the field in the file
+void fail_if_found(const model::Found& found, const ReadPlace& place);
 
 /// What remains to be done when a named entry has been read: parameters become known to
 /// expressions, bodies take over what they are `like`.

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/field_types.h"
 #include "buckens/model/model_description.h"
-#include "buckens/model_file/field_types.h"
 #include "buckens/model_file/table.h"
 
 namespace buckens::model_file {
@@ -25,7 +25,7 @@ std::string default_text(const T& value, const base::FieldNote& note) {
   } else if constexpr (std::is_arithmetic_v<T>) {
     return fmt::format("{:g}", static_cast<double>(value));
   } else if constexpr (std::is_enum_v<T>) {
-    return choices_of<T>()[static_cast<std::size_t>(value)];
+    return base::choices_of<T>()[static_cast<std::size_t>(value)];
   } else if constexpr (std::is_same_v<T, std::string>) {
     return value;
   } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
@@ -45,7 +45,7 @@ class ShapeBuilder {
 
   template <class T>
   void operator()(const base::Field<T>& field) {
-    if constexpr (kIsVariant<T>) {
+    if constexpr (base::kIsVariant<T>) {
       add_alternatives(std::type_identity<T>{});
     } else {
       out_.fields.push_back({field.note, shape_of<T>(), default_text(field.member, field.note)});
@@ -108,7 +108,7 @@ Shape shape_of() {
     return simple(Shape::Kind::text);
   } else if constexpr (std::is_enum_v<T>) {
     Shape out = simple(Shape::Kind::choice);
-    out.choices = choices_of<T>();
+    out.choices = base::choices_of<T>();
     return out;
   } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
     return list_of(simple(Shape::Kind::quantity), 3);
@@ -124,15 +124,15 @@ Shape shape_of() {
     Shape out = simple(Shape::Kind::word_or_marker);
     out.choices = {T::kWords.begin(), T::kWords.end()};
     return out;
-  } else if constexpr (kIsOptional<T>) {
+  } else if constexpr (base::kIsOptional<T>) {
     return shape_of<typename T::value_type>();
-  } else if constexpr (kIsArray<T>) {
+  } else if constexpr (base::kIsArray<T>) {
     return array_shape(std::type_identity<T>{});
-  } else if constexpr (kIsReference<T>) {
+  } else if constexpr (base::kIsReference<T>) {
     return reference_shape(std::type_identity<T>{});
-  } else if constexpr (kIsVector<T>) {
+  } else if constexpr (base::kIsVector<T>) {
     Shape out = list_of(shape_of<typename T::value_type>(), -1);
-    if (kIsNamedList<T>) out.kind = Shape::Kind::named;
+    if (base::kIsNamedList<T>) out.kind = Shape::Kind::named;
     return out;
   } else {
     Shape out = simple(Shape::Kind::record);

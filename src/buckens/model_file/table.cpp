@@ -77,6 +77,20 @@ YamlNode with_file_key(YamlNode node) {
 
 }  // namespace
 
+model::Found problem(const TableLawSpec& spec) {
+  if (spec.table.empty() == spec.file.empty()) {
+    return model::Finding{
+        "",
+        "exactly one of the keys table and file is needed, and a table has at least one "
+        "point [time in s, value]"};
+  }
+  if (spec.file.empty() && spec.column) {
+    return model::Finding{"column",
+                          "it belongs to files; a table has one column of values. Remove it"};
+  }
+  return std::nullopt;
+}
+
 CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
   std::istringstream stream(files::read_text_file(path, "table"));
   CsvColumns out;

@@ -9,6 +9,7 @@
 
 #include "buckens/base/field.h"
 #include "buckens/base/time_law.h"
+#include "buckens/model/check/finding.h"
 #include "buckens/model_file/values.h"
 
 namespace buckens::model_file {
@@ -41,6 +42,9 @@ struct TableLawSpec {
                       "outside of their range: refuse to go on, or hold the first and last value"));
   }
 };
+
+/// What is wrong with a table as it is written.
+model::Found problem(const TableLawSpec& spec);
 
 /// Reads a law given by `table` or `file`.
 base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note,

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/field_types.h"
 #include "buckens/base/visit_fields.h"
-#include "buckens/model_file/field_types.h"
 
 namespace buckens::model_file {
 
@@ -30,13 +30,13 @@ class RangeChecker {
   void visit(const T& value) {
     if constexpr (std::is_same_v<T, base::TimeLaw>) {
       check(value);
-    } else if constexpr (kIsOptional<T>) {
+    } else if constexpr (base::kIsOptional<T>) {
       if (value) visit(*value);
-    } else if constexpr (kIsVariant<T>) {
+    } else if constexpr (base::kIsVariant<T>) {
       std::visit([this](const auto& alternative) { visit(alternative); }, value);
-    } else if constexpr (kIsArray<T> || kIsVector<T>) {
+    } else if constexpr (base::kIsArray<T> || base::kIsVector<T>) {
       for (const auto& item : value) visit(item);
-    } else if constexpr (HasFields<T>) {
+    } else if constexpr (base::HasFields<T>) {
       base::visit_fields(value, *this);
     }
   }

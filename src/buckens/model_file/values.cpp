@@ -9,6 +9,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/base/units.h"
+#include "buckens/model/check/range.h"
 #include "buckens/model_file/number_look_alikes.h"
 #include "buckens/model_file/table.h"
 
@@ -21,9 +22,6 @@ using base::FieldNote;
 
 // Elements, iterations and columns beyond this are slips, and int must hold them.
 constexpr double kLargestInteger = 1e7;
-// No measure in SI units is larger, and fourth powers of it, such as second moments of area, are
-// still numbers.
-constexpr double kLargestNumber = 1e60;
 
 std::string example_of(const Dimension& dimension) {
   static const std::vector<std::pair<Dimension, const char*>> examples = {
@@ -97,28 +95,8 @@ std::string shown(const ReadPlace& place, double value) {
 }
 
 void check_range(const ReadPlace& place, const FieldNote& note, double value) {
-  const auto refuse = [&](const std::string& rule) {
-    fail(place, fmt::format("{} is not allowed: the value must {}", shown(place, value), rule));
-  };
-  if (!std::isfinite(value)) refuse("be a finite number");
-  if (std::abs(value) > kLargestNumber) {
-    refuse(fmt::format("not exceed {:g} in SI units, or calculations overflow", kLargestNumber));
-  }
-  switch (note.range) {
-    case base::Range::any:
-      break;
-    case base::Range::positive:
-      if (!(value > 0)) refuse("be positive");
-      break;
-    case base::Range::non_negative:
-      if (!(value >= 0)) refuse("not be negative");
-      break;
-    case base::Range::fraction:
-      if (!(value >= 0 && value <= 1)) refuse("lie between 0 and 1");
-      break;
-    case base::Range::poisson:
-      if (!(value > -1 && value <= 0.5)) refuse("lie between -1 and 0.5");
-      break;
+  if (const auto rule = model::broken_rule(note, value)) {
+    fail(place, model::refusal(shown(place, value), *rule));
   }
 }
 

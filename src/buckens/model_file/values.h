@@ -9,6 +9,7 @@
 #include "buckens/base/field.h"
 #include "buckens/base/time_law.h"
 #include "buckens/body/frame_division.h"
+#include "buckens/model/check/finding.h"
 #include "buckens/model/initial_spec.h"
 #include "buckens/model_file/yaml_tree.h"
 
@@ -34,9 +35,7 @@ struct ReadPlace {
   std::string path;  ///< "bodies.rod.beam.elements"
 };
 
-inline std::string join_path(const std::string& path, const std::string& key) {
-  return path.empty() || key.empty() ? path + key : path + "." + key;
-}
+using model::join_path;
 
 /// @throws InputError "file:line:column: path: message"
 [[noreturn]] void fail(const ReadPlace& place, const std::string& message);

@@ -2,43 +2,43 @@
 #include <fmt/format.h>
 
 #include "buckens/fem/group_section_spec.h"
-#include "buckens/model_file/checks.h"
+#include "buckens/model/check/spec_findings.h"
 
-namespace buckens::model_file {
+namespace buckens::model {
 
 namespace {
 
-Finding thickness_problem(const fem::ShellPropertySpec& spec) {
+Found thickness_problem(const fem::ShellPropertySpec& spec) {
   if (spec.thickness.has_value() == spec.layers.empty()) {
     if (spec.direction && spec.direction->norm() == 0.0) {
-      return Problem{"direction", "a direction cannot be zero"};
+      return Finding{"direction", "a direction cannot be zero"};
     }
     return std::nullopt;
   }
-  return Problem{"", "exactly one of the keys thickness and layers is needed"};
+  return Finding{"", "exactly one of the keys thickness and layers is needed"};
 }
 
 }  // namespace
 
-Finding problem(const fem::ShellMemberSpec& spec, const ReadContext&) {
+Found problem(const fem::ShellMemberSpec& spec, const ModelDescription&) {
   if (spec.nodes.size() != 3 && spec.nodes.size() != 4) {
-    return Problem{"nodes", fmt::format("a shell has 3 or 4 nodes, found {}", spec.nodes.size())};
+    return Finding{"nodes", fmt::format("a shell has 3 or 4 nodes, found {}", spec.nodes.size())};
   }
   return thickness_problem(spec);
 }
 
-Finding problem(const fem::PlateMeshSpec& spec, const ReadContext&) {
+Found problem(const fem::PlateMeshSpec& spec, const ModelDescription&) {
   return thickness_problem(spec);
 }
 
-Finding problem(const fem::GroupSectionSpec& spec, const ReadContext&) {
+Found problem(const fem::GroupSectionSpec& spec, const ModelDescription&) {
   const int given = (spec.thickness ? 1 : 0) + (spec.layers.empty() ? 0 : 1) + (spec.beam ? 1 : 0) +
                     (spec.bar ? 1 : 0);
   if (given != 1) {
-    return Problem{"", "exactly one of the keys thickness, layers, beam and bar is needed"};
+    return Finding{"", "exactly one of the keys thickness, layers, beam and bar is needed"};
   }
   const auto foreign = [](const char* key, const char* owner) {
-    return Problem{key, fmt::format("this belongs to {}; remove the key", owner)};
+    return Finding{key, fmt::format("this belongs to {}; remove the key", owner)};
   };
   if (!spec.is_shell()) {
     if (spec.offset != 0.0) return foreign("offset", "shells");
@@ -51,20 +51,20 @@ Finding problem(const fem::GroupSectionSpec& spec, const ReadContext&) {
     if (spec.rotary_inertia) return foreign("rotary-inertia", "beams");
   }
   if (spec.direction && spec.along_first_side) {
-    return Problem{"along-first-side", "`direction` says already where the x axis lies"};
+    return Finding{"along-first-side", "`direction` says already where the x axis lies"};
   }
   if (spec.direction && spec.direction->norm() == 0.0) {
-    return Problem{"direction", "a direction cannot be zero"};
+    return Finding{"direction", "a direction cannot be zero"};
   }
-  if (spec.up && spec.up->norm() == 0.0) return Problem{"up", "a direction cannot be zero"};
+  if (spec.up && spec.up->norm() == 0.0) return Finding{"up", "a direction cannot be zero"};
   return std::nullopt;
 }
 
-Finding problem(const fem::AverageLinkSpec& spec, const ReadContext&) {
-  if (spec.nodes.empty()) return Problem{"nodes", "name at least one node"};
+Found problem(const fem::AverageLinkSpec& spec, const ModelDescription&) {
+  if (spec.nodes.empty()) return Finding{"nodes", "name at least one node"};
   if (spec.weights.empty() || spec.weights.size() == spec.nodes.size()) return std::nullopt;
-  return Problem{"weights", fmt::format("found {} weights for {} nodes", spec.weights.size(),
+  return Finding{"weights", fmt::format("found {} weights for {} nodes", spec.weights.size(),
                                         spec.nodes.size())};
 }
 
-}  // namespace buckens::model_file
+}  // namespace buckens::model

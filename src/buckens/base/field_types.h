@@ -12,11 +12,11 @@
 #include "buckens/base/field.h"
 
 /// What the visitors of field lists ask about the types of members.
-namespace buckens::model_file {
+namespace buckens::base {
 
 struct AnyVisitor {
   template <class T>
-  void operator()(const base::Field<T>&) {}
+  void operator()(const Field<T>&) {}
 };
 
 /// A struct with a field list.
@@ -43,7 +43,7 @@ inline constexpr bool kIsArray<std::array<T, n>> = true;
 template <class T>
 inline constexpr bool kIsReference = false;
 template <class T>
-inline constexpr bool kIsReference<base::Reference<T>> = true;
+inline constexpr bool kIsReference<Reference<T>> = true;
 
 template <class T>
 inline constexpr bool kIsVector = false;
@@ -94,4 +94,4 @@ std::vector<std::string> planned_of() {
   }
 }
 
-}  // namespace buckens::model_file
+}  // namespace buckens::base

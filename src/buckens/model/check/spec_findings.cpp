@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/model_file/checks.h"
+#include "buckens/model/check/spec_findings.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
-#include "buckens/model_file/names.h"
+#include "buckens/model/check/marker_names.h"
 
-namespace buckens::model_file {
+namespace buckens::model {
 
 namespace {
 
@@ -17,37 +17,37 @@ constexpr double kMostSteps = 1e10;
 constexpr double kLeastTolerance = 1e-13;
 constexpr int kMostStaticPoints = 1000000;
 
-Finding needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
-                            const ReadContext& context) {
+Found needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
+                          const ModelDescription& model) {
   if (axis) return axis_problem(*axis);
-  if (context.model->planar) return std::nullopt;
-  return Problem{"axis",
+  if (model.planar) return std::nullopt;
+  return Finding{"axis",
                  "the key \"axis\" is missing; a model in space needs it, for example "
                  "axis: [0, 0, 1]"};
 }
 
 /// Springs and sensors may connect two markers of one flexible body, joints may not.
-Finding ends_problem(const std::array<base::MarkerRef, 2>& between, bool is_joint) {
+Found ends_problem(const std::array<base::MarkerRef, 2>& between, bool is_joint) {
   const bool is_same =
       is_joint ? between[0].body == between[1].body : between[0].text == between[1].text;
   if (!is_same) return std::nullopt;
-  return Problem{"between", fmt::format("\"{}\" and \"{}\" are {}; two different bodies are needed",
+  return Finding{"between", fmt::format("\"{}\" and \"{}\" are {}; two different bodies are needed",
                                         between[0].text, between[1].text,
                                         is_joint ? "on the same body" : "the same marker")};
 }
 
-Finding flexible_problem(const base::MarkerRef& marker, const char* key,
-                         const ReadContext& context) {
-  const body::BodySpec* body = base::find_named(context.model->bodies, marker.body);
+Found flexible_problem(const base::MarkerRef& marker, const char* key,
+                       const ModelDescription& model) {
+  const body::BodySpec* body = base::find_named(model.bodies, marker.body);
   if (body != nullptr && !body->is_rigid()) return std::nullopt;
-  return Problem{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
+  return Finding{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
 }
 
 /// A deflection is seen from markers of the same body.
-Finding other_body_problem(const model::DeflectionSensor& spec, const base::MarkerRef& marker,
-                           const char* key) {
+Found other_body_problem(const DeflectionSensor& spec, const base::MarkerRef& marker,
+                         const char* key) {
   if (marker.body == spec.of.body && marker.text != spec.of.text) return std::nullopt;
-  return Problem{
+  return Finding{
       key, marker.body == spec.of.body
                ? fmt::format("\"{}\" is the observed marker itself; name another", marker.text)
                : fmt::format("\"{}\" is not on body \"{}\", whose deformation is observed; use a "
@@ -56,11 +56,10 @@ Finding other_body_problem(const model::DeflectionSensor& spec, const base::Mark
 }
 
 /// A chord runs between two named ends.
-Finding deflection_problem(const model::DeflectionSensor& spec, const ReadContext& context) {
-  using model::DeflectionBase;
-  if (Finding found = flexible_problem(spec.of, "of", context)) return found;
+Found deflection_problem(const DeflectionSensor& spec, const ModelDescription& model) {
+  if (Found found = flexible_problem(spec.of, "of", model)) return found;
   if (spec.chord && !(spec.from == DeflectionBase::chord)) {
-    return Problem{"chord", "it belongs to `from: chord`; remove one of them"};
+    return Finding{"chord", "it belongs to `from: chord`; remove one of them"};
   }
   if (spec.from == DeflectionBase::other) {
     return other_body_problem(spec, spec.from.marker, "from");
@@ -68,14 +67,14 @@ Finding deflection_problem(const model::DeflectionSensor& spec, const ReadContex
   if (spec.from == DeflectionBase::frame) return std::nullopt;
   if (spec.chord) {
     for (const base::MarkerRef& end : *spec.chord) {
-      if (Finding found = other_body_problem(spec, end, "chord")) return found;
+      if (Found found = other_body_problem(spec, end, "chord")) return found;
     }
     return ends_problem(*spec.chord, false);
   }
-  const auto names = marker_names(*base::find_named(context.model->bodies, spec.of.body));
+  const auto names = marker_names(*base::find_named(model.bodies, spec.of.body));
   for (const char* end : {"start", "end"}) {
     if (std::find(names.begin(), names.end(), end) != names.end()) continue;
-    return Problem{"from",
+    return Finding{"from",
                    fmt::format("body \"{}\" has no marker \"{}\", between `start` and `end` "
                                "runs the chord; name its ends with `chord`, or write `from: frame`",
                                spec.of.body, end)};
@@ -84,42 +83,42 @@ Finding deflection_problem(const model::DeflectionSensor& spec, const ReadContex
 }
 
 /// Springs are found among the loads, bushings among the joints.
-Finding spring_problem(const std::string& name, bool torque, const ReadContext& context) {
+Found spring_problem(const std::string& name, bool torque, const ModelDescription& model) {
   std::vector<std::string> known;
-  for (const loads::LoadSpec& load : context.model->loads) {
+  for (const loads::LoadSpec& load : model.loads) {
     const bool has_it = torque ? std::holds_alternative<loads::TorsionalSpringSpec>(load.kind)
                                : std::holds_alternative<loads::SpringDamperSpec>(load.kind);
     if (has_it) known.push_back(load.name);
   }
-  for (const joints::JointSpec& joint : context.model->joints) {
+  for (const joints::JointSpec& joint : model.joints) {
     if (std::holds_alternative<joints::BushingSpec>(joint.kind)) known.push_back(joint.name);
   }
   if (std::find(known.begin(), known.end(), name) != known.end()) return std::nullopt;
   const char* what = torque ? "torsional-spring or bushing" : "spring-damper or bushing";
-  return Problem{"spring", fmt::format("there is no {} \"{}\".{}", what, name,
+  return Finding{"spring", fmt::format("there is no {} \"{}\".{}", what, name,
                                        known.empty() ? " The model has none."
                                                      : base::suggestion(name, known))};
 }
 
 /// Users look for the force of a spring at a joint sensor, too.
-Finding joint_problem(const std::string& name, const ReadContext& context) {
-  if (base::find_named(context.model->joints, name) != nullptr) return std::nullopt;
-  if (const auto* load = base::find_named(context.model->loads, name)) {
+Found joint_problem(const std::string& name, const ModelDescription& model) {
+  if (base::find_named(model.joints, name) != nullptr) return std::nullopt;
+  if (const auto* load = base::find_named(model.loads, name)) {
     const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind);
     const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind);
-    return Problem{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
+    return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
                                         turns       ? "spring-torque"
                                         : is_spring ? "spring-force"
                                                     : "load-force")};
   }
-  return Problem{"joint", fmt::format("unknown joint \"{}\".{}", name,
-                                      base::suggestion(name, names_of(context.model->joints)))};
+  return Finding{"joint", fmt::format("unknown joint \"{}\".{}", name,
+                                      base::suggestion(name, names_of(model.joints)))};
 }
 
 /// A rotation is driven by its angle or its speed.
-Finding drive_problem(const joints::PrescribedRotationSpec& spec) {
+Found drive_problem(const joints::PrescribedRotationSpec& spec) {
   if (spec.angle.has_value() != spec.speed.has_value()) return std::nullopt;
-  return Problem{
+  return Finding{
       spec.angle ? "speed" : "",
       "exactly one of the keys angle and speed is needed, for example angle: \"150*t\" or "
       "speed: 1500 rpm"};
@@ -127,47 +126,46 @@ Finding drive_problem(const joints::PrescribedRotationSpec& spec) {
 
 /// Rules of the alternatives; overloads for those that have any.
 struct AlternativeRules {
-  const ReadContext& context;
+  const ModelDescription& model;
   bool is_joint = false;
 
   template <class T>
-  Finding operator()(const T& spec) const {
+  Found operator()(const T& spec) const {
     if constexpr (requires { spec.between; }) {
-      if (Finding found = ends_problem(spec.between, is_joint)) return found;
+      if (Found found = ends_problem(spec.between, is_joint)) return found;
     }
-    if constexpr (std::is_same_v<T, model::RelativeSensor>) {
-      return spec.quantity == model::RelativeQuantity::angle
-                 ? needed_axis_problem(spec.axis, context)
-                 : std::nullopt;
+    if constexpr (std::is_same_v<T, RelativeSensor>) {
+      return spec.quantity == RelativeQuantity::angle ? needed_axis_problem(spec.axis, model)
+                                                      : std::nullopt;
     } else if constexpr (std::is_same_v<T, joints::PrescribedRotationSpec>) {
-      if (Finding found = drive_problem(spec)) return found;
-      return needed_axis_problem(spec.axis, context);
+      if (Found found = drive_problem(spec)) return found;
+      return needed_axis_problem(spec.axis, model);
     } else if constexpr (requires { spec.axis.has_value(); }) {
-      return needed_axis_problem(spec.axis, context);
+      return needed_axis_problem(spec.axis, model);
     } else if constexpr (requires { spec.axis.norm(); }) {
       return axis_problem(spec.axis);
     } else if constexpr (requires { spec.along; }) {
       if (!spec.along || spec.along->norm() > 0.0) return std::nullopt;
-      return Problem{"along", "[0, 0, 0] is not a direction; give for example [0, -1, 0]"};
+      return Finding{"along", "[0, 0, 0] is not a direction; give for example [0, -1, 0]"};
     } else if constexpr (std::is_same_v<T, loads::BodyForceSpec>) {
       if (spec.per_mass.has_value() != spec.per_volume.has_value()) return std::nullopt;
-      return Problem{"", "exactly one of the keys per-mass and per-volume is needed"};
+      return Finding{"", "exactly one of the keys per-mass and per-volume is needed"};
     } else if constexpr (requires { spec.on.is_ground(); }) {
       if (!spec.on.is_ground()) return std::nullopt;
-      return Problem{"on", "a load on the ground has no effect; name a body"};
+      return Finding{"on", "a load on the ground has no effect; name a body"};
     } else if constexpr (requires { spec.joint; }) {
-      return joint_problem(spec.joint, context);
+      return joint_problem(spec.joint, model);
     } else if constexpr (requires { spec.spring; }) {
-      return spring_problem(spec.spring, std::is_same_v<T, model::SpringTorqueSensor>, context);
+      return spring_problem(spec.spring, std::is_same_v<T, SpringTorqueSensor>, model);
     } else if constexpr (requires { spec.load; }) {
-      if (base::find_named(context.model->loads, spec.load) != nullptr) return std::nullopt;
-      const auto known = names_of(context.model->loads);
-      return Problem{"load", fmt::format("unknown load \"{}\".{}", spec.load,
+      if (base::find_named(model.loads, spec.load) != nullptr) return std::nullopt;
+      const auto known = names_of(model.loads);
+      return Finding{"load", fmt::format("unknown load \"{}\".{}", spec.load,
                                          base::suggestion(spec.load, known))};
-    } else if constexpr (std::is_same_v<T, model::DeflectionSensor>) {
-      return deflection_problem(spec, context);
+    } else if constexpr (std::is_same_v<T, DeflectionSensor>) {
+      return deflection_problem(spec, model);
     } else if constexpr (requires { spec.element; }) {
-      return flexible_problem(spec.of, "of", context);
+      return flexible_problem(spec.of, "of", model);
     } else {
       return std::nullopt;
     }
@@ -175,73 +173,55 @@ struct AlternativeRules {
 };
 
 template <class Variant>
-Finding alternative_problem(const Variant& kind, const ReadContext& context,
-                            bool is_joint = false) {
-  const AlternativeRules rules{context, is_joint};
+Found alternative_problem(const Variant& kind, const ModelDescription& model,
+                          bool is_joint = false) {
+  const AlternativeRules rules{model, is_joint};
   return std::visit([&]<class T>(const T& spec) { return under(T::kKey, rules(spec)); }, kind);
 }
 
 }  // namespace
 
-Finding axis_problem(const Eigen::Vector3d& axis) {
+Found axis_problem(const Eigen::Vector3d& axis) {
   if (axis.norm() > 0.0) return std::nullopt;
-  return Problem{"axis", "an axis cannot be [0, 0, 0]; give its direction"};
+  return Finding{"axis", "an axis cannot be [0, 0, 0]; give its direction"};
 }
 
-Finding under(const char* key, const Finding& finding) {
-  if (!finding) return finding;
-  return Problem{finding->key.empty() ? key : std::string(key) + "." + finding->key, finding->text};
+Found problem(const joints::JointSpec& spec, const ModelDescription& model) {
+  return alternative_problem(spec.kind, model, true);
 }
 
-Finding problem(const TableLawSpec& spec, const ReadContext&) {
-  if (spec.table.empty() == spec.file.empty()) {
-    return Problem{"",
-                   "exactly one of the keys table and file is needed, and a table has at least one "
-                   "point [time in s, value]"};
-  }
-  if (spec.file.empty() && spec.column) {
-    return Problem{"column", "it belongs to files; a table has one column of values. Remove it"};
-  }
-  return std::nullopt;
+Found problem(const loads::LoadSpec& spec, const ModelDescription& model) {
+  return alternative_problem(spec.kind, model);
 }
 
-Finding problem(const joints::JointSpec& spec, const ReadContext& context) {
-  return alternative_problem(spec.kind, context, true);
-}
-
-Finding problem(const loads::LoadSpec& spec, const ReadContext& context) {
-  return alternative_problem(spec.kind, context);
-}
-
-Finding problem(const model::SensorSpec& spec, const ReadContext& context) {
-  return alternative_problem(spec.kind, context);
+Found problem(const SensorSpec& spec, const ModelDescription& model) {
+  return alternative_problem(spec.kind, model);
 }
 
 namespace {
 
 /// Parameters of a method other than the chosen one, and values it cannot work with.
-Finding method_problem(const model::SimulationSpec& spec) {
-  using model::IntegrationMethod;
+Found method_problem(const SimulationSpec& spec) {
   const char* chosen = choice_names(IntegrationMethod{})[static_cast<std::size_t>(spec.method)];
   if (spec.alpha && spec.method != IntegrationMethod::hht) {
-    return Problem{
+    return Finding{
         "alpha",
         fmt::format("`alpha` belongs to `method: hht`; {} does not use it. Remove one of them",
                     chosen)};
   }
   if (spec.theta && spec.method != IntegrationMethod::wilson) {
-    return Problem{
+    return Finding{
         "theta",
         fmt::format("`theta` belongs to `method: wilson`; {} does not use it. Remove one of them",
                     chosen)};
   }
   if (spec.alpha && !(*spec.alpha >= -1.0 / 3.0 && *spec.alpha <= 0.0)) {
-    return Problem{"alpha", fmt::format("alpha must lie between -1/3 and 0, not {}: outside, the "
+    return Finding{"alpha", fmt::format("alpha must lie between -1/3 and 0, not {}: outside, the "
                                         "method is unstable or loses its order; -0.1 is usual",
                                         *spec.alpha)};
   }
   if (spec.theta && !(*spec.theta >= 1.366 && *spec.theta <= 10.0)) {
-    return Problem{
+    return Finding{
         "theta",
         fmt::format("theta must be at least 1.366 (and at most 10), not {}: below, Wilson's method "
                     "lets vibrations grow that the step does not resolve; 1.4 is usual",
@@ -252,62 +232,62 @@ Finding method_problem(const model::SimulationSpec& spec) {
 
 }  // namespace
 
-Finding problem(const model::SimulationSpec& spec, const ReadContext&) {
-  if (Finding found = method_problem(spec)) return found;
+Found problem(const SimulationSpec& spec, const ModelDescription&) {
+  if (Found found = method_problem(spec)) return found;
   if (spec.tolerance && *spec.tolerance > 0.1) {
-    return Problem{"tolerance",
+    return Finding{"tolerance",
                    fmt::format("an error of {:g} would swamp the motion; 1e-4 is coarse, 1e-6 fine",
                                *spec.tolerance)};
   }
   if (spec.tolerance && *spec.tolerance < kLeastTolerance) {
-    return Problem{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
+    return Finding{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
                                             "positions; ask for {:g} at least",
                                             *spec.tolerance, kLeastTolerance)};
   }
   if (!spec.step && !spec.tolerance) {
-    return Problem{"step",
+    return Finding{"step",
                    "the key \"step\" is missing; add it, for example step: 0.1 ms or step: auto"};
   }
   const double step = spec.step.value_or(0.0);
   if (step == 0.0) return std::nullopt;
   if (step > spec.duration) {
-    return Problem{"step", fmt::format("the step of {:g} s is longer than the duration of {:g} s",
+    return Finding{"step", fmt::format("the step of {:g} s is longer than the duration of {:g} s",
                                        step, spec.duration)};
   }
   if (spec.duration / step > kMostSteps) {
-    return Problem{"step", fmt::format("{:.3g} steps are more than can be counted; choose a longer "
+    return Finding{"step", fmt::format("{:.3g} steps are more than can be counted; choose a longer "
                                        "step",
                                        spec.duration / step)};
   }
   return std::nullopt;
 }
 
-Finding problem(const model::StaticSpec& spec, const ReadContext&) {
+Found problem(const StaticSpec& spec, const ModelDescription&) {
   const double first = spec.load_factor[0];
   const double last = spec.load_factor[1];
   if (first == last) {
-    return Problem{"load-factor", fmt::format("first and last load factor are both {:g}; give two "
+    return Finding{"load-factor", fmt::format("first and last load factor are both {:g}; give two "
                                               "different ones, for example [0, 1]",
                                               first)};
   }
   if (spec.steps > kMostStaticPoints || spec.max_points > kMostStaticPoints) {
-    return Problem{spec.steps > kMostStaticPoints ? "steps" : "max-points",
+    return Finding{spec.steps > kMostStaticPoints ? "steps" : "max-points",
                    fmt::format("a path may have at most {} points", kMostStaticPoints)};
   }
   return std::nullopt;
 }
 
-Finding problem(const model::ModelDescription& spec, const ReadContext&) {
+Found problem(const ModelDescription& spec, const ModelDescription&) {
   if (spec.format != 1) {
-    return Problem{"buckens", fmt::format("this program reads format 1, not {}", spec.format)};
+    return Finding{"buckens", fmt::format("this program reads format 1, not {}", spec.format)};
   }
-  if (spec.bodies.empty()) return Problem{"bodies", "a model needs at least one body"};
+  if (spec.bodies.empty()) return Finding{"bodies", "a model needs at least one body"};
   if (spec.planar && spec.gravity.dot(spatial::normal(*spec.planar)) != 0.0) {
-    return Problem{"gravity",
+    return Finding{"gravity",
                    "gravity of a planar model must lie in its plane; set the component "
                    "normal to it to zero"};
   }
   return std::nullopt;
 }
 
-}  // namespace buckens::model_file
+}  // namespace buckens::model

@@ -5,20 +5,21 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "buckens/base/nearest.h"
 #include "buckens/body/reduction_conflict.h"
-#include "buckens/model_file/checks.h"
-#include "buckens/model_file/names.h"
+#include "buckens/model/check/marker_names.h"
+#include "buckens/model/check/spec_findings.h"
 
-namespace buckens::model_file {
+namespace buckens::model {
 
 namespace {
 
 using Eigen::Vector3d;
 
-Finding inertia_problem(const std::vector<double>& entries) {
+Found inertia_problem(const std::vector<double>& entries) {
   if (entries.empty()) return std::nullopt;
   if (entries.size() != 3 && entries.size() != 6) {
-    return Problem{
+    return Finding{
         "inertia",
         fmt::format(
             "expected 3 values (Ixx, Iyy, Izz) or 6 (Ixx, Iyy, Izz, Ixy, Ixz, Iyz), found {}",
@@ -30,7 +31,7 @@ Finding inertia_problem(const std::vector<double>& entries) {
   // Data sheets round to three digits or so; planar models often give Izz alone.
   const double tolerance = 1e-3 * std::max(std::abs(principal[0]), principal[2]);
   if (principal[0] < -1e-12 * std::abs(principal[2])) {
-    return Problem{"inertia",
+    return Finding{"inertia",
                    fmt::format("the principal moments are {:.4g}, {:.4g}, {:.4g} kg m^2; "
                                "none can be negative. Check the signs and the order "
                                "Ixx, Iyy, Izz, Ixy, Ixz, Iyz",
@@ -38,7 +39,7 @@ Finding inertia_problem(const std::vector<double>& entries) {
   }
   const bool is_planar_data = principal[1] == 0.0;
   if (!is_planar_data && principal[0] + principal[1] < principal[2] - tolerance) {
-    return Problem{"inertia",
+    return Finding{"inertia",
                    fmt::format("the principal moments {:.4g}, {:.4g}, {:.4g} kg m^2 belong to no "
                                "body: the largest exceeds the sum of the others",
                                principal[0], principal[1], principal[2])};
@@ -48,109 +49,109 @@ Finding inertia_problem(const std::vector<double>& entries) {
 
 }  // namespace
 
-Finding problem(const fem::DampingSpec& spec, const ReadContext&) {
+Found problem(const fem::DampingSpec& spec, const ModelDescription&) {
   if (spec.ratio.has_value() == spec.at.empty()) {
-    return Problem{spec.ratio ? "ratio" : "at",
+    return Finding{spec.ratio ? "ratio" : "at",
                    "\"ratio\" and \"at\" belong together: {ratio: 2 %, at: [10 Hz, 200 Hz]}"};
   }
   if (!spec.ratio) {
     if (spec.of == fem::DampedModes::held) return std::nullopt;
-    return Problem{"of",
+    return Finding{"of",
                    "it says whose vibrations have a `ratio`; `mass` and `stiffness` are what "
                    "they are, remove the key"};
   }
   if (spec.mass != 0 || spec.stiffness != 0) {
-    return Problem{"ratio", "give either \"ratio\" and \"at\", or \"mass\" and \"stiffness\""};
+    return Finding{"ratio", "give either \"ratio\" and \"at\", or \"mass\" and \"stiffness\""};
   }
   if (spec.at.size() > 2) {
-    return Problem{"at", fmt::format("a ratio can be had at one or two frequencies, not at {}",
+    return Finding{"at", fmt::format("a ratio can be had at one or two frequencies, not at {}",
                                      spec.at.size())};
   }
   if (spec.at.size() == 2 && spec.at[0] >= spec.at[1]) {
-    return Problem{"at", "the second frequency must be higher than the first"};
+    return Finding{"at", "the second frequency must be higher than the first"};
   }
   return std::nullopt;
 }
 
-Finding problem(const fem::TubeSpec& spec, const ReadContext&) {
+Found problem(const fem::TubeSpec& spec, const ModelDescription&) {
   if (spec.thickness.has_value() == spec.inner_diameter.has_value()) {
-    return Problem{"", "exactly one of the keys thickness and inner-diameter is needed"};
+    return Finding{"", "exactly one of the keys thickness and inner-diameter is needed"};
   }
   if (spec.inner() > 0 && spec.inner() < spec.outer_diameter) return std::nullopt;
-  return Problem{spec.thickness ? "thickness" : "inner-diameter",
+  return Finding{spec.thickness ? "thickness" : "inner-diameter",
                  fmt::format("the inner diameter would be {:g} m, the outer one is {:g} m; it must "
                              "lie between 0 and that (a solid section is a circle)",
                              spec.inner(), spec.outer_diameter)};
 }
 
-Finding problem(const fem::BoxSpec& spec, const ReadContext&) {
+Found problem(const fem::BoxSpec& spec, const ModelDescription&) {
   if (2 * spec.thickness < std::min(spec.width, spec.height)) return std::nullopt;
-  return Problem{"thickness", "the wall is thicker than half of the box; use a rectangle"};
+  return Finding{"thickness", "the wall is thicker than half of the box; use a rectangle"};
 }
 
-Finding problem(const fem::PointMassSpec& spec, const ReadContext&) {
+Found problem(const fem::PointMassSpec& spec, const ModelDescription&) {
   return inertia_problem(spec.inertia);
 }
 
-Finding problem(const fem::CylinderSelection& spec, const ReadContext&) {
+Found problem(const fem::CylinderSelection& spec, const ModelDescription&) {
   if ((spec.to - spec.from).norm() > 0.0) return std::nullopt;
-  return Problem{"to", "the cylinder has zero length: \"from\" and \"to\" are the same point"};
+  return Finding{"to", "the cylinder has zero length: \"from\" and \"to\" are the same point"};
 }
 
-Finding problem(const fem::PlaneSelection& spec, const ReadContext&) {
+Found problem(const fem::PlaneSelection& spec, const ModelDescription&) {
   if (spec.normal.norm() > 0.0) return std::nullopt;
-  return Problem{"normal", "a normal cannot be [0, 0, 0]; give its direction"};
+  return Finding{"normal", "a normal cannot be [0, 0, 0]; give its direction"};
 }
 
-Finding problem(const body::CouplingSpec& spec, const ReadContext&) {
+Found problem(const body::CouplingSpec& spec, const ModelDescription&) {
   if (spec.level == body::CouplingLevel::automatic && !spec.drop.empty()) {
-    return Problem{"drop", "`auto` chooses the terms itself; drop terms from another level"};
+    return Finding{"drop", "`auto` chooses the terms itself; drop terms from another level"};
   }
   if (spec.tolerance > 1.0) {
-    return Problem{"tolerance", "the share must be below 100 %; 1 % is usual"};
+    return Finding{"tolerance", "the share must be below 100 %; 1 % is usual"};
   }
   return std::nullopt;
 }
 
-Finding problem(const body::OrientationSpec& spec, const ReadContext&) {
+Found problem(const body::OrientationSpec& spec, const ModelDescription&) {
   if (spec.axis.has_value() != spec.angle.has_value()) {
-    return Problem{spec.axis ? "axis" : "angle", "\"axis\" and \"angle\" belong together"};
+    return Finding{spec.axis ? "axis" : "angle", "\"axis\" and \"angle\" belong together"};
   }
   const int ways = (spec.axis ? 1 : 0) + (spec.euler ? 1 : 0) + (spec.quaternion ? 1 : 0);
   if (ways != 1) {
-    return Problem{"", "give the orientation in one way: axis and angle, euler, or quaternion"};
+    return Finding{"", "give the orientation in one way: axis and angle, euler, or quaternion"};
   }
   if (spec.axis) return axis_problem(*spec.axis);
   // Squares of smaller parts vanish, and with them the rotation.
   constexpr double kLeastPart = 1e-100;
   if (spec.quaternion && std::all_of(spec.quaternion->begin(), spec.quaternion->end(),
                                      [](double q) { return std::abs(q) < kLeastPart; })) {
-    return Problem{"quaternion", "a quaternion cannot be zero"};
+    return Finding{"quaternion", "a quaternion cannot be zero"};
   }
   return std::nullopt;
 }
 
-Finding problem(const body::MarkerSpec& spec, const ReadContext&) {
+Found problem(const body::MarkerSpec& spec, const ModelDescription&) {
   if (spec.position.has_value() == spec.at.empty()) return std::nullopt;
-  return Problem{"", "exactly one of the keys position and at is needed"};
+  return Finding{"", "exactly one of the keys position and at is needed"};
 }
 
-Finding problem(const body::RigidSpec& spec, const ReadContext&) {
+Found problem(const body::RigidSpec& spec, const ModelDescription&) {
   return inertia_problem(spec.inertia);
 }
 
 namespace {
 
 /// Keys that need elements.
-Finding matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& matrices) {
+Found matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& matrices) {
   if (!spec.frames.is_one()) {
-    return Problem{"frames", "a body given by matrices cannot be divided; remove the key"};
+    return Finding{"frames", "a body given by matrices cannot be divided; remove the key"};
   }
   if (spec.geometric_stiffness) {
-    return Problem{"geometric-stiffness", "it applies to beams and bars only; remove the key"};
+    return Finding{"geometric-stiffness", "it applies to beams and bars only; remove the key"};
   }
   if (spec.damping && !matrices.damping.empty()) {
-    return Problem{
+    return Finding{
         "damping",
         "give either a damping matrix (`matrices: {damping: file}`) or Rayleigh damping"};
   }
@@ -159,15 +160,18 @@ Finding matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& ma
 
 }  // namespace
 
-Finding problem(const body::BodySpec& spec, const ReadContext&) {
+Found problem(const body::BodySpec& spec, const ModelDescription&) {
+  if (spec.name == "ground") {
+    return Finding{"", "\"ground\" means the world itself; choose another name"};
+  }
   if (const auto conflict = body::reduction_conflict(spec)) {
-    return Problem{conflict->key, conflict->text};
+    return Finding{conflict->key, conflict->text};
   }
   if (spec.is_rigid() && !spec.frames.is_one()) {
-    return Problem{"frames", "a rigid body has one frame; remove the key \"frames\""};
+    return Finding{"frames", "a rigid body has one frame; remove the key \"frames\""};
   }
   if (spec.is_rigid() && spec.geometric_stiffness) {
-    return Problem{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
+    return Finding{"geometric-stiffness", "a rigid body has no stiffness; remove the key"};
   }
   if (const auto* matrices = std::get_if<fem::MatricesSpec>(&spec.kind)) {
     return matrices_problem(spec, *matrices);
@@ -180,14 +184,14 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
       std::holds_alternative<fem::GeometrySpec>(spec.kind) ||
       (structure != nullptr && structure->beams.empty() && structure->bars.empty());
   if (is_solid && spec.geometric_stiffness) {
-    return Problem{
+    return Finding{
         "geometric-stiffness",
         "it applies to beams and bars only; remove the key, or give the body more `frames`"};
   }
   if (structure != nullptr) {
     for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {
       if (structure->bars[i].elements == 1) continue;
-      return Problem{fmt::format("structure.bars.{}.elements", i),
+      return Finding{fmt::format("structure.bars.{}.elements", i),
                      "bars in a row are a mechanism in one frame; write `frames: per-element`, or "
                      "use a beam"};
     }
@@ -195,4 +199,34 @@ Finding problem(const body::BodySpec& spec, const ReadContext&) {
   return std::nullopt;
 }
 
-}  // namespace buckens::model_file
+Found problem_when_complete(const body::BodySpec& spec, const ModelDescription&) {
+  if (spec.is_rigid() && spec.damping) {
+    return Finding{"", "a rigid body has no damping of its own; remove the key \"damping\""};
+  }
+  if (spec.is_rigid() && !spec.interfaces.empty()) {
+    return Finding{"", "a rigid body has no mesh and no interfaces; use `markers`"};
+  }
+  return names_problem(spec);
+}
+
+Found problem_when_complete(const InitialBodySpec& spec, const ModelDescription& model) {
+  const body::BodySpec* body = base::find_named(model.bodies, spec.name);
+  if (body == nullptr) {
+    return Finding{"", fmt::format("unknown body \"{}\".{}", spec.name,
+                                   base::suggestion(spec.name, names_of(model.bodies)))};
+  }
+  if (body->is_rigid() && spec.nodal_displacement) {
+    return Finding{"",
+                   fmt::format("body \"{}\" is rigid and has no nodes to displace; remove the key "
+                               "\"nodal-displacement\"",
+                               spec.name)};
+  }
+  if (body->is_rigid() && spec.nodal_velocity) {
+    return Finding{"", fmt::format("body \"{}\" is rigid and has no nodal velocity; remove the key "
+                                   "\"nodal-velocity\"",
+                                   spec.name)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace buckens::model {
+
+/// What is wrong with a model that can be written down, and where.
+struct Finding {
+  std::string field_path;  ///< the field to be corrected, "bodies.rod.beam.to"; empty: the whole
+  std::string text;        ///< what is wrong, the value, the remedy
+};
+
+using Found = std::optional<Finding>;
+
+/// "a.b"; either may be empty.
+inline std::string join_path(const std::string& path, const std::string& key) {
+  return path.empty() || key.empty() ? path + key : path + "." + key;
+}
+
+/// Puts "key." before the path of a finding.
+inline Found under(const std::string& key, const Found& found) {
+  if (!found) return found;
+  return Finding{join_path(key, found->field_path), found->text};
+}
+
+}  // namespace buckens::model

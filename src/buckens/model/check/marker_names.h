@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/base/marker_ref.h"
+#include "buckens/model/check/finding.h"
+#include "buckens/model/model_description.h"
+
+namespace buckens::model {
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& list) {
+  std::vector<std::string> out;
+  for (const T& entry : list) out.push_back(entry.name);
+  return out;
+}
+
+/// Names that may follow the slash after a body.
+std::vector<std::string> marker_names(const body::BodySpec& body);
+
+/// Whether a name stands for a node of the body's mesh file: `n` and the number there.
+bool is_numbered_node(const body::BodySpec& body, const std::string& name);
+
+/// Whether the body or the marker that is named does not exist.
+Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model);
+
+/// Names of a body's markers and interfaces that are taken already, and markers at places that the
+/// body does not have. The mesh must have been read.
+Found names_problem(const body::BodySpec& body);
+
+}  // namespace buckens::model
