@@ -22,6 +22,7 @@
 #include "solid_block.h"
 #include "stopwatch.h"
 
+#include "buckens/linalg/blas_kernels.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/stepping/body_step_operator.h"
 
@@ -226,6 +227,7 @@ Wanted read_arguments(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  buckens::linalg::choose_blas_kernels();
   const Wanted wanted = read_arguments(argc, argv);
   json out = {{"element", wanted.block.element()},
               {"divisions", wanted.block.shape()},

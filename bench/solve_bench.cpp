@@ -17,6 +17,7 @@
 #include "solid_block.h"
 #include "stopwatch.h"
 
+#include "buckens/linalg/blas_kernels.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/streaming_memory.h"
 
@@ -113,6 +114,7 @@ json measure(const SolidBlock& block, double budget, bool with_reference) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  buckens::linalg::choose_blas_kernels();
   double budget = 1.0;
   bool with_reference = true;
   std::string block;

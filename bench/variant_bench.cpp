@@ -19,6 +19,7 @@
 #include "solid_block.h"
 #include "stopwatch.h"
 
+#include "buckens/linalg/blas_kernels.h"
 #include "buckens/linalg/solve_exchange.h"
 
 namespace {
@@ -80,6 +81,7 @@ double time_per_step(const SolidBlock& block, const std::string& level, int coun
 }  // namespace
 
 int main(int argc, char** argv) {
+  buckens::linalg::choose_blas_kernels();
   SolidBlock block;
   int steps = 20;
   for (int k = 1; k < argc; ++k) {

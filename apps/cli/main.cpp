@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/blas_kernels.h"
 #include "cli/interruption.h"
 #include "cli/output.h"
 #include "cli/program.h"
@@ -6,5 +7,6 @@
 int main(int argc, char** argv) {
   buckens::cli::hold_standard_streams();
   buckens::cli::ignore_write_signals();
+  buckens::linalg::choose_blas_kernels();
   return buckens::cli::run_program(argc, argv);
 }

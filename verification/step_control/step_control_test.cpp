@@ -80,7 +80,7 @@ TEST(TimeMarch, RejectedStepsLeaveNoTrace) {
   const model::Model model = test::planar_beam_pendulum(soft_beam());
   const test::Start start = test::consistent_start(model);
   StepSettings settings;
-  TimeMarch march(model, settings, start.rows_in_use, controlled(0.5, 1e-5));
+  TimeMarch march(model, settings, start.rows_in_use, controlled(0.5, 1e-3));
   // The accepted steps once more, without those that were rejected between them.
   settings.step = march.longest_step();
   StepLadder ladder(model, settings, start.rows_in_use);
@@ -98,30 +98,68 @@ TEST(TimeMarch, RejectedStepsLeaveNoTrace) {
   test::expect_same(end, replay);
 }
 
-TEST(TimeMarch, AnEighthOfTheToleranceGivesAQuarterOfTheError) {
-  // One step errs with h³ and the motion with h², so a tolerance ε leaves an error of order ε^⅔.
+TEST(TimeMarch, AQuarterOfTheToleranceGivesAQuarterOfTheError) {
+  // Each step may make as large a share of the tolerance as it is long: the errors of all add up to
+  // no more than the tolerance, and fall with it. A step errs with h³, per time with h².
   const model::Model model = test::rigid_double_pendulum(true);
   const test::Start start = test::consistent_start(model);
   for (const Method method :
        {Method::generalized_alpha, Method::newmark, Method::hht, Method::wilson}) {
     const model::State exact =
         test::simulate(model, start, test::settings(Method::generalized_alpha, 1.0 / 16384), 1.0);
+    const std::vector<double> tolerances = {4.096e-3, 1.024e-3, 2.56e-4, 6.4e-5, 1.6e-5};
     std::vector<double> errors;
     std::vector<long> steps;
-    for (const double tolerance : {6.4e-5, 8e-6, 1e-6, 1.25e-7}) {
+    for (const double tolerance : tolerances) {
       TimeMarch march(model, test::settings(method, 1.0), start.rows_in_use,
                       controlled(1.0, tolerance));
       const model::State end = walk(march, start);
       errors.push_back((end.bodies[1].frame.X_WB.p - exact.bodies[1].frame.X_WB.p).norm());
       steps.push_back(march.report().accepted);
+      // Local errors add up to the tolerance; the motion lets them grow by some factor.
+      EXPECT_LT(errors.back(), 10.0 * tolerance * model.length) << to_string(method);
     }
     RecordProperty(to_string(method), testing::PrintToString(errors));
-    // Over the whole range: 8³ → 4³, within a factor of two; steps lie on a ladder, so single
-    // ratios scatter.
-    EXPECT_GT(errors[0] / errors[3], 32.0) << to_string(method);
-    EXPECT_LT(errors[0] / errors[3], 128.0) << to_string(method);
-    EXPECT_NEAR(static_cast<double>(steps[3]) / static_cast<double>(steps[0]), 8.0, 1.0);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(errors[k + 1], 0.5 * errors[k]);
+    // Over the whole range: 4⁴ = 256, within a factor of two; steps lie on a ladder, so single
+    // ratios scatter. Errors of the longest steps are not yet those of the leading order.
+    EXPECT_GT(errors[0] / errors[4], 100.0) << to_string(method);
+    EXPECT_LT(errors[0] / errors[4], 512.0) << to_string(method);
+    EXPECT_NEAR(static_cast<double>(steps[4]) / static_cast<double>(steps[0]), 16.0, 4.0);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_LT(errors[k + 1], 0.6 * errors[k]);
+  }
+}
+
+/// Largest error of a run with step control, as multiples of the tolerance: of positions as a share
+/// of the model's length, of rotations in rad, of deformations as a share of the largest.
+double error_in_tolerances(const model::Model& model, double duration, double tolerance) {
+  const test::Start start = test::consistent_start(model);
+  StepSettings settings = test::settings(Method::generalized_alpha, duration);
+  TimeMarch march(model, settings, start.rows_in_use, controlled(duration, tolerance));
+  const model::State end = walk(march, start);
+  const model::State exact = test::simulate(
+      model, start, test::settings(Method::generalized_alpha, duration / 32768), duration);
+  double out = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const model::BodyState& x = end.bodies[b];
+    const model::BodyState& y = exact.bodies[b];
+    out = std::max(out, (x.frame.X_WB.p - y.frame.X_WB.p).norm() / model.length);
+    out = std::max(out, x.frame.X_WB.q.angularDistance(y.frame.X_WB.q));
+    if (y.d.size() > 0) {
+      out = std::max(out, (x.d - y.d).cwiseAbs().maxCoeff() / y.d.cwiseAbs().maxCoeff());
+    }
+  }
+  return out / tolerance;
+}
+
+TEST(TimeMarch, TheToleranceIsTheErrorOfTheResult) {
+  // Rigid and elastic, swinging and driven; ten times the tolerance is what the growth of early
+  // errors in later motion may come to.
+  test::BeamConstants damped = soft_beam();
+  damped.beta = 2e-3;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    EXPECT_LT(error_in_tolerances(test::rigid_double_pendulum(true), 1.0, tolerance), 10.0);
+    EXPECT_LT(error_in_tolerances(test::rigid_double_pendulum(false), 2.0, tolerance), 10.0);
+    EXPECT_LT(error_in_tolerances(test::planar_beam_pendulum(damped), 1.0, tolerance), 10.0);
   }
 }
 
@@ -147,7 +185,7 @@ model::Model pushed_mass() {
 TEST(TimeMarch, RefinesAtALoadJumpAndCoarsensAfterwards) {
   const model::Model model = pushed_mass();
   const test::Start start = test::consistent_start(model);
-  TimeMarch march(model, StepSettings{}, start.rows_in_use, controlled(3.0, 1e-6));
+  TimeMarch march(model, StepSettings{}, start.rows_in_use, controlled(3.0, 1e-4));
   double before_jump = 0, at_jump = 1, at_end = 0;
   const model::State end = walk(march, start, [&](const model::State& a, const model::State& b) {
     const double h = b.t - a.t;
@@ -155,9 +193,10 @@ TEST(TimeMarch, RefinesAtALoadJumpAndCoarsensAfterwards) {
     if (b.t >= 0.5 && a.t < 0.52) at_jump = std::min(at_jump, h);
     at_end = h;
   });
-  // At rest the longest step does; the jump Δẍ = 10 m/s² asks for κ·6·h²Δẍ/6 < 1e-6, h ≈ 1 ms.
+  // At rest the longest step H = T/20 does; the jump Δẍ = 10 m/s² may make the error of that step,
+  // κ·6·h²Δẍ/6 < 1e-4/20: h ≈ 2 ms.
   EXPECT_EQ(before_jump, 3.0 / 20);
-  EXPECT_LT(at_jump, 2e-3);
+  EXPECT_LT(at_jump, 4e-3);
   EXPECT_GT(at_end, 16 * at_jump);
   // 10 N on 400 N/m.
   EXPECT_NEAR(end.bodies[0].frame.X_WB.p.x(), 1.025, 1e-6);

@@ -11,6 +11,7 @@
 
 #include "buckens/analysis/strain_energy_groups.h"
 #include "buckens/base/errors.h"
+#include "buckens/body/of_body.h"
 #include "buckens/model/eliminate_links.h"
 
 namespace buckens::analysis {
@@ -55,7 +56,8 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
   const body::FlexiblePart& part = undivided ? *undivided : *b.flexible;
   const double size = std::sqrt(0.5 * part.fe.shape.J0.trace() / w.mass);
   const auto begin = std::chrono::steady_clock::now();
-  const body::FreeFreeModes modes = body::free_free_modes(part, settings);
+  const body::FreeFreeModes modes =
+      body::of_body(w.name, [&] { return body::free_free_modes(part, settings); });
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
 
   VibrationReport out;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/body_lengths.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/frame_equation.h"
@@ -28,6 +29,7 @@ struct BodyAcceleration {
   Vector6 frame = Vector6::Zero();
   Vector nodal_static;  // Y M⁻¹ of loads that do not depend on accelerations
   Vector nodal;         // d̈
+  Vector lengths;       // that make displacements of d
 };
 
 class Accelerations {
@@ -66,6 +68,7 @@ class Accelerations {
         J.push_back(body.J0);
         continue;
       }
+      bodies_[b].lengths = body::coordinate_lengths(body);
       const auto coupling = dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, zero,
                                                         s.frame.w, Vector3d::Zero());
       const auto& patterns = body.flexible->invariants.centrifugal_patterns();
@@ -127,20 +130,28 @@ class Accelerations {
     double size = 1e-300;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       // In equilibrium joints cancel what loads would do alone: that is the scale of rounding.
-      size = std::max(size, frame[b].cwiseAbs().maxCoeff());
-      if (nodal[b].size() > 0) size = std::max(size, nodal[b].cwiseAbs().maxCoeff());
+      size = std::max({size, size_of(frame[b]), size_of(b, nodal[b])});
       frame[b] += compliance_[b].frame * responses[b].frame_load;
-      change = std::max(change, (frame[b] - bodies_[b].frame).cwiseAbs().maxCoeff());
-      size = std::max(size, frame[b].cwiseAbs().maxCoeff());
+      change = std::max(change, size_of(frame[b] - bodies_[b].frame));
+      size = std::max(size, size_of(frame[b]));
       bodies_[b].frame = frame[b];
       if (!model_.bodies[b].is_flexible()) continue;
       nodal[b] += metric_.H(b) * responses[b].interface_load;
-      change = std::max(change, (nodal[b] - bodies_[b].nodal).cwiseAbs().maxCoeff());
-      size = std::max(size, nodal[b].cwiseAbs().maxCoeff());
+      change = std::max(change, size_of(b, nodal[b] - bodies_[b].nodal));
+      size = std::max(size, size_of(b, nodal[b]));
       bodies_[b].nodal = nodal[b];
     }
     lambda_ = X;
     return change / size;
+  }
+
+  /// Largest acceleration [m/s²], rotations by the model's length.
+  double size_of(const Vector6& frame) const {
+    return std::max(model_.length * frame.head<3>().cwiseAbs().maxCoeff(),
+                    frame.tail<3>().cwiseAbs().maxCoeff());
+  }
+  double size_of(std::size_t b, const Vector& nodal) const {
+    return nodal.size() > 0 ? nodal.cwiseProduct(bodies_[b].lengths).cwiseAbs().maxCoeff() : 0.0;
   }
 
   void free_acceleration(std::size_t b, Vector6& frame, Vector& nodal, Eigen::VectorXd& y) const {
@@ -153,7 +164,10 @@ class Accelerations {
     }
     const Vector6 inertia =
         dynamics::frame_inertia(body, moments, s.frame.w, Vector3d::Zero(), Vector3d::Zero());
-    frame = compliance_[b].frame * (forces_.frame[b] - inertia);
+    Vector6 load = forces_.frame[b] - inertia;
+    // What stands in for missing inertia is part of the compliance but not of the motion.
+    load.head<3>() += body.stand_in * now.frame.head<3>();
+    frame = compliance_[b].frame * load;
     if (!body.is_flexible()) return;
     nodal = now.nodal_static + metric_.H(b) * forces_.interface[b];
     if (s.terms.eul_fe) {

@@ -9,6 +9,7 @@
 #include "buckens/analysis/static_tolerances.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/model_scales.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -30,7 +31,8 @@ class LeastMotion {
  public:
   LeastMotion(const model::Model& model, std::vector<BodyCompliance> compliance,
               const std::vector<SystemRow>& rows)
-      : compliance_(std::move(compliance)),
+      : lengths_(dynamics::row_lengths(model)),
+        compliance_(std::move(compliance)),
         condensation_(static_cast<int>(model.bodies.size()), rows),
         responses_(model.bodies.size()) {
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -44,7 +46,10 @@ class LeastMotion {
     std::vector<double> diagonal;
     diagonal.reserve(rows.size());
     double largest = 0.0;
-    for (const SystemRow& row : rows) {
+    // Compared as shares of the model's length: angles and lengths differ in unit.
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const SystemRow& row = rows[k];
+      const double length = lengths_[static_cast<Eigen::Index>(k)];
       double value = 0.0;
       for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
         if (part->body == model::kGround) continue;
@@ -52,9 +57,12 @@ class LeastMotion {
         value += part->frame.dot(C.frame * part->frame.transpose());
       }
       diagonal.push_back(value);
-      largest = std::max(largest, value);
+      largest = std::max(largest, value / (length * length));
     }
-    for (double& value : diagonal) value = damping * std::max(value, 1e-6 * largest) + 1e-300;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double length = lengths_[static_cast<Eigen::Index>(k)];
+      diagonal[k] = damping * std::max(diagonal[k], 1e-6 * largest * length * length) + 1e-300;
+    }
     condensation_.factorise(rows, rows, compliance_, diagonal);
     condensation_.solve_in_place(demand);
     condensation_.gather(demand, responses_);
@@ -66,6 +74,7 @@ class LeastMotion {
   }
 
  private:
+  Vector lengths_;
   std::vector<BodyCompliance> compliance_;
   dynamics::MultiplierCondensation condensation_;
   std::vector<BodyResponse> responses_;
@@ -125,10 +134,16 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
   Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
   LeastMotion motion(model, metric.rigid(), constraints.rows);
-  double residual = constraints.g.norm();
+  const Vector lengths = dynamics::row_lengths(model);
+  const auto shares = [&] { return constraints.g.cwiseQuotient(lengths); };
+  // Positions far from the origin are known to fewer digits.
+  const double rounding = kPositionRounding *
+                          dynamics::rounding_length(model, dynamics::motions_of(model, state)) /
+                          model.length;
+  double residual = shares().norm();
   double damping = 1e-10;
   for (int iteration = 0; iteration < kMaxAssemblyIterations; ++iteration) {
-    if (constraints.g.cwiseAbs().maxCoeff() <= kClosed * model.length) break;
+    if (shares().cwiseAbs().maxCoeff() <= std::max(kClosed, rounding)) break;
     motion.solve(constraints.rows, -constraints.g, damping);
     const std::vector<spatial::Pose> from = poses(state);
     double factor = step_limit(model, motion);
@@ -137,10 +152,10 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
       move(state, from, motion, factor);
       dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
                                      constraints);
-      improved = constraints.g.norm() < residual * (1.0 - 1e-4 * factor);
+      improved = shares().norm() < residual * (1.0 - 1e-4 * factor);
     }
     if (improved) {
-      residual = constraints.g.norm();
+      residual = shares().norm();
       damping = std::max(1e-12, 0.1 * damping);
       continue;
     }
@@ -149,8 +164,9 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
     damping *= 100.0;
     if (damping > 1.0) break;
   }
-  const double gap = constraints.g.cwiseAbs().maxCoeff();
-  if (gap <= kDependentGap * model.length) return gap;
+  if (shares().cwiseAbs().maxCoeff() <= std::max(kDependentGap, 10.0 * rounding)) {
+    return constraints.g.cwiseAbs().maxCoeff();
+  }
   const model::Joint* joint = worst_joint(model, constraints.g);
   throw ModelError(
       joint->where,
@@ -165,18 +181,20 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
   Constraints constraints;
   std::vector<Eigen::Matrix3d> J;
   for (const body::Body& body : model.bodies) J.push_back(body.J0);
-  // Of the rates: velocities that fit already leave rounding of their own size.
+  const Vector lengths = dynamics::row_lengths(model);
+  const auto shares = [&] { return constraints.g_dot.cwiseQuotient(lengths); };
+  // Of the rates [1/s]: velocities that fit already leave rounding of their own size.
   double scale = 0.0;
   for (const model::BodyState& body : state.bodies) {
-    scale = std::max({scale, body.frame.v.cwiseAbs().maxCoeff(),
-                      body.frame.w.cwiseAbs().maxCoeff() * std::max(1.0, model.length)});
+    scale = std::max({scale, body.frame.v.cwiseAbs().maxCoeff() / model.length,
+                      body.frame.w.cwiseAbs().maxCoeff()});
   }
   for (const bool with_mesh : {false, true}) {
     dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
     LeastMotion motion(model, with_mesh ? metric.full(J) : metric.rigid(), constraints.rows);
     // The damping that tolerates redundant rows leaves 1e-10 of the demand: three rounds remove it.
     for (int round = 0; round < 3; ++round) {
-      scale = std::max(scale, constraints.g_dot.cwiseAbs().maxCoeff());
+      scale = std::max(scale, shares().cwiseAbs().maxCoeff());
       const auto& responses = motion.solve(constraints.rows, -constraints.g_dot, 1e-10);
       for (std::size_t b = 0; b < model.bodies.size(); ++b) {
         model::BodyState& s = state.bodies[b];
@@ -188,8 +206,9 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
       dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
                                      constraints);
     }
-    const double left = constraints.g_dot.cwiseAbs().maxCoeff();
-    if (left <= kDependentGap * scale) return left;
+    if (shares().cwiseAbs().maxCoeff() <= kDependentGap * scale) {
+      return constraints.g_dot.cwiseAbs().maxCoeff();
+    }
   }
   const model::Joint* joint = worst_joint(model, constraints.g_dot);
   throw ModelError(joint->where, "initial velocities contradict the joints; left over at " +

@@ -3,20 +3,16 @@
 
 #include <vector>
 
+#include "buckens/analysis/linearised_loads.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/model/state.h"
 
 namespace buckens::analysis {
 
-/// Where the coordinates of one body lie among those that joints and loads can see.
-struct RestBody {
-  int first = 0;         ///< of its coordinates
-  int rotations = 0;     ///< frame rotations along Body::rotation_basis
-  int translations = 0;  ///< frame translations along Body::translation_basis
-  int rows = 0;          ///< interface rows y = N d
-  int momenta = 0;       ///< relative momentum l = Lᵀd of a deformed body: 0 or 3
+/// Coordinates of one body, with its momenta behind them.
+struct RestBody : BodyCoordinates {
+  int momenta = 0;  ///< relative momentum l = Lᵀd of a deformed body: 0 or 3
 
-  int num_frame() const { return rotations + translations; }
   int size() const { return num_frame() + rows + momenta; }
 };
 
@@ -37,8 +33,7 @@ enum class RestLoads {
 
 /// Linearises joints and loads at rest.
 ///
-/// `all`: central differences of loads and Gᵀλ with λ held, bodies without common neighbours moved
-/// together; right where the state is an equilibrium.
+/// `all`: as LinearisedLoads; right where the state is an equilibrium.
 /// @param state velocities are taken as zero
 RestTangent rest_tangent(const model::Model& model, const model::State& state,
                          const std::vector<int>& rows_in_use, RestLoads loads);

@@ -52,12 +52,8 @@ StaticContinuation::StaticContinuation(const model::Model& model,
                                        const std::vector<const ElasticCompliance*>& compliance,
                                        double t, const PathScale& scale, double force)
     : model_(model), metric_(metric), compliance_(compliance), t_(t), scale_(scale), force_(force) {
-  dynamics::SoftRows soft;
-  dynamics::evaluate_soft_rows(model_, dynamics::motions_of(model_, model::placed_state(model_)),
-                               soft);
-  for (const double k : soft.stiffness) {
-    force_rounding_ = std::max(force_rounding_, 1e-15 * k * model_.length);
-  }
+  force_rounding_ =
+      spring_rounding(model_, dynamics::motions_of(model_, model::placed_state(model_)));
 }
 
 void StaticContinuation::choose_rows(const StaticPoint& point) {
@@ -83,16 +79,12 @@ double StaticContinuation::misfit(const Vector& residual) const {
 }
 
 bool StaticContinuation::is_balanced(const StaticPoint& point, const Vector& residual) const {
-  double deformation = 0.0;
-  for (const Eigen::VectorXd& y : point.y) {
-    if (y.size() > 0) deformation = std::max(deformation, y.cwiseAbs().maxCoeff());
-  }
   const double largest = std::max(force_, strongest_load(model_, point, t_));
   return force_ * system_->largest(residual, Share::frame) <=
              kForceTolerance * largest + force_rounding_ &&
-         system_->largest(residual, Share::joint) <= kClosed &&
+         system_->largest(residual, Share::joint) <= closed_share(model_, point) &&
          system_->largest(residual, Share::elastic) <=
-             kForceTolerance * deformation / model_.length + 1e-15;
+             kForceTolerance * system_->largest_deformation(point) + 1e-15;
 }
 
 StaticContinuation::Plane StaticContinuation::load_plane() const {

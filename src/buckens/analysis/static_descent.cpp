@@ -10,6 +10,7 @@
 #include "buckens/analysis/static_state.h"
 #include "buckens/analysis/static_tolerances.h"
 #include "buckens/base/errors.h"
+#include "buckens/body/body_lengths.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -51,9 +52,12 @@ void StaticDescent::set_scales() {
   const double L = model_.length;
   force_ = start_force_ = strongest_load(model_, point_, t_);
   double softest = 0.0;
-  for (const ElasticCompliance* compliance : compliance_) {
-    if (compliance == nullptr || compliance->interface().size() == 0) continue;
-    softest = std::max(softest, compliance->interface().diagonal().maxCoeff());
+  for (std::size_t b = 0; b < compliance_.size(); ++b) {
+    if (compliance_[b] == nullptr || compliance_[b]->interface().size() == 0) continue;
+    // Rotations by torques count as displacements by forces.
+    const Eigen::VectorXd lengths = body::interface_lengths(model_.bodies[b], L);
+    const Eigen::VectorXd answers = compliance_[b]->interface().diagonal();
+    softest = std::max(softest, answers.cwiseProduct(lengths.cwiseAbs2()).maxCoeff());
   }
   if (force_ == 0.0) force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
   StaticSystem all(model_, compliance_, {}, t_, force_);
@@ -67,14 +71,7 @@ void StaticDescent::set_scales() {
     heaviest = std::max(heaviest, body.mass);
   }
   reference_ = std::max(fastest, force_ / (std::max(heaviest, 1e-300) * L) * 1e-3);
-  dynamics::SoftRows soft;
-  std::vector<dynamics::BodyMotion> motions(model_.bodies.size());
-  for (std::size_t b = 0; b < motions.size(); ++b) {
-    motions[b].frame.X_WB = point_.poses[b];
-    motions[b].y = motions[b].y_dot = Vector::Zero(model_.bodies[b].num_rows());
-  }
-  dynamics::evaluate_soft_rows(model_, motions, soft);
-  for (const double k : soft.stiffness) force_rounding_ = std::max(force_rounding_, 1e-15 * k * L);
+  force_rounding_ = spring_rounding(model_, motions_at(model_, point_));
 }
 
 void StaticDescent::choose_rows() {
@@ -111,14 +108,10 @@ double StaticDescent::misfit() const {
 }
 
 bool StaticDescent::is_balanced() const {
-  double deformation = 0.0;
-  for (const Eigen::VectorXd& y : point_.y) {
-    if (y.size() > 0) deformation = std::max(deformation, y.cwiseAbs().maxCoeff());
-  }
   return force_residual() <= kForceTolerance * largest_force_ + force_rounding_ &&
-         system_->largest(residual_, Share::joint) <= kClosed &&
+         system_->largest(residual_, Share::joint) <= closed_share(model_, point_) &&
          system_->largest(residual_, Share::elastic) <=
-             kForceTolerance * deformation / model_.length + 1e-15;
+             kForceTolerance * system_->largest_deformation(point_) + 1e-15;
 }
 
 void StaticDescent::run() {

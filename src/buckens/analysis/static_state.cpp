@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/analysis/static_tolerances.h"
+#include "buckens/dynamics/model_scales.h"
+
 namespace buckens::analysis {
 
 using linalg::Vector;
@@ -56,18 +59,38 @@ double largest_nodal_rotation(const body::Body& body, const Vector& d) {
   return largest;
 }
 
+double closed_share(const model::Model& model, const StaticPoint& point) {
+  return std::max(kClosed, kPositionRounding * dynamics::rounding_length(model, point.poses) /
+                               model.length);
+}
+
+double spring_rounding(const model::Model& model,
+                       const std::vector<dynamics::BodyMotion>& motions) {
+  dynamics::SoftRows soft;
+  dynamics::evaluate_soft_rows(model, motions, soft);
+  const double length = dynamics::rounding_length(model, motions);
+  double out = 0.0;
+  for (std::size_t k = 0; k < soft.rows.size(); ++k) {
+    bool is_displacement = false;
+    for (const dynamics::BodyRow* part : {&soft.rows[k].first, &soft.rows[k].second}) {
+      if (part->body == model::kGround) continue;
+      is_displacement = is_displacement || part->frame.tail<3>().cwiseAbs().maxCoeff() > 0.0;
+    }
+    // Angles are known to rounding wherever the model is; torques count divided by its length.
+    out = std::max(out, 1e-15 * soft.stiffness[k] * (is_displacement ? length : 1.0 / model.length));
+  }
+  return out;
+}
+
 double strongest_load(const model::Model& model, const StaticPoint& point, double t) {
   double largest = 0.0;
   const auto count = [&](const spatial::Wrench& wrench, double factor) {
     largest = std::max(
         {largest, factor * wrench.force.norm(), factor * wrench.torque.norm() / model.length});
   };
-  std::vector<dynamics::BodyMotion> motions(model.bodies.size());
-  for (std::size_t b = 0; b < motions.size(); ++b) {
-    largest = std::max(largest, model.bodies[b].mass * model.gravity.norm());
-    motions[b].frame.X_WB = point.poses[b];
-    motions[b].y = motions[b].y_dot = Vector::Zero(model.bodies[b].num_rows());
-    motions[b].y.head(point.y[b].size()) = point.y[b];
+  const std::vector<dynamics::BodyMotion> motions = motions_at(model, point);
+  for (const body::Body& body : model.bodies) {
+    largest = std::max(largest, body.mass * model.gravity.norm());
   }
   for (const model::Load& load : model.loads) {
     const auto first = dynamics::evaluate_marker(model, load.first, motions);

@@ -32,6 +32,14 @@ double largest_nodal_rotation(const body::Body& body, const linalg::Vector& d);
 /// Beyond this nodal rotation linear elasticity in one frame is a stretch [rad].
 inline constexpr double kLargestNodalRotation = 0.1;
 
+/// Share of the model's length (of 1 rad) to which joints close in a configuration: kClosed, or
+/// rounding far from the origin.
+double closed_share(const model::Model& model, const StaticPoint& point);
+
+/// Force that rounding of positions leaves in the springs of a model [N].
+double spring_rounding(const model::Model& model,
+                       const std::vector<dynamics::BodyMotion>& motions);
+
 /// Largest single force that acts in a configuration [N]: weights, loads, joints; torques count
 /// divided by the model's length.
 double strongest_load(const model::Model& model, const StaticPoint& point, double t);

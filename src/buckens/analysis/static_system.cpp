@@ -17,13 +17,6 @@ using linalg::Triplet;
 using linalg::Vector;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-namespace {
-
-// Of the model's length, or rad: balances rounding (1e-16/step) and curvature (step²).
-constexpr double kDifference = 1e-5;
-
-}  // namespace
-
 StaticSystem::StaticSystem(const model::Model& model,
                            const std::vector<const ElasticCompliance*>& compliance,
                            std::vector<int> rows_in_use, double t, double force)
@@ -31,10 +24,9 @@ StaticSystem::StaticSystem(const model::Model& model,
       compliance_(compliance),
       rows_in_use_(std::move(rows_in_use)),
       t_(t),
-      force_(force) {
+      force_(force),
+      loads_(model) {
   lay_out();
-  find_neighbours();
-  color_bodies();
   add_mass();
 }
 
@@ -79,46 +71,11 @@ void StaticSystem::lay_out() {
   column_scale_ = Eigen::Map<const Vector>(columns.data(), size_);
 }
 
-void StaticSystem::find_neighbours() {
-  neighbours_.resize(model_.bodies.size());
-  for (std::size_t b = 0; b < neighbours_.size(); ++b) neighbours_[b].push_back(b);
-  const auto connect = [this](const model::MarkerId& first, const model::MarkerId& second) {
-    if (first.body == model::kGround || second.body == model::kGround) return;
-    neighbours_[static_cast<std::size_t>(first.body)].push_back(
-        static_cast<std::size_t>(second.body));
-    neighbours_[static_cast<std::size_t>(second.body)].push_back(
-        static_cast<std::size_t>(first.body));
-  };
-  for (const model::Joint& joint : model_.joints) connect(joint.first, joint.second);
-  for (const model::Load& load : model_.loads) connect(load.first, load.second);
-  for (auto& list : neighbours_) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-}
-
-void StaticSystem::color_bodies() {
-  // Greedy, distance two: no body feels two bodies of one colour.
-  std::vector<std::size_t> color(neighbours_.size(), neighbours_.size());
-  for (std::size_t b = 0; b < neighbours_.size(); ++b) {
-    std::vector<bool> taken(colors_.size() + 1, false);
-    for (const std::size_t near : neighbours_[b]) {
-      for (const std::size_t far : neighbours_[near]) {
-        if (color[far] < taken.size()) taken[color[far]] = true;
-      }
-    }
-    const auto free = std::find(taken.begin(), taken.end(), false);
-    color[b] = static_cast<std::size_t>(free - taken.begin());
-    if (color[b] == colors_.size()) colors_.emplace_back();
-    colors_[color[b]].push_back(b);
-  }
-}
-
 void StaticSystem::add_mass() {
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const body::Body& body = model_.bodies[b];
     const auto& T = body.rotation_basis;
-    const Eigen::MatrixXd J = T.transpose() * body.J0 * T;
+    const Eigen::MatrixXd J = T.transpose() * (body.J0 + body.stand_in) * T;
     for (int i = 0; i < num_frame_[b]; ++i) {
       for (int j = 0; j < num_frame_[b]; ++j) {
         double value = i == j ? body.mass : 0.0;
@@ -137,14 +94,18 @@ void StaticSystem::put(int row, int column, double value, std::vector<Triplet>& 
   to.emplace_back(row, column, row_scale_[row] * column_scale_[column] * value);
 }
 
-StaticBalance StaticSystem::balance(const StaticPoint& point) const {
+std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const StaticPoint& point) {
   std::vector<dynamics::BodyMotion> motions(point.poses.size());
   for (std::size_t b = 0; b < motions.size(); ++b) {
-    const body::Body& body = model_.bodies[b];
     motions[b].frame.X_WB = point.poses[b];
-    motions[b].y = motions[b].y_dot = VectorXd::Zero(body.num_rows());
-    motions[b].y.head(body.num_interface_rows()) = point.y[b];
+    motions[b].y = motions[b].y_dot = VectorXd::Zero(model.bodies[b].num_rows());
+    motions[b].y.head(point.y[b].size()) = point.y[b];
   }
+  return motions;
+}
+
+StaticBalance StaticSystem::balance(const StaticPoint& point) const {
+  const std::vector<dynamics::BodyMotion> motions = motions_at(model_, point);
   StaticBalance out;
   dynamics::evaluate_constraints(model_, motions, t_, out.constraints);
   dynamics::evaluate_forces(model_, motions, t_, out.forces, point.load_factor);
@@ -185,32 +146,17 @@ void StaticSystem::linearise(const StaticPoint& point, const StaticBalance& bala
       put(first_[b] + k, first_[b] + k, 1.0, derivatives_);  // y itself
     }
   }
-  for (const std::vector<std::size_t>& color : colors_) {
-    int most = 0;
-    for (const std::size_t b : color) most = std::max(most, num_unknowns(b));
-    for (int k = 0; k < most; ++k) {
-      Vector step = Vector::Zero(size_);
-      for (const std::size_t b : color) {
-        if (k < num_unknowns(b)) step[first_[b] + k] = kDifference;
-      }
-      const StaticBalance plus = this->balance(moved(point, step));
-      const StaticBalance minus = this->balance(moved(point, -step));
-      for (const std::size_t b : color) {
-        if (k < num_unknowns(b)) add_force_derivatives({b, k}, plus.forces, minus.forces);
-      }
+  for (auto& block : loads_.stiffness(motions_at(model_, point), t_, point.lambda,
+                                      point.load_factor)) {
+    const int rows = loads_.bodies()[block.on].rows;
+    if (rows > 0) {  // y = K⁺ f on the interface
+      const Eigen::MatrixXd loads = block.stiffness.bottomRows(rows);
+      block.stiffness.bottomRows(rows) = compliance_[block.on]->interface() * loads;
     }
-  }
-}
-
-void StaticSystem::add_force_derivatives(const Perturbed& moved, const Forces& plus,
-                                         const Forces& minus) {
-  const int column = first_[moved.body] + moved.index;
-  for (const std::size_t b : neighbours_[moved.body]) {
-    const VectorXd difference =
-        body_residual(b, plus.frame[b] - minus.frame[b], plus.interface[b] - minus.interface[b]);
-    for (int k = 0; k < num_unknowns(b); ++k) {
-      derivatives_.emplace_back(first_[b] + k, column,
-                                row_scale_[first_[b] + k] * difference[k] / (2.0 * kDifference));
+    for (int j = 0; j < block.stiffness.cols(); ++j) {
+      for (int i = 0; i < block.stiffness.rows(); ++i) {
+        put(first_[block.on] + i, first_[block.by] + j, block.stiffness(i, j), derivatives_);
+      }
     }
   }
 }
@@ -234,9 +180,7 @@ void StaticSystem::add_row(std::size_t index, const BodyRow& part) {
   if (part.rotation_row >= 0) {
     interface.segment<3>(part.rotation_row) = part.interface.tail<3>().transpose();
   }
-  VectorXd gradient(num_unknowns(b));
-  gradient << body.rotation_basis.transpose() * part.frame.head<3>().transpose(),
-      body.translation_basis.transpose() * part.frame.tail<3>().transpose(), interface;
+  const VectorXd gradient = loads_.gradient(part);
   const VectorXd response = body_residual(b, part.frame.transpose(), interface);
   const int multiplier = first_multiplier_ + static_cast<int>(index);
   for (int k = 0; k < gradient.size(); ++k) {
@@ -298,6 +242,17 @@ std::size_t StaticSystem::body_at(int index) const {
 const model::Joint& StaticSystem::joint_at(int index) const {
   const auto k = static_cast<std::size_t>(index - first_multiplier_);
   return *model_.owner_of_row(rows_in_use_[k]).first;
+}
+
+double StaticSystem::largest_deformation(const StaticPoint& point) const {
+  double out = 0.0;
+  for (std::size_t b = 0; b < first_.size(); ++b) {
+    const Eigen::Index count = point.y[b].size();
+    if (count == 0) continue;
+    const auto scale = row_scale_.segment(first_[b] + num_frame_[b], count);
+    out = std::max(out, point.y[b].cwiseProduct(scale).cwiseAbs().maxCoeff());
+  }
+  return out;
 }
 
 double StaticSystem::largest(const Vector& scaled, Share share) const {

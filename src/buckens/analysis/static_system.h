@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "buckens/analysis/elastic_compliance.h"
+#include "buckens/analysis/linearised_loads.h"
 #include "buckens/dynamics/forces.h"
 
 namespace buckens::analysis {
@@ -15,6 +16,9 @@ struct StaticPoint {
   linalg::Vector lambda;             ///< multipliers of all joint rows; unused rows are zero
   double load_factor = 1;            ///< of applied forces and torques
 };
+
+/// The bodies at rest in a configuration.
+std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const StaticPoint& point);
 
 /// Everything that acts in a configuration.
 struct StaticBalance {
@@ -30,8 +34,8 @@ struct StaticBalance {
 ///
 /// Unknowns: increments of the frame coordinates and y body by body, then λ. All are scaled by the
 /// model's length L and a force F, so that the tangent is as symmetric as the loads are
-/// conservative. Derivatives of forces: central differences, bodies that share no neighbour moved
-/// together; those of joints and multipliers are exact.
+/// conservative. Derivatives of forces are those of LinearisedLoads; those of joints and
+/// multipliers are exact.
 class StaticSystem {
  public:
   /// @param compliance one entry per body, null for rigid ones
@@ -63,24 +67,18 @@ class StaticSystem {
   std::size_t body_at(int index) const;
   /// Joint of a joint index.
   const model::Joint& joint_at(int index) const;
+  /// Largest interface value, scaled as elastic equations are.
+  double largest_deformation(const StaticPoint& point) const;
   /// Largest magnitude of a scaled vector over one kind of equation or unknown.
   double largest(const linalg::Vector& scaled, Share share) const;
   /// Motion of a body's frame in a step: rotation in body axes [rad], translation [m].
   Eigen::Matrix<double, 6, 1> frame_step(std::size_t body, const linalg::Vector& step) const;
 
  private:
-  struct Perturbed {
-    std::size_t body;
-    int index;
-  };
   void lay_out();
-  void find_neighbours();
-  void color_bodies();
   void add_mass();
   void add_joint_derivatives(const StaticBalance& balance);
   void add_row(std::size_t index, const dynamics::BodyRow& part);
-  void add_force_derivatives(const Perturbed& moved, const dynamics::Forces& plus,
-                             const dynamics::Forces& minus);
   Eigen::VectorXd body_residual(std::size_t body, const Eigen::Matrix<double, 6, 1>& frame,
                                 const Eigen::VectorXd& interface) const;
   int num_unknowns(std::size_t body) const;
@@ -91,14 +89,12 @@ class StaticSystem {
   std::vector<int> rows_in_use_;
   double t_;
   double force_;
+  LinearisedLoads loads_;
   int size_ = 0;
   int first_multiplier_ = 0;
   std::vector<int> first_, num_frame_;  // unknowns of each body
   std::vector<Share> shares_;
   linalg::Vector row_scale_, column_scale_;
-  std::vector<std::vector<std::size_t>>
-      neighbours_;  // bodies that feel a body's motion, itself too
-  std::vector<std::vector<std::size_t>> colors_;
   std::vector<linalg::Triplet> derivatives_, mass_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "buckens/analysis/turn.h"
 #include "buckens/body/free_free_modes.h"
+#include "buckens/body/of_body.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/model/eliminate_links.h"
 
@@ -86,7 +87,8 @@ body::FreeModes reported_modes(const model::Model& model, const model::WholeBody
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   if (!body.is_flexible()) return {};
   if (body.flexible->is_quasi_static) return modes_of_mesh(body.flexible->mesh(), kReportedModes);
-  return body::free_free_modes(*body.flexible, kReportedModes);
+  return body::of_body(
+      body.name, [&] { return body::free_free_modes(*body.flexible, kReportedModes); });
 }
 
 ExcitedBand excited_band(const body::Body& body) {
@@ -94,7 +96,9 @@ ExcitedBand excited_band(const body::Body& body) {
   if (body.flexible->is_quasi_static) {
     return band_of_body(body, modes_of_mesh(body.flexible->mesh(), 1));
   }
-  return band_of_body(body, body::free_free_modes(*body.flexible, kReportedModes));
+  return band_of_body(body, body::of_body(body.name, [&] {
+                        return body::free_free_modes(*body.flexible, kReportedModes);
+                      }));
 }
 
 ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole) {

@@ -81,7 +81,9 @@ SystemPencil::SystemPencil(const model::Model& model, const model::State& state,
     block.W.bottomRightCorner(place.translations, place.translations)
         .diagonal()
         .setConstant(body.mass);
-    block.mobility = block.W.inverse();
+    Eigen::MatrixXd regular = block.W;
+    regular.topLeftCorner(place.rotations, place.rotations) += T.transpose() * body.stand_in * T;
+    block.mobility = regular.inverse();
     blocks_.push_back(std::move(block));
   }
   add_masses();
@@ -93,6 +95,9 @@ void SystemPencil::add_masses() {
     const body::Body& body = model_.bodies[b];
     const RestBody& place = tangent_.bodies[b];
     put_block(first_[b], first_[b], blocks_[b].W, mass);
+    // What stands in for missing inertia in the blocks A₀ is taken out again by Γ.
+    const auto& T = body.rotation_basis;
+    put_block(place.first, place.first, -(T.transpose() * body.stand_in * T), gyration);
     if (!body.is_flexible()) continue;
     const int nodal = first_[b] + place.num_frame();
     const SparseMatrix& M = body.flexible->fe.M;

@@ -87,7 +87,9 @@ std::vector<double> values_of(const model::Model& model, const VibrationReport& 
   values.insert(values.end(), v.effective_mass.begin(), v.effective_mass.end());
   for (std::size_t k = 0; k < model.wholes.size(); ++k) {
     const model::WholeBody& whole = model.wholes[k];
-    append_pose(model::whole_motion(model, whole, report.position).X_WB, values);
+    spatial::Pose X_WB = model::whole_motion(model, whole, report.position).X_WB;
+    X_WB.p += model.origin;
+    append_pose(X_WB, values);
     BodyShape shape;
     if (report.is_system() && !whole.is_divided()) {
       shape = v.shape[static_cast<std::size_t>(whole.first)];

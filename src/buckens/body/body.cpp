@@ -69,23 +69,25 @@ Eigen::VectorXd Body::row_values(const linalg::Vector& d) const {
   return flexible->rows * d;
 }
 
-double Body::length_scale() const { return std::max(1e-9, std::sqrt(0.5 * J0.trace() / mass)); }
+double Body::length_scale() const { return std::sqrt(0.5 * J0.trace() / mass); }
 
-void select_frame_coordinates(Body& body, const std::optional<Vector3d>& plane_normal,
-                              std::vector<std::string>& notes) {
+std::string missing_inertia_note(const Body& body, const Vector3d& axis) {
+  return fmt::format(
+      "body \"{}\" has no rotary inertia about ({:.3g}, {:.3g}, {:.3g}); its frame does not turn "
+      "about this axis",
+      body.name, axis.x(), axis.y(), axis.z());
+}
+
+void select_frame_coordinates(Body& body, const std::optional<Vector3d>& plane_normal) {
   body.rotation_basis.resize(3, 0);
+  body.missing_rotations.resize(3, 0);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(body.J0);
   const double largest = eigen.eigenvalues()[2];
   const auto add_rotation = [&](const Vector3d& axis, double moment) {
-    if (largest > 0.0 && moment > kNoInertia * largest) {
-      body.rotation_basis.conservativeResize(3, body.rotation_basis.cols() + 1);
-      body.rotation_basis.rightCols<1>() = axis;
-      return;
-    }
-    notes.push_back(fmt::format(
-        "body \"{}\" has no rotary inertia about ({:.3g}, {:.3g}, {:.3g}); its frame does not turn "
-        "about this axis",
-        body.name, axis.x(), axis.y(), axis.z()));
+    const bool has_inertia = largest > 0.0 && moment > kNoInertia * largest;
+    auto& basis = has_inertia ? body.rotation_basis : body.missing_rotations;
+    basis.conservativeResize(3, basis.cols() + 1);
+    basis.rightCols<1>() = axis;
   };
   if (plane_normal) {
     add_rotation(*plane_normal, plane_normal->dot(body.J0 * *plane_normal));

@@ -92,6 +92,12 @@ class Body {
   /// translations in world axes (3×2…3). Planar models and missing inertia shorten them.
   Eigen::Matrix<double, 3, Eigen::Dynamic> rotation_basis;
   Eigen::Matrix<double, 3, Eigen::Dynamic> translation_basis;
+  /// Axes in body axes (3×0…3) about which the frame does not turn for want of inertia.
+  Eigen::Matrix<double, 3, Eigen::Dynamic> missing_rotations;
+  /// Stands in for missing inertia where an iteration needs a regular matrix [kg m²]: about axes of
+  /// `rotation_basis` that have none of their own and are turned by joints, otherwise zero. Results
+  /// do not depend on it: what it adds is taken out again, iteration by iteration.
+  Eigen::Matrix3d stand_in = Eigen::Matrix3d::Zero();
   std::vector<Marker> markers;
   std::unique_ptr<FlexiblePart> flexible;  ///< empty for rigid bodies
 
@@ -104,15 +110,17 @@ class Body {
   int find_marker(const std::string& marker) const;
   /// y = N d for all marker rows; empty for rigid bodies.
   Eigen::VectorXd row_values(const linalg::Vector& d) const;
-  /// |w|-independent size used to judge rotations and rigid residuals [m]: √(tr J0 / 2m), the
-  /// radius of gyration, at least 1e-9.
+  /// Size used to judge rotations and rigid residuals [m]: √(tr J0 / 2m), the radius of gyration;
+  /// 0 of a point mass.
   double length_scale() const;
 };
 
-/// Bases of the frame coordinates that carry inertia, rank-revealing.
+/// Bases of the frame coordinates that carry inertia, rank-revealing; the other rotations become
+/// `missing_rotations`.
 /// @param planar normal of the plane in world axes at the initial orientation, zero for 3-D
-/// @param note receives a sentence for each dropped rotation
-void select_frame_coordinates(Body& body, const std::optional<Eigen::Vector3d>& plane_normal,
-                              std::vector<std::string>& notes);
+void select_frame_coordinates(Body& body, const std::optional<Eigen::Vector3d>& plane_normal);
+
+/// What a user should know about a rotation that was left out.
+std::string missing_inertia_note(const Body& body, const Eigen::Vector3d& axis);
 
 }  // namespace buckens::body

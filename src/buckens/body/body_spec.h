@@ -170,7 +170,7 @@ struct RigidSpec {
                       "mass centre, in model axes; Ixy = -∫ x y dm")
               .in(base::kInertia)
               .like("[0, 0, 2.727e-3 kg m^2]")
-              .otherwise("a point mass"));
+              .otherwise("a point mass: it turns where a joint off its mass centre turns it"));
   }
 };
 

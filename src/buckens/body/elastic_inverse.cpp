@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/of_body.h"
 
 namespace buckens::body {
 
@@ -63,11 +64,13 @@ SparseMatrix grounded(const SparseMatrix& K, const std::vector<int>& held) {
 
 linalg::SparseCholesky factorise(const std::string& body, const SparseMatrix& K,
                                  const std::vector<int>& held) {
-  try {
-    return linalg::SparseCholesky(grounded(K, held));
-  } catch (const NumericalError&) {
-    refuse(body);
-  }
+  return of_body(body, [&] {
+    try {
+      return linalg::SparseCholesky(grounded(K, held));
+    } catch (const linalg::IndefiniteMatrix&) {
+      refuse(body);
+    }
+  });
 }
 
 }  // namespace

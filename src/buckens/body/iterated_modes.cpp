@@ -12,6 +12,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/dense_free_modes.h"
+#include "buckens/linalg/cholmod_factor.h"
 
 namespace buckens::body {
 
@@ -129,7 +130,7 @@ IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, c
     std::optional<ModeOperator> op;
     try {
       op = sieved_operator(M, K, sieve, shift);
-    } catch (const NumericalError&) {
+    } catch (const linalg::IndefiniteMatrix&) {
       if (attempt == kMostShifts) throw;
       drowned = shift;
       shift *= 30.0;

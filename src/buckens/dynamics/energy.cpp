@@ -56,6 +56,12 @@ Energy energy(const model::Model& model, const model::State& state) {
   return out;
 }
 
+double gravity_datum(const model::Model& model) {
+  double mass = 0;
+  for (const body::Body& body : model.bodies) mass += body.mass;
+  return -mass * model.gravity.dot(model.origin);
+}
+
 Momentum momentum(const model::Model& model, const model::State& state) {
   Momentum out;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

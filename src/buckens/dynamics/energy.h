@@ -10,7 +10,7 @@ namespace buckens::dynamics {
 struct Energy {
   double kinetic = 0;
   double strain = 0;
-  double gravity = 0;  ///< −Σ m g·p
+  double gravity = 0;  ///< −Σ m g·p, zero at Model::origin
   double springs = 0;
   double total() const { return kinetic + strain + gravity + springs; }
 };
@@ -20,7 +20,11 @@ struct Energy {
 /// Cost: a product with M and K per flexible body.
 Energy energy(const model::Model& model, const model::State& state);
 
-/// Linear momentum [N s] and angular momentum about the world origin [N m s], world axes.
+/// What the energy of gravity is more than Energy::gravity where it counts from the origin of the
+/// model file. Kept apart, so that differences of energies lose no digits far away.
+double gravity_datum(const model::Model& model);
+
+/// Linear momentum [N s] and angular momentum about Model::origin [N m s], world axes.
 struct Momentum {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();

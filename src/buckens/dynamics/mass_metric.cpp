@@ -20,13 +20,17 @@ namespace {
 
 constexpr double kRankTolerance = 1e-9;
 
+/// R with R Rᵀ = A. Rows are judged by their own size: rotations and translations differ in unit.
 Matrix symmetric_root(const Matrix& A) {
   if (A.rows() == 0) return A;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (A + A.transpose()));
+  const Vector size = A.diagonal().unaryExpr([](double a) { return a > 0.0 ? std::sqrt(a) : 0.0; });
+  const Vector inverse = size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
+  const Matrix scaled = inverse.asDiagonal() * (0.5 * (A + A.transpose())) * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
   const double largest = std::max(0.0, eigen.eigenvalues().maxCoeff());
   const Vector roots = eigen.eigenvalues().unaryExpr(
       [largest](double value) { return value > 1e-14 * largest ? std::sqrt(value) : 0.0; });
-  return eigen.eigenvectors() * roots.asDiagonal();
+  return size.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
 }
 
 }  // namespace
@@ -35,7 +39,7 @@ Eigen::Matrix<double, 6, 6> frame_mobility(const body::Body& body, const Matrix3
   Eigen::Matrix<double, 6, 6> out = Eigen::Matrix<double, 6, 6>::Zero();
   const auto& T = body.rotation_basis;
   if (T.cols() > 0) {
-    const Eigen::MatrixXd reduced = T.transpose() * J * T;
+    const Eigen::MatrixXd reduced = T.transpose() * (J + body.stand_in) * T;
     out.topLeftCorner<3, 3>() = T * reduced.inverse() * T.transpose();
   }
   out.bottomRightCorner<3, 3>() =

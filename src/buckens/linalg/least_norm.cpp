@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/single_thread.h"
 #include "buckens/linalg/spqr_matrix.h"
 
 namespace buckens::linalg {
@@ -39,6 +40,7 @@ Vector least_norm_solution(const SparseMatrix& A, const Vector& b, double tolera
   for (int k = 0; k < equations.outerSize(); ++k) {
     longest = std::max(longest, equations.col(k).norm());
   }
+  const SingleThread alone;
   SpqrMatrix matrix(equations);
   Vector right = b;
   cholmod_dense column{};
@@ -59,7 +61,7 @@ Vector least_norm_solution(const SparseMatrix& A, const Vector& b, double tolera
         SuiteSparseQR_qmult<double>(SPQR_QX, solution.factorisation, solution.y, &matrix.common);
   }
   if (solution.x == nullptr) {
-    throw NumericalError("forces of redundant joints could not be shared out; is memory short?");
+    throw NumericalError("forces of redundant joints could not be shared out: " + matrix.failure());
   }
   return Eigen::Map<const Vector>(static_cast<const double*>(solution.x->x), A.cols());
 }

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/single_thread.h"
 #include "buckens/linalg/spqr_matrix.h"
 
 namespace buckens::linalg {
@@ -35,6 +36,7 @@ RowRank from_permutation(const Permutation& columns, Eigen::Index rank, Eigen::I
 /// Column rank by multifrontal QR (SPQR): with a tolerance its R is a staircase in which every
 /// independent column steps down.
 RowRank split_sparse(const SparseMatrix& A, double tolerance) {
+  const SingleThread alone;
   SpqrMatrix matrix(A);
   cholmod_sparse* R = nullptr;
   SuiteSparse_long* permutation = nullptr;
@@ -42,7 +44,7 @@ RowRank split_sparse(const SparseMatrix& A, double tolerance) {
   SuiteSparseQR<double>(SPQR_ORDERING_DEFAULT, limit, A.cols(), &matrix.view, &R, &permutation,
                         &matrix.common);
   if (R == nullptr) {
-    throw NumericalError("the rank of the joint equations could not be found; is memory short?");
+    throw NumericalError("the rank of the joint equations could not be found: " + matrix.failure());
   }
   RowRank out;
   const auto* starts = static_cast<const SuiteSparse_long*>(R->p);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <climits>
 #include <memory>
 #include <span>
 
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/cholmod_factor.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/simd_level.h"
 
@@ -20,6 +22,8 @@ enum class SolveRoute {
 struct CholeskyOptions {
   SolveRoute route = SolveRoute::automatic;
   SimdLevel simd = best_simd_level();  ///< of the panels
+  /// Entries of a factor that 32-bit indices are taken to reach; beyond, CHOLMOD counts in 64 bits.
+  double most_narrow_entries = INT_MAX;
 };
 
 /// Cholesky factor of a sparse symmetric positive definite matrix: factorised once, solved often.
@@ -31,7 +35,8 @@ struct CholeskyOptions {
 class SparseCholesky {
  public:
   /// @param A symmetric, both triangles stored
-  /// @throws NumericalError if A is not positive definite, naming the column
+  /// @throws IndefiniteMatrix if A is not positive definite
+  /// @throws NumericalError if A is not finite or its factor does not fit into memory
   explicit SparseCholesky(const SparseMatrix& A, const CholeskyOptions& options = {});
   ~SparseCholesky();
   SparseCholesky(SparseCholesky&&) noexcept;
@@ -46,6 +51,8 @@ class SparseCholesky {
   int num_parts() const;
   /// Never `automatic`.
   SolveRoute route() const;
+  /// Width of CHOLMOD's indices that the factor needed: 32 or 64.
+  int index_bits() const;
   /// Solves over panels from now on; CHOLMOD's copy is freed. Not while others solve.
   /// @return false if the factor has no dense parts to lay out; then nothing changes
   bool take_panels(SimdLevel simd = best_simd_level());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <SuiteSparseQR.hpp>
@@ -33,6 +34,17 @@ struct SpqrMatrix {
   ~SpqrMatrix() { cholmod_l_finish(&common); }
   SpqrMatrix(const SpqrMatrix&) = delete;
   SpqrMatrix& operator=(const SpqrMatrix&) = delete;
+
+  /// Why SPQR gave up, and what to do.
+  std::string failure() const {
+    const std::string size = std::to_string(view.nrow) + " × " + std::to_string(view.ncol);
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) {
+      return "there is not enough memory for a QR factor of a matrix of size " + size +
+             "; use fewer joints or frames";
+    }
+    return "SPQR refused a matrix of size " + size + " (status " + std::to_string(common.status) +
+           "); please report this with the model";
+  }
 
   std::vector<SuiteSparse_long> starts, rows;
   std::vector<double> values;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 namespace buckens::linalg {
 
 /// A supernodal Cholesky factor P A Pᵀ = L Lᵀ as its owner holds it: views, valid as long as it
@@ -10,14 +12,14 @@ struct Supernodes {
   int count = 0;                      ///< of supernodes
   const int* permutation = nullptr;   ///< row k of P A Pᵀ is row permutation[k] of A
   const int* first_column = nullptr;  ///< count + 1
-  const int* rows_begin = nullptr;    ///< count + 1: supernode s has rows[rows_begin[s]] …
-  const int* values_begin = nullptr;  ///< count
+  const std::int64_t* rows_begin = nullptr;  ///< count + 1: supernode s has rows[rows_begin[s]] …
+  const std::int64_t* values_begin = nullptr;  ///< count
   const int* rows = nullptr;          ///< ascending, own columns first
   const double* values = nullptr;     ///< rows × columns per supernode, column by column
   bool used_up = false;               ///< values are read once and not needed afterwards
 
   int columns(int s) const { return first_column[s + 1] - first_column[s]; }
-  int num_rows(int s) const { return rows_begin[s + 1] - rows_begin[s]; }
+  int num_rows(int s) const { return static_cast<int>(rows_begin[s + 1] - rows_begin[s]); }
 };
 
 }  // namespace buckens::linalg

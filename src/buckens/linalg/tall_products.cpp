@@ -7,7 +7,7 @@
 
 #include <cblas.h>
 
-#include "buckens/linalg/blas_kernels.h"
+#include "buckens/linalg/single_thread.h"
 
 namespace buckens::linalg {
 
@@ -26,7 +26,7 @@ void multiply_by_blas(CBLAS_TRANSPOSE transposed, double alpha, const Eigen::Ref
     C *= beta;
     return;
   }
-  choose_blas_kernels();
+  const SingleThread alone;
   cblas_dgemm(CblasColMajor, transposed, CblasNoTrans, blas_size(C.rows()), blas_size(C.cols()),
               blas_size(inner), alpha, A.data(), blas_size(A.outerStride()), B.data(),
               blas_size(B.outerStride()), beta, C.data(), blas_size(C.outerStride()));

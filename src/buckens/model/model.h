@@ -77,6 +77,10 @@ struct Model {
   std::vector<WholeBody> wholes;
   std::vector<Joint> joints;
   std::vector<Load> loads;
+  /// Where the world of this model begins in that of the model file [m]: zero unless the mechanism
+  /// lies so far away that positions would lose digits. All positions of the library count from
+  /// here; whoever shows one adds it.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<spatial::Pose> placed;  ///< X_WB of each body as placed
   double length = 1.0;                ///< characteristic length L [m]
   std::vector<std::string> notes;     ///< what a user should know about the model

@@ -2,6 +2,7 @@
 #include "buckens/model/model_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "buckens/model/held_damping.h"
 #include "buckens/model/marker_finder.h"
 #include "buckens/model/mesh_division.h"
+#include "buckens/model/massless_rotations.h"
 #include "buckens/model/mesh_mechanism.h"
 #include "buckens/model/reduce_bodies.h"
 
@@ -31,6 +33,8 @@ namespace {
 
 // sin of the angle up to which a body counts as lying in the plane of a planar model.
 constexpr double kInPlane = 1e-6;
+// Of the mechanism's length: farther from the origin positions would lose more than three digits.
+constexpr double kFarAway = 1000.0;
 
 class Builder {
  public:
@@ -63,7 +67,11 @@ class Builder {
     for (std::size_t b = 0; b < tables_.size(); ++b) {
       if (model_.bodies[b].is_flexible()) model_.bodies[b].flexible->rows = tables_[b]->rows();
     }
-    model_.length = characteristic_length();
+    const Eigen::AlignedBox3d box = extent();
+    const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+    model_.length = size > 0.0 ? size : 1.0;
+    if (size > 0.0) move_origin(box.center());
+    settle_massless_rotations(model_, d.simulation ? d.simulation->duration : 0.0);
     reduce_bodies(out_->description, model_, bases_);
     hold_damping(model_);
     return std::move(out_);
@@ -209,7 +217,7 @@ class Builder {
                                    "little (merge a massless part with its neighbour)",
                                    body.name));
     }
-    body::select_frame_coordinates(body, normal_B, model_.notes);
+    body::select_frame_coordinates(body, normal_B);
     model_.placed.push_back(spatial::Pose{spec.at.position, spec.at.rotation()} *
                             spatial::Pose{body.com, Eigen::Quaterniond::Identity()});
     tables_.push_back(std::make_unique<MarkerTable>(
@@ -282,7 +290,7 @@ class Builder {
     }
   }
 
-  double characteristic_length() const {
+  Eigen::AlignedBox3d extent() const {
     Eigen::AlignedBox3d box;
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const body::Body& body = model_.bodies[b];
@@ -295,8 +303,31 @@ class Builder {
         box.extend(model_.placed[b] * Vector3d(node.position - body.com));
       }
     }
-    const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
-    return size > 0.0 ? size : 1.0;
+    return box;
+  }
+
+  /// Lets positions count from near the mechanism if it lies far away: they keep all digits that
+  /// the model file gives them, and nothing depends on the place.
+  void move_origin(const Vector3d& centre) {
+    if (centre.norm() <= kFarAway * model_.length) return;
+    // Few digits, so that differences to what the model file says are exact.
+    const double unit = std::exp2(std::ceil(std::log2(model_.length)));
+    model_.origin = unit * (centre / unit).array().round().matrix();
+    for (spatial::Pose& X : model_.placed) X.p -= model_.origin;
+    const auto move = [this](MarkerId& id) {
+      if (id.body == kGround) id.X_WF.p -= model_.origin;
+    };
+    for (Joint& joint : model_.joints) {
+      move(joint.first);
+      move(joint.second);
+    }
+    for (Load& load : model_.loads) {
+      move(load.first);
+      move(load.second);
+    }
+    for (SensorPlace& place : out_->sensors) {
+      for (MarkerId& id : place.markers) move(id);
+    }
   }
 
   std::unique_ptr<BuiltModel> out_;

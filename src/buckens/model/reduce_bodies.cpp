@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/of_body.h"
 #include "buckens/body/reduction.h"
 #include "buckens/body/reduction_conflict.h"
 
@@ -95,7 +96,7 @@ void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore*
                               body.flexible->fe.dofs.num_dofs));
   }
   if (!basis) {
-    basis = make_basis(spec, body);
+    basis = body::of_body(body.name, [&] { return make_basis(spec, body); });
     if (is_kept) store->keep(spec.reduction.file, key, *basis);
   }
   if (basis->Z.cols() == 0) {

@@ -26,7 +26,7 @@ struct SimulationSpec {
   double rho_inf = 0.9;
   std::optional<double> alpha;      ///< HHT, −1/3 … 0; −0.1 unless given
   std::optional<double> theta;      ///< Wilson, at least 1.366; 1.4 unless given
-  std::optional<double> tolerance;  ///< of step control; 1e-5 unless given
+  std::optional<double> tolerance;  ///< of step control; 1e-3 unless given
   double absolute_tolerance = 1e-9;
   bool projection = true;
   double newton_tolerance = 1e-10;
@@ -65,12 +65,13 @@ struct SimulationSpec {
               .like("1.4")
               .otherwise("1.4"));
     visit(base::field("tolerance", tolerance,
-                      "switches step control on: error that one step may add, as a share of the "
-                      "mechanism's size for the position of a body, in rad for its rotation, as a "
-                      "share of the largest deformation so far for its deformation")
+                      "switches step control on: error that all steps of the run together may add "
+                      "to its result, as a share of the mechanism's size for the position of a "
+                      "body, in rad for its rotation, as a share of the largest deformation so far "
+                      "for its deformation")
               .positive()
-              .like("1e-5")
-              .otherwise("1e-5 with `step: auto`, else steps are not controlled"));
+              .like("1e-4")
+              .otherwise("1e-3 with `step: auto`, else steps are not controlled"));
     visit(base::field("absolute-tolerance", absolute_tolerance,
                       "error of deformation that is always admitted, as a share of the "
                       "mechanism's size")

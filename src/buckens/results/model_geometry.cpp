@@ -37,7 +37,7 @@ GeometrySide side_of(const model::Model& model, const model::MarkerId& id) {
   GeometrySide side;
   if (id.body == model::kGround) {
     side.body = kGroundBody;
-    side.position = id.X_WF.p;
+    side.position = model.origin + id.X_WF.p;
     return side;
   }
   side.body = model.whole_of(id.body);

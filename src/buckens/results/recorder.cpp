@@ -129,7 +129,7 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
   for (std::size_t w = 0; w < now.model.wholes.size(); ++w) {
     const model::WholeBody& whole = now.model.wholes[w];
     const body::FrameMotion& frame = now.wholes[w];
-    push(frame.X_WB.p);
+    push(now.model.origin + frame.X_WB.p);
     const Eigen::Quaterniond& q = frame.X_WB.q;
     values.insert(values.end(), {q.w(), q.x(), q.y(), q.z()});
     push(frame.v);
@@ -213,9 +213,10 @@ Record Recorder::record(const model::State& state, WorkBalance work,
   append_bodies(now, record.values);
   append_joints_and_loads(now, record.values);
   const dynamics::Energy& e = now.energy;
+  const double datum = dynamics::gravity_datum(model);
   record.values.insert(record.values.end(),
-                       {e.kinetic, e.strain, e.gravity, e.springs, e.total(), now.work.external,
-                        now.work.dissipated, now.work.balance});
+                       {e.kinetic, e.strain, datum + e.gravity, e.springs, datum + e.total(),
+                        now.work.external, now.work.dissipated, now.work.balance});
   for (const auto& sensor : sensors_) {
     if (!started_) sensor->start(now);
     sensor->append(now, record.values);

@@ -67,7 +67,7 @@ class MarkerSensor final : public Sensor {
   std::vector<Channel> channels() const override { return {channel_}; }
   void start(const Observation& now) override { start_ = observe_marker(now, of_).motion; }
   void append(const Observation& now, std::vector<double>& values) override {
-    const Vector3d components = axes_.components(now, value(observe_marker(now, of_)));
+    const Vector3d components = axes_.components(now, value(now, observe_marker(now, of_)));
     if (along_) return values.push_back(along_->dot(components));
     push(components, values);
   }
@@ -79,10 +79,10 @@ class MarkerSensor final : public Sensor {
   }
 
  private:
-  Vector3d value(const MarkerObservation& marker) const {
+  Vector3d value(const Observation& now, const MarkerObservation& marker) const {
     switch (quantity_) {
       case MarkerQuantity::position:
-        return marker.motion.p;
+        return now.model.origin + marker.motion.p;
       case MarkerQuantity::displacement:
         return marker.motion.p - start_.p;
       case MarkerQuantity::velocity:
@@ -297,11 +297,12 @@ class EnergySensor final : public Sensor {
     const dynamics::Energy& e = now.energy;
     switch (kind_) {
       case K::total:
-        return values.push_back(e.total());
+        return values.push_back(dynamics::gravity_datum(now.model) + e.total());
       case K::kinetic:
         return values.push_back(e.kinetic);
       case K::potential:
-        return values.push_back(e.strain + e.gravity + e.springs);
+        return values.push_back(dynamics::gravity_datum(now.model) + e.strain + e.gravity +
+                                e.springs);
       case K::strain:
         return values.push_back(e.strain);
       case K::work:

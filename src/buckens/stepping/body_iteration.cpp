@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "buckens/body/body_lengths.h"
 #include "buckens/dynamics/frame_equation.h"
 
 namespace buckens::stepping {
@@ -33,14 +34,13 @@ double size_of(const Vector6& u, double L) {
   return larger(L * largest(u.head<3>()), largest(u.tail<3>()));
 }
 
-/// Largest change of interface values [m]; that of c_ab·d counts by m L.
-double interface_change(const body::Body& body, const linalg::Vector& dy) {
-  const Eigen::Index rows = body.num_interface_rows();
-  double out = 0;
-  if (rows > 0) out = dy.head(rows).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-  if (dy.size() == rows) return out;
-  const double scale = body.mass * body.length_scale();
-  return larger(out, dy.tail<6>().cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
+/// Per row y = N d what makes it a displacement; c_ab·d counts by m L.
+linalg::Vector lengths_of_rows(const body::Body& body, Eigen::Index rows, double L) {
+  linalg::Vector out(rows);
+  const Eigen::VectorXd interface = body::interface_lengths(body, L);
+  out.head(interface.size()) = interface;
+  out.tail(rows - interface.size()).setConstant(1.0 / (body.mass * body.length_scale()));
+  return out;
 }
 
 /// W⁻¹ f: rotations and translations apart.
@@ -56,18 +56,19 @@ Vector6 frame_answer(const Eigen::Matrix<double, 6, 6>& compliance, const Vector
 double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 
 BodyIteration::BodyIteration(const body::Body& body, const BodyStepOperator* op,
-                             const Scheme& scheme)
-    : body_(&body), op_(op), scheme_(scheme) {
+                             const Scheme& scheme, double L)
+    : body_(&body), op_(op), scheme_(scheme), L_(L) {
   translation_ =
       body.translation_basis * body.translation_basis.transpose() / (scheme.mass * body.mass);
   const Eigen::Index rows = op != nullptr ? op->N().rows() : 0;
+  if (rows > 0) row_lengths_ = lengths_of_rows(body, rows, L);
   for (linalg::Vector* v : {&y_moving, &y_correcting, &change_}) v->setZero(rows);
 }
 
 Eigen::Matrix<double, 6, 6> BodyIteration::frame_compliance(
     const BodyStep& step, const dynamics::BodyMotion& motion) const {
   const body::DeformedMoments moments = step.moments(*body_, motion);
-  const Matrix3d W = scheme_.mass * moments.J +
+  const Matrix3d W = scheme_.mass * (moments.J + body_->stand_in) +
                      scheme_.damping * dynamics::gyroscopic_tangent(moments, motion.frame.w);
   Eigen::Matrix<double, 6, 6> out = Eigen::Matrix<double, 6, 6>::Zero();
   out.topLeftCorner<3, 3>() = restricted_inverse(W, body_->rotation_basis);
@@ -105,10 +106,14 @@ void BodyIteration::find_residual(const BodyStep& step, const dynamics::BodyMoti
     y_moving.noalias() += op_->correction_answer() * step.correction_load;
 }
 
-double BodyIteration::residual_size(double L) const {
-  const double frame = size_of(residual_u, L);
+double BodyIteration::interface_change(const linalg::Vector& dy) const {
+  return dy.cwiseProduct(row_lengths_).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
+
+double BodyIteration::residual_size() const {
+  const double frame = size_of(residual_u, L_);
   if (op_ == nullptr || y_moving.size() == 0) return frame;
-  return larger(frame, interface_change(*body_, y_moving));
+  return larger(frame, interface_change(y_moving));
 }
 
 void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyResponse& correction) {
@@ -128,13 +133,13 @@ void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyRespon
 
 BodyIteration::Moved BodyIteration::advance(BodyStep& step,
                                             const dynamics::BodyResponse& correction,
-                                            const dynamics::BodyResponse& response, double L) {
+                                            const dynamics::BodyResponse& response) {
   Moved out;
   const Vector6 du = residual_u + frame_answer(step.compliance, response.frame_load);
   step.u += du;
   step.correction += correction_u;
-  out.frame = size_of(du, L) + size_of(correction_u, L);
-  out.motion = size_of(step.u, L);
+  out.frame = size_of(du, L_) + size_of(correction_u, L_);
+  out.motion = size_of(step.u, L_);
   if (op_ == nullptr || step.y_end.size() == 0) return out;
   change_ = y_moving;
   if (op_->small_answers().empty()) {
@@ -145,7 +150,7 @@ BodyIteration::Moved BodyIteration::advance(BodyStep& step,
   step.y_end += change_;
   step.correction_load += correction.interface_load;
   step.y_correction += y_correcting;
-  out.interface = interface_change(*body_, change_);
+  out.interface = interface_change(change_);
   return out;
 }
 

@@ -12,7 +12,9 @@ namespace buckens::stepping {
 class BodyIteration {
  public:
   /// @param op of a flexible body, null for a rigid one
-  BodyIteration(const body::Body& body, const BodyStepOperator* op, const Scheme& scheme);
+  /// @param L length that turns rotations into displacements [m]
+  BodyIteration(const body::Body& body, const BodyStepOperator* op, const Scheme& scheme,
+                double L);
 
   bool is_flexible() const { return op_ != nullptr; }
   bool is_quasi_static() const { return op_ != nullptr && op_->is_quasi_static(); }
@@ -25,9 +27,8 @@ class BodyIteration {
   /// @param frame_load at the evaluation instant
   void find_residual(const BodyStep& step, const dynamics::BodyMotion& motion,
                      const Vector6& frame_load);
-  /// Size of what find_residual() found [m]. @param L length that turns rotations into
-  /// displacements
-  double residual_size(double L) const;
+  /// Size of what find_residual() found [m].
+  double residual_size() const;
   /// How the body moves under the row forces that close positions.
   /// @param correction what is of no use to the body is set to zero
   void answer_correction(const BodyStep& step, dynamics::BodyResponse& correction);
@@ -39,9 +40,8 @@ class BodyIteration {
     double motion = 0;     ///< of the frame in the whole step
   };
   /// Adds residual, correction and the answer to the row forces that close velocities.
-  /// @param L length that turns rotations into displacements [m]
   Moved advance(BodyStep& step, const dynamics::BodyResponse& correction,
-                const dynamics::BodyResponse& response, double L);
+                const dynamics::BodyResponse& response);
 
   Vector6 residual_u = Vector6::Zero();
   Vector6 correction_u = Vector6::Zero();  ///< W⁻¹ Gᵀ E
@@ -49,9 +49,14 @@ class BodyIteration {
   linalg::Vector y_correcting;             ///< the correction's own displacement
 
  private:
+  /// Largest change of row values [m].
+  double interface_change(const linalg::Vector& dy) const;
+
   const body::Body* body_;
   const BodyStepOperator* op_;
   Scheme scheme_;
+  double L_;
+  linalg::Vector row_lengths_;   // that make displacements of the rows
   Eigen::Matrix3d translation_;  // W⁻¹ of the translations, always the same
   linalg::Vector change_;
 };

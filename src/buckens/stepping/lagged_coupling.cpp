@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "buckens/body/body_lengths.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
 
@@ -20,6 +21,8 @@ LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& o
       rows_(op.num_dofs()),
       inverse_diagonal_(op.K_hat_diagonal().cwiseInverse()) {
   const linalg::Matrix& patterns = body.flexible->invariants.centrifugal_patterns();
+  const linalg::Vector lengths = body::coordinate_lengths(body);
+  if ((lengths.array() != 1.0).any()) moved_per_load_ = lengths.cwiseProduct(inverse_diagonal_);
   undeformed_ = patterns.transpose() * (inverse_diagonal_.asDiagonal() * patterns);
 }
 
@@ -46,7 +49,8 @@ LaggedCoupling::Sizes LaggedCoupling::compare_loads(TaskPool* pool) {
     change = load - used_.load.segment(first, size);
     sizes.change += change.cwiseAbs2().dot(weight);
     sizes.load += load.cwiseAbs2().dot(weight);
-    sizes.moved = std::max(sizes.moved, change.cwiseProduct(weight).cwiseAbs().maxCoeff());
+    const auto moved = moved_per_load_.size() > 0 ? moved_per_load_.segment(first, size) : weight;
+    sizes.moved = std::max(sizes.moved, change.cwiseProduct(moved).cwiseAbs().maxCoeff());
   });
   Sizes out;
   for (int part = 0; part < rows_.count(); ++part) {

@@ -61,6 +61,7 @@ class LaggedCoupling {
   Scheme scheme_;
   linalg::RowParts rows_;
   linalg::Vector inverse_diagonal_;         // of K̂; empty if there are no loads
+  linalg::Vector moved_per_load_;           // the same as displacements; empty: are some
   Eigen::Matrix<double, 6, 6> undeformed_;  // cᵀ D⁻¹ c of the patterns c
   model::Coupling used_, evaluated_;
   linalg::Vector change_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/body/body_lengths.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::stepping {
@@ -16,19 +17,8 @@ namespace {
 // The first trial, over the longest step, shows roughly how far a body will deform. A tenth of it
 // is taken, so that a wild guess does not make later steps careless.
 constexpr double kTrusted = 0.1;
-
-/// Length that makes each nodal variable a displacement: rotations count by the body's size. That
-/// of another coordinate is the largest displacement in its shape.
-Vector lengths_of(const body::Body& body) {
-  const body::FlexiblePart& part = *body.flexible;
-  Vector out = Vector::Ones(part.mesh().dofs.num_dofs);
-  for (const auto& dofs : part.mesh().dofs.node_dofs) {
-    for (std::size_t k = 3; k < 6; ++k) {
-      if (dofs[k] >= 0 && dofs[k] < out.size()) out[dofs[k]] = body.length_scale();
-    }
-  }
-  return part.recovery.column_sizes(out);
-}
+// Rounding of positions makes differences of 4e-16 of them: no step can be asked for less.
+constexpr double kRounding = 4e-15;
 
 }  // namespace
 
@@ -51,7 +41,7 @@ LocalError::LocalError(const model::Model& model, const ErrorTolerance& toleranc
       largest_(model.bodies.size(), 0.0),
       expected_(model.bodies.size(), 0.0) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].is_flexible()) scale_[b] = lengths_of(model.bodies[b]);
+    if (model.bodies[b].is_flexible()) scale_[b] = body::coordinate_lengths(model.bodies[b]);
   }
 }
 
@@ -116,7 +106,8 @@ double LocalError::deformation_error(std::size_t b, const model::BodyState& end,
   return size_of(b, sum);
 }
 
-ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme) {
+ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme,
+                                   double share) {
   const Difference f = third_difference(end.t);
   const double h = end.t - past_[0].t;
   // x‴ is six times the third divided difference.
@@ -142,14 +133,19 @@ ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme
       way += f.rate * start_.v[b] + f.acceleration * start_.v_dot[b];
       angle += f.rate * start_.w[b] + f.acceleration * start_.w_dot[b];
     }
-    count(way.norm(), tolerance_.relative * model_.length, b, ErrorEstimate::Quantity::position);
-    count(angle.norm(), tolerance_.relative, b, ErrorEstimate::Quantity::rotation);
+    const double reach = std::max(model_.length, s.frame.X_WB.p.cwiseAbs().maxCoeff());
+    count(way.norm(), share * tolerance_.relative * model_.length + kRounding * reach, b,
+          ErrorEstimate::Quantity::position);
+    count(angle.norm(), share * tolerance_.relative + kRounding, b,
+          ErrorEstimate::Quantity::rotation);
     if (s.d.size() == 0) continue;
     const double size = size_of(b, s.d);
     if (is_first_trial_) expected_[b] = kTrusted * size;
     const double seen = std::max({largest_[b], expected_[b], size});
     count(deformation_error(b, s, f),
-          tolerance_.relative * seen + tolerance_.absolute * model_.length, b,
+          share * (tolerance_.relative * seen + tolerance_.absolute * model_.length) +
+              kRounding * seen,
+          b,
           ErrorEstimate::Quantity::deformation);
   }
   is_first_trial_ = false;

@@ -11,9 +11,9 @@
 
 namespace buckens::stepping {
 
-/// How large the error of one step may be. Both are shares, without unit.
+/// How large the errors of all steps together may be. Both are shares, without unit.
 struct ErrorTolerance {
-  double relative = 1e-5;  ///< of the mechanism's size, of 1 rad, of a body's largest deformation
+  double relative = 1e-3;  ///< of the mechanism's size, of 1 rad, of a body's largest deformation
   double absolute = 1e-9;  ///< of the mechanism's size, admitted for deformations in addition
 };
 
@@ -41,7 +41,8 @@ class LocalError {
   void start(const model::State& state);
   bool has_begun() const { return !past_.empty(); }
   /// Error of the step from the last accepted state to `end`.
-  ErrorEstimate estimate(const model::State& end, const Scheme& scheme);
+  /// @param share of the whole tolerance that this step may use up
+  ErrorEstimate estimate(const model::State& end, const Scheme& scheme, double share);
   /// Takes `end` as the next point of the motion.
   void accept(const model::State& end);
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/IterativeLinearSolvers>
 
+#include "buckens/body/body_lengths.h"
+
 namespace buckens::stepping {
 
 using Eigen::RowVectorXd;
@@ -31,14 +33,27 @@ RowVectorXd image(const dynamics::BodyRow& row, const dynamics::BodyCompliance& 
   return out;
 }
 
+/// What makes displacements of an image: rotations count by the length L.
+RowVectorXd lengths_of(const body::Body& body, const dynamics::BodyCompliance& compliance,
+                       double L) {
+  const Eigen::Index values = compliance.interface ? compliance.interface->rows() : 0;
+  RowVectorXd out = RowVectorXd::Ones(6 + values);
+  out.head<3>().setConstant(L);
+  if (values > 0) out.tail(values) = body::interface_lengths(body, L).head(values).transpose();
+  return out;
+}
+
 /// Images of all rows, scaled to unit length.
-linalg::SparseMatrix scaled_images(const std::vector<dynamics::SystemRow>& rows,
+linalg::SparseMatrix scaled_images(const model::Model& model,
+                                   const std::vector<dynamics::SystemRow>& rows,
                                    const std::vector<dynamics::BodyCompliance>& compliance) {
   std::vector<int> first_column;
   int columns = 0;
-  for (const dynamics::BodyCompliance& body : compliance) {
+  std::vector<RowVectorXd> lengths;
+  for (std::size_t b = 0; b < compliance.size(); ++b) {
     first_column.push_back(columns);
-    columns += 6 + (body.interface ? static_cast<int>(body.interface->rows()) : 0);
+    lengths.push_back(lengths_of(model.bodies[b], compliance[b], model.length));
+    columns += static_cast<int>(lengths.back().size());
   }
   std::vector<linalg::Triplet> entries;
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -47,7 +62,7 @@ linalg::SparseMatrix scaled_images(const std::vector<dynamics::SystemRow>& rows,
     for (const dynamics::BodyRow* part : {&rows[r].first, &rows[r].second}) {
       if (part->body == model::kGround) continue;
       const auto b = static_cast<std::size_t>(part->body);
-      const RowVectorXd values = image(*part, compliance[b]);
+      const RowVectorXd values = image(*part, compliance[b]).cwiseProduct(lengths[b]);
       square += values.squaredNorm();
       for (Eigen::Index c = 0; c < values.size(); ++c) {
         if (values[c] == 0.0) continue;
@@ -66,15 +81,15 @@ linalg::SparseMatrix scaled_images(const std::vector<dynamics::SystemRow>& rows,
 
 }  // namespace
 
-linalg::RowRank select_rows(const std::vector<dynamics::SystemRow>& rows,
+linalg::RowRank select_rows(const model::Model& model, const std::vector<dynamics::SystemRow>& rows,
                             const std::vector<dynamics::BodyCompliance>& compliance) {
-  return linalg::split_rows(scaled_images(rows, compliance), kTolerance);
+  return linalg::split_rows(scaled_images(model, rows, compliance), kTolerance);
 }
 
-std::vector<int> rows_behind(const std::vector<dynamics::SystemRow>& rows,
+std::vector<int> rows_behind(const model::Model& model, const std::vector<dynamics::SystemRow>& rows,
                              const std::vector<dynamics::BodyCompliance>& compliance,
                              const std::vector<int>& independent, int row) {
-  const linalg::SparseMatrix columns = scaled_images(rows, compliance).transpose();
+  const linalg::SparseMatrix columns = scaled_images(model, rows, compliance).transpose();
   linalg::SparseMatrix chosen(columns.rows(), static_cast<Eigen::Index>(independent.size()));
   std::vector<linalg::Triplet> entries;
   for (std::size_t k = 0; k < independent.size(); ++k) {

@@ -74,7 +74,7 @@ std::string RowWatch::describe_contradiction(
     const std::vector<dynamics::BodyCompliance>& compliance, const std::vector<int>& in_use) const {
   const auto [open, number] = model_.owner_of_row(row);
   std::vector<std::string> others;
-  for (const int other : rows_behind(rows, compliance, in_use, row)) {
+  for (const int other : rows_behind(model_, rows, compliance, in_use, row)) {
     const model::Joint* owner = model_.owner_of_row(other).first;
     const std::string text = describe_joint(*owner);
     if (owner != open && (others.empty() || others.back() != text)) others.push_back(text);

@@ -80,7 +80,7 @@ void StepLadder::visit_saved(const base::SaveVisit& visit) {
   visit.counts("last_used", last_used, 0, kMostCounted);
   visit.count("uses", uses_, 0, kMostCounted);
   if (visit.is_restoring()) {
-    const bool is_sound = !rungs.empty() && rungs.size() <= kMostKept &&
+    const bool is_sound = !rungs.empty() && rungs.size() <= limits_.most_kept &&
                           rungs.size() == last_used.size() &&
                           std::set<int>(rungs.begin(), rungs.end()).size() == rungs.size();
     if (!is_sound) visit.refuse("rungs", "no such set of steps can be in use");
@@ -132,6 +132,7 @@ void LocalError::visit_saved(const base::SaveVisit& visit) {
 void TimeMarch::visit_saved(const base::SaveVisit& visit) {
   visit.count("ticks", ticks_, 0, end_);
   visit.count("rung", k_, 0, shortest());
+  visit.number("spread", spread_);
   visit.flag("has_begun", has_begun_);
   visit.count("accepted", report_.accepted, 0, kMostCounted);
   visit.count("rejected", report_.rejected, 0, kMostCounted);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/model_scales.h"
 #include "buckens/stepping/row_selection.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -24,8 +25,12 @@ constexpr double kPivotDrop = 1e-3;
 // Convergence is linear with the frozen matrix of the step: what the next iteration would change is
 // known from the last two. It has to be this much smaller than what the tolerance admits.
 constexpr double kForeseen = 0.01;
-// What rounding of positions leaves open, relative to the model's length.
+// What rounding of positions leaves open, relative to the model's length, or to the distance from
+// the origin where that is more.
 constexpr double kRounding = 1e-15;
+// A change that no longer falls is rounding if it is below these shares of the same lengths.
+constexpr double kStalled = 1e-11;
+constexpr double kStalledFarAway = 1e-14;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
@@ -53,6 +58,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       operators_(std::move(operators)),
       rows_in_use_(std::move(rows_in_use)),
       watch_(model),
+      rounding_length_(model.length),
       joints_(model) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
@@ -64,7 +70,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
   shares_.reserve(count);
   for (std::size_t b = 0; b < count; ++b) {
     const Eigen::Index rows = operators_[b] ? operators_[b]->N().rows() : 0;
-    shares_.emplace_back(model.bodies[b], operators_[b], scheme);
+    shares_.emplace_back(model.bodies[b], operators_[b], scheme, model.length);
     has_quasi_static_ = has_quasi_static_ || shares_[b].is_quasi_static();
     correction_[b].interface_load.setZero(rows);
     response_[b].interface_load.setZero(rows);
@@ -123,6 +129,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     compliance_[b].frame = bodies[b].compliance;
     compliance_[b].interface = operators_[b] ? &operators_[b]->interface_compliance() : nullptr;
   }
+  rounding_length_ = dynamics::rounding_length(model_, end_);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), soft_);
   bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
@@ -218,7 +225,7 @@ bool SmallNewton::select_rows_anew(double t) {
   }
   dynamics::Constraints all;
   dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
-  linalg::RowRank rank = select_rows(all.rows, compliance);
+  linalg::RowRank rank = select_rows(model_, all.rows, compliance);
   dependent_ = std::move(rank.dependent);
   // Fewer rows mean a dead centre: the step goes on with those it has, or fails and says so.
   if (rank.independent == rows_in_use_ || rank.independent.size() < rows_in_use_.size()) {
@@ -290,7 +297,7 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
   Change change;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyIteration::Moved moved =
-        shares_[b].advance(bodies[b], correction_[b], response_[b], model_.length);
+        shares_[b].advance(bodies[b], correction_[b], response_[b]);
     if (!(moved.frame <= change.size)) restless_body_ = b;
     change.size = larger(change.size, moved.frame);
     change.motion = larger(change.motion, moved.motion);
@@ -304,13 +311,12 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
 }
 
 bool SmallNewton::settled(const Change& change, const Change& before) const {
-  // Rounding of positions bounds what any iteration can reach, or a change that no longer
-  // falls and is within 1e-11 L.
+  // Rounding of positions bounds what any iteration can reach, or a change that no longer falls.
   const double enough = admitted(change.motion);
-  if (change.size <= enough + kRounding * model_.length) return true;
+  if (change.size <= enough + kRounding * rounding_length_) return true;
   if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
   return before.size > 0.0 && change.size > 0.3 * before.size &&
-         change.size <= 1e-11 * model_.length;
+         change.size <= kStalled * model_.length + kStalledFarAway * rounding_length_;
 }
 
 void SmallNewton::record_residuals(StepReport& report) const {
@@ -325,7 +331,7 @@ double SmallNewton::find_residuals(const std::vector<BodyStep>& bodies) {
   double open = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     shares_[b].find_residual(bodies[b], at_evaluation()[b], forces_.frame[b]);
-    open = larger(open, shares_[b].residual_size(model_.length));
+    open = larger(open, shares_[b].residual_size());
   }
   return open;
 }
@@ -374,7 +380,7 @@ void SmallNewton::iterate_on(std::vector<BodyStep>& bodies, double t, Vector& la
   const double open = find_residuals(bodies);
   // Left open in every step, rounding of positions adds up in rates, which are 1/h of them: whoever
   // iterates the coupling to its end is not spared that.
-  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * model_.length;
+  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
   if (open <= kForeseen * admitted(motion_) + rounding) return;
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }

@@ -24,10 +24,11 @@ void add(StepSeconds& sum, const StepSeconds& seconds) {
 }  // namespace
 
 StepLadder::StepLadder(const model::Model& model, const StepSettings& settings,
-                       std::vector<int> rows_in_use)
+                       std::vector<int> rows_in_use, const Limits& limits)
     : model_(model),
       settings_(settings),
       rows_in_use_(std::move(rows_in_use)),
+      limits_(limits),
       retired_counts_(model.bodies.size()) {
   rung(0);
 }
@@ -51,8 +52,10 @@ std::unique_ptr<Stepper> StepLadder::make_stepper(int k) {
   StepSettings settings = settings_;
   settings.step = step(k);
   auto out = std::make_unique<Stepper>(model_, settings, rows_in_use_);
-  built_.resize(std::max(built_.size(), static_cast<std::size_t>(k) + 1), 0);
-  ++built_[static_cast<std::size_t>(k)];
+  factorisations_.resize(std::max(factorisations_.size(), static_cast<std::size_t>(k) + 1), 0);
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    factorisations_[static_cast<std::size_t>(k)] += out->counts(b).factorisations;
+  }
   return out;
 }
 
@@ -66,7 +69,7 @@ void StepLadder::make_room(double entries) {
   while (rungs_.size() >= 2) {
     double sum = entries;
     for (const Rung& rung : rungs_) sum += rung.stepper->factor_entries();
-    if (rungs_.size() < kMostKept && sum <= kMostEntries) return;
+    if (rungs_.size() < limits_.most_kept && sum <= limits_.most_entries) return;
     const auto oldest =
         std::min_element(rungs_.begin(), rungs_.end(),
                          [](const Rung& a, const Rung& b) { return a.last_used < b.last_used; });
@@ -96,10 +99,7 @@ StepSeconds StepLadder::seconds() const {
 
 long StepLadder::factorisations(int k) const {
   const auto index = static_cast<std::size_t>(k);
-  if (index >= built_.size()) return 0;
-  const auto flexible = std::count_if(model_.bodies.begin(), model_.bodies.end(),
-                                      [](const body::Body& body) { return body.is_flexible(); });
-  return built_[index] * flexible;
+  return index < factorisations_.size() ? factorisations_[index] : 0;
 }
 
 }  // namespace buckens::stepping

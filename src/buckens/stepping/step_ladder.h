@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "buckens/stepping/stepper.h"
@@ -10,17 +11,22 @@ namespace buckens::stepping {
 
 /// Steppers for steps h, h/2, h/4, …: factorised when first needed, and kept.
 ///
-/// Memory is bounded: when a new one comes and more than kMostKept would stay, or their factors
-/// would hold more than kMostEntries numbers together, those not used for longest go. The last two
-/// stay in any case.
+/// Memory is bounded: when a new one comes and more than Limits::most_kept would stay, or their
+/// factors would hold more than Limits::most_entries numbers together, those not used for longest
+/// go. The one used last and the new one stay in any case.
 class StepLadder {
  public:
-  static constexpr std::size_t kMostKept = 8;
   static constexpr int kMostRung = 20;
-  static constexpr double kMostEntries = 1.25e8;  ///< 1 GB
+  struct Limits {
+    std::size_t most_kept = 8;
+    double most_entries = 1.25e8;  ///< of all factors together: 1 GB
+  };
 
   /// Factorises for the longest step. @param settings `step` is the longest
-  StepLadder(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use);
+  StepLadder(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use,
+             const Limits& limits);
+  StepLadder(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use)
+      : StepLadder(model, settings, std::move(rows_in_use), Limits{}) {}
 
   /// Stepper for steps h·2⁻ᵏ. The reference holds until the next call.
   Stepper& rung(int k);
@@ -32,8 +38,11 @@ class StepLadder {
   /// Of all rungs together, those given up included.
   SolveCounts counts(std::size_t body) const;
   StepSeconds seconds() const;
-  /// Factorisations made for one rung, all bodies together.
+  /// Factorisations made for one rung, all bodies together: one for bodies that share a factor, none
+  /// for reduced ones; again each time that a rung was given up and came back.
   long factorisations(int k) const;
+  /// Rungs that are kept at present.
+  std::size_t num_kept() const { return rungs_.size(); }
 
   /// Saves what steps to come depend on, or takes it back.
   /// @throws InputError where it does not fit
@@ -53,8 +62,9 @@ class StepLadder {
   const model::Model& model_;
   StepSettings settings_;
   std::vector<int> rows_in_use_;
+  Limits limits_;
   std::vector<Rung> rungs_;
-  std::vector<long> built_;  ///< how often, per k
+  std::vector<long> factorisations_;  ///< per k
   long uses_ = 0;
   std::vector<SolveCounts> retired_counts_;  ///< per body
   StepSeconds retired_seconds_;

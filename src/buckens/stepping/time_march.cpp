@@ -15,10 +15,13 @@ namespace {
 
 constexpr long kTicks = 1L << TimeMarch::kShortestRung;  // per longest step
 
-// The error of a step falls with h³. A new length aims at this share of what is admitted; a step
-// twice as long is taken when its error is expected to be below it.
+// The error of a step falls with h³, the error that it may make with h. A new length aims at this
+// share of what is admitted; a step twice as long is taken when its error is expected to be below
+// it.
 constexpr double kAim = 0.8;
 constexpr double kPerHalving = 8.0;
+// How fast the error that is admitted to an event fades in the steps after it.
+constexpr double kFade = 0.5;
 constexpr int kMostAtOnce = 5;
 
 StepSettings with_longest_step(StepSettings settings, const MarchSettings& march) {
@@ -50,6 +53,7 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
+  spread_ = std::max(next_step(), kFade * spread_);
   for (;;) {
     Stepper& stepper = ladder_.rung(k_);
     StepReport report;
@@ -77,7 +81,7 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
 
 bool TimeMarch::is_admitted(const model::State& after, const Scheme& scheme) {
   if (!error_) return true;
-  estimate_ = error_->estimate(after, scheme);
+  estimate_ = error_->estimate(after, scheme, spread_ / march_.duration);
   if (estimate_.ratio <= 1.0) return true;
   ++report_.rejected;
   const double wanted = std::log2(estimate_.ratio / kAim) / std::log2(kPerHalving);
@@ -97,7 +101,9 @@ void TimeMarch::choose_next() {
     while (k_ > 0 && fits(k_ - 1)) --k_;
     return;
   }
-  if (k_ > 0 && fits(k_ - 1) && kPerHalving * estimate_.ratio < kAim) --k_;
+  if (k_ == 0 || !fits(k_ - 1)) return;
+  const double next_spread = std::max(ladder_.step(k_ - 1), kFade * spread_);
+  if (kPerHalving * estimate_.ratio * spread_ < kAim * next_spread) --k_;
 }
 
 void TimeMarch::give_up(const std::string& why) const {

@@ -107,24 +107,23 @@ TEST(FrameCoordinates, MissingInertiaDropsARotationAndSaysSo) {
   rod.mass = 1.0;
   const Matrix3d R = spatial::exp_rotation({0.1, 0.7, 0.4}).toRotationMatrix();
   rod.J0 = R * Vector3d(0.0, 0.1, 0.1).asDiagonal() * R.transpose();
-  std::vector<std::string> notes;
-  select_frame_coordinates(rod, std::nullopt, notes);
+  select_frame_coordinates(rod, std::nullopt);
   ASSERT_EQ(rod.rotation_basis.cols(), 2);
   EXPECT_LE((rod.rotation_basis.transpose() * R.col(0)).norm(), 1e-12);
   EXPECT_EQ(rod.translation_basis.cols(), 3);
-  ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes[0].find("\"rod\""), std::string::npos);
+  ASSERT_EQ(rod.missing_rotations.cols(), 1);
+  EXPECT_NEAR(std::abs(rod.missing_rotations.col(0).dot(R.col(0))), 1.0, 1e-12);
+  EXPECT_NE(missing_inertia_note(rod, R.col(0)).find("\"rod\""), std::string::npos);
 }
 
 TEST(FrameCoordinates, PlanarBodiesKeepThree) {
   Body body;
   body.mass = 1.0;
   body.J0 = Vector3d(0.0, 0.0, 0.1).asDiagonal();  // planar data only
-  std::vector<std::string> notes;
-  select_frame_coordinates(body, Vector3d::UnitZ(), notes);
+  select_frame_coordinates(body, Vector3d::UnitZ());
   EXPECT_EQ(body.rotation_basis.cols(), 1);
   EXPECT_EQ(body.translation_basis.cols(), 2);
-  EXPECT_TRUE(notes.empty());
+  EXPECT_EQ(body.missing_rotations.cols(), 0);
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ class Mechanism {
     body.name = "b" + std::to_string(model_.bodies.size());
     std::optional<Eigen::Vector3d> normal;
     if (model_.planar) normal = spatial::normal(*model_.planar);
-    body::select_frame_coordinates(body, normal, model_.notes);
+    body::select_frame_coordinates(body, normal);
     model_.bodies.push_back(std::move(body));
     model_.placed.push_back(X_WB);
     return static_cast<int>(model_.bodies.size()) - 1;

@@ -3,6 +3,7 @@
 #include "buckens/linalg/panel_factor.h"
 
 #include <array>
+#include <cstdint>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -237,8 +238,8 @@ TEST(PanelFactor, LetsTheMemoryOfItsSourceGoAsItReads) {
     Matrix L = Matrix(dense_definite(n)).llt().matrixL();
     std::vector<int> permutation(static_cast<std::size_t>(n));
     std::iota(permutation.begin(), permutation.end(), 0);
-    const std::array<int, 2> columns = {0, n}, begin = {0, n};
-    const std::array<int, 2> values = {0, 0};
+    const std::array<int, 2> columns = {0, n};
+    const std::array<std::int64_t, 2> begin = {0, n}, values = {0, 0};
     Supernodes source;
     source.size = n;
     source.count = 1;

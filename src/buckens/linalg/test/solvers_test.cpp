@@ -2,12 +2,16 @@
 // Sparse solvers against dense ones.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/conjugate_gradients.h"
@@ -73,6 +77,88 @@ TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {
   SparseMatrix large = definite(5000);  // the supernodal route
   large.coeffRef(1234, 1234) = -5.0;
   EXPECT_THROW(SparseCholesky{large}, NumericalError);
+}
+
+/// What a failed factorisation says.
+std::string refusal(const SparseMatrix& A, const CholeskyOptions& options = {}) {
+  try {
+    const SparseCholesky factor(A, options);
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(SparseCholesky, SaysWhereAMatrixIsIndefinite) {
+  for (const int n : {kSize, 5000}) {
+    SparseMatrix A = definite(n);
+    A.coeffRef(17, 17) = -5.0;
+    try {
+      const SparseCholesky factor(A);
+      FAIL() << n;
+    } catch (const IndefiniteMatrix& error) {
+      // Its own pivot, or that of a neighbour which is eliminated after it.
+      const std::string text = error.what();
+      EXPECT_NE(text.find("size " + std::to_string(n) + " is not positive definite"),
+                std::string::npos)
+          << text;
+      EXPECT_NE(text.find("column " + std::to_string(error.column())), std::string::npos) << text;
+      EXPECT_EQ(error.column(), 17);
+    }
+  }
+}
+
+TEST(SparseCholesky, SaysWhichEntryIsNotFinite) {
+  SparseMatrix A = definite();
+  A.coeffRef(9, 8) = std::nan("");
+  EXPECT_NE(refusal(A).find("not finite (row 9, column 8"), std::string::npos) << refusal(A);
+}
+
+TEST(SparseCholesky, SaysHowMuchMemoryItNeeds) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need more address space than the limit";
+#endif
+  // A full matrix as a sparse one: its factor of 4000²/2 numbers takes 64 MB or more.
+  const int n = 4000;
+  SparseMatrix A(n, n);
+  A.reserve(Eigen::VectorXi::Constant(n, n));
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) A.insert(i, j) = i == j ? 2.0 * n : 1.0;
+  }
+  A.makeCompressed();
+  const auto in_little_memory = [&] {
+    std::ifstream statm("/proc/self/statm");
+    rlim_t pages = 0;
+    statm >> pages;
+    // Room for the lower triangle (12 bytes an entry) and its analysis, not for the factor.
+    const rlim_t most = pages * 4096 + rlim_t{200} * 1000 * 1000;
+    const rlimit limit{most, most};
+    setrlimit(RLIMIT_AS, &limit);
+    std::fputs(refusal(A, {SolveRoute::panels}).c_str(), stderr);
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(in_little_memory(), testing::ExitedWithCode(0),
+              "not enough memory to factorise a matrix of size 4000 \\(0\\.128 GB");
+}
+
+TEST(SparseCholesky, CountsWiderWhereAFactorNeedsIt) {
+  for (const int n : {kSize, 5000}) {
+    const SparseMatrix A = definite(n);
+    const Matrix B = right_sides(n, 3);
+    for (const SolveRoute route :
+         {SolveRoute::automatic, SolveRoute::panels, SolveRoute::cholmod}) {
+      CholeskyOptions options;
+      options.route = route;
+      const SparseCholesky narrow(A, options);
+      EXPECT_EQ(narrow.index_bits(), 32);
+      options.most_narrow_entries = narrow.num_factor_entries() - 1;
+      const SparseCholesky wide(A, options);
+      EXPECT_EQ(wide.index_bits(), 64);
+      EXPECT_EQ(wide.route(), narrow.route());
+      EXPECT_EQ(wide.num_factor_entries(), narrow.num_factor_entries());
+      EXPECT_EQ(wide.solve(B), narrow.solve(B)) << "the same numbers in the same order";
+    }
+  }
 }
 
 TEST(SparseLu, FactorisesNewValuesInOnePattern) {

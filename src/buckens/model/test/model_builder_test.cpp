@@ -238,6 +238,35 @@ TEST(ModelBuilder, PointMassesDropTheirRotations) {
   EXPECT_THAT(built->model.notes[3], HasSubstr("\"needle\""));
 }
 
+TEST(ModelBuilder, PointMassesKeepRotationsThatJointsTurn) {
+  Described m;
+  m.rigid("bob", 2, {0, -3, 0}, {0, 0, 0});
+  m.joint<joints::SphericalSpec>("ball", "ground", "bob/origin");
+  const auto built = m.build();
+  const body::Body& bob = built->model.bodies[0];
+  // All but that about the line to the joint.
+  ASSERT_EQ(bob.rotation_basis.cols(), 2);
+  EXPECT_NEAR(bob.rotation_basis.row(1).norm(), 0, 1e-12);
+  ASSERT_EQ(bob.missing_rotations.cols(), 1);
+  EXPECT_NEAR(std::abs(bob.missing_rotations(1, 0)), 1, 1e-12);
+  EXPECT_NEAR(bob.stand_in(1, 1), 0, 1e-12);
+  EXPECT_GT(bob.stand_in(0, 0), 0.0);
+  EXPECT_LE(bob.stand_in(0, 0), 0.01 * 2 * 9 * (1 + 1e-12)) << "a hundredth of m l^2 at most";
+  EXPECT_EQ(built->model.notes.size(), 1U);
+}
+
+TEST(ModelBuilder, PointMassesThatTurnTogetherWithoutInertiaAreRefused) {
+  // The middle of the second is where it is hinged to the first: nothing gives both of them inertia
+  // when they turn about the line through the ball joints.
+  Described m;
+  m.rigid("a", 1, {0, 0, 0}, {0, 0, 0});
+  m.rigid("b", 1, {0, 0, 0}, {0, 0, 0});
+  m.joint<joints::FixedSpec>("weld", "a", "b");
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<ModelError>(AllOf(HasSubstr("no rotary inertia"), HasSubstr("\"weld\""),
+                                              HasSubstr("`inertia`"))));
+}
+
 TEST(ModelBuilder, BodiesWithoutMassAreRefused) {
   Described m;
   m.rigid("ghost", 0, {0, 0, 0}, {0, 0, 0});

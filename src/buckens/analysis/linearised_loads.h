@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/system_kinematics.h"
+
+namespace buckens::analysis {
+
+/// Where the coordinates of one body lie among those that joints and loads can see.
+struct BodyCoordinates {
+  int first = 0;         ///< of its coordinates
+  int rotations = 0;     ///< frame rotations along Body::rotation_basis
+  int translations = 0;  ///< frame translations along Body::translation_basis
+  int rows = 0;          ///< interface rows y = N d
+
+  int num_frame() const { return rotations + translations; }
+  int size() const { return num_frame() + rows; }
+};
+
+/// How joints and loads answer small motions of the bodies: what statics, stability and vibrations
+/// are linearised by. Coordinates s body by body: frame, then interface values.
+///
+/// Central differences of the loads and of Gᵀλ with λ held; bodies without common neighbours are
+/// moved together. Steps are 1e-5: rad for rotations, those of nodes too, otherwise of the model's
+/// length. That balances rounding (1e-16/step) and curvature (step²) whatever the unit of length.
+class LinearisedLoads {
+ public:
+  explicit LinearisedLoads(const model::Model& model);
+
+  /// −∂(loads on one body)/∂(coordinates of another that it feels, or of itself).
+  struct Block {
+    std::size_t on, by;
+    Eigen::MatrixXd stiffness;  ///< coordinates of `on` × of `by`
+  };
+  /// All blocks that are not zero by themselves; their order and sizes are always the same.
+  /// @param motions where; rates are taken as they are
+  std::vector<Block> stiffness(const std::vector<dynamics::BodyMotion>& motions, double t,
+                               const linalg::Vector& lambda, double load_factor = 1.0) const;
+
+  /// Derivatives of a scalar, such as a joint row, with respect to the coordinates of its body.
+  linalg::Vector gradient(const dynamics::BodyRow& part) const;
+
+  const std::vector<BodyCoordinates>& bodies() const { return bodies_; }
+  int size() const { return size_; }
+
+ private:
+  double step(std::size_t body, int k) const;
+  linalg::Vector loads_after(const std::vector<dynamics::BodyMotion>& motions, double t,
+                             const linalg::Vector& lambda, double load_factor,
+                             const linalg::Vector& step) const;
+
+  const model::Model& model_;
+  std::vector<BodyCoordinates> bodies_;
+  int size_ = 0;
+  std::vector<Eigen::VectorXd> lengths_;              // of the interface rows of each body
+  std::vector<std::vector<std::size_t>> neighbours_;  // that feel a body's motion, itself too
+  std::vector<std::vector<std::size_t>> colors_;      // no body feels two of one
+};
+
+}  // namespace buckens::analysis
