@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/linalg/blas_kernels.h"
 #include "cli/interruption.h"
 #include "cli/output.h"
 #include "cli/program.h"
+
+#include "buckens/linalg/blas_kernels.h"
 
 int main(int argc, char** argv) {
   buckens::cli::hold_standard_streams();

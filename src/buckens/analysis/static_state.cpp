@@ -60,8 +60,8 @@ double largest_nodal_rotation(const body::Body& body, const Vector& d) {
 }
 
 double closed_share(const model::Model& model, const StaticPoint& point) {
-  return std::max(kClosed, kPositionRounding * dynamics::rounding_length(model, point.poses) /
-                               model.length);
+  return std::max(kClosed,
+                  kPositionRounding * dynamics::rounding_length(model, point.poses) / model.length);
 }
 
 double spring_rounding(const model::Model& model,
@@ -77,7 +77,8 @@ double spring_rounding(const model::Model& model,
       is_displacement = is_displacement || part->frame.tail<3>().cwiseAbs().maxCoeff() > 0.0;
     }
     // Angles are known to rounding wherever the model is; torques count divided by its length.
-    out = std::max(out, 1e-15 * soft.stiffness[k] * (is_displacement ? length : 1.0 / model.length));
+    out =
+        std::max(out, 1e-15 * soft.stiffness[k] * (is_displacement ? length : 1.0 / model.length));
   }
   return out;
 }

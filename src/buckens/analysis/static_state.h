@@ -37,8 +37,7 @@ inline constexpr double kLargestNodalRotation = 0.1;
 double closed_share(const model::Model& model, const StaticPoint& point);
 
 /// Force that rounding of positions leaves in the springs of a model [N].
-double spring_rounding(const model::Model& model,
-                       const std::vector<dynamics::BodyMotion>& motions);
+double spring_rounding(const model::Model& model, const std::vector<dynamics::BodyMotion>& motions);
 
 /// Largest single force that acts in a configuration [N]: weights, loads, joints; torques count
 /// divided by the model's length.

@@ -146,8 +146,8 @@ void StaticSystem::linearise(const StaticPoint& point, const StaticBalance& bala
       put(first_[b] + k, first_[b] + k, 1.0, derivatives_);  // y itself
     }
   }
-  for (auto& block : loads_.stiffness(motions_at(model_, point), t_, point.lambda,
-                                      point.load_factor)) {
+  for (auto& block :
+       loads_.stiffness(motions_at(model_, point), t_, point.lambda, point.load_factor)) {
     const int rows = loads_.bodies()[block.on].rows;
     if (rows > 0) {  // y = K⁺ f on the interface
       const Eigen::MatrixXd loads = block.stiffness.bottomRows(rows);

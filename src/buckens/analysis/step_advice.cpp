@@ -87,8 +87,8 @@ body::FreeModes reported_modes(const model::Model& model, const model::WholeBody
   const body::Body& body = model.bodies[static_cast<std::size_t>(whole.first)];
   if (!body.is_flexible()) return {};
   if (body.flexible->is_quasi_static) return modes_of_mesh(body.flexible->mesh(), kReportedModes);
-  return body::of_body(
-      body.name, [&] { return body::free_free_modes(*body.flexible, kReportedModes); });
+  return body::of_body(body.name,
+                       [&] { return body::free_free_modes(*body.flexible, kReportedModes); });
 }
 
 ExcitedBand excited_band(const body::Body& body) {

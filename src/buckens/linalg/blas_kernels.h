@@ -5,9 +5,9 @@
 
 namespace buckens::linalg {
 
-/// Lets OpenBLAS use the vector instructions that the processor has, once per process. For programs,
-/// before anything else: it concerns the whole process and sets an environment variable meanwhile,
-/// so the library never calls it by itself. Results change in rounding only.
+/// Lets OpenBLAS use the vector instructions that the processor has, once per process. For
+/// programs, before anything else: it concerns the whole process and sets an environment variable
+/// meanwhile, so the library never calls it by itself. Results change in rounding only.
 ///
 /// OpenBLAS chooses kernels by the model number of the processor. One that is newer than the
 /// library gets those for processors without AVX (`Prescott`), which multiply matrices five times

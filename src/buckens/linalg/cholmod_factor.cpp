@@ -189,8 +189,8 @@ class FactorOf final : public CholmodFactor {
 
   /// Largest number that an index of the factor has to hold.
   double reach() const {
-    return std::max({common_.lnz, static_cast<double>(factor_->xsize),
-                     static_cast<double>(factor_->ssize)});
+    return std::max(
+        {common_.lnz, static_cast<double>(factor_->xsize), static_cast<double>(factor_->ssize)});
   }
 
   double predicted_bytes() const {
@@ -205,13 +205,14 @@ class FactorOf final : public CholmodFactor {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) {
       const std::string needed =
           bytes > 0.0 ? fmt::format(" ({} for its factor alone)", gigabytes(bytes)) : "";
-      throw NumericalError(fmt::format("there is not enough memory to {} {}{}; use a coarser mesh, "
-                                       "or divide or reduce the body",
-                                       task, what, needed));
+      throw NumericalError(
+          fmt::format("there is not enough memory to {} {}{}; use a coarser mesh, "
+                      "or divide or reduce the body",
+                      task, what, needed));
     }
-    throw NumericalError(fmt::format(
-        "CHOLMOD could not {} {} (status {}); please report this with the model", task, what,
-        common_.status));
+    throw NumericalError(
+        fmt::format("CHOLMOD could not {} {} (status {}); please report this with the model", task,
+                    what, common_.status));
   }
 
   void release() {

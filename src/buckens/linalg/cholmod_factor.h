@@ -26,7 +26,7 @@ class IndefiniteMatrix : public NumericalError {
 class CholmodFactor {
  public:
   struct Options {
-    bool supernodal = false;  ///< in any case; otherwise where L is dense enough for it
+    bool supernodal = false;       ///< in any case; otherwise where L is dense enough for it
     double most_narrow = INT_MAX;  ///< entries of L that 32-bit indices are taken to reach
   };
   /// Analyses and factorises. In one thread.

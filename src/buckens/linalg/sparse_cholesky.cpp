@@ -21,8 +21,8 @@ struct SparseCholesky::Backend {
 
   void factorise(const SparseMatrix& A, const CholeskyOptions& options) {
     size = A.rows();
-    factor = CholmodFactor::make(
-        A, {options.route == SolveRoute::panels, options.most_narrow_entries});
+    factor =
+        CholmodFactor::make(A, {options.route == SolveRoute::panels, options.most_narrow_entries});
     entries = factor->num_entries();
     index_bits = factor->index_bits();
     if (factor->is_supernodal() && options.route != SolveRoute::cholmod) lay_out(options.simd);

@@ -31,8 +31,7 @@ constexpr int kInstants = 32;
 
 std::string text(const Vector3d& axis) {
   const auto clean = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
-  return fmt::format("({:.3g}, {:.3g}, {:.3g})", clean(axis.x()), clean(axis.y()),
-                     clean(axis.z()));
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", clean(axis.x()), clean(axis.y()), clean(axis.z()));
 }
 
 /// Motion of a marker where the body turns about an axis through its mass centre.

@@ -19,8 +19,8 @@
 #include "buckens/model/find_section.h"
 #include "buckens/model/held_damping.h"
 #include "buckens/model/marker_finder.h"
-#include "buckens/model/mesh_division.h"
 #include "buckens/model/massless_rotations.h"
+#include "buckens/model/mesh_division.h"
 #include "buckens/model/mesh_mechanism.h"
 #include "buckens/model/reduce_bodies.h"
 

@@ -13,8 +13,7 @@ class BodyIteration {
  public:
   /// @param op of a flexible body, null for a rigid one
   /// @param L length that turns rotations into displacements [m]
-  BodyIteration(const body::Body& body, const BodyStepOperator* op, const Scheme& scheme,
-                double L);
+  BodyIteration(const body::Body& body, const BodyStepOperator* op, const Scheme& scheme, double L);
 
   bool is_flexible() const { return op_ != nullptr; }
   bool is_quasi_static() const { return op_ != nullptr && op_->is_quasi_static(); }

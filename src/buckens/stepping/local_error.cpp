@@ -106,8 +106,7 @@ double LocalError::deformation_error(std::size_t b, const model::BodyState& end,
   return size_of(b, sum);
 }
 
-ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme,
-                                   double share) {
+ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme, double share) {
   const Difference f = third_difference(end.t);
   const double h = end.t - past_[0].t;
   // x‴ is six times the third divided difference.
@@ -145,8 +144,7 @@ ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme
     count(deformation_error(b, s, f),
           share * (tolerance_.relative * seen + tolerance_.absolute * model_.length) +
               kRounding * seen,
-          b,
-          ErrorEstimate::Quantity::deformation);
+          b, ErrorEstimate::Quantity::deformation);
   }
   is_first_trial_ = false;
   return out;

@@ -86,7 +86,8 @@ linalg::RowRank select_rows(const model::Model& model, const std::vector<dynamic
   return linalg::split_rows(scaled_images(model, rows, compliance), kTolerance);
 }
 
-std::vector<int> rows_behind(const model::Model& model, const std::vector<dynamics::SystemRow>& rows,
+std::vector<int> rows_behind(const model::Model& model,
+                             const std::vector<dynamics::SystemRow>& rows,
                              const std::vector<dynamics::BodyCompliance>& compliance,
                              const std::vector<int>& independent, int row) {
   const linalg::SparseMatrix columns = scaled_images(model, rows, compliance).transpose();

@@ -22,7 +22,8 @@ linalg::RowRank select_rows(const model::Model& model, const std::vector<dynamic
 /// The rows of `independent` from which a further one follows, as far as a thousandth of their
 /// combination: those that contradict it where it does not hold. Ascending.
 /// Cost: least squares by conjugate gradients; meant for messages.
-std::vector<int> rows_behind(const model::Model& model, const std::vector<dynamics::SystemRow>& rows,
+std::vector<int> rows_behind(const model::Model& model,
+                             const std::vector<dynamics::SystemRow>& rows,
                              const std::vector<dynamics::BodyCompliance>& compliance,
                              const std::vector<int>& independent, int row);
 

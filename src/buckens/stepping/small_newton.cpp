@@ -296,8 +296,7 @@ void SmallNewton::solve_multipliers() {
 SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& lambda) {
   Change change;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const BodyIteration::Moved moved =
-        shares_[b].advance(bodies[b], correction_[b], response_[b]);
+    const BodyIteration::Moved moved = shares_[b].advance(bodies[b], correction_[b], response_[b]);
     if (!(moved.frame <= change.size)) restless_body_ = b;
     change.size = larger(change.size, moved.frame);
     change.motion = larger(change.motion, moved.motion);

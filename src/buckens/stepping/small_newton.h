@@ -119,7 +119,7 @@ class SmallNewton {
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation that is yet to be made, see visit_saved()
 
-  double rounding_length_;      // at the predicted configuration [m]
+  double rounding_length_;  // at the predicted configuration [m]
   dynamics::JointSet joints_;
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
   std::vector<dynamics::BodyMotion> end_, evaluation_, uncorrected_;

@@ -38,8 +38,8 @@ class StepLadder {
   /// Of all rungs together, those given up included.
   SolveCounts counts(std::size_t body) const;
   StepSeconds seconds() const;
-  /// Factorisations made for one rung, all bodies together: one for bodies that share a factor, none
-  /// for reduced ones; again each time that a rung was given up and came back.
+  /// Factorisations made for one rung, all bodies together: one for bodies that share a factor,
+  /// none for reduced ones; again each time that a rung was given up and came back.
   long factorisations(int k) const;
   /// Rungs that are kept at present.
   std::size_t num_kept() const { return rungs_.size(); }

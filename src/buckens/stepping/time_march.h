@@ -35,12 +35,12 @@ struct MarchReport {
 /// Goes from 0 to the end of a run by steps h·2⁻ᵏ.
 ///
 /// With a tolerance k follows the estimated error of each step, of which each may make as large a
-/// share of the tolerance as it is long: together they make no more than the tolerance. While a step
-/// is shortened for an event, such as a load that sets in, it keeps the share of the step that was
-/// tried first; in the steps after it that fades by halves. Without a tolerance k is 0. A step that
-/// does not settle is tried again with half its length, at most kMostHalvings times; afterwards the
-/// march returns to the given step as soon as that fits the grid again. Steps of length h·2⁻ᵏ begin
-/// at multiples of it, so times are exact and the end is met.
+/// share of the tolerance as it is long: together they make no more than the tolerance. While a
+/// step is shortened for an event, such as a load that sets in, it keeps the share of the step that
+/// was tried first; in the steps after it that fades by halves. Without a tolerance k is 0. A step
+/// that does not settle is tried again with half its length, at most kMostHalvings times;
+/// afterwards the march returns to the given step as soon as that fits the grid again. Steps of
+/// length h·2⁻ᵏ begin at multiples of it, so times are exact and the end is met.
 class TimeMarch {
  public:
   static constexpr int kMostHalvings = 8;   ///< without tolerance
@@ -87,7 +87,7 @@ class TimeMarch {
   ErrorEstimate estimate_;
   bool has_begun_ = false;
   int k_ = 0;
-  double spread_ = 0;  ///< time whose share of the tolerance the coming step may use up [s]
+  double spread_ = 0;         ///< time whose share of the tolerance the coming step may use up [s]
   long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step there is
   MarchReport report_;
   std::vector<long> accepted_;  ///< per k

@@ -55,8 +55,8 @@ TEST(LinearisedLoads, DoNotDependOnTheLengthOfTheModel) {
   model::Model& model = bent.built->model;
   const Eigen::MatrixXd expected = dense(LinearisedLoads(model), bent.state, model);
   ASSERT_GT(expected.norm(), 1.0);
-  // The length is a measure for displacements. A node that was turned by 1e-5 of it, in metres taken
-  // for radians, would go round by 0.1 rad on the longer model: 1e-3 wrong.
+  // The length is a measure for displacements. A node that was turned by 1e-5 of it, in metres
+  // taken for radians, would go round by 0.1 rad on the longer model: 1e-3 wrong.
   model.length *= 1e4;
   const Eigen::MatrixXd longer = dense(LinearisedLoads(model), bent.state, model);
   // Rounding of forces over the smallest step: 1e-16 / 1e-5, a hundred forces added up.

@@ -3,8 +3,8 @@
 #include "buckens/linalg/panel_factor.h"
 
 #include <array>
-#include <cstdint>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <numeric>
 #include <string>

@@ -35,8 +35,10 @@ model::Model twins_and_a_reduced_one() {
   const int rod = test::add_rod(m, 1.0, 1.0, {{3.5, 0, 0}, Eigen::Quaterniond::Identity()});
   m.add_joint(joints::JointType::revolute, test::Mechanism::ground({0, 0, 0}),
               m.node_marker(bodies[0], 0));
-  m.add_joint(joints::JointType::revolute, m.node_marker(bodies[0], 8), m.node_marker(bodies[1], 0));
-  m.add_joint(joints::JointType::revolute, m.node_marker(bodies[1], 8), m.node_marker(bodies[2], 0));
+  m.add_joint(joints::JointType::revolute, m.node_marker(bodies[0], 8),
+              m.node_marker(bodies[1], 0));
+  m.add_joint(joints::JointType::revolute, m.node_marker(bodies[1], 8),
+              m.node_marker(bodies[2], 0));
   m.add_joint(joints::JointType::revolute, m.node_marker(bodies[2], 8),
               m.rigid_marker(rod, {-0.5, 0, 0}));
   model::Model model = m.take();
