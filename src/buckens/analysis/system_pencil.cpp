@@ -130,7 +130,7 @@ void SystemPencil::factorise(double mu) {
     const fem::FeModel& fe = body.flexible->fe;
     const body::Sieve& sieve = body.flexible->sieve;
     try {
-      block.factor = std::make_unique<linalg::SparseCholesky>(SparseMatrix(fe.K + mu * fe.M));
+      block.factor = linalg::make_cholesky(SparseMatrix(fe.K + mu * fe.M));
     } catch (const NumericalError& error) {
       throw NumericalError("body \"" + body.name + "\": " + error.text());
     }

@@ -56,7 +56,7 @@ class SystemPencil {
     linalg::Matrix response;     // Y (K + μM)⁻¹ of them
     Eigen::MatrixXd mobility;    // W⁻¹
     Eigen::MatrixXd compliance;  // F of this body
-    std::unique_ptr<linalg::SparseCholesky> factor;
+    std::shared_ptr<const linalg::Factor> factor;
   };
 
   void add_masses();

@@ -57,7 +57,7 @@ Fingerprint fingerprint(const SparseMatrix& A) {
 
 struct SolveExchange::Known {
   Fingerprint print;
-  std::weak_ptr<const SparseCholesky> factor;
+  std::weak_ptr<const Factor> factor;
 };
 
 struct SolveExchange::Participant {
@@ -65,7 +65,7 @@ struct SolveExchange::Participant {
   bool is_done = false;
   std::exception_ptr error;  ///< that ended it
   // What it waits for:
-  const SparseCholesky* factor = nullptr;
+  const Factor* factor = nullptr;
   std::span<double* const> vectors;
   TaskPool* pool = nullptr;
   std::exception_ptr refusal;  ///< of the solve
@@ -100,24 +100,24 @@ struct SolveExchange::Turns {
   }
 };
 
-SolveExchange::SolveExchange() : turns_(std::make_unique<Turns>()) {}
+SolveExchange::SolveExchange(MakeFactor make)
+    : make_(std::move(make)), turns_(std::make_unique<Turns>()) {}
 SolveExchange::~SolveExchange() = default;
 
-std::shared_ptr<const SparseCholesky> SolveExchange::factor(const SparseMatrix& A) {
+std::shared_ptr<const Factor> SolveExchange::factor(const SparseMatrix& A) {
   std::erase_if(known_, [](const Known& known) { return known.factor.expired(); });
   const Fingerprint print = fingerprint(A);
   for (const Known& known : known_) {
     if (known.print != print) continue;
     if (auto factor = known.factor.lock()) return factor;
   }
-  auto factor = std::make_shared<const SparseCholesky>(A);
+  auto factor = make_(A);
   ++num_factorisations_;
   known_.push_back({print, factor});
   return factor;
 }
 
-void SolveExchange::solve(const SparseCholesky& factor, std::span<double* const> vectors,
-                          TaskPool* pool) {
+void SolveExchange::solve(const Factor& factor, std::span<double* const> vectors, TaskPool* pool) {
   const std::optional<std::size_t> caller = turns_->running;
   if (!caller || factor.num_factor_entries() < kLeastEntries) {
     factor.solve_in_place(vectors, pool);
@@ -166,7 +166,7 @@ void SolveExchange::solve_waiting() {
   }
 }
 
-void SolveExchange::solve_together(const SparseCholesky& factor) {
+void SolveExchange::solve_together(const Factor& factor) {
   std::vector<Participant*> group;
   for (const auto& participant : participants_) {
     if (participant->factor == &factor) group.push_back(participant.get());
@@ -180,7 +180,7 @@ void SolveExchange::solve_together(const SparseCholesky& factor) {
 }
 
 void SolveExchange::solve_group(const std::vector<Participant*>& group) {
-  const SparseCholesky& factor = *group.front()->factor;
+  const Factor& factor = *group.front()->factor;
   TaskPool* pool = group.front()->pool;
   ++num_passes_;
   vectors_.clear();

@@ -20,18 +20,18 @@ namespace buckens::linalg {
 /// results do not depend on timing.
 class SolveExchange {
  public:
-  SolveExchange();
+  /// @param make who factorises
+  explicit SolveExchange(MakeFactor make = make_cholesky);
   ~SolveExchange();
 
   /// Factor of a symmetric positive definite matrix. Matrices that are equal to the last bit share
   /// one as long as somebody holds it. Call from participants, or while nobody runs.
-  /// @throws NumericalError as SparseCholesky does
-  std::shared_ptr<const SparseCholesky> factor(const SparseMatrix& A);
+  /// @throws NumericalError as the MakeFactor does
+  std::shared_ptr<const Factor> factor(const SparseMatrix& A);
 
   /// x ← A⁻¹ x for some vectors by a factor from factor(): together with the others if a
   /// participant calls.
-  void solve(const SparseCholesky& factor, std::span<double* const> vectors,
-             TaskPool* pool = nullptr);
+  void solve(const Factor& factor, std::span<double* const> vectors, TaskPool* pool = nullptr);
 
   /// Runs all participants to their ends, each on a thread of its own.
   /// @throws the first exception that a participant left, after all have ended
@@ -47,9 +47,10 @@ class SolveExchange {
   struct Turns;
 
   void solve_waiting();
-  void solve_together(const SparseCholesky& factor);
+  void solve_together(const Factor& factor);
   void solve_group(const std::vector<Participant*>& group);
 
+  MakeFactor make_;
   std::vector<Known> known_;
   std::vector<std::unique_ptr<Participant>> participants_;  // of the run that goes on
   std::unique_ptr<Turns> turns_;

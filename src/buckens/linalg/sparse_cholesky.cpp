@@ -35,14 +35,13 @@ struct SparseCholesky::Backend {
     factor.reset();
   }
 
-  void solve(const double* rhs, double* x, Eigen::Index rows, Eigen::Index columns,
-             TaskPool* pool) {
-    if (rows == 0 || columns == 0) return;
+  void solve(const double* rhs, double* x, Eigen::Index columns, TaskPool* pool) {
+    if (size == 0 || columns == 0) return;
     const std::scoped_lock lock(turn);
     if (panels) {
-      panels->solve(rhs, x, columns, rows, workspace, pool);
+      panels->solve(rhs, x, columns, size, workspace, pool);
     } else {
-      factor->solve(rhs, x, rows, columns);
+      factor->solve(rhs, x, size, columns);
     }
   }
 
@@ -91,22 +90,16 @@ double SparseCholesky::bytes() const {
   return backend_->panels ? backend_->panels->bytes() : backend_->factor->bytes();
 }
 
-void SparseCholesky::solve_in_place(Vector& x, TaskPool* pool) const {
-  backend_->solve(x.data(), x.data(), x.size(), 1, pool);
-}
-
-void SparseCholesky::solve_in_place(Matrix& X, TaskPool* pool) const {
-  backend_->solve(X.data(), X.data(), X.rows(), X.cols(), pool);
+void SparseCholesky::solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const {
+  backend_->solve(B, X, columns, pool);
 }
 
 void SparseCholesky::solve_in_place(std::span<double* const> vectors, TaskPool* pool) const {
   backend_->solve_in_place(vectors, pool);
 }
 
-Matrix SparseCholesky::solve(const Matrix& B, TaskPool* pool) const {
-  Matrix X(B.rows(), B.cols());
-  backend_->solve(B.data(), X.data(), B.rows(), B.cols(), pool);
-  return X;
+std::shared_ptr<const Factor> make_cholesky(const SparseMatrix& A) {
+  return std::make_shared<const SparseCholesky>(A);
 }
 
 }  // namespace buckens::linalg

@@ -5,9 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "buckens/base/task_pool.h"
 #include "buckens/linalg/cholmod_factor.h"
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/factor.h"
 #include "buckens/linalg/simd_level.h"
 
 namespace buckens::linalg {
@@ -32,21 +31,19 @@ struct CholeskyOptions {
 /// factors are then laid out anew for solving (PanelFactor) and CHOLMOD's copy is freed.
 /// Solving allocates nothing after the first call of a given number of right-hand sides. Solves
 /// from several threads wait for one another.
-class SparseCholesky {
+class SparseCholesky final : public Factor {
  public:
   /// @param A symmetric, both triangles stored
   /// @throws IndefiniteMatrix if A is not positive definite
   /// @throws NumericalError if A is not finite or its factor does not fit into memory
   explicit SparseCholesky(const SparseMatrix& A, const CholeskyOptions& options = {});
-  ~SparseCholesky();
+  ~SparseCholesky() override;
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  Eigen::Index size() const;
-  /// Entries of L.
-  double num_factor_entries() const;
-  /// Bytes that each of the two passes of a solve reads.
-  double bytes() const;
+  Eigen::Index size() const override;
+  double num_factor_entries() const override;
+  double bytes() const override;
   /// Parts of a solve that two threads can carry out at the same time: 1 or 2.
   int num_parts() const;
   /// Never `automatic`.
@@ -57,19 +54,19 @@ class SparseCholesky {
   /// @return false if the factor has no dense parts to lay out; then nothing changes
   bool take_panels(SimdLevel simd = best_simd_level());
 
-  /// x ← A⁻¹ x. Cost: two passes over the factor.
+  using Factor::solve;
+  using Factor::solve_in_place;
+  /// Up to 32 columns read the factor together.
   /// @param pool shares the work of large factors between two threads; the result is the same
-  void solve_in_place(Vector& x, TaskPool* pool = nullptr) const;
-  /// X ← A⁻¹ X for several right-hand sides at once: up to 32 read the factor together.
-  void solve_in_place(Matrix& X, TaskPool* pool = nullptr) const;
-  /// The same for vectors that lie anywhere.
-  void solve_in_place(std::span<double* const> vectors, TaskPool* pool = nullptr) const;
-  /// A⁻¹ B.
-  Matrix solve(const Matrix& B, TaskPool* pool = nullptr) const;
+  void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override;
+  void solve_in_place(std::span<double* const> vectors, TaskPool* pool = nullptr) const override;
 
  private:
   struct Backend;
   std::unique_ptr<Backend> backend_;
 };
+
+/// The MakeFactor of this library: a SparseCholesky with default options.
+std::shared_ptr<const Factor> make_cholesky(const SparseMatrix& A);
 
 }  // namespace buckens::linalg

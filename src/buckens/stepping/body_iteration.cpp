@@ -55,12 +55,12 @@ Vector6 frame_answer(const Eigen::Matrix<double, 6, 6>& compliance, const Vector
 
 double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 
-BodyIteration::BodyIteration(const body::Body& body, const BodyStepOperator* op,
-                             const Scheme& scheme, double L)
-    : body_(&body), op_(op), scheme_(scheme), L_(L) {
+BodyIteration::BodyIteration(const body::Body& body, const BodyAnswer* answer, const Scheme& scheme,
+                             double L)
+    : body_(&body), answer_(answer), scheme_(scheme), L_(L) {
   translation_ =
       body.translation_basis * body.translation_basis.transpose() / (scheme.mass * body.mass);
-  const Eigen::Index rows = op != nullptr ? op->N().rows() : 0;
+  const Eigen::Index rows = answer != nullptr ? answer->num_rows() : 0;
   if (rows > 0) row_lengths_ = lengths_of_rows(body, rows, L);
   for (linalg::Vector* v : {&y_moving, &y_correcting, &change_}) v->setZero(rows);
 }
@@ -82,7 +82,7 @@ void BodyIteration::find_residual(const BodyStep& step, const dynamics::BodyMoti
   const Vector3d w_dot = acceleration.head<3>();
   const Vector3d& w = motion.frame.w;
   Vector6 inertia;
-  if (op_ == nullptr) {
+  if (answer_ == nullptr) {
     inertia.head<3>() = body_->J0 * w_dot + w.cross(body_->J0 * w);
     inertia.tail<3>() = body_->mass * acceleration.tail<3>();
   } else {
@@ -90,20 +90,20 @@ void BodyIteration::find_residual(const BodyStep& step, const dynamics::BodyMoti
                                       acceleration.tail<3>());
   }
   residual_u = frame_answer(step.compliance, scheme_.force * (frame_load - inertia));
-  if (op_ == nullptr) return;
+  if (answer_ == nullptr) return;
   y_moving = step.y_free - step.y_end;
-  const SmallBodyAnswers& small = op_->small_answers();
+  const SmallBodyAnswers& small = answer_->small_answers();
   if (!small.empty()) {
-    if (op_->corrects_outside()) {
+    if (answer_->corrects_outside()) {
       small.add(scheme_.force, step.load, y_moving);
     } else {
       small.add(scheme_.force, step.load, step.correction_load, y_moving);
     }
     return;
   }
-  y_moving.noalias() += scheme_.force * (op_->compliance() * step.load);
-  if (!op_->corrects_outside())
-    y_moving.noalias() += op_->correction_answer() * step.correction_load;
+  y_moving.noalias() += scheme_.force * (answer_->compliance() * step.load);
+  if (!answer_->corrects_outside())
+    y_moving.noalias() += answer_->correction_answer() * step.correction_load;
 }
 
 double BodyIteration::interface_change(const linalg::Vector& dy) const {
@@ -112,22 +112,22 @@ double BodyIteration::interface_change(const linalg::Vector& dy) const {
 
 double BodyIteration::residual_size() const {
   const double frame = size_of(residual_u, L_);
-  if (op_ == nullptr || y_moving.size() == 0) return frame;
+  if (answer_ == nullptr || y_moving.size() == 0) return frame;
   return larger(frame, interface_change(y_moving));
 }
 
 void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyResponse& correction) {
   correction_u = frame_answer(step.compliance, correction.frame_load);
-  if (op_ == nullptr) return;
+  if (answer_ == nullptr) return;
   // Frames alone close what a changed deformation opens.
-  if (op_->is_quasi_static()) correction.interface_load.setZero();
-  if (!op_->small_answers().empty()) {
-    op_->small_answers().correct(correction.interface_load, y_correcting, y_moving);
+  if (answer_->is_quasi_static()) correction.interface_load.setZero();
+  if (!answer_->small_answers().empty()) {
+    answer_->small_answers().correct(correction.interface_load, y_correcting, y_moving);
     return;
   }
-  y_correcting.noalias() = op_->compliance() * correction.interface_load;
-  if (!op_->corrects_outside()) {
-    y_moving.noalias() += op_->correction_answer() * correction.interface_load;
+  y_correcting.noalias() = answer_->compliance() * correction.interface_load;
+  if (!answer_->corrects_outside()) {
+    y_moving.noalias() += answer_->correction_answer() * correction.interface_load;
   }
 }
 
@@ -140,12 +140,12 @@ BodyIteration::Moved BodyIteration::advance(BodyStep& step,
   step.correction += correction_u;
   out.frame = size_of(du, L_) + size_of(correction_u, L_);
   out.motion = size_of(step.u, L_);
-  if (op_ == nullptr || step.y_end.size() == 0) return out;
+  if (answer_ == nullptr || step.y_end.size() == 0) return out;
   change_ = y_moving;
-  if (op_->small_answers().empty()) {
-    change_.noalias() += op_->compliance() * response.interface_load;
+  if (answer_->small_answers().empty()) {
+    change_.noalias() += answer_->compliance() * response.interface_load;
   } else {
-    op_->small_answers().add(1.0, response.interface_load, change_);
+    answer_->small_answers().add(1.0, response.interface_load, change_);
   }
   step.y_end += change_;
   step.correction_load += correction.interface_load;

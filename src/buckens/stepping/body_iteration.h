@@ -11,12 +11,12 @@ namespace buckens::stepping {
 /// first call.
 class BodyIteration {
  public:
-  /// @param op of a flexible body, null for a rigid one
+  /// @param answer of a flexible body, null for a rigid one
   /// @param L length that turns rotations into displacements [m]
-  BodyIteration(const body::Body& body, const BodyStepOperator* op, const Scheme& scheme, double L);
+  BodyIteration(const body::Body& body, const BodyAnswer* answer, const Scheme& scheme, double L);
 
-  bool is_flexible() const { return op_ != nullptr; }
-  bool is_quasi_static() const { return op_ != nullptr && op_->is_quasi_static(); }
+  bool is_flexible() const { return answer_ != nullptr; }
+  bool is_quasi_static() const { return answer_ != nullptr && answer_->is_quasi_static(); }
 
   /// W⁻¹ of the frame at a motion of the step.
   Eigen::Matrix<double, 6, 6> frame_compliance(const BodyStep& step,
@@ -52,7 +52,7 @@ class BodyIteration {
   double interface_change(const linalg::Vector& dy) const;
 
   const body::Body* body_;
-  const BodyStepOperator* op_;
+  const BodyAnswer* answer_;
   Scheme scheme_;
   double L_;
   linalg::Vector row_lengths_;   // that make displacements of the rows

@@ -24,16 +24,16 @@ void move(const spatial::Pose& X, const Vector6& u, spatial::Pose& out) {
 
 }  // namespace
 
-void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
-                     const Scheme& scheme, TaskPool* pool) {
+void BodyStep::start(const model::BodyState& state, const BodyAnswer* answer, const Scheme& scheme,
+                     TaskPool* pool) {
   before = state.frame;
   terms = state.terms;
   frame = scheme.history<Vector6>(stack(state.frame.w, state.frame.v),
                                   stack(state.w_dot, state.v_dot), stack(state.w_alg, state.v_alg));
   u = frame.predicted;
   correction.setZero();
-  if (op == nullptr) return;
-  op->row_values(state, y_before, y_dot_before, y_ddot_before, y_alg_before, pool);
+  if (answer == nullptr) return;
+  answer->row_values(state, y_before, y_dot_before, y_ddot_before, y_alg_before, pool);
   scheme.history(y_dot_before, y_ddot_before, y_alg_before, y);
   y_end = y_before + y.predicted;
   load.setZero(y_before.size());
@@ -41,31 +41,31 @@ void BodyStep::start(const model::BodyState& state, const BodyStepOperator* op,
   y_correction.setZero(y_before.size());
 }
 
-void BodyStep::motion_at_end(const Scheme& scheme, const BodyStepOperator* op,
+void BodyStep::motion_at_end(const Scheme& scheme, const BodyAnswer* answer,
                              dynamics::BodyMotion& out) const {
   move(before.X_WB, u + correction, out.frame.X_WB);
   out.frame.w = scheme.end_rate * u.head<3>() + frame.velocity.head<3>();
   out.frame.v = scheme.end_rate * u.tail<3>() + frame.velocity.tail<3>();
-  if (op == nullptr) return;
+  if (answer == nullptr) return;
   out.y = y_end + y_correction;
   out.y_dot = scheme.end_rate * (y_end - y_before) + y.velocity;
-  if (op->is_quasi_static()) out.y_dot.setZero();
+  if (answer->is_quasi_static()) out.y_dot.setZero();
 }
 
-void BodyStep::uncorrected_motion(const Scheme& scheme, const BodyStepOperator* op,
+void BodyStep::uncorrected_motion(const Scheme& scheme, const BodyAnswer* answer,
                                   dynamics::BodyMotion& out) const {
-  motion_at_end(scheme, op, out);
+  motion_at_end(scheme, answer, out);
   move(before.X_WB, u, out.frame.X_WB);
-  if (op != nullptr) out.y = op->is_quasi_static() ? y_before : y_end;
+  if (answer != nullptr) out.y = answer->is_quasi_static() ? y_before : y_end;
 }
 
-void BodyStep::motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op,
+void BodyStep::motion_at_evaluation(const Scheme& scheme, const BodyAnswer* answer,
                                     dynamics::BodyMotion& out) const {
-  if (scheme.weight == 1.0) return motion_at_end(scheme, op, out);
+  if (scheme.weight == 1.0) return motion_at_end(scheme, answer, out);
   move(before.X_WB, scheme.weight * u + frame.offset, out.frame.X_WB);
   out.frame.w = scheme.mean_rate * u.head<3>() + frame.mean_velocity.head<3>();
   out.frame.v = scheme.mean_rate * u.tail<3>() + frame.mean_velocity.tail<3>();
-  if (op == nullptr) return;
+  if (answer == nullptr) return;
   out.y = y_before + scheme.weight * (y_end - y_before) + y.offset;
   out.y_dot = scheme.mean_rate * (y_end - y_before) + y.mean_velocity;
 }

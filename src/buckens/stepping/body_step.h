@@ -3,7 +3,7 @@
 
 #include "buckens/dynamics/system_kinematics.h"
 #include "buckens/model/state.h"
-#include "buckens/stepping/body_step_operator.h"
+#include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
@@ -36,17 +36,17 @@ struct BodyStep {
 
   /// Prepares everything but the free response.
   /// @param pool shares the rows of large bodies; the result is the same
-  void start(const model::BodyState& state, const BodyStepOperator* op, const Scheme& scheme,
+  void start(const model::BodyState& state, const BodyAnswer* answer, const Scheme& scheme,
              TaskPool* pool = nullptr);
 
   /// Motions are written to `out`, whose buffers are reused.
-  void motion_at_end(const Scheme& scheme, const BodyStepOperator* op,
+  void motion_at_end(const Scheme& scheme, const BodyAnswer* answer,
                      dynamics::BodyMotion& out) const;
   /// The same with the pose that the velocities alone lead to, and the shape of the start where the
   /// body deforms without rates.
-  void uncorrected_motion(const Scheme& scheme, const BodyStepOperator* op,
+  void uncorrected_motion(const Scheme& scheme, const BodyAnswer* answer,
                           dynamics::BodyMotion& out) const;
-  void motion_at_evaluation(const Scheme& scheme, const BodyStepOperator* op,
+  void motion_at_evaluation(const Scheme& scheme, const BodyAnswer* answer,
                             dynamics::BodyMotion& out) const;
   /// All moments of the frame equation at a motion of this step.
   body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;

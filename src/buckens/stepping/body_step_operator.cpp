@@ -81,15 +81,18 @@ bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
 }
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
-                                   const BodyStepOperator* twin, linalg::SolveExchange* exchange)
-    : part_(&part), scheme_(scheme), N_(rows_of(part)), inertial_(part, scheme) {
+                                   const FactorSource& source)
+    : BodyAnswer(scheme, part.is_quasi_static),
+      part_(&part),
+      N_(rows_of(part)),
+      inertial_(part, scheme) {
   {
     const SparseMatrix K_hat = step_matrix(part, scheme);
     diagonal_ = K_hat.diagonal();
     if (is_division_enough(part, K_hat)) {
       diagonal_inverse_ = diagonal_.cwiseInverse();
     } else {
-      find_factor(K_hat, twin, exchange);
+      find_factor(K_hat, source);
     }
   }
   if (!is_diagonal() && part.num_dofs() <= kSmall) {
@@ -107,12 +110,12 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
     solve_columns(inertia);
     D_less_G_ = inertia - interface;
   }
-  NG_ = N_ * G_;
-  interface_ = NG_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
-  answer_ = Matrix::Zero(NG_.rows(), NG_.cols());
-  if (scheme.weight == 1.0) answer_.leftCols(part.num_interface_rows) = N_ * D_less_G_;
+  compliance_ = N_ * G_;
+  interface_ = compliance_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
+  correction_ = Matrix::Zero(compliance_.rows(), compliance_.cols());
+  if (scheme.weight == 1.0) correction_.leftCols(part.num_interface_rows) = N_ * D_less_G_;
   rigid_row_values_ = N_ * part.sieve.Phi();
-  if (inverse_.size() > 0 && part.num_dofs() < N_.rows()) small_answers_ = answers_by_variables();
+  if (inverse_.size() > 0 && part.num_dofs() < N_.rows()) small_ = answers_by_variables();
 }
 
 SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
@@ -128,18 +131,18 @@ SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
 
 SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_); }
 
-void BodyStepOperator::find_factor(const SparseMatrix& K_hat, const BodyStepOperator* twin,
-                                   linalg::SolveExchange* exchange) {
+void BodyStepOperator::find_factor(const SparseMatrix& K_hat, const FactorSource& source) {
+  const BodyStepOperator* twin = source.twin;
   if (twin != nullptr && twin->factor_ && have_one_matrix(scheme_, twin->scheme_) &&
       twin->fits(*part_)) {
     factor_ = twin->factor_;
     is_shared_ = true;
-  } else if (exchange != nullptr) {
-    const long factorisations = exchange->num_factorisations();
-    factor_ = exchange->factor(K_hat);
-    is_shared_ = exchange->num_factorisations() == factorisations;
+  } else if (source.exchange != nullptr) {
+    const long factorisations = source.exchange->num_factorisations();
+    factor_ = source.exchange->factor(K_hat);
+    is_shared_ = source.exchange->num_factorisations() == factorisations;
   } else {
-    factor_ = std::make_shared<const linalg::SparseCholesky>(K_hat);
+    factor_ = source.make(K_hat);
   }
 }
 
@@ -198,11 +201,11 @@ void BodyStepOperator::add_correction_answer(const Eigen::VectorXd& e, Eigen::In
 
 void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vector& y_dot,
                                   Vector& y_ddot, Vector& y_alg, TaskPool* pool) const {
-  if (!small_answers_.empty()) {
-    small_answers_.row_values(state.d, y);
-    small_answers_.row_values(state.d_dot, y_dot);
-    small_answers_.row_values(state.d_ddot, y_ddot);
-    small_answers_.row_values(state.d_alg, y_alg);
+  if (!small_.empty()) {
+    small_.row_values(state.d, y);
+    small_.row_values(state.d_dot, y_dot);
+    small_.row_values(state.d_ddot, y_ddot);
+    small_.row_values(state.d_alg, y_alg);
     return;
   }
   for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(N_.rows());

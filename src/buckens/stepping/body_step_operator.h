@@ -5,13 +5,22 @@
 
 #include "buckens/body/body.h"
 #include "buckens/linalg/solve_exchange.h"
-#include "buckens/linalg/sparse_cholesky.h"
-#include "buckens/model/state.h"
+#include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/inertial_load.h"
-#include "buckens/stepping/scheme.h"
-#include "buckens/stepping/small_body_answers.h"
 
 namespace buckens::stepping {
+
+class BodyStepOperator;
+
+/// Where the factor of a step matrix may come from.
+struct FactorSource {
+  /// Of a body that may have the same matrices to the last bit; then its factor serves both.
+  const BodyStepOperator* twin = nullptr;
+  /// Where other simulations may have the factor; null: nowhere.
+  linalg::SolveExchange* exchange = nullptr;
+  /// Who makes it, if nobody has it.
+  linalg::MakeFactor make = linalg::make_cholesky;
+};
 
 /// Everything of one flexible body that a step of fixed length needs: one factorisation of
 /// K̂ = m M + c C + k K, and the answers to unit interface loads computed from it once.
@@ -24,21 +33,17 @@ namespace buckens::stepping {
 /// what is solved. All columns are sieved. Bodies of at most 24 variables, such as the parts of a
 /// divided beam, multiply by a dense inverse in place of the sparse solve; reduced bodies, whose K̂
 /// is diagonal, divide.
-class BodyStepOperator {
+class BodyStepOperator final : public BodyAnswer {
  public:
-  /// @param twin operator of a body that may have the same matrices to the last bit; then its
-  ///        factor serves both.
-  /// @param exchange where other simulations may have the factor; null: nowhere
   BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
-                   const BodyStepOperator* twin = nullptr,
-                   linalg::SolveExchange* exchange = nullptr);
+                   const FactorSource& source = {});
   /// Whether a body has the step matrix of this one.
   bool fits(const body::FlexiblePart& part) const;
 
   /// x ← K̂⁻¹ x; small bodies sieve the result, others leave that to the caller.
   void solve_right_side(linalg::Vector& x, TaskPool* pool = nullptr);
   /// The factor that several bodies may share; empty where the solve needs none.
-  const linalg::SparseCholesky* shared_factor() const {
+  const linalg::Factor* shared_factor() const {
     return inverse_.size() > 0 || is_diagonal() ? nullptr : factor_.get();
   }
 
@@ -57,28 +62,15 @@ class BodyStepOperator {
   void add_correction_answer(const Eigen::VectorXd& e, Eigen::Index first,
                              Eigen::Ref<linalg::Vector> piece) const;
 
-  /// N G: values of all rows per load along each, before the factor c.
-  const linalg::Matrix& compliance() const { return NG_; }
-  /// The same between rows of the interface only: what joints see.
-  const linalg::Matrix& interface_compliance() const { return interface_; }
-  /// N D − N G: what a correction load changes of the interface values besides the correction
-  /// itself. Zero where corrects_outside().
-  const linalg::Matrix& correction_answer() const { return answer_; }
-  /// compliance() and correction_answer() of a body with fewer variables than rows; else empty.
-  const SmallBodyAnswers& small_answers() const { return small_answers_; }
-  /// Whether the equations hold where the position correction does not appear: then D = G.
-  bool corrects_outside() const { return scheme_.weight != 1.0; }
-  /// N d, N ḋ, N d̈ and N times the algorithmic accelerations, in one pass over N; patterns that the
-  /// body's terms do not use may be left at zero.
-  /// @param pool shares the rows of large bodies; the result is the same
+  /// In one pass over N.
   void row_values(const model::BodyState& state, linalg::Vector& y, linalg::Vector& y_dot,
-                  linalg::Vector& y_ddot, linalg::Vector& y_alg, TaskPool* pool = nullptr) const;
+                  linalg::Vector& y_ddot, linalg::Vector& y_alg,
+                  TaskPool* pool = nullptr) const override;
   /// N Φ: values of the rigid motions that carry mass, orthonormal.
   const linalg::Matrix& rigid_row_values() const { return rigid_row_values_; }
   /// Rows of the interface, then the six patterns.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
-  Eigen::Index num_interface_rows() const { return part_->num_interface_rows; }
   /// The vectors c_ab as columns, null where N has no rows of them.
   const linalg::Matrix* patterns() const {
     return N_.rows() > num_interface_rows() ? &part_->invariants.centrifugal_patterns() : nullptr;
@@ -89,10 +81,7 @@ class BodyStepOperator {
   /// Formed anew: a step needs its factor and its diagonal only.
   linalg::SparseMatrix K_hat() const;
   const linalg::Vector& K_hat_diagonal() const { return diagonal_; }
-  const Scheme& scheme() const { return scheme_; }
   const InertialLoad& inertial() const { return inertial_; }
-  /// Whether the body deforms without rates.
-  bool is_quasi_static() const { return part_->is_quasi_static; }
   bool is_diagonal() const { return diagonal_inverse_.size() > 0; }
   double factor_entries() const { return factor_ ? factor_->num_factor_entries() : 0.0; }
   /// Bytes that each of the two passes of a solve reads; 0 where the factor is that of a twin.
@@ -102,24 +91,21 @@ class BodyStepOperator {
   long setup_solves() const { return setup_solves_; }
 
  private:
-  void find_factor(const linalg::SparseMatrix& K_hat, const BodyStepOperator* twin,
-                   linalg::SolveExchange* exchange);
+  void find_factor(const linalg::SparseMatrix& K_hat, const FactorSource& source);
   SmallBodyAnswers answers_by_variables() const;
   /// X ← Y K̂⁻¹ X, as part of the set-up.
   void solve_columns(linalg::Matrix& X);
 
   const body::FlexiblePart* part_;
-  Scheme scheme_;
   linalg::Vector diagonal_;  // of K̂
   bool is_shared_ = false;
   linalg::Vector diagonal_inverse_;  // of diagonal K̂, else empty; then there is no factor
-  std::shared_ptr<const linalg::SparseCholesky> factor_;
+  std::shared_ptr<const linalg::Factor> factor_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
   linalg::Matrix G_;         // Y K̂⁻¹ Nᵀ
   linalg::Matrix D_less_G_;  // for interface rows, D of a correction's effect on x⁺; empty: D = G
-  linalg::Matrix NG_, answer_, interface_, rigid_row_values_;
-  SmallBodyAnswers small_answers_;
+  linalg::Matrix rigid_row_values_;
   InertialLoad inertial_;
   linalg::Vector scratch_;
   long setup_solves_ = 0;

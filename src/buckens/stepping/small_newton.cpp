@@ -49,13 +49,12 @@ void for_other_rows(const std::vector<int>& rows_in_use, Eigen::Index count, F&&
 }  // namespace
 
 SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
-                         const StepSettings& settings,
-                         std::vector<const BodyStepOperator*> operators,
+                         const StepSettings& settings, std::vector<const BodyAnswer*> answers,
                          std::vector<int> rows_in_use)
     : model_(model),
       scheme_(scheme),
       settings_(settings),
-      operators_(std::move(operators)),
+      answers_(std::move(answers)),
       rows_in_use_(std::move(rows_in_use)),
       watch_(model),
       rounding_length_(model.length),
@@ -69,8 +68,8 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
   response_.resize(count);
   shares_.reserve(count);
   for (std::size_t b = 0; b < count; ++b) {
-    const Eigen::Index rows = operators_[b] ? operators_[b]->N().rows() : 0;
-    shares_.emplace_back(model.bodies[b], operators_[b], scheme, model.length);
+    const Eigen::Index rows = answers_[b] ? answers_[b]->num_rows() : 0;
+    shares_.emplace_back(model.bodies[b], answers_[b], scheme, model.length);
     has_quasi_static_ = has_quasi_static_ || shares_[b].is_quasi_static();
     correction_[b].interface_load.setZero(rows);
     response_[b].interface_load.setZero(rows);
@@ -92,8 +91,8 @@ bool SmallNewton::corrects_positions() const {
 void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector& lambda) {
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].motion_at_end(scheme_, operators_[b], end_[b]);
-    if (!same) bodies[b].motion_at_evaluation(scheme_, operators_[b], evaluation_[b]);
+    bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
+    if (!same) bodies[b].motion_at_evaluation(scheme_, answers_[b], evaluation_[b]);
   }
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_forces(model_, at_evaluation(), t_e, *inputs_, forces_);
@@ -105,7 +104,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   }
   keep_shapes_in_rates(bodies, t + scheme_.h);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (operators_[b] == nullptr) continue;
+    if (answers_[b] == nullptr) continue;
     bodies[b].set_load(forces_.interface[b], at_evaluation()[b].frame.w);
   }
 }
@@ -113,7 +112,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
 void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end) {
   if (!has_quasi_static_) return;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].uncorrected_motion(scheme_, operators_[b], uncorrected_[b]);
+    bodies[b].uncorrected_motion(scheme_, answers_[b], uncorrected_[b]);
   }
   joints_.evaluate(uncorrected_, t_end, other_residuals_);
   residuals_.g_dot = other_residuals_.g_dot;
@@ -123,11 +122,11 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   contraction_ = 1.0;
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].motion_at_end(scheme_, operators_[b], end_[b]);
-    if (!same) bodies[b].motion_at_evaluation(scheme_, operators_[b], evaluation_[b]);
+    bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
+    if (!same) bodies[b].motion_at_evaluation(scheme_, answers_[b], evaluation_[b]);
     bodies[b].compliance = shares_[b].frame_compliance(bodies[b], at_evaluation()[b]);
     compliance_[b].frame = bodies[b].compliance;
-    compliance_[b].interface = operators_[b] ? &operators_[b]->interface_compliance() : nullptr;
+    compliance_[b].interface = answers_[b] ? &answers_[b]->interface_compliance() : nullptr;
   }
   rounding_length_ = dynamics::rounding_length(model_, end_);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), soft_);

@@ -28,7 +28,7 @@ class SmallNewton {
  public:
   /// @param rows_in_use independent rows of λ; the others follow from them and are left at zero
   SmallNewton(const model::Model& model, const Scheme& scheme, const StepSettings& settings,
-              std::vector<const BodyStepOperator*> operators, std::vector<int> rows_in_use);
+              std::vector<const BodyAnswer*> answers, std::vector<int> rows_in_use);
 
   /// Values of loads in the steps that follow; they outlive these.
   void use_inputs(const model::LoadInputs& inputs) { inputs_ = &inputs; }
@@ -107,7 +107,7 @@ class SmallNewton {
   const model::Model& model_;
   Scheme scheme_;
   StepSettings settings_;
-  std::vector<const BodyStepOperator*> operators_;
+  std::vector<const BodyAnswer*> answers_;
   std::vector<int> rows_in_use_;
   std::vector<int> dependent_;  // at the last selection
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected

@@ -23,6 +23,8 @@ struct StepSettings {
   int threads = 1;  ///< ≥ 1; has no influence on results
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
+  /// Who factorises the step matrices of bodies; an exchange brings its own.
+  linalg::MakeFactor make_factor = linalg::make_cholesky;
 
   /// The parameter that the method takes, for Scheme.
   double method_parameter() const {

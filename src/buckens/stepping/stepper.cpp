@@ -53,7 +53,7 @@ struct Stepper::Large {
 
 /// Bodies whose solves read the same factor, so that they go together as right-hand sides.
 struct Stepper::FactorGroup {
-  const linalg::SparseCholesky* factor = nullptr;
+  const linalg::Factor* factor = nullptr;
   std::vector<std::size_t> bodies;
   std::vector<std::size_t> active;  // those that solve in this round
   std::vector<double*> sides;
@@ -76,14 +76,15 @@ namespace {
 /// @param known operators of other bodies, one of which may have the factor already
 std::unique_ptr<BodyStepOperator> factorised(
     const body::Body& body, const Scheme& scheme,
-    const std::vector<std::unique_ptr<BodyStepOperator>>& known, linalg::SolveExchange* exchange) {
+    const std::vector<std::unique_ptr<BodyStepOperator>>& known, const StepSettings& settings) {
   if (!body.is_flexible()) return nullptr;
   const auto twin = std::find_if(known.begin(), known.end(), [&](const auto& other) {
     return other != nullptr && other->fits(*body.flexible);
   });
   try {
+    const BodyStepOperator* first = twin == known.end() ? nullptr : twin->get();
     return std::make_unique<BodyStepOperator>(
-        *body.flexible, scheme, twin == known.end() ? nullptr : twin->get(), exchange);
+        *body.flexible, scheme, FactorSource{first, settings.exchange, settings.make_factor});
   } catch (const NumericalError& error) {
     throw NumericalError(fmt::format("body \"{}\": {}", body.name, error.what()));
   }
@@ -111,9 +112,9 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       settings_(settings),
       scheme_(settings.method, settings.step, settings.method_parameter()),
       bodies_(model.bodies.size()) {
-  std::vector<const BodyStepOperator*> views;
+  std::vector<const BodyAnswer*> views;
   for (const body::Body& body : model.bodies) {
-    operators_.push_back(factorised(body, scheme_, operators_, settings_.exchange));
+    operators_.push_back(factorised(body, scheme_, operators_, settings_));
     large_.push_back(body.is_flexible() ? std::make_unique<Large>(body, *operators_.back())
                                         : nullptr);
     views.push_back(operators_.back().get());
@@ -136,7 +137,7 @@ void Stepper::group_factors() {
   for (std::size_t b = 0; b < operators_.size(); ++b) {
     if (!operators_[b]) continue;
     num_dofs_ += model_.bodies[b].num_dofs();
-    const linalg::SparseCholesky* factor = operators_[b]->shared_factor();
+    const linalg::Factor* factor = operators_[b]->shared_factor();
     if (factor == nullptr) continue;
     auto group = std::find_if(groups_.begin(), groups_.end(),
                               [&](const FactorGroup& known) { return known.factor == factor; });

@@ -116,13 +116,13 @@ TEST(BodyStepOperator, OneFactorServesBodiesWithTheSameMatrices) {
   const BodyStepOperator op(part, scheme);
   EXPECT_TRUE(op.fits(*same.bodies[0].flexible));
   EXPECT_FALSE(op.fits(*other.bodies[0].flexible));
-  const BodyStepOperator twin(*same.bodies[0].flexible, scheme, &op);
+  const BodyStepOperator twin(*same.bodies[0].flexible, scheme, {&op});
   EXPECT_EQ(op.factorisations(), 1);
   EXPECT_EQ(twin.factorisations(), 0);
   EXPECT_EQ((twin.compliance() - op.compliance()).norm(), 0.0);
   // Another step length is another matrix.
   const Scheme longer(Method::generalized_alpha, 2e-3, 0.9);
-  EXPECT_EQ(BodyStepOperator(part, longer, &op).factorisations(), 1);
+  EXPECT_EQ(BodyStepOperator(part, longer, {&op}).factorisations(), 1);
 }
 
 TEST(BodyStepOperator, ReducedBodiesDivideAndAnswerAsTheFullOne) {
