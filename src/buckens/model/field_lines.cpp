@@ -78,10 +78,6 @@ class LineCollector {
   void add_special(const std::string& path, const body::FrameDivision& value) {
     put(path, value.per_element ? "per-element" : std::to_string(value.count));
   }
-  void add_special(const std::string& path, const DeflectionBase& value) {
-    if (value == DeflectionBase::other) return add_special(path, value.marker);
-    put(path, DeflectionBase::kWords[static_cast<std::size_t>(value.kind)]);
-  }
   void add_special(const std::string& path, const PositionLaw& value) {
     if (value.given) put(path, fmt::format("{} x {}", value.expression.text(), value.scale));
   }
