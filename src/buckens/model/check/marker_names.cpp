@@ -22,12 +22,6 @@ const std::vector<std::int64_t>* node_numbers(const body::BodySpec& body) {
   return matrices != nullptr && matrices->imported ? &matrices->imported->numbers : nullptr;
 }
 
-/// The text of a reference, also where a program made it.
-std::string text_of(const base::MarkerRef& marker) {
-  if (!marker.text.empty()) return marker.text;
-  return marker.marker.empty() ? marker.body : marker.body + "/" + marker.marker;
-}
-
 }  // namespace
 
 std::vector<std::string> marker_names(const body::BodySpec& body) {
@@ -52,6 +46,15 @@ bool is_numbered_node(const body::BodySpec& body, const std::string& name) {
   const auto number = fem::node_number(name);
   if (known == nullptr || !number) return false;
   return std::find(known->begin(), known->end(), *number) != known->end();
+}
+
+std::string text_of(const base::MarkerRef& marker) {
+  if (!marker.text.empty()) return marker.text;
+  if (marker.point) {
+    return fmt::format("ground [{:g}, {:g}, {:g}]", marker.point->x(), marker.point->y(),
+                       marker.point->z());
+  }
+  return marker.marker.empty() ? marker.body : marker.body + "/" + marker.marker;
 }
 
 Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model) {

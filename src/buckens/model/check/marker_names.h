@@ -23,6 +23,9 @@ std::vector<std::string> marker_names(const body::BodySpec& body);
 /// Whether a name stands for a node of the body's mesh file: `n` and the number there.
 bool is_numbered_node(const body::BodySpec& body, const std::string& name);
 
+/// The reference as it is written, also where a program made it.
+std::string text_of(const base::MarkerRef& marker);
+
 /// Whether the body or the marker that is named does not exist.
 Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model);
 

@@ -29,10 +29,10 @@ Found needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
 /// Springs and sensors may connect two markers of one flexible body, joints may not.
 Found ends_problem(const std::array<base::MarkerRef, 2>& between, bool is_joint) {
   const bool is_same =
-      is_joint ? between[0].body == between[1].body : between[0].text == between[1].text;
+      is_joint ? between[0].body == between[1].body : text_of(between[0]) == text_of(between[1]);
   if (!is_same) return std::nullopt;
   return Finding{"between", fmt::format("\"{}\" and \"{}\" are {}; two different bodies are needed",
-                                        between[0].text, between[1].text,
+                                        text_of(between[0]), text_of(between[1]),
                                         is_joint ? "on the same body" : "the same marker")};
 }
 
@@ -40,19 +40,19 @@ Found flexible_problem(const base::MarkerRef& marker, const char* key,
                        const ModelDescription& model) {
   const body::BodySpec* body = base::find_named(model.bodies, marker.body);
   if (body != nullptr && !body->is_rigid()) return std::nullopt;
-  return Finding{key, fmt::format("\"{}\" is not on a flexible body", marker.text)};
+  return Finding{key, fmt::format("\"{}\" is not on a flexible body", text_of(marker))};
 }
 
 /// A deflection is seen from markers of the same body.
 Found other_body_problem(const DeflectionSensor& spec, const base::MarkerRef& marker,
                          const char* key) {
-  if (marker.body == spec.of.body && marker.text != spec.of.text) return std::nullopt;
+  if (marker.body == spec.of.body && text_of(marker) != text_of(spec.of)) return std::nullopt;
   return Finding{
       key, marker.body == spec.of.body
-               ? fmt::format("\"{}\" is the observed marker itself; name another", marker.text)
+               ? fmt::format("\"{}\" is the observed marker itself; name another", text_of(marker))
                : fmt::format("\"{}\" is not on body \"{}\", whose deformation is observed; use a "
                              "`relative` sensor between two bodies",
-                             marker.text, spec.of.body)};
+                             text_of(marker), spec.of.body)};
 }
 
 /// A chord runs between two named ends.

@@ -48,7 +48,7 @@ TEST(ModelBuilder, UnknownNamesAreRefusedWithTheNearest) {
   m.d.joints.clear();
   m.joint<joints::SphericalSpec>("ball", "ground", "crank/pim");
   EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(AllOf(
-                                      HasSubstr("\"pim\""), HasSubstr("did you mean \"pin\"?"))));
+                                      HasSubstr("\"pim\""), HasSubstr("Did you mean \"pin\"?"))));
 }
 
 TEST(ModelBuilder, JointsAndSpringsNeedTwoBodies) {
@@ -57,19 +57,21 @@ TEST(ModelBuilder, JointsAndSpringsNeedTwoBodies) {
                                                      Described::marker("b", {2, 0, 0})};
   m.joint<joints::SphericalSpec>("ball", "rod/a", "rod/b");
   EXPECT_THAT([&] { m.build(); },
-              ThrowsMessage<ModelError>(AllOf(StartsWith("test.yaml:50:1"), HasSubstr("\"ball\""),
-                                              HasSubstr("body \"rod\" with itself"))));
+              ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:50:1"),
+                                              HasSubstr("joints.ball.spherical.between"),
+                                              HasSubstr("on the same body"))));
   m.d.joints.clear();
   m.load<loads::SpringDamperSpec>("spring").between = {test::at_marker("ground"),
                                                        test::at_marker("ground")};
-  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(HasSubstr("the ground with itself")));
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(HasSubstr("the same marker")));
 }
 
 TEST(ModelBuilder, LoadsOnTheGroundAreRefused) {
   Described m;
   m.rigid("rod", 1, {0, 0, 0}, {1, 1, 1});
   m.force("push", "ground", {1, 0, 0});
-  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(HasSubstr("acts on the ground")));
+  EXPECT_THAT([&] { m.build(); },
+              ThrowsMessage<InputError>(HasSubstr("a load on the ground has no effect")));
 }
 
 TEST(ModelBuilder, AForceOnTheFrameOfAFlexibleBodyIsRefused) {
@@ -220,8 +222,8 @@ TEST(ModelBuilder, AxesMustBeGivenInSpace) {
   Described m;
   m.rigid("rod", 1, {0, 0, 0}, {1, 1, 1});
   m.joint<joints::RevoluteSpec>("hinge", "ground", "rod");
-  EXPECT_THAT([&] { m.build(); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("\"hinge\""), HasSubstr("`axis`"))));
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(HasSubstr(
+                                      "joints.hinge.revolute.axis: the key \"axis\" is missing")));
 }
 
 TEST(ModelBuilder, PointMassesDropTheirRotations) {
