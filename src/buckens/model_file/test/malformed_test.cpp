@@ -46,11 +46,11 @@ bool begins_with_one_of(const std::string& line, const std::vector<std::string>&
 }
 
 /// Whether the model may end behind this line: there is a body, and nothing that was begun misses
-/// what it needs.
+/// what it needs, be it an interface further down.
 bool may_be_last(const std::string& line) {
   return !line.ends_with(':') &&
          !begins_with_one_of(line, {"      from:", "      to:", "      elements:", "      section:",
-                                    "      box: {from", "      nodes:"});
+                                    "      box: {from", "      nodes:", "    markers: {corner"});
 }
 
 TEST(MalformedModelFile, CutOffItIsAModelOnlyWhereAllThatWasBegunIsComplete) {
