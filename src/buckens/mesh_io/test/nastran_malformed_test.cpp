@@ -195,7 +195,8 @@ TEST(NastranMalformed, every_beginning_of_a_deck_is_read_or_refused) {
   for (std::size_t size = 0; size < text.size(); size += 7) {
     num_refused += refusal(text.substr(0, size)).empty() ? 0 : 1;
   }
-  EXPECT_GT(num_refused, 100);
+  // Whoever changes the deck or what is read of it counts again, and looks at the difference.
+  EXPECT_EQ(num_refused, 657);
 }
 
 }  // namespace
