@@ -70,7 +70,10 @@ const model::State& Simulation::state() const { return run_->state(); }
 
 body::FrameMotion Simulation::frame(const std::string& body) const {
   const model::Model& model = built().model;
-  return model::whole_motion(model, model.wholes[find_whole(model, body)], state());
+  body::FrameMotion out =
+      model::whole_motion(model, model.wholes[find_whole(model, body)], state());
+  out.X_WB.p += model.origin;
+  return out;
 }
 
 Eigen::Map<const Eigen::VectorXd> Simulation::values(const std::string& path) const {

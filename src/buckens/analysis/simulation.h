@@ -92,7 +92,8 @@ class Simulation {
   double end_time() const;  ///< of the run [s]
   long num_steps() const;   ///< taken so far, since t = 0
   bool is_done() const;     ///< the end is reached
-  /// The same object for the life of the simulation. Its vectors change places from step to step.
+  /// The same object for the life of the simulation. Its vectors change places from step to step;
+  /// positions count from Model::origin.
   const model::State& state() const;
   /// Frame of a body: origin at the mass centre; rotation and velocities as the record has them.
   /// @throws InputError naming the bodies there are

@@ -14,6 +14,8 @@ namespace buckens::loads {
 /// The function is called several times per step, from one thread at a time, and must give the same
 /// answer to the same question. It says nothing of its derivatives: a law that is stiff compared to
 /// the bodies makes the iteration of the step slow; write a ForceElement with soft rows for it.
+/// Positions count from Model::origin, zero unless the mechanism lies very far from that of the
+/// world.
 class FunctionForce final : public ForceElement {
  public:
   using Law = std::function<Eigen::Vector3d(double t, const spatial::MarkerMotion& marker)>;
