@@ -50,7 +50,7 @@ struct RunArguments {
   }
 };
 
-std::unique_ptr<model::BuiltModel> read_and_build(const RunArguments& arguments) {
+std::unique_ptr<model::BuiltModel> read_model_to_run(const RunArguments& arguments) {
   model::ModelDescription description =
       model_file::read_model_file(arguments.model, arguments.overrides);
   if (!description.simulation) {
@@ -165,7 +165,7 @@ ExitCode run(const RunArguments& arguments, bool json) {
   const fs::path path = arguments.directory();
   journal.record(fmt::format("buckens {}, model {}", kVersion, arguments.model));
   for (const std::string& text : arguments.overrides) journal.record("--set " + text);
-  auto built = read_and_build(arguments);
+  auto built = read_model_to_run(arguments);
   // What is wrong with the output is said before an earlier run is replaced.
   analysis::plan_output(built->description);
   arguments.state.check(built->description.simulation->duration);

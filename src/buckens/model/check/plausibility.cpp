@@ -165,8 +165,8 @@ class Doubts {
   }
 
   void look_at_damping(const fem::DampingSpec& damping) {
-    for (std::size_t k = 0; damping.at && k < 2; ++k) {
-      const double f = (*damping.at)[k];
+    for (std::size_t k = 0; k < damping.at.size(); ++k) {
+      const double f = damping.at[k];
       if (f > kHighestFrequency) {
         add(fmt::format("at.{}", k), fmt::format("a frequency of {:g} Hz, above 1 MHz", f), "");
       }
