@@ -2,7 +2,9 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -48,7 +50,7 @@ Kind& kind_of(model::ModelDescription& d, std::size_t body) {
   return std::get<Kind>(d.bodies.at(body).kind);
 }
 
-std::vector<Fault> faults() {
+std::vector<Fault> faults_of_bodies() {
   using model::ModelDescription;
   return {
       {"to: [1, 0, 0]", "to: [0.1, 0, 0]",
@@ -74,6 +76,12 @@ std::vector<Fault> faults() {
        "sections.pipe.tube.thickness: the inner diameter would be -0.02 m"},
       {"nu: 0.3", "nu: 0.7", [](ModelDescription& d) { d.materials.at(0).nu = 0.7; },
        "materials.steel.nu: 0.7 is not allowed: the value must lie between -1 and 0.5"},
+  };
+}
+
+std::vector<Fault> faults_between_bodies() {
+  using model::ModelDescription;
+  return {
       {"crank/origin", "crank/orign",
        [](ModelDescription& d) {
          std::get<joints::RevoluteSpec>(d.joints.at(0).kind).between[1].marker = "orign";
@@ -128,7 +136,9 @@ std::string refusal_of(Work&& work) {
 }
 
 TEST(Findings, TextAndProgramAreRefusedInTheSameWords) {
-  for (const Fault& fault : faults()) {
+  std::vector<Fault> faults = faults_of_bodies();
+  for (Fault& fault : faults_between_bodies()) faults.push_back(std::move(fault));
+  for (const Fault& fault : faults) {
     std::string text = kModel;
     const std::size_t at = text.find(fault.from);
     ASSERT_NE(at, std::string::npos) << fault.from;
