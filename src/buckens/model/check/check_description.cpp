@@ -19,25 +19,31 @@ namespace buckens::model {
 
 namespace {
 
-/// Collects the numbers of a record, to tell those that were given from those left alone.
-class NumberCollector {
- public:
-  std::vector<double> numbers;
-
-  template <class T>
-  void operator()(const base::Field<T>& field) {
-    if constexpr (std::is_arithmetic_v<std::remove_cv_t<T>>) {
-      numbers.push_back(static_cast<double>(field.member));
-    }
-  }
-};
-
+/// The numbers of a field, empty for any other kind of field.
 template <class T>
-std::vector<double> defaults_of() {
+std::vector<double> numbers_in(const T& member) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return {static_cast<double>(member)};
+  } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
+    return {member.x(), member.y(), member.z()};
+  } else if constexpr (base::kIsArray<T>) {
+    std::vector<double> out;
+    for (const auto& entry : member) {
+      for (const double number : numbers_in(entry)) out.push_back(number);
+    }
+    return out;
+  } else {
+    return {};
+  }
+}
+
+/// The numbers of a record that was left alone, field by field.
+template <class T>
+std::vector<std::vector<double>> defaults_of() {
   const T fresh{};
-  NumberCollector collector;
-  base::visit_fields(fresh, collector);
-  return collector.numbers;
+  std::vector<std::vector<double>> out;
+  base::visit_fields(fresh, [&](const auto& field) { out.push_back(numbers_in(field.member)); });
+  return out;
 }
 
 /// Walks through a description in the order of the model file up to the first finding.
@@ -48,22 +54,23 @@ class Walker {
   Found found;
   SourceLocation where;  ///< of the innermost spec around the finding that knows its place
 
+  /// @param is_given whether the record was written down; false where that cannot be known. Then a
+  ///        number that stays at its default counts as not given, required or not.
   template <base::HasFields T>
-  void record(const std::string& path, const T& spec) {
+  void record(const std::string& path, const T& spec, bool is_given = true) {
     const SourceLocation outer = where;
     if constexpr (requires { spec.where; }) {
       if (!spec.where.empty()) where = spec.where;
     }
-    const std::vector<double> defaults = defaults_of<T>();
-    std::size_t number = 0;
+    const std::vector<std::vector<double>> defaults = defaults_of<T>();
+    std::size_t index = 0;
     base::visit_fields(spec, [&](const auto& field) {
-      if (found) return;
-      using Member = std::remove_cvref_t<decltype(field.member)>;
-      if constexpr (std::is_arithmetic_v<Member>) {
-        const double standard = defaults[number++];
-        const bool is_given = field.note.is_required || field.member != standard;
-        if (!is_given || std::is_same_v<Member, bool>) return;
+      const std::vector<double>& standard = defaults[index++];
+      const bool is_required = is_given && field.note.is_required;
+      if (found || (!is_required && !standard.empty() && standard == numbers_in(field.member))) {
+        return;
       }
+      is_given_ = is_given;
       value(join_path(path, field.note.name), field.note, field.member);
     });
     note(path, problem(spec, description_));
@@ -90,6 +97,7 @@ class Walker {
   void value(const std::string& path, const base::FieldNote& field, const T& member) {
     if (found) return;
     if constexpr (std::is_same_v<T, base::MarkerRef>) {
+      if (member.body.empty()) return;  // not given
       note(path, marker_problem(member, description_));
       if (found && !member.where.empty()) where = member.where;
     } else if constexpr (std::is_same_v<T, DeflectionBase>) {
@@ -97,9 +105,9 @@ class Walker {
     } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
       for (int i = 0; i < 3; ++i) value(fmt::format("{}.{}", path, i), field, member[i]);
     } else if constexpr (base::kIsOptional<T>) {
-      if (member) value(path, field, *member);
+      if (member) entry(path, field, *member);
     } else if constexpr (base::kIsReference<T>) {
-      record(path, member.value);
+      if (field.is_required || !member.name.empty()) record(path, member.value);
     } else if constexpr (base::kIsVariant<T>) {
       std::visit([&]<class A>(const A& kind) { alternative(join_path(path, A::kKey), kind); },
                  member);
@@ -107,21 +115,36 @@ class Walker {
       for (const auto& entry : member) record(join_path(path, entry.name), entry);
     } else if constexpr (base::kIsArray<T> || base::kIsVector<T>) {
       for (std::size_t i = 0; i < member.size(); ++i) {
-        value(fmt::format("{}.{}", path, i), field, member[i]);
+        entry(fmt::format("{}.{}", path, i), field, member[i]);
       }
     } else if constexpr (base::HasFields<T>) {
-      record(path, member);
+      record(path, member, field.is_required);
     } else if constexpr (std::is_same_v<T, int>) {
       value(path, field, static_cast<double>(member));
     }
   }
 
+  /// A value that somebody wrote down.
+  template <class T>
+  void entry(const std::string& path, const base::FieldNote& field, const T& member) {
+    if (found) return;
+    if constexpr (base::kIsReference<T>) {
+      record(path, member.value);
+    } else if constexpr (base::HasFields<T>) {
+      record(path, member);
+    } else {
+      value(path, field, member);
+    }
+  }
+
+  /// The alternative of a variant is written down if the record around it is.
   template <class A>
   void alternative(const std::string& path, const A& kind) {
-    if (!found) record(path, kind);
+    if (!found) record(path, kind, is_given_);
   }
 
   const ModelDescription& description_;
+  bool is_given_ = true;
 };
 
 Walker walked(const ModelDescription& description) {
