@@ -89,7 +89,7 @@ TEST(DividedBody, BarsOfOneMemberInOneFrameAreAMechanism) {
   Described m;
   auto& body = m.truss("strut", {{"a", {0, 0, 0}}, {"b", {3, 4, 0}}}, {{"a", "b"}});
   std::get<fem::StructureSpec>(body.kind).bars[0].elements = 3;
-  EXPECT_THROW(m.build(), ModelError);
+  EXPECT_THROW(m.build(), InputError);
 }
 
 TEST(DividedBody, MarkersAreFoundOnThePartThatHoldsThem) {
@@ -216,10 +216,10 @@ TEST(DividedBody, MessagesNameTheBody) {
   expect(many, "body \"rod\": 5 frames for 4 elements");
   Described rigid;
   rigid.rigid("block", 1, Vector3d::Zero(), Vector3d::Ones()).frames = 2;
-  expect(rigid, "body \"block\" is rigid and has one frame");
+  expect(rigid, "bodies.block.frames: a rigid body has one frame");
   Described self = pinned_beam(4, 2);
   self.joint<joints::SphericalSpec>("loop", "rod/start", "rod/end");
-  expect(self, "connects body \"rod\" with itself");
+  expect(self, "joints.loop.spherical.between: \"rod/start\" and \"rod/end\" are on the same body");
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ TEST(ModelBuilder, SectionsExistOnFlexibleBodiesOnly) {
   m.rigid("block", 1, {0, 0, 0}, {1, 1, 1});
   m.beam("rod", {0, 0, 0}, {1, 0, 0}, 4);
   m.sensor_of<SectionForceSensor>("s", "block");
-  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(AllOf(HasSubstr("\"block\""),
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(AllOf(HasSubstr("\"block\""),
                                                                   HasSubstr("not on a flexible"))));
   m.d.output.sensors.clear();
   m.sensor_of<StressSensor>("s", "rod").element = 5;

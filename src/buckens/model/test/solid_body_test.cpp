@@ -156,8 +156,8 @@ TEST(SolidBody, ElementsInsideOutAreRefused) {
   kind.nodes = cube_nodes("a", {0, 0, 0});
   kind.solids = {solid({"a4", "a5", "a6", "a7", "a0", "a1", "a2", "a3"})};
   m.body("lump").kind = kind;
-  EXPECT_THAT([&] { m.build(); },
-              ThrowsMessage<ModelError>(AllOf(HasSubstr("\"lump\""), HasSubstr("inside out"))));
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<ModelError>(
+                                      AllOf(HasSubstr("\"lump\""), HasSubstr("inverted or flat"))));
 }
 
 TEST(SolidBody, CubesThatShareAnEdgeAreAMechanism) {

@@ -65,7 +65,7 @@ std::vector<Fault> faults_of_bodies() {
        },
        "bodies.crank.rigid.inertia: the principal moments 1, 2, 25"},
       {"mass: 2", "mass: -2", [](ModelDescription& d) { kind_of<body::RigidSpec>(d, 0).mass = -2; },
-       "bodies.crank.rigid.mass: -2 is not allowed: the value must be positive"},
+       "bodies.crank.rigid.mass: -2 is not allowed: the value must not be negative"},
       {"elements: 4", "elements: 0",
        [](ModelDescription& d) { kind_of<fem::BeamSpec>(d, 1).elements = 0; },
        "bodies.rod.beam.elements: 0 is not allowed: the value must be positive"},
