@@ -65,10 +65,9 @@ struct SimulationSpec {
               .like("1.4")
               .otherwise("1.4"));
     visit(base::field("tolerance", tolerance,
-                      "switches step control on: error that all steps of the run together may add "
-                      "to its result, as a share of the mechanism's size for the position of a "
-                      "body, in rad for its rotation, as a share of the largest deformation so far "
-                      "for its deformation")
+                      "switches step control on: error that all steps of the run may add up to, as "
+                      "a share of the mechanism's size for the position of a body, in rad for its "
+                      "rotation, as a share of the largest so far for its deformation")
               .positive()
               .like("1e-4")
               .otherwise("1e-3 with `step: auto`, else steps are not controlled"));
