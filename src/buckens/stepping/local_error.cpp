@@ -18,7 +18,7 @@ namespace {
 // is taken, so that a wild guess does not make later steps careless.
 constexpr double kTrusted = 0.1;
 // Rounding of positions makes differences of 4e-16 of them: no step can be asked for less.
-constexpr double kRounding = 4e-15;
+constexpr double kDifferenceRounding = 4e-15;
 
 }  // namespace
 
@@ -133,9 +133,9 @@ ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme
       angle += f.rate * start_.w[b] + f.acceleration * start_.w_dot[b];
     }
     const double reach = std::max(model_.length, s.frame.X_WB.p.cwiseAbs().maxCoeff());
-    count(way.norm(), share * tolerance_.relative * model_.length + kRounding * reach, b,
+    count(way.norm(), share * tolerance_.relative * model_.length + kDifferenceRounding * reach, b,
           ErrorEstimate::Quantity::position);
-    count(angle.norm(), share * tolerance_.relative + kRounding, b,
+    count(angle.norm(), share * tolerance_.relative + kDifferenceRounding, b,
           ErrorEstimate::Quantity::rotation);
     if (s.d.size() == 0) continue;
     const double size = size_of(b, s.d);
@@ -143,7 +143,7 @@ ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme
     const double seen = std::max({largest_[b], expected_[b], size});
     count(deformation_error(b, s, f),
           share * (tolerance_.relative * seen + tolerance_.absolute * model_.length) +
-              kRounding * seen,
+              kDifferenceRounding * seen,
           b, ErrorEstimate::Quantity::deformation);
   }
   is_first_trial_ = false;
