@@ -268,9 +268,20 @@ def test_a_directory_in_place_of_the_results(damaged, read):
 
 def test_files_that_were_cut_off(damaged, read):
     whole = damaged.read_bytes()
-    for part in (0.1, 0.5, 0.9, 0.99):
-        damaged.write_bytes(whole[:int(part * len(whole))])
+    # The first 48 bytes are what HDF5 looks at again and again until another process completes them.
+    for size in (8, 30, 47, *(int(part * len(whole)) for part in (0.1, 0.9, 0.99))):
+        damaged.write_bytes(whole[:size])
         read().must(REFUSED, "run/results.h5")
+
+
+def test_bookkeeping_with_a_wrong_check_sum(damaged, read):
+    """HDF5 waits for a writer to mend it; this program gives up soon and says what is wrong."""
+    whole = damaged.read_bytes()
+    headers = [at for at in range(len(whole)) if whole.startswith(b"OHDR", at)]
+    assert len(headers) > 20
+    for at in headers[:3]:
+        damaged.write_bytes(whole[:at + 6] + bytes([whole[at + 6] ^ 0xff]) + whole[at + 7:])
+        read().must(REFUSED, "run/results.h5", "checksum")
 
 
 def test_texts_of_a_wrong_length(damaged, read, verbs):

@@ -16,6 +16,11 @@ namespace buckens::run_store {
 
 namespace {
 
+/// How often HDF5 looks again at bookkeeping whose check sum is wrong, because another process may
+/// be about to write it. The pause begins with a nanosecond and doubles each time: with its own
+/// choice of 100 a damaged file would keep it for centuries, this is less than a tenth of a second.
+constexpr unsigned kReadAttempts = 25;
+
 /// Called for each entry of the error stack, innermost first; keeps the best explanation.
 herr_t take_reason(unsigned, const H5E_error2_t* entry, void* argument) {
   auto& reason = *static_cast<std::string*>(argument);
@@ -92,8 +97,9 @@ Hdf5File Hdf5File::open_for_reading(const std::filesystem::path& path,
   Hdf5File file;
   file.texts_ = std::move(texts);
   file.path_ = path;
-  const hid_t id =
-      H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access_settings().get());
+  const Hdf5Handle access = access_settings();
+  H5Pset_metadata_read_attempts(access.get(), kReadAttempts);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   file.file_ = Hdf5Handle(file.check(id, "open the file"), H5Fclose);
   return file;
 }
