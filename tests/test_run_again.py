@@ -35,7 +35,7 @@ loads:
       on: web/pin
       value: [0, 0, {file: tables/torque.csv, unit: N m}]
 simulation: {duration: 4 ms, step: 1 ms}
-output: {sensors: {turn: {angle: hinge}}}
+output: {sensors: {pin: {position: web/pin}}}
 """
 
 
@@ -83,14 +83,25 @@ def test_each_change_alone(buckens, models, tmp_path):
         same_run(tmp_path / "out", tmp_path / "again")
 
 
-def test_a_model_in_json(buckens, models, tmp_path):
-    yaml = pytest.importorskip("yaml")
-    model = yaml.safe_load((models / "beam.yaml").read_text())
-    for text in (json.dumps(model), json.dumps(model, indent=2)):
+JSON_MODEL = {
+    "buckens": 1, "title": "A \"quoted\" title: {1, 2}", "gravity": [0, "-9.81 m/s^2", 0],
+    "planar": "xy", "parameters": {"L": "500 mm", "push": "max(1, 2)"},
+    "materials": {"steel": {"E": "200 GPa", "nu": 0.3, "rho": 7870}},
+    "bodies": {"beam": {"beam": {"to": ["L", 0, 0], "elements": 4, "material": "steel",
+                                 "section": {"circle": {"diameter": "8 mm"}}}}},
+    "joints": {"hinge": {"revolute": {"between": ["ground", "beam/start"]}}},
+    "loads": {"push": {"force": {"on": "beam/end", "value": [0, "push*sin(40*t) N", 0]}}},
+    "simulation": {"duration": 0.01, "step": "1 ms"},
+    "output": {"sensors": {"tip": {"position": "beam/end"}}}}
+
+
+def test_a_model_in_json(buckens, tmp_path):
+    for text in (json.dumps(JSON_MODEL), json.dumps(JSON_MODEL, indent=2)):
         (tmp_path / "model.json").write_text(text)
         buckens("run", "-q", "model.json", "-o", "out", "--set", "simulation.step=0.25 ms").must(0)
         buckens("run", "-q", "out/model.yaml", "-o", "again").must(0)
         same_run(tmp_path / "out", tmp_path / "again")
+        assert len((tmp_path / "again" / "sensors.csv").read_text().splitlines()) > 10
 
 
 @pytest.fixture
