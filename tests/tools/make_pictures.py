@@ -28,7 +28,7 @@ class Picture:
     folders: tuple = ("out",)  # names of the run directories, which pages of two runs show
     time: float = 0.3  # share of the run
     view: tuple = ()  # arguments of viewer/scripts/screenshot.mjs
-    size: tuple = (1200, 750)
+    size: tuple = (1280, 800)
     fixture: str = ""  # a synthetic page of viewer/tests/fixture.mjs in place of runs
 
 
@@ -43,11 +43,11 @@ class Drawing:
 # Which model, at which time and seen how, gives which picture.
 PICTURES = (
     Picture("slider_crank", (("run", CRANK),), time=0.055),
-    Picture("spring_leg", (("run", "examples/spring_leg/spring_leg.yaml"),), time=0.19),
+    Picture("spring_leg", (("run", "examples/spring_leg/spring_leg.yaml"),), time=0.19375),
     Picture("gyro_rotor", (("run", "examples/gyro_rotor/gyro_rotor.yaml"),), time=0.36),
     Picture("plate_bdf", (("run", "examples/plate_bdf/plate_bdf.yaml"),), time=0.3),
     Picture("bracket_inp", (("run", "examples/bracket_inp/bracket_inp.yaml"),), time=0.9, view=("--scale", "500")),
-    Picture("connecting_rod", (("run", "examples/connecting_rod/connecting_rod.yaml"),), time=0.33),
+    Picture("connecting_rod", (("run", "examples/connecting_rod/connecting_rod.yaml"),), time=0.94),
     Picture("tumbling_block", (("run", "examples/tumbling_block/tumbling_block.yaml"),), time=0.13,
             view=("--scale", "5")),
     Picture("tube_modes", (("modes", "examples/tube_modes/tube_modes.yaml", "--count", "8"),), time=0.25),
