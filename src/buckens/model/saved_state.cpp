@@ -9,7 +9,7 @@ namespace buckens::model {
 
 namespace {
 
-constexpr long kMostSteps = 1L << 60;
+constexpr long kMostBodies = 1L << 60;
 
 void visit_coupling(const base::SaveVisit& visit, Eigen::Index n, Coupling& coupling) {
   visit.number("t", coupling.t);
@@ -78,7 +78,7 @@ void visit_saved(const base::SaveVisit& visit, body::CouplingTerms& terms) {
 
 void visit_saved(const base::SaveVisit& visit, const Model& model, State& state) {
   long bodies = static_cast<long>(state.bodies.size());
-  visit.count("num_bodies", bodies, 0, kMostSteps);
+  visit.count("num_bodies", bodies, 0, kMostBodies);
   if (static_cast<std::size_t>(bodies) != model.bodies.size()) {
     visit.refuse("num_bodies",
                  fmt::format("it is {}, the model has {}", bodies, model.bodies.size()));
