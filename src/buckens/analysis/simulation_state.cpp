@@ -102,7 +102,7 @@ void SimulationRun::set_load(const std::string& name, const std::optional<Eigen:
   for (const std::size_t k : found) state.inputs[k] = value;
   has_new_inputs_ = true;
   observed_at_ = -1;
-  if (steps_taken_ > 0 || has_begun_) return;
+  if (steps_taken_ > 0) return;
   settle_accelerations(built_.model, *metric_, prepared_->rows_in_use, state);
 }
 
