@@ -195,7 +195,7 @@ json measure_setup(const SolidBlock& block) {
   for (const int variables : {12, 60}) {
     part.num_interface_rows = variables;
     const Stopwatch columns;
-    const buckens::stepping::BodyStepOperator op(part, run.stepper->scheme(), &with_factor);
+    const buckens::stepping::BodyStepOperator op(part, run.stepper->scheme(), {&with_factor});
     out[std::to_string(variables)] = columns.seconds();
     out["solves_" + std::to_string(variables)] = op.setup_solves();
   }
