@@ -77,7 +77,8 @@ bool needs_files(const model::ModelDescription& model, const files::FilesRead& f
 void fix_base(YamlNode& root, const std::filesystem::path& directory) {
   YamlNode base;
   base.kind = YamlNode::Kind::scalar;
-  base.text = std::filesystem::absolute(directory).lexically_normal().string();
+  // The directory of a file in it, since that of the current one has no name.
+  base.text = std::filesystem::absolute(directory / "x").lexically_normal().parent_path().string();
   base.is_quoted = true;
   if (YamlNode* old = root.find("base")) {
     *old = std::move(base);
