@@ -25,8 +25,13 @@ WORRIES = {
     # One frame stands beside eight to show what tension does.
     "examples/rotating_beam/rotating_beam.yaml --set bodies.beam.frames=1": (["of its lowest elastic frequency"], [BUCKLING]),
     # One element in one frame, soft enough that the levels of coupling differ.
-    "examples/planar_levels/free_flight.yaml": ONE_FRAME,
-    "examples/planar_levels/pendulum.yaml": (["of its lowest elastic frequency", "is strained by"], ["bends by up to", BUCKLING]),
+    "examples/planar_levels/free_flight.yaml": (["is a modulus of"], [BUCKLING]),
+    "examples/planar_levels/pendulum.yaml": (["of its lowest elastic frequency", "is strained by", "is a modulus of"],
+                                             ["bends by up to", BUCKLING]),
+    "examples/planar_levels/pendulum.yaml --set bodies.beam.coupling={drop": (
+        ["of its lowest elastic frequency", "is a modulus of"], ["bends by up to", BUCKLING]),
+    # A static problem without gravity: density does not matter.
+    "examples/large_bend/large_bend.yaml": (["is a density of"], []),
     # A truss that is pushed through quickly is compressed by 5 %.
     "examples/snap_through/snap_through.yaml --set parameters.rate=5000 N/s": (["is strained by"] * 2, []),
     # Bars that buckle, with one frame per element: eight elements are not many.
@@ -85,8 +90,10 @@ def test_a_documented_command_is_silent_or_warns_with_reason(buckens, tmp_path, 
         assert sorted(said) == sorted(f"buckens: warning: {text}" for text in summary["warnings"] + trust)
         for texts, expected in ((summary["warnings"], warnings), (trust, doubts)):
             assert len(texts) == len(expected), texts
-            for words_of, text in zip(sorted(expected), sorted(texts, key=lambda t: next((w for w in expected if w in t), t))):
-                assert words_of in text
+            for known in expected:
+                matching = next((text for text in texts if known in text), None)
+                assert matching, (known, texts)
+                texts = [text for text in texts if text is not matching]
     else:
         assert said == []
         if verb == "check":
