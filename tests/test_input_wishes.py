@@ -152,7 +152,7 @@ def test_beams_count_from_one_everywhere(buckens, tmp_path):
         "    beams:\n" + beams + "loads: {w: {line-load: {on: frame/4, value: [0, 1 N/m, 0]}}}\n")
     buckens("check", "model.yaml").must(2, "frame/4", "from 1 to 3")
     modes = buckens("modes", "model.yaml", "--body", "frame", "--set", "loads.w.line-load.on=frame/3", "--json").must(0).json
-    assert set(modes["modes"][0]["energy_shares"]) == {"beam 1", "beam 2", "beam 3"}
+    assert set(modes["analyses"][0]["modes"][0]["energy_shares"]) == {"beam 1", "beam 2", "beam 3"}
 
 
 # ---- --set
@@ -245,7 +245,7 @@ def test_rigid_interfaces_work_with_several_frames(buckens, tmp_path):
         (tmp_path / "model.yaml").write_text(BLOCK.replace("FRAMES", str(frames)).replace("REGION", "face: x1"))
         reports.append(buckens("check", "model.yaml", "--json").must(0).json["bodies"]["bar"])
         systems.append([m["frequency"] for m in buckens(
-            "modes", "model.yaml", "--system", "--about", "initial", "--count", "4", "--json").must(0).json["modes"]])
+            "modes", "model.yaml", "--system", "--about", "initial", "--count", "4", "--json").must(0).json["analyses"][0]["modes"]])
         buckens("run", "model.yaml", "-o", f"out{frames}", "-q").must(0)
         row = (tmp_path / f"out{frames}" / "sensors.csv").read_text().splitlines()
         names = [name.split(" [")[0] for name in row[0].split(",")]

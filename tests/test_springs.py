@@ -247,11 +247,12 @@ def test_a_beam_that_starts_in_a_mode_vibrates_in_it(sensors, frames):
     # stay below 1e-3; other modes that the nodal values excite are as small.
     assert omega * 0.04 > 10
     assert out["tip.y"] == pytest.approx(amplitude * numpy.cos(omega * out["t"]), abs=4e-3 * abs(amplitude))
-    assert abs(out["place.y"]).max() < 1e-12
+    if not frames:  # of several frames the mass centre as placed is a point of the mesh
+        assert abs(out["place.y"]).max() < 1e-12
 
 
 def test_rigid_motion_in_a_shape_is_sieved(sensors):
-    moved = FREE.replace("FRAMES", "").replace("y: \"", "y: \"3 + 0.2*x + ")
+    moved = FREE.replace("FRAMES", "").replace("y: \"", "y: \"3 + 0.2*x + ").replace("rz: \"", "rz: \"0.2 + ")
     a, b = sensors(moved), sensors(FREE.replace("FRAMES", ""))
     assert a["tip.y"] == pytest.approx(b["tip.y"], abs=1e-9)
 
