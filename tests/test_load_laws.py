@@ -144,7 +144,7 @@ loads: {gas: {pressure: {on: stone/top, value: 1 MPa}}}
            2, "unknown load \"gaz\"", "gas")
     spring = rod("  pull: {spring-damper: {between: [ground, rod/end], stiffness: 1}}\n")
     (tmp_path / "model.yaml").write_text(spring.replace("{joint-force: wall}", "{load-force: pull}"))
-    buckens("run", "model.yaml", "-o", "out").must(2, "opposite forces", "joint-force")
+    buckens("run", "model.yaml", "-o", "out").must(2, "opposite forces", "spring-force")
 
 
 def test_planar_models_refuse_loads_out_of_their_plane(refuse):

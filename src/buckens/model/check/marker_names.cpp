@@ -58,6 +58,9 @@ std::string text_of(const base::MarkerRef& marker) {
 }
 
 Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model) {
+  // Places of loads have markers of their own, which programs observe (analysis/choose_modes) and
+  // no model file can name; build_model() knows them.
+  if (marker.marker.starts_with('#')) return std::nullopt;
   if (marker.is_ground()) {
     if (marker.marker.empty()) return std::nullopt;
     return Finding{"", fmt::format("\"{}\": the ground has no markers; write {{ground: [x, y, z]}}",
