@@ -51,7 +51,7 @@ JOINTS = {
 
 def pendulum(kind, simulation):
     head, joint = JOINTS[kind]
-    return (HEAD + head + "bodies: {bob: {rigid: {mass: 1, com: [0, -1, 0]}, at: {rotation: {axis: [0, 0, 1], "
+    return (HEAD + head + "bodies: {bob: {rigid: {mass: 1, com: [0, -1, 0]}, at: {orientation: {axis: [0, 0, 1], "
             "angle: 90 deg}}}}\n" + f"joints: {{pin: {{{joint}}}}}\n" + f"simulation: {simulation}\n" +
             "output: {every: 0.1 s, sensors: {bob: {position: bob}, pin: {joint-force: pin}, "
             "balance: {energy: balance}}}\n")
@@ -119,7 +119,7 @@ def test_a_force_beside_a_free_point_mass_is_refused(run):
 
 def test_a_torque_on_a_free_point_mass_is_refused(run):
     run(HEAD + "bodies: {bob: {rigid: {mass: 1}}}\n"
-        'loads: {turn: {torque: {on: bob, value: [0, "t > 0.4 s ? 1 : 0 N m", 0]}}}\n'
+        'loads: {turn: {torque: {on: bob, value: [0, "(t > 0.4 ? 1 : 0) N m", 0]}}}\n'
         "simulation: {duration: 1 s, step: 1 ms}\n").must(3, '"turn"', '"bob"', "no rotary inertia")
 
 

@@ -64,11 +64,12 @@ def test_one_thread_unless_asked(start, tmp_path, model, arguments):
     most = threads_of(process)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 0, err
-    assert most == 1
+    # Results that wait are written once a second: the recorder of a run has a clock of its own.
+    assert most == (2 if arguments[0] == "run" else 1)
 
 
 def test_threads_that_were_asked_for(start, tmp_path):
     (tmp_path / "model.yaml").write_text(BLOCK.replace("10 ms", "20 ms"))
     process = start("run", "model.yaml", "-q", "-o", "out", "--threads", "3")
-    assert threads_of(process) == 3
+    assert threads_of(process) == 3 + 1  # the clock of the recorder
     assert process.wait(timeout=60) == 0
