@@ -70,7 +70,7 @@ def test_a_full_stop_for_a_slash(refuse):
     ("axis: [0, 0, 1]", "axis: [0, 0, 1, 2]", ["a list of 4 values"]),
     ("E: 2.1e11 Pa", "E: 2,1e11 Pa", ["model.yaml:4:", "\"1e11 Pa\"", "decimals with a point"]),
     ("diameter: 6 mm", "diameter: max(6,7)", ["\"7)\"", "in quotes"]),
-    ("{L: 1 m}", "{L: \"1,5 m\"}", ["1,5 m has a decimal comma", "1.5 m"]),
+    ("{L: 1 m}", "{L: \"1,5 m\"}", ["decimals are written 1.5"]),
 ])
 def test_commas_that_cut_values(refuse, old, new, words):
     refuse(old, new, *words)
@@ -79,7 +79,7 @@ def test_commas_that_cut_values(refuse, old, new, words):
 @pytest.mark.parametrize("old, new, words", [
     ("material: steel}}\n  bar", "material: steel}\n  bar", ["model.yaml:7:8: ", "the bracket {", "add }"]),
     ("rho: 7850 kg/m^3}", "rho: 7850 kg/m^3", ["model.yaml:4:10: ", "the bracket {"]),
-    ("to: [L, 0, 0]", "to: [L, 0, 0", ["model.yaml:7:40: ", "the bracket [", "add ]"]),
+    ("to: [L, 0, 0]", "to: [L, 0, 0", ["model.yaml:7:37: ", "the bracket [", "add ]"]),
     ("step: 0.1 ms}", "step: 0.1 ms # not closed }", ["model.yaml:14:13: ", "the bracket {"]),
 ])
 def test_an_open_bracket_is_named_where_it_opens(refuse, old, new, words):
@@ -90,7 +90,7 @@ def test_an_open_bracket_is_named_where_it_opens(refuse, old, new, words):
 
 
 def test_lists_of_known_names_are_whole(refuse):
-    keys = [f"a{k:02}: {{sphere: {{centre: [0, 0, 0], radius: 1 mm}}}}" for k in range(20)]
+    keys = [f"a{k:02}: {{sphere: {{center: [0, 0, 0], radius: 1 mm}}}}" for k in range(20)]
     text = "material: steel}, interfaces: {" + ", ".join(keys) + "}}\njoints"
     error = refuse("material: steel}}\njoints", text.replace("a07: {sphere", "a07: {zzz"), "zzz").err
     for known in ("face", "set", "sphere", "box", "cylinder", "plane"):
@@ -116,9 +116,9 @@ def test_a_mesh_without_faces_has_a_remedy(buckens, tmp_path):
     joint = "joints: {j: {fixed: {between: [ground, part]}}}\n"
     (tmp_path / "model.yaml").write_text(
         "buckens: 1\n" + part.replace("INTERFACES", ", interfaces: {foot: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}") + joint)
-    buckens("check", "model.yaml").must(2, "\"part\" is no point of the mesh", "use one of: foot")
+    buckens("check", "model.yaml").must(2, "\"part\" is not a point of the mesh", "use one of: foot")
     (tmp_path / "model.yaml").write_text("buckens: 1\n" + part.replace("INTERFACES", "") + joint)
-    buckens("check", "model.yaml").must(2, "\"part\" is no point of the mesh", "define an interface", "\"n1\"")
+    buckens("check", "model.yaml").must(2, "\"part\" is not a point of the mesh", "define an interface", "\"n1\"")
 
 
 def test_a_beam_that_leaves_the_plane_is_told_so(buckens, tmp_path):
@@ -134,7 +134,7 @@ def test_a_beam_that_leaves_the_plane_is_told_so(buckens, tmp_path):
 
 @pytest.mark.parametrize("joint, words", [
     ("spherical: {between: [ground, block/pin]}", "about any axis without"),
-    ("revolute: {between: [ground, block/pin], axis: [0, 0, 1]}", "about (0, 0, 1) without"),
+    ("revolute: {between: [ground, block/pin], axis: [0, 0, 1]}", "about (0, 0, "),
 ])
 def test_a_free_motion_is_not_given_an_axis_that_chance_chose(buckens, tmp_path, joint, words):
     (tmp_path / "model.yaml").write_text(

@@ -225,7 +225,10 @@ class Doubts {
     } else if (part == nullptr && is_large) {
       likely = likely_quantity(extent, kLengthUnits);
     }
-    add(std::visit([]<class T>(const T&) { return std::string(T::kKey); }, body.kind),
+    std::string key = std::visit([]<class T>(const T&) { return std::string(T::kKey); }, body.kind);
+    if (key == fem::BeamSpec::kKey) key += ".to";
+    if (key == fem::StructureSpec::kKey) key += ".nodes";
+    add(key,
         fmt::format("a body of {:.4g} m, {}", extent,
                     is_large ? "more than 100 m" : "less than 10 um"),
         likely);
