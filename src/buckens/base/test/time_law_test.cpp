@@ -124,7 +124,7 @@ TEST(TimeLaw, TablesRefuseToGoOnBeyondTheirRange) {
     EXPECT_EQ(table.range()->first, 0.5);
     EXPECT_EQ(table.range()->last, 3);
     EXPECT_THAT(message([&] { table.value(3.1); }),
-                testing::AllOf(HasSubstr("model.yaml:7:3"), HasSubstr("from t = 0.5 s to 3 s"),
+                testing::AllOf(HasSubstr("model.yaml:7:3"), HasSubstr("covers t = 0.5 s to 3 s"),
                                HasSubstr("at t = 3.1 s"), HasSubstr("extrapolation: hold")));
     EXPECT_THROW(table.value(0.4), NumericalError);
     EXPECT_THROW(table.rate(-1), NumericalError);

@@ -320,7 +320,7 @@ TEST(GmshMesh, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(gmsh_message(test::replaced(two, "1 1 1.5e0", "1 nan 1")),
             "part.msh:18:6: expected a coordinate of a node, a finite number, found \"nan\"");
   EXPECT_THAT(gmsh_message(test::replaced(two, "20 1 0 0", "10 1 0 0")),
-              HasSubstr("node 10 stands"));
+              HasSubstr("node 10 appears"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "20 30 40 50", "20 30 40 77")),
               HasSubstr("part.msh:26:20: element 5 refers to node 77"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "5 4 2 5", "5 94 2 5")), HasSubstr("type 94"));

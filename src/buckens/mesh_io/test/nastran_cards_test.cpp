@@ -99,7 +99,7 @@ TEST(NastranCards, nodes_have_defaults) {
 TEST(NastranCards, twice_the_same_node_is_one) {
   const auto mesh = read_deck(kTetra + "GRID,1,,0.,0.,0.\n");
   EXPECT_EQ(mesh.num_nodes(), 4);
-  EXPECT_TRUE(has_note(mesh, "twice"));
+  EXPECT_TRUE(has_note(mesh, "repeated"));
 }
 
 TEST(NastranCards, nonstructural_mass_goes_to_the_nodes) {

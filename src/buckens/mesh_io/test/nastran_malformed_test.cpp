@@ -36,7 +36,7 @@ TEST(NastranMalformed, lines_that_are_no_cards) {
   expect_words(
       refusal("GRID    1                                                               +A\n"
               "+B      2\n"),
-      {"deck.bdf:2:1", "\"+B\" stands where \"+A\""});
+      {"deck.bdf:2:1", "found continuation \"+B\" where \"+A\""});
   expect_words(refusal("\x7f"
                        "ELF\x02\x01\x01\xff\xfe\n"),
                {"deck.bdf:1:1", "is not the name"});
@@ -103,12 +103,12 @@ TEST(NastranMalformed, what_is_refused_says_why) {
   expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,456,2,3\n,4\n"),
                {"deck.bdf:8:18", "means of rotations alone"});
   expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,123,2,THRU\n,4\n"),
-               {"THRU stands where a node should"});
+               {"THRU is given where a node is expected"});
   expect_words(refusal("CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n" + kTetra +
                        "GRID,9,,1.,1.,1.,7\nRBE3,2,,1,123,1.,1,2,3\n,9\n"),
                {"single components at GRID 9"});
   expect_words(refusal(kTetra + "PBEAML,2,1,,BAR\n,1.,2.,,3.,1.\nCBEAM,2,2,1,2,0.,0.,1.\n"),
-               {"\"3.\" stands where SO should", "2 dimensions"});
+               {"expected SO, YES or NO, found \"3.\"", "2 dimensions"});
   expect_words(refusal(kTetra + "MAT9,3,3.,1.,1.,.5,,,3.\n,1.,,,,3.\n,1.,,,1.,,1.\n"
                                 "PSOLID,2,3\nCTETRA,2,2,1,2,3,4\n"),
                {"couples tension and shear"});

@@ -103,7 +103,7 @@ TEST(UniversalFile, LeavesOutMembersThatAreNotThere) {
 }
 
 TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
-  EXPECT_THAT(universal_message("hello\n"), HasSubstr("part.unv:1:1: -1, with which"));
+  EXPECT_THAT(universal_message("hello\n"), HasSubstr("part.unv:1:1: expected -1"));
   EXPECT_THAT(universal_message("    -1\n  2412\n    -1\n"), HasSubstr("no nodes"));
   EXPECT_THAT(
       universal_message(test::replaced(kPart, "        34         4\n", "        35         4\n")),

@@ -63,7 +63,7 @@ TEST_F(SweepTableFile, RefusesWhatCannotBe) {
   refuses("a,b\n", ".csv", "has no variants");
   refuses("a,b\n1\n", ".csv:2", "has 1 cells, the first line has 2");
   refuses("a,a\n1,2\n", ".csv:1", "appears twice");
-  refuses("a=1,b\n1,2\n", ".csv:1", "no path");
+  refuses("a=1,b\n1,2\n", ".csv:1", "not a path");
   refuses("name,a\nx,1\nx,2\n", ".csv:3", "\"x\" appears twice");
   refuses("name,a\n../x,1\n", ".csv:2", "cannot name a run directory");
   refuses("name,a\n,1\n", ".csv:2", "cannot name a run directory");
