@@ -52,17 +52,9 @@ TEST(StateFile, ForeignContentWithASoundTrailerIsRefused) {
               ThrowsMessage<IoError>(HasSubstr("s: the saved state is damaged")));
   const std::string content = bytes.substr(0, bytes.size() - kStateTrailer);
   EXPECT_EQ(sealed(content), bytes);
-  int refused = 0;
-  for (std::size_t at = 0; at < content.size(); ++at) {
-    std::string damaged = content;
-    damaged[at] = static_cast<char>(damaged[at] ^ 0x3f);
-    try {
-      parse_state(sealed(damaged), "s");
-    } catch (const IoError&) {
-      ++refused;
-    }
+  for (std::size_t size = 0; size < content.size(); size += 101) {
+    EXPECT_THROW(parse_state(sealed(content.substr(0, size)), "s"), IoError) << size;
   }
-  EXPECT_GT(refused, 100);  // of the rest, numbers differ
 }
 
 }  // namespace
