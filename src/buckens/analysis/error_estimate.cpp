@@ -22,6 +22,8 @@ constexpr double kSafetyOfExact = 1.25;
 constexpr double kIterations = 1e-9;
 // Two runs that differ by this share of the range of a curve say nothing about it.
 constexpr double kUnresolved = 0.5;
+// Differences below this share of the sensor do not matter, whatever the component.
+constexpr double kRelevant = 1e-3;
 constexpr double kSameInstant = 1e-9;
 
 /// The value of largest magnitude: a maximum, or a minimum.
@@ -152,8 +154,8 @@ void ErrorEstimate::add(results::ErrorSource source, const SensorCurves& further
     }
     // A curve that does not vary has no phase that could be lost.
     const bool varies = errors.range > kIterations * errors.scale;
-    if (varies && source.refinement > 0 && curve > kUnresolved * errors.range &&
-        source.name == results::kTimeStepSource) {
+    if (source.name == results::kTimeStepSource && varies && curve > kUnresolved * errors.range &&
+        curve > kRelevant * errors.scale) {
       errors.is_resolved = false;
     }
     errors.peak.parts.push_back(source.factor * peak);

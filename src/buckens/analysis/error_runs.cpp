@@ -15,10 +15,16 @@ namespace {
 
 // With step control: fewer steps more than this do not tell an order.
 constexpr double kLeastRefinement = 1.2;
-// Of the peak of a sensor.
+// Of the largest value of a sensor.
 constexpr double kDoubtful = 0.1;
-// Components below this share of their sensor are rounding.
-constexpr double kRoundingShare = 1e-6;
+
+const char* remedy_for(const std::string& source) {
+  if (source == results::kTimeStepSource) return "use a shorter step, or a smaller tolerance";
+  if (source == "frames") return "give the beams more frames (`frames: 8`)";
+  if (source == "coupling") return "use `coupling: full`";
+  if (source == "modes") return "keep more modes, or the full mesh";
+  return "use a finer mesh";
+}
 
 /// Simulates a variant; none where it was interrupted.
 std::unique_ptr<SensorCurves> run_variant(const ErrorVariant& variant,
@@ -82,17 +88,16 @@ std::vector<std::string> doubts(const results::ErrorStatement& statement) {
   double most = kDoubtful;
   std::string unresolved;
   for (const results::SensorErrors& sensor : statement.sensors) {
-    if (!sensor.is_resolved) unresolved += (unresolved.empty() ? "" : ", ") + sensor.name;
-    const double size = std::max(std::abs(sensor.peak.value), 0.5 * sensor.range);
     // Energies contain the balance, which is nothing but error.
-    if (size <= kRoundingShare * sensor.scale || sensor.unit == "J") continue;
-    if (sensor.peak.uncertainty <= most * size) continue;
-    most = sensor.peak.uncertainty / size;
+    if (sensor.unit == "J") continue;
+    if (!sensor.is_resolved) unresolved += (unresolved.empty() ? "" : ", ") + sensor.name;
+    if (sensor.peak.uncertainty <= most * sensor.scale) continue;
+    most = sensor.peak.uncertainty / sensor.scale;
     worst = &sensor;
   }
   if (!unresolved.empty()) {
     out.push_back(fmt::format(
-        "with half the step the curves of {} come out wholly different: the motion is chaotic or "
+        "with half the step the curves of {} come out entirely different: the motion is chaotic or "
         "the step too long; shorten the step, or trust means and extremes only",
         unresolved));
   }
@@ -100,10 +105,9 @@ std::vector<std::string> doubts(const results::ErrorStatement& statement) {
     const auto part = std::max_element(worst->peak.parts.begin(), worst->peak.parts.end());
     const auto& source =
         statement.sources[static_cast<std::size_t>(part - worst->peak.parts.begin())];
-    out.push_back(fmt::format(
-        "the error statement gives {:.2g} % on the peak of {}, most of it from \"{}\": {}",
-        100.0 * most, worst->name, source.name,
-        source.refinement > 0 ? "refine that" : "use " + source.what));
+    out.push_back(
+        fmt::format("the error statement gives {:.2g} % on the peak of {}, most of it from {}; {}",
+                    100.0 * most, worst->name, source.name, remedy_for(source.name)));
   }
   return out;
 }
