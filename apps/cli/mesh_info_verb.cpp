@@ -10,7 +10,7 @@ namespace buckens::cli {
 
 namespace {
 
-ExitCode tell(const MeshArguments& arguments, bool json) {
+ExitCode tell_of_mesh(const MeshArguments& arguments, bool json) {
   const double length = fem::size_of(arguments.unit_of_length());
   const double mass = fem::size_of(arguments.unit_of_mass());
   const fem::ImportedMesh mesh = fem::in_si(arguments.read(), length, mass);
@@ -42,7 +42,9 @@ void add_mesh_info_verb(CLI::App& program, Invocation& invocation) {
   add_json_option(verb, invocation);
   verb.footer(kMeshInfoFooter);
   verb.callback([arguments, &invocation] {
-    invocation.action = [arguments, &invocation] { return tell(*arguments, invocation.json); };
+    invocation.action = [arguments, &invocation] {
+      return tell_of_mesh(*arguments, invocation.json);
+    };
   });
 }
 
