@@ -94,9 +94,7 @@ struct SimulationSpec {
               .positive());
     visit(base::field("max-outer-iterations", max_outer_iterations, "most large solves in a step")
               .positive());
-    visit(base::field("error", error,
-                      "on: `buckens run` says by how much each sensor may be off, as with --error")
-              .on_off());
+    visit(base::field("error", error, "on: as `buckens run --error`").on_off());
   }
 };
 
