@@ -40,6 +40,11 @@ NodalViews::View NodalViews::displacements(std::size_t whole, const model::State
   results::Observation now{model_, state, {}, {}, {}, {}, {}, {}, {}, {}, {}, 1.0};
   now.wholes.resize(model_.wholes.size());
   now.wholes[whole] = model::whole_motion(model_, body, state);
+  now.nodal.resize(state.bodies.size());
+  for (int b = body.first; b < body.first + body.count; ++b) {
+    const auto part = static_cast<std::size_t>(b);
+    now.nodal[part] = model_.bodies[part].flexible->nodal(state.bodies[part].d);
+  }
   std::vector<double> values;
   results::DividedBody(model_, body).append_displacements(now, values);
   table.resize(static_cast<Eigen::Index>(values.size()) / 6, Eigen::NoChange);

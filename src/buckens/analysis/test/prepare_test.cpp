@@ -32,7 +32,7 @@ struct Ready {
 Described hinged_block() {
   Described m;
   m.d.gravity = {0, -10, 0};
-  m.rigid("block", 2, {1, 0, 0}, {1, 1, 3}).markers = {Described::marker("pin", {0, 0, 0})};
+  m.rigid("block", 2, {1, 0, 0}, {2, 2, 3}).markers = {Described::marker("pin", {0, 0, 0})};
   m.joint<joints::RevoluteSpec>("hinge", "ground", "block/pin").axis = Vector3d::UnitZ();
   return m;
 }

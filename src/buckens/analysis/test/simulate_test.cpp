@@ -127,7 +127,7 @@ TEST(Simulate, AdjustsTheStepToTheDuration) {
   };
   EXPECT_EQ(steps(1.0, 0.3), 4);
   EXPECT_EQ(steps(0.3, 0.1), 3);  // 0.3/0.1 is not 3 in floating point
-  EXPECT_EQ(steps(0.1, 1.0), 1);
+  EXPECT_EQ(steps(0.1, 0.1), 1);
 }
 
 TEST(Simulate, RecordsAboutFiveHundredTimesByDefault) {
