@@ -57,11 +57,12 @@ Extremum extremum(const std::vector<double>& t, const std::vector<double>& x, do
   return vertex(t, x, extreme_record(x, sign));
 }
 
-/// What records at these distances leave open of an extremum: parabolas err by the fourth power of
-/// the distance.
+/// What records at these distances leave open of an extremum, from the parabola through records
+/// twice as far apart. Parabolas err by the fourth power of the distance, but the extremum lies at
+/// another place between the records of either: the whole difference is taken, not a fifteenth.
 double sampling_error(const std::vector<double>& t, const std::vector<double>& x, double sign) {
   const std::size_t k = extreme_record(x, sign);
-  return kSafetyOfTwo * std::abs(vertex(t, x, k).value - vertex(t, x, k, 2).value) / 15.0;
+  return std::abs(vertex(t, x, k).value - vertex(t, x, k, 2).value);
 }
 
 double largest_magnitude(const std::vector<double>& x) {
