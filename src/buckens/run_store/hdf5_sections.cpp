@@ -55,6 +55,7 @@ void read_sections(const Hdf5File& file, const std::string& path, results::Geome
     expect(section == known || (section == known - 1 && known > 0));
     expect(count >= 0 && static_cast<std::size_t>(count) <= points.size() / 2 - next);
     if (section == known) body.sections.emplace_back();
+    if (count == 0) continue;  // a section without outline
     fem::SectionLoop& loop = body.sections.back().emplace_back();
     for (int k = 0; k < count; ++k, ++next)
       loop.emplace_back(points[2 * next], points[2 * next + 1]);

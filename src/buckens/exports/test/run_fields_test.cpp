@@ -122,7 +122,7 @@ TEST(RunFields, BecomeTables) {
   EXPECT_THAT(files, testing::ElementsAre("sensors.csv", "rod_nodes.csv", "rod_nodes_extremes.csv",
                                           "rod_elements.csv"));
   EXPECT_EQ(files::read_text_file(directory / "csv/sensors.csv").substr(0, 23),
-            "t [s],angle [rad],tip.x");
+            "t [s],tip.x [m],tip.y [");
   const std::string nodes = files::read_text_file(directory / "csv/rod_nodes.csv");
   EXPECT_EQ(nodes.substr(0, nodes.find('\n', nodes.find('\n') + 1)),
             "t [s],node,x [m],y [m],z [m],von_mises [Pa]\n0,1,0,0,0,1");
