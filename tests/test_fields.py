@@ -181,7 +181,7 @@ def test_a_face_of_shells_is_a_place(run):
 
 @pytest.mark.parametrize("fields, words", [
     ("[von-mises, stres]", ["output.fields", "stres", "stress"]),
-    ("{record: [von-mises], every: 1.5 ms}", ["no multiple", "0.0015"]),
+    ("{record: [von-mises], every: 1.5 ms}", ["not a multiple", "0.0015"]),
     ("{record: [von-mises], on: [bra]}", ["no body \"bra\"", "\"bar\""]),
     ("{record: [von-mises], on: [bar/roof]}", ["\"roof\"", "\"root\""]),
     ("{on: [bar]}", ["record", "missing"]),

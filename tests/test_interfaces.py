@@ -151,7 +151,7 @@ def test_check_lists_interfaces(buckens, tmp_path):
 
 
 @pytest.mark.parametrize("interface, code, words", [
-    ("{face: x2}", 2, ["interface \"root\" of body \"bar\"", "no face \"x2\"", "x0, x1, y0"]),
+    ("{face: x2}", 2, ["interface \"root\" of body \"bar\"", "no face \"x2\"", "Did you mean \"x0\"?"]),
     ("{sphere: {center: [-1, 0, 0], radius: 0.5}}", 2,
      ["no node lies in the sphere", "0.5 m away", "`tolerance`"]),
     ("{set: [corner_000, corner_001]}", 3,

@@ -225,14 +225,14 @@ def test_a_rod_from_a_step_file_bends_like_a_beam(buckens, tmp_path):
 
 BROKEN = {
     "empty.msh": (b"", "the file is empty"),
-    "picture.msh": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "no mesh of Gmsh"),
+    "picture.msh": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "not a Gmsh mesh"),
     "picture.unv": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "universal file"),
     "picture.step": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "no STEP file"),
     "huge.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999999999999\n", "huge.msh:5:"),
     "missing.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
                     b"1 4 2 0 1 1 2 3 4\n$EndElements\n", "missing.msh:10:"),
     "nan.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "nan.msh:6:5"),
-    "old.msh": (b"$NOD\n1\n1 0 0 0\n$ENDNOD\n", "no mesh of Gmsh"),
+    "old.msh": (b"$NOD\n1\n1 0 0 0\n$ENDNOD\n", "not a Gmsh mesh"),
 }
 
 

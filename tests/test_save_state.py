@@ -116,7 +116,7 @@ CASES = {
     "cranks after": (model(CRANKS), 1.0),
     "cranks late": (model(CRANKS), 2.0),
     "cranks, hht": (model(CRANKS, step="method: hht"), 1.0),
-    "cranks, step control": (model(CRANKS, step="tolerance: 1e-5"), 1.2),
+    "cranks, step control": (model(CRANKS, step="tolerance: 1e-3"), 1.2),
     "block": (model(BLOCK), 0.0102),
     "block, free-free": (model(BLOCK, "reduction: {free-free: 6}"), 0.02),
     "block, threads": (model(BLOCK, step="tolerance: 1e-4"), 0.02),

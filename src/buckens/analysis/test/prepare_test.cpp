@@ -65,8 +65,8 @@ TEST(Prepare, VelocitiesAreProjectedByTheLeastChange) {
   // Not without a word.
   ASSERT_FALSE(ready.prepared.notes.empty());
   EXPECT_THAT(ready.prepared.notes.back(),
-              AllOf(HasSubstr("body \"block\""), HasSubstr("from (0, 5, 3)"),
-                    HasSubstr("(0, 2, 0) m/s"), HasSubstr("(0, 0, 2) rad/s")));
+              AllOf(HasSubstr("body \"block\""), HasSubstr("by (0, -3, -3) to (0, 2, 0) m/s"),
+                    HasSubstr("(0, 0, 2) rad/s")));
 }
 
 TEST(Prepare, VelocitiesThatFitTheJointsPassWithoutAWord) {

@@ -158,11 +158,11 @@ TEST(NastranInclude, circles_doubles_and_missing_files_are_refused) {
   expect_words(refusal_of_files({{"a.bdf", "INCLUDE 'a.bdf'\n"}}), {"a.bdf:1:1: ", "circle"});
   expect_words(
       refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'b'\nINCLUDE 'b'\n"}, {"b", "GRID,2\n"}}),
-      {"a.bdf:3:1: ", "included before"});
+      {"a.bdf:3:1: ", "already been included"});
   expect_words(refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'none.bdf'\n"}}),
                {"a.bdf:2:1: ", "none.bdf", "no such file"});
   expect_words(refusal_of_files({{"a.bdf", "INCLUDE 'b\n"}}), {"a.bdf:1:1: ", "quotation mark"});
-  expect_words(refusal_of_files({{"a.bdf", "INCLUDE\n"}}), {"without the name"});
+  expect_words(refusal_of_files({{"a.bdf", "INCLUDE\n"}}), {"has no file name"});
   expect_words(refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE b\n"}, {"b", ",2\n"}}),
                {"b:1:1: ", "another file"});
 }
