@@ -19,7 +19,7 @@ BUCKLING = "of its buckling load"
 ONE_FRAME = ([], [BUCKLING])  # the paper's case has one frame; its page says that 22 % are wrong
 WORRIES = {
     "examples/slider_crank/slider_crank.yaml": ONE_FRAME,
-    # The error statement finds what one frame costs; the force across the guide is ringing alone.
+    # The error statement finds what one frame costs and doubts the force across the guide.
     "examples/slider_crank/slider_crank.yaml --error": ([], [BUCKLING, "come out entirely different", "error statement gives"]),
     "examples/slider_crank/slider_crank_3d.yaml": ONE_FRAME,
     "examples/method_comparison/method_comparison.yaml": ONE_FRAME,

@@ -227,7 +227,7 @@ BROKEN = {
     "empty.msh": (b"", "the file is empty"),
     "picture.msh": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "not a Gmsh mesh"),
     "picture.unv": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "universal file"),
-    "picture.step": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "no STEP file"),
+    "picture.step": (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 20, "not a STEP file"),
     "huge.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999999999999\n", "huge.msh:5:"),
     "missing.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
                     b"1 4 2 0 1 1 2 3 4\n$EndElements\n", "missing.msh:10:"),
