@@ -113,6 +113,7 @@ CASES = {
     "geometric stiffness": (model(SLIDER_CRANK, "geometric-stiffness: on"), 0.03),
     "first step": (model(SLIDER_CRANK), 0.0002),
     "cranks before": (model(CRANKS), 0.1),
+    "cranks, other rows": (model(CRANKS), 0.3),
     "cranks after": (model(CRANKS), 1.0),
     "cranks late": (model(CRANKS), 2.0),
     "cranks, hht": (model(CRANKS, step="method: hht"), 1.0),
@@ -157,7 +158,7 @@ def test_rows_were_chosen_anew(buckens, tmp_path):
     h5py = pytest.importorskip("h5py")
     (tmp_path / "model.yaml").write_text(model(CRANKS))
     chosen = []
-    for t in (0.1, 0.6, 1.1, 1.6, 2.1):
+    for t in (0.1, 0.3, 0.6, 1.1, 1.6):
         buckens("run", "model.yaml", "-q", "-o", "out", "--save-state", "s", "--save-state-at",
                 t).must(0)
         with h5py.File(tmp_path / "s") as file:
