@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/prepare.h"
+#include "buckens/analysis/initial/prepare.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/stepping/stepper.h"
 

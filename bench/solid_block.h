@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::bench {
 

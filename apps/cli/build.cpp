@@ -6,7 +6,7 @@
 
 #include "cli/mesh_report_text.h"
 
-#include "buckens/analysis/choose_modes.h"
+#include "buckens/analysis/simulation/choose_modes.h"
 #include "buckens/base/log.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/run_store/basis_files.h"

@@ -8,8 +8,8 @@
 #include "cli/output.h"
 #include "cli/verbs.h"
 
-#include "buckens/analysis/model_report.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/analysis/simulation/model_report.h"
+#include "buckens/model/build/build_model.h"
 
 namespace buckens::cli {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/error_runs.h"
+#include "buckens/analysis/error/runs.h"
 #include "buckens/base/log.h"
 #include "buckens/model_file/model_file.h"
 

@@ -9,8 +9,8 @@
 #include "cli/progress_display.h"
 #include "cli/run_journal.h"
 
-#include "buckens/analysis/sensor_curves.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/analysis/error/sensor_curves.h"
+#include "buckens/model/build/build_model.h"
 
 namespace buckens::cli {
 

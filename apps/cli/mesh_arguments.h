@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "buckens/fem/mesh_file_spec.h"
+#include "buckens/fem/mesh/mesh_file_spec.h"
 
 namespace buckens::cli {
 

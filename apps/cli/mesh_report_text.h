@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/body/body_spec.h"
-#include "buckens/fem/mesh_report.h"
+#include "buckens/fem/mesh/report.h"
 
 namespace buckens::cli {
 

@@ -7,7 +7,7 @@
 #include "cli/model_report_text.h"
 #include "cli/output.h"
 
-#include "buckens/analysis/turn.h"
+#include "buckens/analysis/simulation/turn.h"
 #include "buckens/files/vector_json.h"
 
 namespace buckens::cli {

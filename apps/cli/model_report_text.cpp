@@ -12,7 +12,7 @@
 #include "cli/output.h"
 #include "cli/text_table.h"
 
-#include "buckens/analysis/output_plan.h"
+#include "buckens/analysis/simulation/output_plan.h"
 
 namespace buckens::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "buckens/analysis/model_report.h"
+#include "buckens/analysis/simulation/model_report.h"
 
 namespace buckens::cli {
 

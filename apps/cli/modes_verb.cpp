@@ -13,9 +13,9 @@
 #include "cli/verbs.h"
 #include "cli/vibration_text.h"
 
-#include "buckens/analysis/body_vibration.h"
-#include "buckens/analysis/system_vibration.h"
-#include "buckens/analysis/vibration_record.h"
+#include "buckens/analysis/vibration/body_vibration.h"
+#include "buckens/analysis/vibration/record.h"
+#include "buckens/analysis/vibration/system_vibration.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/files/output_file.h"

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 
 namespace buckens::cli {
 

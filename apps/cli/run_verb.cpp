@@ -20,9 +20,9 @@
 #include "cli/summary_text.h"
 #include "cli/verbs.h"
 
-#include "buckens/analysis/error_variants.h"
-#include "buckens/analysis/output_plan.h"
-#include "buckens/analysis/simulation.h"
+#include "buckens/analysis/error/variants.h"
+#include "buckens/analysis/simulation/output_plan.h"
+#include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/version.h"
 #include "buckens/files/output_file.h"

@@ -8,7 +8,7 @@
 
 #include "cli/run_journal.h"
 
-#include "buckens/analysis/simulation.h"
+#include "buckens/analysis/simulation/simulation.h"
 
 namespace buckens::cli {
 

@@ -16,7 +16,7 @@
 #include "cli/summary_text.h"
 #include "cli/verbs.h"
 
-#include "buckens/analysis/static_path.h"
+#include "buckens/analysis/statics/path.h"
 #include "buckens/base/version.h"
 #include "buckens/files/output_file.h"
 

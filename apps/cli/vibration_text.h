@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "buckens/analysis/vibration.h"
+#include "buckens/analysis/vibration/vibration.h"
 
 namespace buckens::cli {
 

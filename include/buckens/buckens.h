@@ -6,7 +6,7 @@
 /// This list is the one place that decides what is public; installed are these headers and those
 /// that they include. See docs/developers/cpp.md and examples/cpp.
 
-#include "buckens/analysis/simulation.h"
+#include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"

@@ -8,7 +8,7 @@
 
 #include <buckens/buckens.h>
 
-#if __has_include(<buckens/analysis/simulation_run.h>) || __has_include(<buckens/stepping/stepper.h>)
+#if __has_include(<buckens/analysis/simulation/run.h>) || __has_include(<buckens/stepping/stepper.h>)
 #error "headers are installed that are not public"
 #endif
 

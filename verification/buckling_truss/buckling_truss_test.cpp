@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/static_path.h"
+#include "buckens/analysis/statics/path.h"
 #include "buckens/base/test/source_directory.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/stepping/test/same_state.h"
 #include "buckens/stepping/test/simulate.h"

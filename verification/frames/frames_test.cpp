@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/base/test/source_directory.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "buckens/analysis/prepare.h"
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/initial/prepare.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/base/test/source_directory.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/mass_metric.h"

@@ -12,7 +12,7 @@
 #include "buckens/base/test/source_directory.h"
 #include "buckens/body/free_modes.h"
 #include "buckens/body/rigid_modes.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 
 namespace buckens::verification {
 namespace {

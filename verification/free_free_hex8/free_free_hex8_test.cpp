@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "buckens/analysis/body_vibration.h"
+#include "buckens/analysis/vibration/body_vibration.h"
 #include "buckens/base/test/source_directory.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/model_file/model_file.h"
 
 namespace buckens::verification {

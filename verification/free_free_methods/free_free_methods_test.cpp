@@ -11,8 +11,8 @@
 
 #include "buckens/base/test/source_directory.h"
 #include "buckens/body/free_free_modes.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::verification {
 namespace {

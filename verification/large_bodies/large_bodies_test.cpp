@@ -9,7 +9,7 @@
 #include "buckens/base/test/allocation_count.h"
 #include "buckens/body/reduction.h"
 #include "buckens/dynamics/test/mechanism.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::verification {

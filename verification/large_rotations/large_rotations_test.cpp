@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/static_path.h"
+#include "buckens/analysis/statics/path.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 

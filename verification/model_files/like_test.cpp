@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/base/errors.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"

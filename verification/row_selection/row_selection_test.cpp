@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/prepare.h"
+#include "buckens/analysis/initial/prepare.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/stepping/stepper.h"

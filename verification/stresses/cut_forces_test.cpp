@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/simulate.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/node_region.h"
-#include "buckens/fem/solid_block.h"
+#include "buckens/analysis/simulation/simulate.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/constraint/node_region.h"
+#include "buckens/fem/solid/block.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 

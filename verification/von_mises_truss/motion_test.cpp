@@ -11,7 +11,7 @@
 
 #include "verification/von_mises_truss/truss.h"
 
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The static path of the two-bar truss through both limit points; see README.md.
-#include "buckens/analysis/static_path.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "verification/von_mises_truss/truss.h"
 
+#include "buckens/analysis/statics/path.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 

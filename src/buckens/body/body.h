@@ -11,8 +11,8 @@
 #include "buckens/body/marker.h"
 #include "buckens/body/nodal_recovery.h"
 #include "buckens/body/sieve.h"
+#include "buckens/fem/assembly/geometric_stiffness.h"
 #include "buckens/fem/fe_model.h"
-#include "buckens/fem/geometric_stiffness.h"
 
 namespace buckens::body {
 

@@ -13,9 +13,9 @@
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/frame_division.h"
 #include "buckens/body/reduction_spec.h"
-#include "buckens/fem/matrices_spec.h"
-#include "buckens/fem/mesh_spec.h"
-#include "buckens/fem/region_spec.h"
+#include "buckens/fem/assembly/matrices_spec.h"
+#include "buckens/fem/mesh/region_spec.h"
+#include "buckens/fem/mesh/spec.h"
 #include "buckens/fem/structure_spec.h"
 
 namespace buckens::body {

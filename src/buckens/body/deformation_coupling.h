@@ -3,7 +3,7 @@
 
 #include "buckens/base/task_pool.h"
 #include "buckens/body/inertia_invariants.h"
-#include "buckens/fem/shape_integrals.h"
+#include "buckens/fem/element/shape_integrals.h"
 
 namespace buckens::body {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "buckens/base/task_pool.h"
-#include "buckens/fem/shape_integrals.h"
+#include "buckens/fem/element/shape_integrals.h"
 
 namespace buckens::body {
 

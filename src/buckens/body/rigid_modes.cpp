@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/node_label.h"
+#include "buckens/fem/element/node_label.h"
 
 namespace buckens::body {
 

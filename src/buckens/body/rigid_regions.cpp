@@ -10,8 +10,8 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/second_moments.h"
-#include "buckens/fem/elimination.h"
-#include "buckens/fem/node_label.h"
+#include "buckens/fem/constraint/elimination.h"
+#include "buckens/fem/element/node_label.h"
 
 namespace buckens::body {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "buckens/body/body.h"
-#include "buckens/fem/node_links.h"
+#include "buckens/fem/constraint/node_links.h"
 
 namespace buckens::body {
 
@@ -18,8 +18,8 @@ struct RigidRegion {
 };
 
 /// The body without the variables that links inside its mesh make depend on others: d = T x,
-/// sparse, see fem/elimination.h. The variables of a rigid region are those of one more node at its
-/// centre, three translations and three rotations, with u_i = u + θ × (x_i − centre).
+/// sparse, see fem/constraint/elimination.h. The variables of a rigid region are those of one more
+/// node at its centre, three translations and three rotations, with u_i = u + θ × (x_i − centre).
 ///
 /// M, K, C, c_ab and W_ab become Tᵀ(·)T. The scalar mass matrix keeps its entries between nodes
 /// that T leaves alone; those that others take part in stand in W_ab. The result has the mass

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "buckens/fem/dof_map.h"
-#include "buckens/fem/shape_integrals.h"
+#include "buckens/fem/element/dof_map.h"
+#include "buckens/fem/element/shape_integrals.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::fem {

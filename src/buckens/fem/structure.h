@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "buckens/fem/bar_block.h"
-#include "buckens/fem/beam_block.h"
-#include "buckens/fem/dof_map.h"
-#include "buckens/fem/face_set.h"
-#include "buckens/fem/node_links.h"
-#include "buckens/fem/point_mass_block.h"
-#include "buckens/fem/shell_block.h"
-#include "buckens/fem/solid_block.h"
-#include "buckens/fem/spring_block.h"
+#include "buckens/fem/constraint/node_links.h"
+#include "buckens/fem/element/dof_map.h"
+#include "buckens/fem/line/bar_block.h"
+#include "buckens/fem/line/beam_block.h"
+#include "buckens/fem/point/point_mass_block.h"
+#include "buckens/fem/point/spring_block.h"
+#include "buckens/fem/shell/block.h"
+#include "buckens/fem/solid/block.h"
+#include "buckens/fem/solid/face_set.h"
 
 namespace buckens::fem {
 

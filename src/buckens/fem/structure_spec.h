@@ -9,13 +9,13 @@
 #include <Eigen/Core>
 
 #include "buckens/base/field.h"
-#include "buckens/fem/beam_path.h"
-#include "buckens/fem/beam_shape.h"
-#include "buckens/fem/link_spec.h"
-#include "buckens/fem/material_spec.h"
-#include "buckens/fem/section_spec.h"
-#include "buckens/fem/shell_spec.h"
-#include "buckens/fem/solid_element_spec.h"
+#include "buckens/fem/constraint/link_spec.h"
+#include "buckens/fem/element/material_spec.h"
+#include "buckens/fem/line/beam_path.h"
+#include "buckens/fem/line/beam_shape.h"
+#include "buckens/fem/line/section_spec.h"
+#include "buckens/fem/shell/spec.h"
+#include "buckens/fem/solid/element_spec.h"
 
 namespace buckens::fem {
 

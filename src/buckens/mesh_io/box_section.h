@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/fem/section_spec.h"
+#include "buckens/fem/line/section_spec.h"
 
 namespace buckens::mesh_io {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/vtu/file.h"
 
 namespace buckens::mesh_io {

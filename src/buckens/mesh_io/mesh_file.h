@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 
 namespace buckens::mesh_io {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/field.h"
-#include "buckens/fem/cell_faces.h"
+#include "buckens/fem/mesh/cell_faces.h"
 #include "buckens/mesh_io/gmsh/elements.h"
 #include "buckens/mesh_io/tagged_mesh.h"
 

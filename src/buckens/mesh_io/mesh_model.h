@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
-#include "buckens/fem/mesh_file_spec.h"
+#include "buckens/fem/mesh/imported_mesh.h"
+#include "buckens/fem/mesh/mesh_file_spec.h"
 
 namespace buckens::mesh_io {
 

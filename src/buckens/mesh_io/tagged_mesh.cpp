@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/cell_faces.h"
+#include "buckens/fem/mesh/cell_faces.h"
 
 namespace buckens::mesh_io {
 

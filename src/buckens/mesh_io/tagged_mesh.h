@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 
 namespace buckens::mesh_io {
 

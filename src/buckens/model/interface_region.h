@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "buckens/fem/node_region.h"
+#include "buckens/fem/constraint/node_region.h"
 
 namespace buckens::model {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 
 namespace buckens::model_file {
 

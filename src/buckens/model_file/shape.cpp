@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/field_types.h"
-#include "buckens/model/model_description.h"
+#include "buckens/model/spec/model_description.h"
 #include "buckens/model_file/table.h"
 
 namespace buckens::model_file {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "buckens/mesh_io/step/mesh.h"
-#include "buckens/model/model_description.h"
+#include "buckens/model/spec/model_description.h"
 
 namespace buckens::model_file {
 

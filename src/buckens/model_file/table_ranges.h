@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/model/model_description.h"
+#include "buckens/model/spec/model_description.h"
 
 namespace buckens::model_file {
 

@@ -10,7 +10,7 @@
 #include "buckens/base/time_law.h"
 #include "buckens/body/frame_division.h"
 #include "buckens/model/check/finding.h"
-#include "buckens/model/initial_spec.h"
+#include "buckens/model/spec/initial_spec.h"
 #include "buckens/model_file/yaml_tree.h"
 
 namespace buckens::model {

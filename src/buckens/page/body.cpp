@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "buckens/fem/cell_faces.h"
+#include "buckens/fem/mesh/cell_faces.h"
 #include "buckens/files/base64.h"
 #include "buckens/files/vector_json.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "buckens/fem/element_block.h"
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/element/block.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/model/state.h"
 #include "buckens/results/model_geometry.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "buckens/base/saved_values.h"
-#include "buckens/model/field_places.h"
+#include "buckens/model/build/field_places.h"
 #include "buckens/results/field_layout.h"
 #include "buckens/results/geometry.h"
 #include "buckens/results/part_fields.h"

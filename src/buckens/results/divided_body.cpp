@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/divided_body.h"
 
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::results {

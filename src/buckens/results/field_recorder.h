@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "buckens/base/saved_values.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/results/body_fields.h"
 #include "buckens/results/interface_loads.h"
 #include "buckens/results/record_sink.h"

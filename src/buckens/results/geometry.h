@@ -7,8 +7,8 @@
 
 #include <Eigen/Dense>
 
-#include "buckens/fem/cell_kind.h"
-#include "buckens/fem/section.h"
+#include "buckens/fem/line/section.h"
+#include "buckens/fem/mesh/cell_kind.h"
 #include "buckens/spatial/pose.h"
 
 namespace buckens::results {

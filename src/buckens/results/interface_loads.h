@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "buckens/dynamics/system_kinematics.h"
-#include "buckens/model/field_places.h"
+#include "buckens/model/build/field_places.h"
 #include "buckens/model/state.h"
 #include "buckens/results/field_layout.h"
 

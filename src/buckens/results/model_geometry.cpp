@@ -8,11 +8,11 @@
 
 #include <Eigen/Geometry>
 
-#include "buckens/fem/coupled_nodes.h"
-#include "buckens/fem/recovery.h"
-#include "buckens/fem/solid_block.h"
-#include "buckens/fem/solid_recovery.h"
-#include "buckens/model/model_description.h"
+#include "buckens/fem/assembly/recovery.h"
+#include "buckens/fem/constraint/coupled_nodes.h"
+#include "buckens/fem/solid/block.h"
+#include "buckens/fem/solid/recovery.h"
+#include "buckens/model/spec/model_description.h"
 #include "buckens/results/divided_body.h"
 
 namespace buckens::results {

@@ -24,9 +24,10 @@ struct Observation {
   std::vector<dynamics::BodyMotion> motions;    ///< with all marker rows
   std::vector<spatial::Wrench> joint_wrenches;  ///< on the second markers, world axes
   std::vector<linalg::Vector> nodal;            ///< nodal variables of each mesh, empty if rigid
-  std::vector<linalg::Matrix> section_forces;   ///< 12×E per flexible body, see fem/recovery.h
-  std::vector<linalg::Matrix> stresses;         ///< 2×E per flexible body [Pa]
-  std::vector<linalg::Matrix> solid_stresses;   ///< 7×S, see fem/solid_recovery.h; may be empty
+  std::vector<linalg::Matrix>
+      section_forces;                    ///< 12×E per flexible body, see fem/assembly/recovery.h
+  std::vector<linalg::Matrix> stresses;  ///< 2×E per flexible body [Pa]
+  std::vector<linalg::Matrix> solid_stresses;  ///< 7×S, see fem/solid/recovery.h; may be empty
   dynamics::Energy energy;
   WorkBalance work;
   std::vector<body::FrameMotion> wholes;  ///< frame of each whole body, see model::whole_motion

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <span>
 
-#include "buckens/fem/element_block.h"
+#include "buckens/fem/element/block.h"
 
 namespace buckens::results {
 

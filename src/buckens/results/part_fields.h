@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "buckens/body/body.h"
-#include "buckens/fem/shell_node_stress.h"
-#include "buckens/fem/solid_strains.h"
+#include "buckens/fem/shell/node_stress.h"
+#include "buckens/fem/solid/strains.h"
 #include "buckens/model/model.h"
 
 namespace buckens::results {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "buckens/dynamics/mass_metric.h"
-#include "buckens/fem/recovery.h"
-#include "buckens/fem/solid_recovery.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/fem/assembly/recovery.h"
+#include "buckens/fem/solid/recovery.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/results/record_sink.h"
 #include "buckens/results/sensor.h"
 

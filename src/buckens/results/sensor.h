@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "buckens/base/saved_values.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/results/channel.h"
 #include "buckens/results/observation.h"
 

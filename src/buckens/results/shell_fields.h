@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "buckens/base/saved_values.h"
-#include "buckens/fem/shell_recovery.h"
-#include "buckens/model/field_places.h"
+#include "buckens/fem/shell/recovery.h"
+#include "buckens/model/build/field_places.h"
 #include "buckens/results/field_layout.h"
 
 namespace buckens::results {

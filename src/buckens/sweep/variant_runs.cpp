@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/choose_modes.h"
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/choose_modes.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/files/text_file.h"

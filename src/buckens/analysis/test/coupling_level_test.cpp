@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/coupling_watch.h"
+#include "buckens/analysis/simulation/coupling_watch.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/stepping/test/simulate.h"
 
 namespace buckens::analysis {

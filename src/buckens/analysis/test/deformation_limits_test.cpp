@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/deformation_limits.h"
+#include "buckens/analysis/simulation/deformation_limits.h"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 
 namespace buckens::analysis {
 namespace {

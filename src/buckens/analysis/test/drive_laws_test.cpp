@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/drive_laws.h"
+#include "buckens/analysis/simulation/drive_laws.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/base/errors.h"
 #include "buckens/model/test/described.h"
 #include "buckens/results/table.h"

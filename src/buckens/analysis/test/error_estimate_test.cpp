@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Uncertainties from curves whose errors are known.
-#include "buckens/analysis/error_estimate.h"
-
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -10,7 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/error_runs.h"
+#include "buckens/analysis/error/estimate.h"
+#include "buckens/analysis/error/runs.h"
 
 namespace buckens::analysis {
 namespace {

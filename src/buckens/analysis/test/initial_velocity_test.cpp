@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/initial_velocity.h"
-
 #include <gtest/gtest.h>
 
+#include "buckens/analysis/initial/velocity.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/model/test/described.h"
 #include "buckens/spatial/rotation.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One linearisation of joints and loads for statics, stability and vibrations.
-#include "buckens/analysis/linearised_loads.h"
+#include "buckens/analysis/statics/linearised_loads.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/rest_tangent.h"
 #include "buckens/analysis/test/static_models.h"
+#include "buckens/analysis/vibration/rest_tangent.h"
 #include "buckens/dynamics/forces.h"
 
 namespace buckens::analysis {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finer and coarser meshes of a description, and sensors that keep their places.
-#include "buckens/analysis/mesh_refinement.h"
+#include "buckens/analysis/error/mesh_refinement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/model_report.h"
+#include "buckens/analysis/simulation/model_report.h"
 
 #include <cmath>
 #include <numbers>

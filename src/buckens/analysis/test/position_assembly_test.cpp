@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/position_assembly.h"
+#include "buckens/analysis/initial/position_assembly.h"
 
 #include <gmock/gmock.h>
 

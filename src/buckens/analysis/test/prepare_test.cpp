@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/prepare.h"
+#include "buckens/analysis/initial/prepare.h"
 
 #include <numbers>
 

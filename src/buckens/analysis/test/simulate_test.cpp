@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/simulation.h"
+#include "buckens/analysis/simulation/simulation.h"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/analysis/test/time_law.h"
 #include "buckens/base/errors.h"
 #include "buckens/model/test/described.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "buckens/analysis/elastic_compliance.h"
+#include "buckens/analysis/statics/elastic_compliance.h"
 #include "buckens/analysis/test/static_models.h"
 #include "buckens/base/errors.h"
 

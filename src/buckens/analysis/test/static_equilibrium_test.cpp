@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/static_equilibrium.h"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
 
+#include "buckens/analysis/statics/equilibrium.h"
 #include "buckens/analysis/test/static_models.h"
 #include "buckens/base/errors.h"
 

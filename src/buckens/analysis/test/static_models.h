@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "buckens/analysis/initial_acceleration.h"
-#include "buckens/analysis/position_assembly.h"
-#include "buckens/analysis/static_equilibrium.h"
+#include "buckens/analysis/initial/acceleration.h"
+#include "buckens/analysis/initial/position_assembly.h"
+#include "buckens/analysis/statics/equilibrium.h"
 #include "buckens/dynamics/constraints.h"
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 
 namespace buckens::analysis::test {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/static_path.h"
-
 #include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "buckens/analysis/statics/path.h"
 #include "buckens/analysis/test/static_models.h"
 #include "buckens/base/errors.h"
 #include "buckens/results/table.h"

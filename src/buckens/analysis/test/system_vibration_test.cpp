@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vibrations of assembled systems against closed forms and second routes.
-#include "buckens/analysis/system_vibration.h"
+#include "buckens/analysis/vibration/system_vibration.h"
 
 #include <cmath>
 #include <numeric>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/body_vibration.h"
 #include "buckens/analysis/test/static_models.h"
+#include "buckens/analysis/vibration/body_vibration.h"
 #include "buckens/base/errors.h"
 
 namespace buckens::analysis {

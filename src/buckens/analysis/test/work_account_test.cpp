@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/analysis/work_account.h"
+#include "buckens/analysis/simulation/work_account.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "buckens/analysis/prepare.h"
-#include "buckens/analysis/simulate.h"
+#include "buckens/analysis/initial/prepare.h"
+#include "buckens/analysis/simulation/simulate.h"
 #include "buckens/analysis/test/time_law.h"
 #include "buckens/model/test/described.h"
 #include "buckens/results/table.h"

@@ -11,7 +11,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 
 namespace buckens::body {
 namespace {

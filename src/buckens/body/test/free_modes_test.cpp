@@ -10,7 +10,7 @@
 #include "buckens/body/fixed_interface_modes.h"
 #include "buckens/body/free_free_modes.h"
 #include "buckens/body/rigid_modes.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 
 namespace buckens::body {
 namespace {

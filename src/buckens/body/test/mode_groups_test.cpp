@@ -8,8 +8,8 @@
 
 #include "buckens/body/fixed_interface_modes.h"
 #include "buckens/body/reduced_basis.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::body {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "buckens/body/deformation_coupling.h"
 #include "buckens/body/inertia_invariants.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::body {
 namespace {

@@ -9,8 +9,8 @@
 #include "buckens/body/elastic_inverse.h"
 #include "buckens/body/fixed_interface_modes.h"
 #include "buckens/body/free_modes.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::body {
 namespace {

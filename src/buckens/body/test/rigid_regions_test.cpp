@@ -9,9 +9,9 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/reduction.h"
 #include "buckens/body/rigid_modes.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
-#include "buckens/fem/node_region.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/constraint/node_region.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::body {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "buckens/dynamics/row_blocks.h"
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::dynamics {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "buckens/analysis/initial_acceleration.h"
-#include "buckens/analysis/position_assembly.h"
+#include "buckens/analysis/initial/acceleration.h"
+#include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/mass_metric.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 

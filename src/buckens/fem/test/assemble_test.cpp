@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 
 #include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>

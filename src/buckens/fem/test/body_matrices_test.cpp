@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/body_matrices.h"
+#include "buckens/fem/assembly/body_matrices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/coupled_nodes.h"
+#include "buckens/fem/constraint/coupled_nodes.h"
 #include "buckens/fem/test/solid_fixture.h"
 
 namespace buckens::fem {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Generated meshes: nodes, names, named faces, volumes and inertia against closed forms.
-#include "buckens/fem/cell_mesh.h"
+#include "buckens/fem/mesh/cell_mesh.h"
 
 #include <cmath>
 #include <map>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/cylinder_mesh.h"
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/cylinder_mesh.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/fem/test/solid_fixture.h"
 
 namespace buckens::fem {

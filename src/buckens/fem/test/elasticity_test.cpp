@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/elasticity.h"
+#include "buckens/fem/element/elasticity.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/fem/test/solid_fixture.h"
 
 namespace buckens::fem {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/elimination.h"
+#include "buckens/fem/constraint/elimination.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
-#include "buckens/fem/node_region.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/constraint/node_region.h"
+#include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/fem/test/fixture.h"
 
 namespace buckens::fem {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/structure.h"
 
 namespace buckens::fem::test {

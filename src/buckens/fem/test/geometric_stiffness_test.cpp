@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/geometric_stiffness.h"
+#include "buckens/fem/assembly/geometric_stiffness.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/structure.h"
 
 namespace buckens::fem {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/mesh_report.h"
-
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "buckens/fem/cell_faces.h"
-#include "buckens/fem/cell_measure.h"
-#include "buckens/fem/straighten.h"
+#include "buckens/fem/mesh/cell_faces.h"
+#include "buckens/fem/mesh/cell_measure.h"
+#include "buckens/fem/mesh/report.h"
+#include "buckens/fem/mesh/straighten.h"
 
 namespace buckens::fem {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/node_region.h"
+#include "buckens/fem/constraint/node_region.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
-#include "buckens/fem/region_spec.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
+#include "buckens/fem/mesh/region_spec.h"
 
 namespace buckens::fem {
 namespace {

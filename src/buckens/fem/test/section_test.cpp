@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/section.h"
+#include "buckens/fem/line/section.h"
 
 #include <cmath>
 #include <utility>

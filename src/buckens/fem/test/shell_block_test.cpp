@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What holds for every shell: patch tests, rigid motions, inertia, messages.
-#include "buckens/fem/shell_block.h"
-
 #include <limits>
 
 #include <Eigen/Eigenvalues>
@@ -9,10 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/quadrature.h"
-#include "buckens/fem/solid_recovery.h"
-#include "buckens/fem/structure_parts.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/assembly/structure_parts.h"
+#include "buckens/fem/element/quadrature.h"
+#include "buckens/fem/shell/block.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/fem/test/shell_fixture.h"
 
 namespace buckens::fem {

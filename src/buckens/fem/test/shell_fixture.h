@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "buckens/fem/shell_element.h"
+#include "buckens/fem/shell/element.h"
 #include "buckens/fem/test/fixture.h"
 
 namespace buckens::fem::test {

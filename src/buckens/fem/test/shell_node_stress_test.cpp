@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stresses of shells at nodes and of layers against closed forms.
-#include "buckens/fem/shell_node_stress.h"
-
 #include <cmath>
 #include <numbers>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "buckens/fem/shell_recovery.h"
+#include "buckens/fem/shell/node_stress.h"
+#include "buckens/fem/shell/recovery.h"
 #include "buckens/fem/test/shell_fixture.h"
 
 namespace buckens::fem {

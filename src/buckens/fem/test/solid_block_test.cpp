@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What holds for every kind of solid and every integration.
-#include "buckens/fem/solid_block.h"
-
 #include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/solid_element.h"
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/solid/block.h"
+#include "buckens/fem/solid/element.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/fem/test/solid_fixture.h"
 
 namespace buckens::fem {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/quadrature.h"
-#include "buckens/fem/solid_element.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/element/quadrature.h"
+#include "buckens/fem/solid/element.h"
 #include "buckens/fem/test/held_solution.h"
 #include "buckens/fem/test/solid_fixture.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "buckens/fem/box_mesh.h"
-#include "buckens/fem/quadrature.h"
-#include "buckens/fem/solid_shape.h"
+#include "buckens/fem/element/quadrature.h"
+#include "buckens/fem/mesh/box_mesh.h"
+#include "buckens/fem/solid/shape.h"
 #include "buckens/fem/test/fixture.h"
 
 namespace buckens::fem::test {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/solid_shape.h"
-
 #include <cmath>
 #include <map>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "buckens/fem/quadrature.h"
+#include "buckens/fem/element/quadrature.h"
+#include "buckens/fem/solid/shape.h"
 
 namespace buckens::fem {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/fem/solid_strains.h"
-
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/solid/recovery.h"
+#include "buckens/fem/solid/strains.h"
 #include "buckens/fem/test/solid_fixture.h"
 
 namespace buckens::fem {

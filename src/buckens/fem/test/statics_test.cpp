@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/recovery.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/assembly/recovery.h"
 #include "buckens/fem/test/fixture.h"
 
 namespace buckens::fem::test {

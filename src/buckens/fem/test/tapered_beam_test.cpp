@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/curved_beam.h"
-#include "buckens/fem/geometric_stiffness.h"
-#include "buckens/fem/recovery.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/assembly/geometric_stiffness.h"
+#include "buckens/fem/assembly/recovery.h"
+#include "buckens/fem/assembly/uniform_shares.h"
+#include "buckens/fem/mesh/curved_beam.h"
 #include "buckens/fem/test/held_solution.h"
-#include "buckens/fem/uniform_shares.h"
 
 namespace buckens::fem {
 namespace {

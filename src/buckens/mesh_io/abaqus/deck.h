@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 
 namespace buckens::mesh_io {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "buckens/fem/cell_kind.h"
+#include "buckens/fem/mesh/cell_kind.h"
 
 namespace buckens::mesh_io {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/abaqus/names.h"
 
 namespace buckens::mesh_io {

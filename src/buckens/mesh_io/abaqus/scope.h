@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/abaqus/elements.h"
 #include "buckens/mesh_io/abaqus/lines.h"
 

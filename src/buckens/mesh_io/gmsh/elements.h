@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "buckens/fem/cell_kind.h"
+#include "buckens/fem/mesh/cell_kind.h"
 
 namespace buckens::mesh_io {
 

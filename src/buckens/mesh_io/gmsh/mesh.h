@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 
 namespace buckens::mesh_io {
 

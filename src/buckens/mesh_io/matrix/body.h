@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "buckens/fem/body_matrices.h"
-#include "buckens/fem/matrices_spec.h"
+#include "buckens/fem/assembly/body_matrices.h"
+#include "buckens/fem/assembly/matrices_spec.h"
 
 namespace buckens::mesh_io {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/nastran/coordinates.h"
 
 namespace buckens::mesh_io {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/nastran/source.h"
 
 namespace buckens::mesh_io {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/nastran/coordinates.h"
 #include "buckens/mesh_io/nastran/properties.h"
 

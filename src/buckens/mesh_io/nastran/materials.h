@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "buckens/fem/material_spec.h"
+#include "buckens/fem/element/material_spec.h"
 #include "buckens/mesh_io/nastran/bulk.h"
 #include "buckens/mesh_io/nastran/names.h"
 

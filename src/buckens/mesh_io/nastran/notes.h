@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/nastran/source.h"
 
 namespace buckens::mesh_io {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "buckens/fem/section_spec.h"
+#include "buckens/fem/line/section_spec.h"
 #include "buckens/mesh_io/nastran/bulk.h"
 
 namespace buckens::mesh_io {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "buckens/fem/imported_mesh.h"
+#include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/nastran/bulk.h"
 #include "buckens/mesh_io/nastran/control.h"
 #include "buckens/mesh_io/nastran/coordinates.h"

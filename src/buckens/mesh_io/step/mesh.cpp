@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/straighten.h"
+#include "buckens/fem/mesh/straighten.h"
 #include "buckens/files/isolated_work.h"
 #include "buckens/files/output_file.h"
 #include "buckens/files/text_file.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/cell_faces.h"
+#include "buckens/fem/mesh/cell_faces.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/test/replaced.h"
 

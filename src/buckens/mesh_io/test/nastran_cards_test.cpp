@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "buckens/fem/mesh_report.h"
+#include "buckens/fem/mesh/report.h"
 #include "buckens/mesh_io/nastran/number.h"
 #include "buckens/mesh_io/test/nastran_sample.h"
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/test/source_directory.h"
-#include "buckens/fem/solid_shape.h"
+#include "buckens/fem/solid/shape.h"
 #include "buckens/mesh_io/nastran/deck.h"
 #include "buckens/mesh_io/test/nastran_sample.h"
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "buckens/fem/cell_kind.h"
+#include "buckens/fem/mesh/cell_kind.h"
 
 namespace buckens::mesh_io {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
-#include "buckens/fem/generate_mesh.h"
-#include "buckens/fem/node_number.h"
+#include "buckens/fem/element/node_number.h"
+#include "buckens/fem/mesh/generate_mesh.h"
 
 namespace buckens::model {
 

@@ -6,7 +6,7 @@
 
 #include "buckens/base/marker_ref.h"
 #include "buckens/model/check/finding.h"
-#include "buckens/model/model_description.h"
+#include "buckens/model/spec/model_description.h"
 
 namespace buckens::model {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "buckens/model/model_description.h"
+#include "buckens/model/spec/model_description.h"
 
 namespace buckens::model {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "buckens/fem/group_section_spec.h"
+#include "buckens/fem/mesh/group_section_spec.h"
 #include "buckens/model/check/spec_findings.h"
 
 namespace buckens::model {

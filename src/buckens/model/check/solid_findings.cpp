@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/elasticity.h"
-#include "buckens/fem/mesh_spec.h"
-#include "buckens/fem/solid_shape.h"
+#include "buckens/fem/element/elasticity.h"
+#include "buckens/fem/mesh/spec.h"
+#include "buckens/fem/solid/shape.h"
 #include "buckens/model/check/spec_findings.h"
 
 namespace buckens::model {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "buckens/model/check/finding.h"
-#include "buckens/model/model_description.h"
+#include "buckens/model/spec/model_description.h"
 
 namespace buckens::model {
 

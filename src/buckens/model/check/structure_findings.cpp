@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
-#include "buckens/fem/generate_mesh.h"
+#include "buckens/fem/mesh/generate_mesh.h"
 #include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/spec_findings.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/model/field_lines.h"
+#include "buckens/model/spec/field_lines.h"
 
 namespace buckens::model {
 namespace {

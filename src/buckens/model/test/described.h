@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 
 namespace buckens::model::test {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/model/mesh_division.h"
+#include "buckens/model/build/mesh_division.h"
 #include "buckens/model/state.h"
 #include "buckens/model/test/described.h"
 #include "buckens/spatial/rotation.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mass damping of held bodies: what it takes from a deformation, and what it leaves alone.
-#include "buckens/model/held_damping.h"
+#include "buckens/model/build/held_damping.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

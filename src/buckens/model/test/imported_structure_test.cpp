@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/model/imported_structure.h"
+#include "buckens/model/build/imported_structure.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 
 namespace buckens::model {
 namespace {

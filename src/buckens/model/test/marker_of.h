@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "buckens/model/model_builder.h"
+#include "buckens/model/build/build_model.h"
 
 namespace buckens::model::test {
 

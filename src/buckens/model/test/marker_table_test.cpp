@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/model/marker_table.h"
+#include "buckens/model/build/marker_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/model/model_builder.h"
-
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/model/state.h"
 #include "buckens/model/test/described.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/fem/solid_recovery.h"
+#include "buckens/fem/solid/recovery.h"
 #include "buckens/model/test/described.h"
 #include "buckens/model/test/marker_of.h"
 

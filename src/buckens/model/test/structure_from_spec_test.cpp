@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/model/structure_from_spec.h"
+#include "buckens/model/build/structure_from_spec.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

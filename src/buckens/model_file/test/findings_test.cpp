@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/model/check/check_description.h"
-#include "buckens/model/model_builder.h"
 #include "buckens/model_file/model_file.h"
 
 namespace buckens::model_file {

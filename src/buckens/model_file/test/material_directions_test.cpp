@@ -15,10 +15,10 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/test/temporary_directory.h"
-#include "buckens/fem/assemble.h"
+#include "buckens/fem/assembly/assemble.h"
 #include "buckens/mesh_io/abaqus/deck.h"
 #include "buckens/mesh_io/nastran/deck.h"
-#include "buckens/model/imported_structure.h"
+#include "buckens/model/build/imported_structure.h"
 
 namespace buckens::model_file {
 namespace {

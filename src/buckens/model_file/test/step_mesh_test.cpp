@@ -10,7 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/test/source_directory.h"
-#include "buckens/fem/mesh_report.h"
+#include "buckens/fem/mesh/report.h"
 #include "buckens/files/isolated_work.h"
 #include "buckens/files/text_file.h"
 #include "buckens/mesh_io/step/mesh.h"

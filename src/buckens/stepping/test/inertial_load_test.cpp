@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/test/mechanism.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/linalg/inverse_iteration.h"
 
 namespace buckens::stepping {

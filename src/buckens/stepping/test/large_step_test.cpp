@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "buckens/body/free_modes.h"
-#include "buckens/fem/assemble.h"
-#include "buckens/fem/box_mesh.h"
+#include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/mesh/box_mesh.h"
 
 namespace buckens::stepping {
 namespace {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "buckens/model/build/build_model.h"
+
+namespace buckens::analysis {
+
+/// Whether meshes become finer or coarser, by a factor of two.
+enum class MeshChange { finer, coarser };
+
+/// What has become of the meshes of a model.
+struct MeshRefinement {
+  std::vector<std::string> changed;    ///< bodies
+  std::vector<std::string> unchanged;  ///< flexible bodies whose meshes the program did not make
+  /// Parts of STEP files with their size of elements [m]; not changed here.
+  std::vector<std::pair<std::string, double>> geometries;
+  bool is_possible = true;  ///< false: a number of divisions cannot be halved
+  double growth = 1;        ///< largest factor of nodal variables of a body
+};
+
+/// Divides the meshes that the program generates twice or half as finely. Sensors at numbered line
+/// elements keep their places.
+MeshRefinement refine_meshes(model::ModelDescription& description, MeshChange change);
+
+/// Lets bodies made of beams be carried by twice as many frames where they have elements for that.
+/// @return their names
+std::vector<std::string> refine_frames(model::ModelDescription& description);
+
+}  // namespace buckens::analysis

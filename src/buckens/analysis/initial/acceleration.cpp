@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/initial/acceleration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "buckens/base/errors.h"
+#include "buckens/body/body_lengths.h"
+#include "buckens/dynamics/coupling_terms.h"
+#include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/frame_equation.h"
+#include "buckens/linalg/conjugate_gradients.h"
+
+namespace buckens::analysis {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using linalg::Vector;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+namespace {
+
+constexpr int kMaxRounds = 100;
+constexpr double kSettled = 1e-13;
+
+/// Accelerations of one body as the rounds refine them.
+struct BodyAcceleration {
+  body::DeformedMoments moments;
+  Vector6 frame = Vector6::Zero();
+  Vector nodal_static;  // Y M⁻¹ of loads that do not depend on accelerations
+  Vector nodal;         // d̈
+  Vector lengths;       // that make displacements of d
+};
+
+class Accelerations {
+ public:
+  Accelerations(const model::Model& model, const dynamics::MassMetric& metric,
+                const std::vector<int>& rows_in_use, model::State& state)
+      : model_(model), metric_(metric), rows_in_use_(rows_in_use), state_(state) {}
+
+  void run() {
+    start();
+    for (int round = 0; round < kMaxRounds; ++round) {
+      if (solve_round() <= kSettled) {
+        store();
+        return;
+      }
+    }
+    throw NumericalError(
+        "the initial accelerations of frames and meshes do not converge: an initial deformation is "
+        "too large for linear elasticity; reduce it or stiffen the body");
+  }
+
+ private:
+  void start() {
+    const auto motions = dynamics::motions_of(model_, state_);
+    dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
+    bias_ = dynamics::constraint_bias(model_, motions, state_.t);
+    dynamics::evaluate_forces(model_, motions, state_.t, state_.inputs, forces_);
+    bodies_.resize(model_.bodies.size());
+    std::vector<Matrix3d> J;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const body::Body& body = model_.bodies[b];
+      const model::BodyState& s = state_.bodies[b];
+      const Vector zero = Vector::Zero(s.d.size());
+      if (!body.is_flexible()) {
+        bodies_[b].moments = dynamics::undeformed_moments(body);
+        J.push_back(body.J0);
+        continue;
+      }
+      bodies_[b].lengths = body::coordinate_lengths(body);
+      const auto coupling = dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, zero,
+                                                        s.frame.w, Vector3d::Zero());
+      const auto& patterns = body.flexible->invariants.centrifugal_patterns();
+      bodies_[b].moments =
+          dynamics::frame_moments(body, s.terms, coupling.moments, patterns.transpose() * s.d,
+                                  patterns.transpose() * s.d_dot);
+      J.push_back(bodies_[b].moments.J);
+      Vector load = -(body.flexible->fe.K * s.d);
+      if (body.flexible->is_damped()) load -= body.flexible->C * s.d_dot;
+      if (s.terms.have_load()) load += coupling.load;
+      load += patterns * dynamics::centrifugal_weights(s.terms, s.frame.w);
+      bodies_[b].nodal_static = mass_solve(body, load);
+      bodies_[b].nodal = bodies_[b].nodal_static;
+    }
+    compliance_ = metric_.full(J);
+    for (const int row : rows_in_use_) {
+      rows_.push_back(constraints_.rows[static_cast<std::size_t>(row)]);
+    }
+    condensation_.emplace(static_cast<int>(bodies_.size()), rows_);
+    if (!condensation_->factorise(rows_, rows_, compliance_, {})) {
+      throw NumericalError(
+          "the joint equations are dependent in the initial position (a dead centre); start "
+          "elsewhere");
+    }
+  }
+
+  /// M⁻¹ of a load; zero where deformation has no rates.
+  Vector mass_solve(const body::Body& body, Vector load) const {
+    if (body.flexible->is_quasi_static) return Vector::Zero(load.size());
+    body.flexible->sieve.apply_transposed(load);
+    Vector x = linalg::conjugate_gradients(body.flexible->fe.M, load);
+    body.flexible->sieve.apply(x);
+    return x;
+  }
+
+  /// Accelerations at fixed coupling between ẇ and d̈; returns their relative change.
+  double solve_round() {
+    std::vector<Vector6> frame(bodies_.size());
+    std::vector<Vector> nodal(bodies_.size());
+    std::vector<Eigen::VectorXd> y(bodies_.size());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) free_acceleration(b, frame[b], nodal[b], y[b]);
+    Vector X(static_cast<Eigen::Index>(rows_.size()));
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      double value = -bias_[rows_in_use_[k]];
+      for (const dynamics::BodyRow* part : {&rows_[k].first, &rows_[k].second}) {
+        if (part->body == model::kGround) continue;
+        const auto b = static_cast<std::size_t>(part->body);
+        value -= part->change(frame[b], y[b]);
+      }
+      X[static_cast<Eigen::Index>(k)] = value;
+    }
+    condensation_->solve_in_place(X);
+    std::vector<dynamics::BodyResponse> responses(bodies_.size());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      responses[b].interface_load = Vector::Zero(model_.bodies[b].num_interface_rows());
+    }
+    condensation_->gather(X, responses);
+    double change = 0.0;
+    double size = 1e-300;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      // In equilibrium joints cancel what loads would do alone: that is the scale of rounding.
+      size = std::max({size, size_of(frame[b]), size_of(b, nodal[b])});
+      frame[b] += compliance_[b].frame * responses[b].frame_load;
+      change = std::max(change, size_of(frame[b] - bodies_[b].frame));
+      size = std::max(size, size_of(frame[b]));
+      bodies_[b].frame = frame[b];
+      if (!model_.bodies[b].is_flexible()) continue;
+      nodal[b] += metric_.H(b) * responses[b].interface_load;
+      change = std::max(change, size_of(b, nodal[b] - bodies_[b].nodal));
+      size = std::max(size, size_of(b, nodal[b]));
+      bodies_[b].nodal = nodal[b];
+    }
+    lambda_ = X;
+    return change / size;
+  }
+
+  /// Largest acceleration [m/s²], rotations by the model's length.
+  double size_of(const Vector6& frame) const {
+    return std::max(model_.length * frame.head<3>().cwiseAbs().maxCoeff(),
+                    frame.tail<3>().cwiseAbs().maxCoeff());
+  }
+  double size_of(std::size_t b, const Vector& nodal) const {
+    return nodal.size() > 0 ? nodal.cwiseProduct(bodies_[b].lengths).cwiseAbs().maxCoeff() : 0.0;
+  }
+
+  void free_acceleration(std::size_t b, Vector6& frame, Vector& nodal, Eigen::VectorXd& y) const {
+    const body::Body& body = model_.bodies[b];
+    const model::BodyState& s = state_.bodies[b];
+    const BodyAcceleration& now = bodies_[b];
+    body::DeformedMoments moments = now.moments;
+    if (body.is_flexible() && s.terms.quad_ref) {
+      moments.l_dot = body.flexible->invariants.relative_momentum(s.d, now.nodal);
+    }
+    const Vector6 inertia =
+        dynamics::frame_inertia(body, moments, s.frame.w, Vector3d::Zero(), Vector3d::Zero());
+    Vector6 load = forces_.frame[b] - inertia;
+    // What stands in for missing inertia is part of the compliance but not of the motion.
+    load.head<3>() += body.stand_in * now.frame.head<3>();
+    frame = compliance_[b].frame * load;
+    if (!body.is_flexible()) return;
+    nodal = now.nodal_static + metric_.H(b) * forces_.interface[b];
+    if (s.terms.eul_fe) {
+      const Vector3d w_dot = now.frame.head<3>();
+      const Vector euler = body.flexible->invariants.deformation_load(
+          s.d, Vector::Zero(s.d.size()), Vector3d::Zero(), w_dot, s.terms);
+      if (!euler.isZero(0.0)) nodal += mass_solve(body, euler);
+    }
+    y = body.row_values(nodal);
+  }
+
+  void store() {
+    state_.lambda.setZero(model_.num_constraint_rows());
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      state_.lambda[rows_in_use_[k]] = lambda_[static_cast<Eigen::Index>(k)];
+    }
+    state_.lambda_time = state_.t;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      model::BodyState& s = state_.bodies[b];
+      s.w_dot = s.w_alg = bodies_[b].frame.head<3>();
+      s.v_dot = s.v_alg = bodies_[b].frame.tail<3>();
+      if (s.d.size() > 0) s.d_ddot = s.d_alg = bodies_[b].nodal;
+    }
+  }
+
+  const model::Model& model_;
+  const dynamics::MassMetric& metric_;
+  const std::vector<int>& rows_in_use_;
+  model::State& state_;
+  dynamics::Constraints constraints_;
+  Vector bias_, lambda_;
+  dynamics::Forces forces_;
+  std::vector<BodyAcceleration> bodies_;
+  std::vector<dynamics::BodyCompliance> compliance_;
+  std::vector<dynamics::SystemRow> rows_;
+  std::optional<dynamics::MultiplierCondensation> condensation_;
+};
+
+}  // namespace
+
+void compute_accelerations(const model::Model& model, const dynamics::MassMetric& metric,
+                           const std::vector<int>& rows_in_use, model::State& state) {
+  Accelerations(model, metric, rows_in_use, state).run();
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/initial/prepare.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/initial/displacement.h"
+#include "buckens/analysis/initial/position_assembly.h"
+#include "buckens/analysis/initial/quasi_static_start.h"
+#include "buckens/analysis/initial/velocity.h"
+#include "buckens/analysis/initial/velocity_change.h"
+#include "buckens/analysis/statics/equilibrium.h"
+#include "buckens/base/errors.h"
+#include "buckens/dynamics/constraints.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+std::vector<std::string> describe_redundancy(const model::Model& model,
+                                             const std::vector<int>& dependent) {
+  std::vector<std::string> out;
+  for (const model::Joint& joint : model.joints) {
+    const int first = joint.first_row;
+    const int count = static_cast<int>(joint.rows.size());
+    const auto own = std::count_if(dependent.begin(), dependent.end(),
+                                   [&](int row) { return row >= first && row < first + count; });
+    if (own > 0) {
+      out.push_back(fmt::format("joint \"{}\": {} of its {} equations follow from other joints",
+                                joint.name, own, count));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric) {
+  const model::Model& model = built.model;
+  const model::InitialSpec& initial = built.description.initial;
+  Prepared out;
+  out.notes = model.notes;
+  out.state = model::placed_state(model);
+  bool is_closed = false;
+  try {
+    assemble_positions(model, metric, out.state);
+    out.moves = assembly_moves(model, out.state);
+    is_closed = true;
+  } catch (const ModelError&) {
+    // Bodies that must be deformed to fit are closed by the static start.
+    if (!initial.preload) throw;
+    out.notes.push_back("bodies are deformed to close the joints (preload)");
+  }
+  out.warnings = built.description.warnings;
+  if (is_closed) {
+    for (std::string& text : judge_assembly(built, out.moves)) {
+      out.warnings.push_back(std::move(text));
+    }
+  }
+  const bool is_static = initial.start == model::StartKind::static_equilibrium;
+  if (is_static || initial.preload) {
+    const StaticReport report = find_static_equilibrium(model, metric, out.state);
+    out.setup_factorisations = report.factorisations;
+    out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
+  }
+  if (set_initial_displacements(built, out.state)) assemble_positions(model, metric, out.state);
+  set_initial_velocities(built, out.state);
+
+  dynamics::Constraints constraints;
+  dynamics::evaluate_constraints(model, dynamics::motions_of(model, out.state), out.state.t,
+                                 constraints);
+  const linalg::RowRank rank = metric.split(constraints.rows);
+  out.rows_in_use = rank.independent;
+  out.redundant_rows = rank.dependent;
+  out.redundant_text = describe_redundancy(model, rank.dependent);
+  const model::State given = out.state;
+  project_velocities(model, metric, out.state);
+  for (std::string& text : describe_velocity_changes(built, given, out.state)) {
+    out.notes.push_back(std::move(text));
+  }
+  settle_accelerations(model, metric, out.rows_in_use, out.state);
+  return out;
+}
+
+}  // namespace buckens::analysis

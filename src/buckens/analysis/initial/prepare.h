@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/analysis/initial/assembly_moves.h"
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/model/build/build_model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// A mechanism ready to move: assembled, with consistent velocities, accelerations and multipliers.
+struct Prepared {
+  model::State state;
+  std::vector<int> rows_in_use;             ///< independent rows of λ
+  std::vector<int> redundant_rows;          ///< those that follow from them
+  std::vector<std::string> redundant_text;  ///< by joint: "hinge_2: 5 of 5 equations follow …"
+  std::vector<AssemblyMove> moves;          ///< what position assembly did to the bodies
+  std::vector<std::string> notes;           ///< what a user should know about the start
+  std::vector<std::string> warnings;        ///< of what was hardly meant
+  long setup_factorisations = 0;            ///< of a static start
+};
+
+/// Assembles positions, finds redundant joints, starts statically if asked for, projects velocities
+/// and computes accelerations at t = 0.
+/// @throws ModelError naming the joint that cannot be closed or the body that is not held, or where
+///         assembly is strict and moves a body
+Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric);
+
+}  // namespace buckens::analysis

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/damping_work.h"
+
+#include <cmath>
+
+#include "buckens/dynamics/coupling_terms.h"
+
+namespace buckens::analysis {
+
+using linalg::Vector;
+
+namespace {
+// Lengths of steps that are the same but for the rounding of summed times.
+constexpr double kSameStep = 1e-6;
+}  // namespace
+
+DampingWork::DampingWork(const model::Model& model, std::size_t body, const model::State& start,
+                         bool holds_at_states)
+    : body_(&model.bodies[body]), index_(body), t_(start.t) {
+  const body::FlexiblePart& part = *body_->flexible;
+  const model::BodyState& s = start.bodies[body];
+  std::optional<double> beta;
+  if (holds_at_states && !part.is_reduced() && !part.is_quasi_static) {
+    beta = stepping::stiffness_damping(part);
+  }
+  is_direct_ = !beta;
+  if (is_direct_) {
+    power_ = direct_power(s);
+    return;
+  }
+  beta_ = *beta;
+  // Any step will do: only products with M are asked for.
+  mass_.emplace(part, stepping::Scheme(stepping::Method::newmark, 1.0, 0.0));
+  power_ = mass_power(s);
+  d_ = s.d;
+  elastic_ = part.fe.K * s.d;
+  ++products_;
+}
+
+double DampingWork::direct_power(const model::BodyState& s) {
+  if (!body_->flexible->is_damped()) return 0.0;
+  image_.noalias() = body_->flexible->C * s.d_dot;
+  ++products_;
+  return s.d_dot.dot(image_);
+}
+
+double DampingWork::mass_power(const model::BodyState& s) {
+  const double alpha = body_->flexible->fe.mass_damping;
+  if (alpha == 0.0) return 0.0;
+  mass_->multiply_mass(s.d_dot, image_);
+  return alpha * s.d_dot.dot(image_);
+}
+
+void DampingWork::find_elastic_load(const model::State& state, const dynamics::Forces& forces,
+                                    double h) {
+  const body::FlexiblePart& part = *body_->flexible;
+  const model::BodyState& s = state.bodies[index_];
+  motion_ = s.d_ddot + part.fe.mass_damping * s.d_dot;
+  mass_->multiply_mass(motion_, image_);
+  now_ = -image_;
+  if (s.terms.have_load()) now_ += s.coupling.load;
+  now_.noalias() +=
+      part.invariants.centrifugal_patterns() * dynamics::centrifugal_weights(s.terms, s.frame.w);
+  const Vector& f = forces.interface[index_];
+  for (int row = 0; row < part.num_interface_rows; ++row) {
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(part.rows, row); it; ++it) {
+      now_[it.col()] += it.value() * f[row];
+    }
+  }
+  // κ + β κ̇ = now for κ = K d.
+  if (elastic_before_.size() == 0 || std::abs(h - last_step_) > kSameStep * h) {
+    now_ = (now_ + beta_ / h * elastic_) / (1.0 + beta_ / h);
+  } else {
+    const double s2 = 0.5 * beta_ / h;
+    now_ = (now_ + s2 * (4.0 * elastic_ - elastic_before_)) / (1.0 + 3.0 * s2);
+  }
+}
+
+double DampingWork::add(const model::State& state, const dynamics::Forces& forces) {
+  const model::BodyState& s = state.bodies[index_];
+  const double h = state.t - t_;
+  t_ = state.t;
+  if (is_direct_) {
+    const double before = power_;
+    power_ = direct_power(s);
+    return 0.5 * h * (before + power_);
+  }
+  find_elastic_load(state, forces, h);
+  const double mass_before = power_;
+  power_ = mass_power(s);
+  motion_ = s.d - d_;
+  const double stiffness = beta_ / h * (motion_.dot(now_) - motion_.dot(elastic_));
+  std::swap(elastic_before_, elastic_);
+  std::swap(elastic_, now_);
+  d_ = s.d;
+  last_step_ = h;
+  return 0.5 * h * (mass_before + power_) + stiffness;
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/model/spec/model_description.h"
+
+namespace buckens::analysis {
+
+/// The laws of time that drive joints, watched for what no mechanism can follow.
+class DriveLaws {
+ public:
+  explicit DriveLaws(const model::ModelDescription& description);
+
+  /// Refuses a law that jumps between two times: it would tear the mechanism to another position
+  /// without a motion between. What happens within 1/4096 of the interval counts as a jump.
+  /// @throws NumericalError with place, joint and law
+  void check(double from, double to) const;
+
+  /// Warnings for laws whose rate jumps within ]0, duration[: joint forces have spikes there.
+  std::vector<std::string> corners(double duration) const;
+
+ private:
+  struct Drive {
+    std::string joint;
+    SourceLocation where;
+    base::TimeLaw law;
+    const char* unit;
+  };
+  std::vector<Drive> drives_;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "buckens/model/build/build_model.h"
+#include "buckens/results/channel.h"
+#include "buckens/results/field_layout.h"
+
+namespace buckens::analysis {
+
+/// How often a simulation records, and what that comes to.
+struct OutputPlan {
+  double every = 0;          ///< time between records [s]
+  double finest = 0;         ///< the same, or the step where extremes follow each one [s]
+  long fields_stride = 1;    ///< every how many records fields are recorded
+  double records = 0;        ///< of the whole run
+  double field_records = 0;  ///< of the whole run, 0 without fields
+
+  /// Size of results.h5 [bytes], without the undeformed shape.
+  double bytes(const results::RecordLayout& layout, const results::FieldLayout& fields) const;
+};
+
+/// @throws InputError if there are too many records, or the time between fields is no multiple of
+///   that between records
+OutputPlan plan_output(const model::ModelDescription& description);
+
+/// Advice where results.h5 becomes very large, otherwise empty.
+std::string judge_size(double bytes);
+
+/// "1.3 GB".
+std::string size_text(double bytes);
+
+}  // namespace buckens::analysis

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/run.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/initial/position_assembly.h"
+#include "buckens/analysis/simulation/settings.h"
+#include "buckens/analysis/simulation/step_advice.h"
+#include "buckens/base/errors.h"
+#include "buckens/base/free_memory.h"
+#include "buckens/base/log.h"
+#include "buckens/base/version.h"
+#include "buckens/results/state_interpolation.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+constexpr Eigen::Index kAdvisedDofs = 600;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+const model::SimulationSpec& simulation_of(const model::ModelDescription& description) {
+  if (description.simulation) return *description.simulation;
+  throw InputError(description.where,
+                   "there is nothing to run: the model has no `simulation:`; add for example "
+                   "`simulation: {duration: 1 s, step: 1 ms}`");
+}
+
+}  // namespace
+
+SimulationRun::SimulationRun(const model::BuiltModel& built, SimulationOptions options)
+    : built_(built),
+      options_(std::move(options)),
+      spec_(simulation_of(built.description)),
+      views_(built.model) {
+  set_up();
+  base::return_free_memory();
+  setup_seconds_ = seconds_since(created_);
+}
+
+/// Equations that hold within a step leave a quasi-static body no shape at its end.
+void SimulationRun::check_method() {
+  const bool is_within = spec_.method == model::IntegrationMethod::newmark ||
+                         spec_.method == model::IntegrationMethod::wilson;
+  for (const body::Body& body : built_.model.bodies) {
+    if (!body.is_flexible() || !body.flexible->is_quasi_static) continue;
+    has_quasi_static_ = true;
+    if (!is_within) continue;
+    throw InputError(spec_.where,
+                     fmt::format("simulation: method {} satisfies the equations within a step, "
+                                 "the shape of the quasi-static body \"{}\" at its end would be "
+                                 "unknown; use generalized-alpha or hht",
+                                 stepping::to_string(method_of(spec_.method)), body.name));
+  }
+}
+
+void SimulationRun::set_up() {
+  check_method();
+  plan_ = plan_output(built_.description);
+  summary_.title = built_.model.title;
+  summary_.version = kVersion;
+  metric_.emplace(built_.model);
+  prepared_.emplace(prepare(built_, *metric_));
+  const stepping::MarchSettings march = march_settings(spec_);
+  stepping::StepSettings settings = step_settings(spec_);
+  settings.threads = options_.threads;
+  settings.exchange = options_.exchange;
+  march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
+  if (!march.tolerance) steps_ = march.longest_steps;
+  observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
+  work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
+  drives_.emplace(built_.description);
+  statistics_.emplace(built_);
+  watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
+  summary_.redundant_constraints = prepared_->redundant_text;
+  for (const std::string& text : prepared_->warnings) warn(text);
+  for (const AssemblyMove& move : prepared_->moves) {
+    if (!move.is_large) summary_.notes.push_back(move.text());
+  }
+  for (const std::string& text : prepared_->notes) warn(text);
+  for (const std::string& text : drives_->corners(spec_.duration)) warn(text);
+  advise_on_step();
+  watch_->start(march_->stepper(), prepared_->state);
+}
+
+void SimulationRun::warn(const std::string& text) {
+  const auto& known = summary_.warnings;
+  if (std::find(known.begin(), known.end(), text) != known.end()) return;
+  summary_.warnings.push_back(text);
+  if (options_.tells_warnings) base::log(base::LogLevel::warning, text);
+}
+
+void SimulationRun::advise_on_step() {
+  for (const model::WholeBody& whole : built_.model.wholes) {
+    for (int b = whole.first; b < whole.first + whole.count; ++b) {
+      const body::Body& body = built_.model.bodies[static_cast<std::size_t>(b)];
+      if (!body.is_flexible()) continue;
+      // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
+      if (body.num_dofs() > kAdvisedDofs) {
+        set_lowest_frequency(b, march_->stepper().lowest_frequency(static_cast<std::size_t>(b)));
+        continue;
+      }
+      const ExcitedBand band = excited_band(body);
+      set_lowest_frequency(b, band.first);
+      if (!whole.is_divided()) advise(whole.name, band);
+    }
+    if (whole.is_divided() && whole.mesh->M.rows() <= kAdvisedDofs) {
+      advise(whole.name, excited_band(built_.model, whole));
+    }
+  }
+}
+
+void SimulationRun::advise(const std::string& body, const ExcitedBand& band) {
+  if (march_->is_controlled()) return;
+  const std::string advice = judge_step(body, band, march_->longest_step(), plan_.finest);
+  if (!advice.empty()) warn(advice);
+}
+
+void SimulationRun::set_lowest_frequency(int body, double omega) {
+  const std::string& name =
+      built_.model.wholes[static_cast<std::size_t>(built_.model.whole_of(body))].name;
+  if (const std::string doubt = judge_frequency(name, omega); !doubt.empty()) warn(doubt);
+  statistics_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
+  watch_->set_lowest_frequency(static_cast<std::size_t>(body), omega);
+}
+
+void SimulationRun::record_into(results::RecordSink& sink) {
+  const auto start = Clock::now();
+  recording_.emplace(RunRecording::Followed{built_, *work_, *statistics_, *observer_}, plan_, sink);
+  if (restored_) {
+    const base::SaveVisit visit = base::SaveVisit::restoring(*restored_).inside("recording");
+    if (restored_->counts.contains("recording/records")) {
+      recording_->visit_saved(visit);
+    } else {
+      recording_->skip_to(state().t);
+    }
+    restored_.reset();
+  }
+  if (const std::string advice = recording_->size_advice(); !advice.empty()) warn(advice);
+  recording_->begin();
+  base::return_free_memory();
+  setup_seconds_ += seconds_since(start);
+}
+
+/// Sensors count from the state at which they are first looked at.
+void SimulationRun::begin_records() {
+  if (has_begun_) return;
+  has_begun_ = true;
+  if (recording_) return recording_->write_start(prepared_->state);
+  observer_->record(prepared_->state, work_->work());
+}
+
+void SimulationRun::step() {
+  begin_records();
+  model::State& state = prepared_->state;
+  if (std::exchange(has_new_inputs_, false)) work_->take_inputs(state);
+  std::swap(before_, state);
+  const stepping::StepReport report = take_step(before_, state);
+  ++steps_taken_;
+  statistics_->add_step(report, state);
+  work_->add(state);
+  if (recording_) recording_->after_step(before_, state, march_->is_done());
+  watch_->after_step(march_->stepper(), state);
+  for (const auto& callback : callbacks) callback(state.t - before_.t);
+}
+
+void SimulationRun::step_by_hand() {
+  const auto start = Clock::now();
+  step();
+  stepping_seconds_ += seconds_since(start);
+}
+
+results::RunSummary SimulationRun::run() {
+  const auto start = Clock::now();
+  std::exception_ptr failure;
+  try {
+    begin_records();
+    take_steps();
+  } catch (const NumericalError& error) {
+    summary_.interrupted = error.what();
+    summary_.trust.push_back("the run ended early by a numerical failure");
+    failure = std::current_exception();
+  }
+  stepping_seconds_ += seconds_since(start);
+  finish();
+  if (failure) std::rethrow_exception(failure);
+  return summary_;
+}
+
+void SimulationRun::take_steps() {
+  if (!report_progress()) return;
+  while (!is_over()) {
+    step();
+    if (!report_progress() && !is_done()) return;
+  }
+}
+
+/// @throws NumericalError; `after` is then as `before`
+stepping::StepReport SimulationRun::take_step(const model::State& before, model::State& after) {
+  const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
+  try {
+    const stepping::StepReport report = march_->advance(before, after);
+    drives_->check(before.t, after.t);
+    // The step has closed velocities with the shapes that quasi-static bodies had at its start.
+    if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
+    return report;
+  } catch (const NumericalError&) {
+    after = before;
+    // A law that jumps makes any step fail, and says more than the joint that gave way.
+    drives_->check(before.t, reach);
+    throw;
+  }
+}
+
+bool SimulationRun::report_progress() {
+  if (!options_.on_progress) return true;
+  if (!options_.on_progress({state().t, spec_.duration, steps_taken_, steps_})) stop();
+  return !is_stopped_;
+}
+
+results::RunSummary SimulationRun::finish() {
+  if (std::exchange(is_finished_, true)) return summary_;
+  summary_.finished = is_done() && summary_.interrupted.empty();
+  if (!summary_.finished && summary_.interrupted.empty()) {
+    summary_.interrupted = options_.stop_reason;
+  }
+  summary_.wall_seconds.setup = setup_seconds_;
+  summary_.wall_seconds.stepping = stepping_seconds_;
+  summary_.wall_seconds.total = seconds_since(created_);
+  split_wall_time();
+  summary_.end_time = state().t;
+  statistics_->fill(*march_, summary_);
+  watch_->fill(state(), summary_);
+  if (recording_) recording_->finish(summary_);
+  return summary_;
+}
+
+void SimulationRun::split_wall_time() {
+  const stepping::StepSeconds s = march_->ladder().seconds();
+  const double recording = recording_ ? recording_->seconds() : 0.0;
+  const double rest =
+      summary_.wall_seconds.stepping - s.large_solves - s.newton - s.completion - recording;
+  summary_.wall_seconds.phases = {{"large_solves", s.large_solves},
+                                  {"newton", s.newton},
+                                  {"completion", s.completion},
+                                  {"recording", recording},
+                                  {"coupling_and_rest", rest}};
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/analysis/initial/prepare.h"
+#include "buckens/analysis/simulation/coupling_watch.h"
+#include "buckens/analysis/simulation/drive_laws.h"
+#include "buckens/analysis/simulation/nodal_views.h"
+#include "buckens/analysis/simulation/output_plan.h"
+#include "buckens/analysis/simulation/run_recording.h"
+#include "buckens/analysis/simulation/run_statistics.h"
+#include "buckens/analysis/simulation/simulation.h"
+#include "buckens/analysis/simulation/step_advice.h"
+#include "buckens/analysis/simulation/work_account.h"
+#include "buckens/results/recorder.h"
+#include "buckens/stepping/time_march.h"
+
+namespace buckens::analysis {
+
+/// The parts of one simulation and the order in which they work; Simulation is its public face.
+class SimulationRun {
+ public:
+  /// Sets everything up but records.
+  SimulationRun(const model::BuiltModel& built, SimulationOptions options);
+
+  void record_into(results::RecordSink& sink);
+  /// @pre neither done nor stopped
+  void step();
+  /// The same, and counts its time.
+  void step_by_hand();
+  results::RunSummary run();
+  results::RunSummary finish();
+
+  /// Values of all channels at the state of now, in memory that stays in place.
+  const std::vector<double>& observe();
+  const results::RecordLayout& layout() const { return observer_->layout(); }
+  NodalViews& nodal_views() { return views_; }
+  void set_load(const std::string& load, const std::optional<Eigen::Vector3d>& value);
+
+  base::SavedValues save();
+  void restore(const base::SavedValues& saved);
+
+  void stop() { is_stopped_ = true; }
+  bool is_over() const { return is_stopped_ || march_->is_done(); }
+  bool is_stopped() const { return is_stopped_; }
+  bool is_done() const { return march_->is_done(); }
+  double longest_step() const { return march_->longest_step(); }
+  double duration() const { return spec_.duration; }
+  long num_steps() const { return steps_taken_; }
+  const model::BuiltModel& built() const { return built_; }
+  const model::State& state() const { return prepared_->state; }
+
+  /// Called with the length of each accepted step.
+  std::vector<std::function<void(double)>> callbacks;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void check_method();
+  void set_up();
+  void warn(const std::string& text);
+  void advise_on_step();
+  void advise(const std::string& body, const ExcitedBand& band);
+  void set_lowest_frequency(int body, double omega);
+  void begin_records();
+  void take_steps();
+  stepping::StepReport take_step(const model::State& before, model::State& after);
+  bool report_progress();
+  void split_wall_time();
+  std::vector<std::size_t> loads_with_values(const std::string& name) const;
+  void visit_saved(const base::SaveVisit& visit);
+  std::vector<std::string> identity() const;
+
+  const model::BuiltModel& built_;
+  SimulationOptions options_;
+  const model::SimulationSpec& spec_;
+  Clock::time_point created_ = Clock::now();
+  double setup_seconds_ = 0, stepping_seconds_ = 0;
+  OutputPlan plan_;
+  std::optional<dynamics::MassMetric> metric_;
+  std::optional<Prepared> prepared_;
+  model::State before_;  // the state before the last step
+  std::optional<stepping::TimeMarch> march_;
+  std::optional<WorkAccount> work_;
+  std::optional<DriveLaws> drives_;
+  std::optional<RunStatistics> statistics_;
+  std::optional<CouplingWatch> watch_;
+  std::optional<results::Recorder> observer_;
+  std::optional<RunRecording> recording_;
+  std::optional<base::SavedValues> restored_;  // until records have taken their share
+  results::RunSummary summary_;
+  NodalViews views_;
+  std::vector<double> observed_;  // values of all channels
+  long observed_at_ = -1;         // number of steps, −1: out of date
+  long steps_ = 0;                // in all; 0 where step control leaves that open
+  long steps_taken_ = 0;
+  bool has_begun_ = false;  // the record of the start is written
+  bool is_stopped_ = false;
+  bool is_finished_ = false;  // records are ended
+  bool has_new_inputs_ = false;
+  bool has_quasi_static_ = false;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "buckens/analysis/simulation/output_plan.h"
+#include "buckens/analysis/simulation/run_statistics.h"
+#include "buckens/analysis/simulation/work_account.h"
+#include "buckens/results/field_recorder.h"
+#include "buckens/results/recorder.h"
+#include "buckens/results/state_interpolation.h"
+
+namespace buckens::analysis {
+
+/// Writes the records of a run into a sink as they fall due, and hands what they show to the
+/// statistics of the run.
+class RunRecording {
+ public:
+  /// What a recording follows; all of it outlives the recording.
+  struct Followed {
+    const model::BuiltModel& built;
+    const WorkAccount& work;
+    RunStatistics& statistics;
+    results::Recorder& recorder;
+  };
+  /// @throws InputError, ModelError where something that is to be recorded makes no sense
+  RunRecording(const Followed& run, const OutputPlan& plan, results::RecordSink& sink);
+
+  /// Advice where the results become very large, otherwise empty.
+  std::string size_advice() const;
+  /// Opens the sink.
+  void begin();
+  /// Writes the state at which the run begins.
+  void write_start(const model::State& state) { write_record(state); }
+  /// Goes on after a time up to which nothing is to be written.
+  void skip_to(double t);
+  /// Writes what is due between two states, interpolated where steps do not fall on it.
+  /// @param is_last whether the run ends with this step
+  void after_step(const model::State& before, const model::State& after, bool is_last);
+  void finish(const results::RunSummary& summary);
+
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
+  /// Wall time of all records so far [s].
+  double seconds() const { return seconds_; }
+
+ private:
+  double next_record() const { return static_cast<double>(records_) * plan_.every; }
+  /// @param levels energies and work in place of those of the state
+  void write_record(const model::State& state,
+                    const std::optional<results::EnergyLevels>& levels = {});
+  void write_fields(const model::State& state);
+  void write_extremes();
+
+  const model::BuiltModel& built_;
+  const WorkAccount& work_;
+  RunStatistics& statistics_;
+  OutputPlan plan_;
+  results::RecordSink& sink_;
+  results::Recorder& recorder_;
+  results::FieldRecorder fields_;
+  std::chrono::steady_clock::time_point extremes_written_ = std::chrono::steady_clock::now();
+  bool is_first_ = true;  // no fields are written yet
+  long records_ = 1;      // the state at t = 0 is written before the first step
+  double last_written_ = 0;
+  double seconds_ = 0;
+};
+
+}  // namespace buckens::analysis

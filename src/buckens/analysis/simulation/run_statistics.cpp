@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/run_statistics.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/simulation/turn.h"
+
+namespace buckens::analysis {
+
+RunStatistics::RunStatistics(const model::BuiltModel& built)
+    : built_(built),
+      joints_(built.model),
+      energy_(built.model),
+      lowest_frequency_(built.model.bodies.size(), 0.0),
+      largest_spin_(built.model.bodies.size(), 0.0),
+      deformation_(built.model.bodies.size()) {
+  for (const body::Body& body : built.model.bodies) {
+    limits_.push_back(body.is_flexible() ? std::make_unique<DeformationLimits>(body) : nullptr);
+  }
+}
+
+void RunStatistics::add_step(const stepping::StepReport& report, const model::State& state) {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    largest_spin_[b] = std::max(largest_spin_[b], state.bodies[b].frame.w.norm());
+  }
+  ++steps_;
+  iterations_ += report.newton_iterations;
+  most_iterations_ = std::max<long>(most_iterations_, report.newton_iterations);
+  if (report.large_solve_rounds > 1) ++repeated_solves_;
+  joints_.add_step(report, state);
+  residuals_.position = std::max(residuals_.position, report.position_residual);
+  residuals_.velocity = std::max(residuals_.velocity, report.velocity_residual);
+}
+
+void RunStatistics::add_record(const model::State& state, double balance, double scale) {
+  if (!std::isfinite(balance)) is_finite_ = false;
+  largest_balance_ = std::max(largest_balance_, std::abs(balance));
+  energy_scale_ = std::max(energy_scale_, scale);
+  energy_.add_record(state);
+  for (std::size_t b = 0; b < built_.model.bodies.size(); ++b) {
+    const body::Body& body = built_.model.bodies[b];
+    if (!body.is_flexible()) continue;
+    const linalg::Vector& d = state.bodies[b].d;
+    const auto rigid = body.flexible->sieve.rigid_part(d);
+    const double size =
+        std::max(rigid.head<3>().norm() / body.length_scale(), rigid.tail<3>().norm());
+    residuals_.sieve = std::max(residuals_.sieve, size);
+    deformation_[b].include(limits_[b]->measure(body.flexible->nodal(d)));
+  }
+}
+
+double RunStatistics::spin_ratio(std::size_t b) const {
+  return lowest_frequency_[b] > 0.0 ? largest_spin_[b] / lowest_frequency_[b] : 0.0;
+}
+
+void RunStatistics::judge_spin(std::size_t b, results::RunSummary& summary) const {
+  const double ratio = spin_ratio(b);
+  if (lowest_frequency_[b] <= 0.0) return;
+  summary.bodies.back().measures.emplace_back("spin_over_lowest_frequency", ratio);
+  const body::FlexiblePart& part = *built_.model.bodies[b].flexible;
+  if (ratio <= kFastSpin || part.geometric) return;
+  auto& list = ratio > kDoubtedSpin ? summary.trust : summary.warnings;
+  list.push_back(describe_spin(built_.model.bodies[b].name, ratio));
+}
+
+void RunStatistics::judge_shape(const model::WholeBody& whole, std::size_t most_bent,
+                                const DeformationMeasure& found,
+                                results::RunSummary& summary) const {
+  const body::Body& part = built_.model.bodies[most_bent];
+  if (!part.is_flexible()) return;
+  DeformationVerdict verdict = judge_deformation(
+      {whole.name, part.name, whole.count, part.flexible->geometric != nullptr}, found);
+  for (std::string& text : verdict.warnings) summary.warnings.push_back(std::move(text));
+  for (std::string& text : verdict.trust) summary.trust.push_back(std::move(text));
+}
+
+namespace {
+
+void fill_step_control(const stepping::TimeMarch& march, results::StepControlEffort& out) {
+  out.is_controlled = march.is_controlled();
+  out.rejected = march.report().rejected;
+  out.failed = march.report().failed;
+  for (const stepping::RungUse& rung : march.rungs()) {
+    out.sizes.push_back({rung.step, rung.steps, rung.factorisations});
+    if (rung.steps == 0) continue;
+    if (out.largest == 0.0) out.largest = rung.step;
+    out.smallest = rung.step;
+  }
+}
+
+void add_reduction(const body::Body& body, results::BodyEffort& effort) {
+  if (!body.is_flexible() || !body.flexible->is_reduced()) return;
+  const body::ReductionFigures& figures = body.flexible->reduction;
+  effort.measures.emplace_back("kept_modes", figures.modes);
+  effort.measures.emplace_back("static_shapes", figures.static_shapes);
+  effort.measures.emplace_back("dof_of_mesh", figures.full_dofs);
+  effort.measures.emplace_back("highest_mode_hz", figures.highest_mode / kTurn);
+}
+
+}  // namespace
+
+void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::StepLadder& ladder,
+                              results::RunSummary& summary) const {
+  results::BodyEffort effort;
+  effort.name = whole.name;
+  const auto first = static_cast<std::size_t>(whole.first);
+  std::size_t bent = first;  // the part with the largest rotation
+  DeformationMeasure deformation;
+  std::size_t fast = first;  // the part that spins fastest relative to its lowest frequency
+  for (std::size_t b = first; b < first + static_cast<std::size_t>(whole.count); ++b) {
+    const stepping::SolveCounts counts = ladder.counts(b);
+    effort.dof += static_cast<int>(built_.model.bodies[b].num_dofs());
+    effort.factorisations += counts.factorisations;
+    effort.solves += counts.solves;
+    summary.setup_solves += counts.setup_solves;
+    if (deformation_[b].rotation > deformation_[bent].rotation) bent = b;
+    deformation.include(deformation_[b]);
+    if (spin_ratio(b) > spin_ratio(fast)) fast = b;
+  }
+  if (whole.is_divided()) effort.measures.emplace_back("frames", whole.count);
+  add_reduction(built_.model.bodies[first], effort);
+  if (built_.model.bodies[first].is_flexible()) {
+    effort.measures.emplace_back("largest_rotation_rad", deformation.rotation);
+    effort.measures.emplace_back("largest_strain", deformation.strain);
+    effort.measures.emplace_back("largest_axial_load_over_buckling_load", deformation.axial_load());
+  }
+  summary.bodies.push_back(std::move(effort));
+  judge_spin(fast, summary);
+  judge_shape(whole, bent, deformation, summary);
+}
+
+void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& summary) const {
+  summary.steps = steps_;
+  fill_step_control(march, summary.step_control);
+  summary.newton_iterations.total = iterations_;
+  summary.newton_iterations.max = most_iterations_;
+  summary.newton_iterations.per_step_mean =
+      steps_ > 0 ? static_cast<double>(iterations_) / static_cast<double>(steps_) : 0.0;
+  summary.residuals = residuals_;
+  summary.residuals.opening = joints_.opening();
+  summary.residuals.opening_rate = joints_.opening_rate();
+  const double energy_error = energy_scale_ > 0.0 ? largest_balance_ / energy_scale_ : 0.0;
+  summary.energy_error = energy_error;
+  summary.measures.emplace_back(
+      "steps_with_repeated_solve",
+      steps_ > 0 ? static_cast<double>(repeated_solves_) / static_cast<double>(steps_) : 0.0);
+  for (const model::WholeBody& whole : built_.model.wholes)
+    add_whole(whole, march.ladder(), summary);
+  if (!is_finite_) {
+    summary.trust.push_back(
+        "an energy is too large to be a number; check units of masses, loads and velocities");
+  }
+  for (const std::string& text : {joints_.doubt(summary.end_time), energy_.doubt(energy_error)}) {
+    if (!text.empty()) summary.trust.push_back(text);
+  }
+}
+
+}  // namespace buckens::analysis

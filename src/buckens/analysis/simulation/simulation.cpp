@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/simulation.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/simulation/run.h"
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+// Ends of steps are counted, times asked for are written in decimals.
+constexpr double kSameTime = 1e-9;
+
+std::size_t find_whole(const model::Model& model, const std::string& name) {
+  const int found = model.find_whole(name);
+  if (found >= 0) return static_cast<std::size_t>(found);
+  std::vector<std::string> known;
+  for (const model::WholeBody& whole : model.wholes) known.push_back(whole.name);
+  throw InputError(fmt::format("there is no body \"{}\".{}", name, base::suggestion(name, known)));
+}
+
+}  // namespace
+
+Simulation::Simulation(const model::BuiltModel& built, SimulationOptions options)
+    : run_(std::make_unique<SimulationRun>(built, std::move(options))) {}
+
+Simulation::Simulation(std::shared_ptr<const model::BuiltModel> built, SimulationOptions options)
+    : kept_(std::move(built)), run_(std::make_unique<SimulationRun>(*kept_, std::move(options))) {}
+
+Simulation::~Simulation() = default;
+
+bool Simulation::step() {
+  if (run_->is_over()) return false;
+  run_->step_by_hand();
+  return true;
+}
+
+bool Simulation::advance_to(double t) {
+  const double enough = t - kSameTime * run_->longest_step();
+  while (time() < enough) {
+    if (!step()) return false;
+  }
+  return true;
+}
+
+results::RunSummary Simulation::run() { return run_->run(); }
+
+results::RunSummary Simulation::finish() { return run_->finish(); }
+
+void Simulation::stop() { run_->stop(); }
+
+void Simulation::on_step(std::function<void(const StepView&)> callback) {
+  run_->callbacks.push_back(
+      [this, callback = std::move(callback)](double step) { callback(StepView(*this, step)); });
+}
+
+void Simulation::record_into(results::RecordSink& sink) { run_->record_into(sink); }
+
+const model::BuiltModel& Simulation::built() const { return run_->built(); }
+double Simulation::time() const { return run_->state().t; }
+double Simulation::end_time() const { return run_->duration(); }
+long Simulation::num_steps() const { return run_->num_steps(); }
+bool Simulation::is_done() const { return run_->is_done(); }
+const model::State& Simulation::state() const { return run_->state(); }
+
+body::FrameMotion Simulation::frame(const std::string& body) const {
+  const model::Model& model = built().model;
+  body::FrameMotion out =
+      model::whole_motion(model, model.wholes[find_whole(model, body)], state());
+  out.X_WB.p += model.origin;
+  return out;
+}
+
+Eigen::Map<const Eigen::VectorXd> Simulation::values(const std::string& path) const {
+  const results::RecordLayout& layout = run_->layout();
+  const int found = layout.find(path);
+  if (found < 0) {
+    std::vector<std::string> known;
+    for (const results::Channel& channel : layout.channels()) known.push_back(channel.path);
+    throw InputError(
+        fmt::format("nothing is recorded as \"{}\".{}", path, base::suggestion(path, known)));
+  }
+  const auto index = static_cast<std::size_t>(found);
+  return {run_->observe().data() + layout.offset(index),
+          static_cast<Eigen::Index>(layout.channel(index).size())};
+}
+
+Eigen::Map<const Eigen::VectorXd> Simulation::sensor(const std::string& name) const {
+  return values("sensors/" + name);
+}
+
+Eigen::Map<const Simulation::NodalMatrix> Simulation::displacements(const std::string& body) const {
+  return run_->nodal_views().displacements(find_whole(built().model, body), state());
+}
+
+Eigen::Map<const Simulation::NodalMatrix> Simulation::velocities(const std::string& body) const {
+  return run_->nodal_views().velocities(find_whole(built().model, body), state());
+}
+
+void Simulation::set_load(const std::string& load, const Eigen::Vector3d& value) {
+  run_->set_load(load, value);
+}
+
+void Simulation::release_load(const std::string& load) { run_->set_load(load, std::nullopt); }
+
+base::SavedValues Simulation::save() const { return run_->save(); }
+
+void Simulation::restore(const base::SavedValues& saved) { run_->restore(saved); }
+
+double StepView::time() const { return simulation_->time(); }
+
+void StepView::stop() const { simulation_->stop(); }
+
+void StepView::set_load(const std::string& load, const Eigen::Vector3d& value) const {
+  simulation_->set_load(load, value);
+}
+
+Eigen::Map<const Eigen::VectorXd> StepView::sensor(const std::string& name) const {
+  return simulation_->sensor(name);
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "buckens/analysis/simulation/step_view.h"
+#include "buckens/base/saved_values.h"
+#include "buckens/linalg/solve_exchange.h"
+#include "buckens/model/build/build_model.h"
+#include "buckens/model/state.h"
+#include "buckens/results/record_sink.h"
+
+namespace buckens::analysis {
+
+/// How far a run has come.
+struct Progress {
+  double t = 0;         ///< simulated time [s]
+  double duration = 0;  ///< [s]
+  long step = 0;
+  long steps = 0;  ///< in all; 0 where step control leaves that open
+};
+
+struct SimulationOptions {
+  /// Called by run() at its start and after every step; returning false ends the run after this
+  /// step.
+  std::function<bool(const Progress&)> on_progress;
+  /// Why the run was stopped, for the summary: "interrupted by the user".
+  std::string stop_reason = "stopped";
+  int threads = 1;  ///< ≥ 1; has no influence on results
+  /// Whether warnings of the set-up go to the log; they stand in the summary anyhow.
+  bool tells_warnings = true;
+  /// Shares factors and solves with other simulations that run side by side; null: alone.
+  linalg::SolveExchange* exchange = nullptr;
+};
+
+class SimulationRun;
+
+/// A simulation of a model: set up once, then advanced step by step, to an instant or to its end.
+///
+///     Simulation simulation(load_model("slider_crank.yaml"));
+///     while (simulation.step()) watch(simulation.sensor("angle")[0]);
+///
+/// Views (sensor, values, displacements) lie in memory that stays where it is for the life of the
+/// simulation: a call brings it up to date and gives the same address each time. Steps pay nothing
+/// for them.
+class Simulation {
+ public:
+  /// Prepares: assembly, one factorisation per flexible body, consistent start.
+  /// @param built outlives the simulation
+  /// @throws InputError without a `simulation:`, ModelError if the mechanism cannot be assembled,
+  ///         NumericalError naming the joint or body that resists
+  explicit Simulation(const model::BuiltModel& built, SimulationOptions options = {});
+  /// The same, and keeps the model alive.
+  explicit Simulation(std::shared_ptr<const model::BuiltModel> built,
+                      SimulationOptions options = {});
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // ---- advance
+  /// Takes one accepted step. @return false if the end was reached before, or the run was stopped
+  /// @throws NumericalError naming the joint or body that resists; the state is then that before
+  bool step();
+  /// Takes steps until one ends at t or beyond: steps stay on their grid.
+  /// @return false if the end of the run or a stop came first
+  /// @throws NumericalError as step()
+  bool advance_to(double t);
+  /// Takes steps until the end, or until something stops it, and finishes.
+  ///
+  /// A step that fails ends the run: the sink gets everything up to it and a summary with
+  /// `finished` false, then the error is thrown on.
+  results::RunSummary run();
+  /// Ends the records and gives the summary; run() has done so already.
+  results::RunSummary finish();
+  /// Ends the run after the step being taken, or now.
+  void stop();
+  /// Called after each accepted step, in the order in which callbacks were given.
+  void on_step(std::function<void(const StepView&)> callback);
+  /// Opens a sink, which from now on gets the records that the model asks for, the state of now
+  /// before the next step. It outlives the simulation's last step.
+  /// @pre no step was taken since the simulation was made or restored
+  /// @throws InputError, ModelError where a sensor makes no sense, IoError from the sink
+  void record_into(results::RecordSink& sink);
+
+  // ---- look
+  const model::BuiltModel& built() const;
+  double time() const;      ///< [s]
+  double end_time() const;  ///< of the run [s]
+  long num_steps() const;   ///< taken so far, since t = 0
+  bool is_done() const;     ///< the end is reached
+  /// The same object for the life of the simulation. Its vectors change places from step to step;
+  /// positions count from Model::origin.
+  const model::State& state() const;
+  /// Frame of a body: origin at the mass centre; rotation and velocities as the record has them.
+  /// @throws InputError naming the bodies there are
+  body::FrameMotion frame(const std::string& body) const;
+  /// Current values of a recorded quantity, "joints/hinge/force", "energies/total".
+  /// @return a view that stays in place and is brought up to date by the next call for any path
+  /// @throws InputError naming the nearest path
+  Eigen::Map<const Eigen::VectorXd> values(const std::string& path) const;
+  /// Current values of a sensor of the model.
+  Eigen::Map<const Eigen::VectorXd> sensor(const std::string& name) const;
+  using NodalMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+  /// Nodal displacements and rotations of a flexible body in its axes, one row per node.
+  Eigen::Map<const NodalMatrix> displacements(const std::string& body) const;
+  /// Their rates. @throws InputError for bodies with several frames, whose nodes have several
+  Eigen::Map<const NodalMatrix> velocities(const std::string& body) const;
+
+  // ---- act
+  /// Gives a force or torque of the model a value in place of its law, from now on: [N] or [N m],
+  /// axes as the load has them. Before the first step accelerations follow at once; later the value
+  /// acts as a law that jumps here would.
+  /// @throws InputError naming the loads that take values
+  void set_load(const std::string& load, const Eigen::Vector3d& value);
+  /// Gives the load back to its law.
+  void release_load(const std::string& load);
+
+  // ---- save and go on
+  /// All that a continuation needs that is equal bit for bit.
+  base::SavedValues save() const;
+  /// Goes on from there. The model must be the same but for its title and duration.
+  /// @pre no step was taken
+  /// @throws InputError saying what differs; the simulation is then of no further use
+  void restore(const base::SavedValues& saved);
+
+ private:
+  std::shared_ptr<const model::BuiltModel> kept_;
+  std::unique_ptr<SimulationRun> run_;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a simulation shows, takes and saves between steps.
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/initial/quasi_static_start.h"
+#include "buckens/analysis/simulation/run.h"
+#include "buckens/base/errors.h"
+#include "buckens/base/nearest.h"
+#include "buckens/base/version.h"
+#include "buckens/model/saved_state.h"
+#include "buckens/model/spec/field_lines.h"
+#include "buckens/results/state_interpolation.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+constexpr long kMostEver = 1L << 60;
+constexpr std::size_t kMostDifferences = 3;
+
+/// "bodies.rod.mass: 1" split at the first ": ".
+std::pair<std::string, std::string> split_line(const std::string& line) {
+  const std::size_t at = line.find(": ");
+  if (at == line.npos) return {line, ""};
+  return {line.substr(0, at), line.substr(at + 2)};
+}
+
+/// What two lists of lines differ in, the first few of them.
+std::string differences(const std::vector<std::string>& saved,
+                        const std::vector<std::string>& here) {
+  std::vector<std::string> out;
+  const auto tell = [&](const std::vector<std::string>& mine, const std::vector<std::string>& other,
+                        bool is_saved) {
+    for (const std::string& line : mine) {
+      if (std::find(other.begin(), other.end(), line) != other.end()) continue;
+      const auto [path, value] = split_line(line);
+      const auto same = std::find_if(other.begin(), other.end(), [&](const std::string& o) {
+        return split_line(o).first == path;
+      });
+      if (same != other.end() && !is_saved) continue;  // told already
+      const std::string there = same == other.end() ? "missing" : split_line(*same).second;
+      out.push_back(fmt::format("{} was {}, is {}", path, is_saved ? value : "missing",
+                                is_saved ? there : value));
+    }
+  };
+  tell(saved, here, true);
+  tell(here, saved, false);
+  const std::size_t more = out.size() > kMostDifferences ? out.size() - kMostDifferences : 0;
+  out.resize(out.size() - more);
+  return fmt::format("{}{}", fmt::join(out, "; "),
+                     more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+}  // namespace
+
+const std::vector<double>& SimulationRun::observe() {
+  begin_records();
+  if (observed_at_ == steps_taken_) return observed_;
+  model::State& state = prepared_->state;
+  // λ of a step may belong to an instant within it; records have it at its end.
+  linalg::Vector own = state.lambda;
+  if (steps_taken_ > 0) state.lambda = results::multipliers_at(before_, state, state.t);
+  const results::Record record = observer_->record(state, work_->work());
+  std::swap(state.lambda, own);
+  observed_.resize(record.values.size());
+  std::copy(record.values.begin(), record.values.end(), observed_.begin());
+  observed_at_ = steps_taken_;
+  return observed_;
+}
+
+std::vector<std::size_t> SimulationRun::loads_with_values(const std::string& name) const {
+  std::vector<std::size_t> out;
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < built_.model.loads.size(); ++k) {
+    const model::Load& load = built_.model.loads[k];
+    if (!load.element->takes_values()) continue;
+    known.push_back(load.name);
+    if (load.name == name) out.push_back(k);
+  }
+  if (!out.empty()) return out;
+  if (known.empty()) {
+    throw InputError(
+        fmt::format("no load \"{}\" takes a value from outside: the model has neither "
+                    "forces nor torques; add `force: {{on: …, value: [0, 0, 0]}}`",
+                    name));
+  }
+  throw InputError(fmt::format("no load \"{}\" takes a value from outside.{}", name,
+                               base::suggestion(name, known)));
+}
+
+void SimulationRun::set_load(const std::string& name, const std::optional<Eigen::Vector3d>& value) {
+  if (value && !value->allFinite()) {
+    throw InputError(fmt::format("load \"{}\": its value [{}, {}, {}] is not finite", name,
+                                 value->x(), value->y(), value->z()));
+  }
+  model::State& state = prepared_->state;
+  const std::vector<std::size_t> found = loads_with_values(name);
+  state.inputs.resize(built_.model.loads.size());
+  for (const std::size_t k : found) state.inputs[k] = value;
+  has_new_inputs_ = true;
+  observed_at_ = -1;
+  if (steps_taken_ > 0) return;
+  settle_accelerations(built_.model, *metric_, prepared_->rows_in_use, state);
+}
+
+std::vector<std::string> SimulationRun::identity() const {
+  std::vector<std::string> out = model::field_lines(built_.description);
+  for (std::string& line : model::built_lines(built_.model)) out.push_back(std::move(line));
+  out.push_back(fmt::format("longest step: {:.12g} s", march_->longest_step()));
+  return out;
+}
+
+void SimulationRun::visit_saved(const base::SaveVisit& visit) {
+  model::State& state = prepared_->state;
+  model::visit_saved(visit.inside("state"), built_.model, state);
+  visit.count("steps", steps_taken_, 0, kMostEver);
+  visit.flag("has_begun", has_begun_);
+  visit.flag("has_new_inputs", has_new_inputs_);
+  visit.number("t_before", before_.t);
+  visit.vector_or_none("lambda_before", before_.lambda, state.lambda.size());
+  visit.number("lambda_time_before", before_.lambda_time);
+  march_->visit_saved(visit.inside("march"));
+  work_->visit_saved(visit.inside("work"));
+  statistics_->visit_saved(visit.inside("statistics"));
+  watch_->visit_saved(visit.inside("coupling"));
+  observer_->visit_saved(visit.inside("sensors"));
+}
+
+base::SavedValues SimulationRun::save() {
+  base::SavedValues out;
+  std::vector<std::string> version = {kVersion};
+  std::vector<std::string> lines = identity();
+  const base::SaveVisit visit = base::SaveVisit::saving(out);
+  visit.texts("version", version);
+  visit.texts("model", lines);
+  visit_saved(visit);
+  if (recording_) recording_->visit_saved(visit.inside("recording"));
+  return out;
+}
+
+void SimulationRun::restore(const base::SavedValues& saved) {
+  const base::SaveVisit visit = base::SaveVisit::restoring(saved);
+  std::vector<std::string> version, lines;
+  visit.texts("version", version);
+  visit.texts("model", lines);
+  if (version != std::vector<std::string>{kVersion}) {
+    throw InputError(
+        fmt::format("the state was saved by buckens {}, this is {}: a continuation "
+                    "would not be the same; use that version, or run from the start",
+                    fmt::join(version, ""), kVersion));
+  }
+  const std::vector<std::string> here = identity();
+  if (lines != here) {
+    throw InputError(
+        fmt::format("the state belongs to another model: {}; use the model that it "
+                    "was saved with (title and duration may change)",
+                    differences(lines, here)));
+  }
+  visit_saved(visit);
+  observed_at_ = -1;
+  restored_ = saved;
+  summary_.notes.push_back(fmt::format("goes on from a state saved at t = {:.6g} s", state().t));
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/work_account.h"
+
+#include <cmath>
+
+namespace buckens::analysis {
+
+WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
+    : model_(model),
+      joints_(model),
+      before_(powers(start)),
+      t_(start.t),
+      lambda_before_(start.lambda),
+      lambda_start_(start.lambda),
+      lambda_time_(start.lambda_time) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const body::Body& body = model.bodies[b];
+    if (!body.is_flexible() || !body.flexible->is_damped()) continue;
+    meshes_.emplace_back(model, b, start, holds_at_states);
+  }
+}
+
+WorkAccount::Powers WorkAccount::powers(const model::State& state) {
+  Powers out;
+  const auto motions = dynamics::motions_of(model_, state);
+  dynamics::evaluate_forces(model_, motions, state.t, state.inputs, forces_);
+  out.active = forces_.active_power + forces_.dissipation;
+  out.damping = forces_.dissipation;
+  joints_.evaluate(motions, state.t, residuals_, &state.lambda, &forces_);
+  out.g_t = residuals_.g_t;
+  return out;
+}
+
+void WorkAccount::take_inputs(const model::State& state) { before_ = powers(state); }
+
+long WorkAccount::num_products() const {
+  long sum = 0;
+  for (const DampingWork& mesh : meshes_) sum += mesh.num_products();
+  return sum;
+}
+
+void WorkAccount::add(const model::State& state) {
+  const Powers now = powers(state);
+  const double h = state.t - t_;
+  // Joints take −λ·g_t from their drives. A λ that belongs to mid-step meets the mean of g_t; one
+  // that belongs to a later instant (Wilson) is taken back to the end of the step.
+  const bool is_mean = state.lambda_time < state.t - 0.25 * h;
+  linalg::Vector lambda = state.lambda;
+  if (state.lambda_time > state.t + 0.25 * h) {
+    const double s = (state.t - lambda_time_) / (state.lambda_time - lambda_time_);
+    lambda = (1.0 - s) * lambda_before_ + s * state.lambda;
+  }
+  const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now.g_t)
+                               : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
+  const double active = 0.5 * (before_.active + now.active) + drive;
+  double dissipated = 0.5 * h * (before_.damping + now.damping);
+  for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_);
+  work_before_ = work_;
+  work_.external += h * active;
+  work_.dissipated += dissipated;
+  turnover_ += h * std::abs(active) + dissipated;
+  before_ = now;
+  lambda_before_ = state.lambda;
+  lambda_start_ = lambda;
+  lambda_time_ = state.lambda_time;
+  t_ = state.t;
+}
+
+}  // namespace buckens::analysis

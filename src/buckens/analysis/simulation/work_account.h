@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/analysis/simulation/damping_work.h"
+#include "buckens/base/saved_values.h"
+#include "buckens/dynamics/joint_set.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+#include "buckens/results/observation.h"
+
+namespace buckens::analysis {
+
+/// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule, so
+/// its error is of the order h² like that of the steps. What the damping of meshes takes comes from
+/// DampingWork.
+class WorkAccount {
+ public:
+  /// @param holds_at_states whether states satisfy the equations of motion, see DampingWork
+  WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states = false);
+
+  /// Adds the work between the last state and this one.
+  void add(const model::State& state);
+
+  /// To be called where inputs of the last state were changed: the next step begins with them.
+  void take_inputs(const model::State& state);
+
+  const results::WorkBalance& work() const { return work_; }
+  /// What work() was before the last add().
+  const results::WorkBalance& work_before() const { return work_before_; }
+  /// ∫|P| dt [J]: measures how much energy went through the mechanism.
+  double turnover() const { return turnover_; }
+  /// Products with the stiffness or damping matrices of meshes so far.
+  long num_products() const;
+
+  /// Saves what later values depend on, or takes it back.
+  /// @throws InputError where it does not fit
+  void visit_saved(const base::SaveVisit& visit);
+
+ private:
+  struct Powers {
+    double active = 0;   ///< of loads [W]
+    double damping = 0;  ///< of dampers [W]
+    linalg::Vector g_t;  ///< ∂g/∂t of the joints
+  };
+  /// Leaves the forces at the state in forces_.
+  Powers powers(const model::State& state);
+
+  const model::Model& model_;
+  dynamics::JointSet joints_;
+  std::vector<DampingWork> meshes_;
+  dynamics::Forces forces_;
+  dynamics::JointResiduals residuals_;
+  Powers before_;
+  double t_ = 0;
+  linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state
+  double lambda_time_ = 0;                       ///< instant of lambda_before_
+  results::WorkBalance work_, work_before_;
+  double turnover_ = 0;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/statics/continuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/statics/state.h"
+#include "buckens/analysis/statics/tolerances.h"
+#include "buckens/base/errors.h"
+
+namespace buckens::analysis {
+
+using linalg::SparseMatrix;
+using linalg::Vector;
+using Share = StaticSystem::Share;
+
+namespace {
+
+constexpr int kMaxIterations = 15;
+// Farther from the prediction than this [rad, or of the model's length] lies another equilibrium.
+constexpr double kFarFromPrediction = 0.5;
+
+/// [A b; nᵀ c]
+SparseMatrix bordered(const SparseMatrix& A, const Vector& column, const Vector& row,
+                      double corner) {
+  const Eigen::Index n = A.rows();
+  std::vector<linalg::Triplet> entries;
+  entries.reserve(static_cast<std::size_t>(A.nonZeros() + 2 * n + 1));
+  for (Eigen::Index k = 0; k < A.outerSize(); ++k) {
+    for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
+      entries.emplace_back(it.row(), it.col(), it.value());
+    }
+  }
+  for (Eigen::Index k = 0; k < n; ++k) {
+    entries.emplace_back(k, n, column[k]);
+    entries.emplace_back(n, k, row[k]);
+  }
+  entries.emplace_back(n, n, corner);
+  SparseMatrix out(n + 1, n + 1);
+  out.setFromTriplets(entries.begin(), entries.end());
+  out.makeCompressed();
+  return out;
+}
+
+}  // namespace
+
+StaticContinuation::StaticContinuation(const model::Model& model,
+                                       const dynamics::MassMetric& metric,
+                                       const std::vector<const ElasticCompliance*>& compliance,
+                                       double t, const PathScale& scale, double force)
+    : model_(model), metric_(metric), compliance_(compliance), t_(t), scale_(scale), force_(force) {
+  force_rounding_ =
+      spring_rounding(model_, dynamics::motions_of(model_, model::placed_state(model_)));
+}
+
+void StaticContinuation::choose_rows(const StaticPoint& point) {
+  StaticSystem all(model_, compliance_, {}, t_, force_);
+  const std::vector<int> rows = metric_.split(all.balance(point).constraints.rows).independent;
+  system_.emplace(model_, compliance_, rows, t_, force_);
+  lu_.reset();
+}
+
+double StaticContinuation::motion(const Vector& x) const {
+  double size = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Eigen::Matrix<double, 6, 1> u = system_->frame_step(b, x);
+    size = std::max({size, u.head<3>().norm(), u.tail<3>().norm() / model_.length});
+  }
+  return std::max(size, system_->largest(x, Share::elastic));
+}
+
+double StaticContinuation::misfit(const Vector& residual) const {
+  return std::max({system_->largest(residual, Share::frame),
+                   system_->largest(residual, Share::joint),
+                   system_->largest(residual, Share::elastic)});
+}
+
+bool StaticContinuation::is_balanced(const StaticPoint& point, const Vector& residual) const {
+  const double largest = std::max(force_, strongest_load(model_, point, t_));
+  return force_ * system_->largest(residual, Share::frame) <=
+             kForceTolerance * largest + force_rounding_ &&
+         system_->largest(residual, Share::joint) <= closed_share(model_, point) &&
+         system_->largest(residual, Share::elastic) <=
+             kForceTolerance * system_->largest_deformation(point) + 1e-15;
+}
+
+StaticContinuation::Plane StaticContinuation::load_plane() const {
+  return {Vector::Zero(system_->size()), 1.0 / scale_.load_factor};
+}
+
+StaticContinuation::Plane StaticContinuation::plane(const PathPoint& at) const {
+  if (scale_.load_control) return load_plane();
+  // Multipliers take no part: their size says nothing about how far a mechanism has come.
+  Plane out{at.direction, at.load_rate / (scale_.load_factor * scale_.load_factor)};
+  for (int k = 0; k < system_->size(); ++k) {
+    if (system_->share(k) == Share::joint) out.x[k] = 0.0;
+  }
+  const double square = out.x.squaredNorm();
+  const double share = motion(at.direction) / scale_.motion;
+  if (square > 0.0) out.x *= share * share / square;
+  return out;
+}
+
+Vector StaticContinuation::load_derivative(const StaticPoint& point) const {
+  StaticPoint loaded = point;
+  loaded.load_factor = 1.0;
+  StaticPoint unloaded = point;
+  unloaded.load_factor = 0.0;
+  // Loads enter linearly: the difference is the derivative.
+  return system_->residual(loaded, system_->balance(loaded)) -
+         system_->residual(unloaded, system_->balance(unloaded));
+}
+
+bool StaticContinuation::factorise(const StaticPoint& point, const StaticBalance& balance,
+                                   const Plane& plane) {
+  system_->linearise(point, balance);
+  // Rows of μ are scaled so that a full step is one.
+  const SparseMatrix tangent =
+      bordered(system_->tangent(0.0), scale_.load_factor * load_derivative(point), plane.x,
+               scale_.load_factor * plane.load_factor);
+  if (lu_ && lu_->factorise(tangent)) return true;
+  lu_.emplace(tangent);  // anew: the pivots of another configuration may be of no use here
+  return lu_->factorise(tangent);
+}
+
+StaticPoint StaticContinuation::moved(const StaticPoint& point, const Vector& step) const {
+  StaticPoint out = system_->moved(point, step.head(system_->size()));
+  out.load_factor += scale_.load_factor * step[system_->size()];
+  return out;
+}
+
+std::optional<PathPoint> StaticContinuation::correct(StaticPoint point, const Plane& plane,
+                                                     double longest) {
+  const int n = system_->size();
+  double way = 0.0;
+  for (int iteration = 0;; ++iteration) {
+    PathPoint out;
+    out.balance = system_->balance(point);
+    const Vector residual = system_->residual(point, out.balance);
+    if (!residual.allFinite()) return std::nullopt;
+    if (is_balanced(point, residual)) {
+      out.point = std::move(point);
+      out.iterations = iteration;
+      polish_and_lead_on(out, plane);
+      return out;
+    }
+    remember_resistance(point, residual);
+    if (iteration == kMaxIterations || !factorise(point, out.balance, plane)) return std::nullopt;
+    Vector step(n + 1);
+    step << -residual, 0.0;
+    lu_->solve_in_place(step);
+    if (!step.allFinite()) return std::nullopt;
+    way += motion(step.head(n));
+    if (way > longest) return std::nullopt;
+    point = moved(point, step);
+  }
+}
+
+void StaticContinuation::polish_and_lead_on(PathPoint& at, const Plane& plane) {
+  const int n = system_->size();
+  if (!factorise(at.point, at.balance, plane)) return;
+  const Vector residual = system_->residual(at.point, at.balance);
+  Vector step(n + 1);
+  step << -residual, 0.0;
+  lu_->solve_in_place(step);
+  if (step.allFinite() && motion(step.head(n)) < kFarFromPrediction) {
+    // One more Newton step goes down to rounding; where it is there already, it is not taken.
+    const StaticPoint better = moved(at.point, step);
+    StaticBalance balance = system_->balance(better);
+    if (misfit(system_->residual(better, balance)) < misfit(residual)) {
+      at.point = better;
+      at.balance = std::move(balance);
+    }
+  }
+  Vector direction = Vector::Unit(n + 1, n);
+  lu_->solve_in_place(direction);
+  if (!direction.allFinite()) return;
+  const double turn = scale_.load_control ? 0.0 : motion(direction.head(n)) / scale_.motion;
+  const double size = std::hypot(turn, direction[n]);
+  if (!(size > 0.0) || !std::isfinite(size)) return;
+  at.direction = direction.head(n) / size;
+  at.load_rate = scale_.load_factor * direction[n] / size;
+}
+
+void StaticContinuation::remember_resistance(const StaticPoint& point, const Vector& residual) {
+  Eigen::Index worst = 0;
+  residual.cwiseAbs().maxCoeff(&worst);
+  const int index = static_cast<int>(worst);
+  if (system_->share(index) == Share::frame) {
+    resisting_ = describe_motion(model_, *system_, point, Vector::Unit(residual.size(), worst));
+  } else if (system_->share(index) == Share::joint) {
+    resisting_ = fmt::format("joint \"{}\" opens", system_->joint_at(index).name);
+  } else {
+    resisting_ = fmt::format("body \"{}\" deforms", model_.bodies[system_->body_at(index)].name);
+  }
+}
+
+PathPoint StaticContinuation::begin(const StaticPoint& start, double sign) {
+  choose_rows(start);
+  Plane along = load_plane();
+  along.load_factor *= sign;
+  std::optional<PathPoint> out = correct(start, along, kFarFromPrediction);
+  if (!out || out->direction.size() == 0) {
+    throw NumericalError(fmt::format(
+        "static path: it cannot be continued from its start at load factor {:.6g} ({}); start at "
+        "another load factor",
+        start.load_factor, resisting_.empty() ? "a limit point or a mechanism" : resisting_));
+  }
+  return std::move(*out);
+}
+
+std::optional<PathPoint> StaticContinuation::with_new_rows(const PathPoint& at) {
+  choose_rows(at.point);
+  PathPoint from = at;
+  // Rows that are left out exert no force; Newton shares theirs out.
+  for (int k = 0; k < model_.num_constraint_rows(); ++k) {
+    const std::vector<int>& rows = system_->rows_in_use();
+    if (!std::binary_search(rows.begin(), rows.end(), k)) from.point.lambda[k] = 0.0;
+  }
+  return at_load_factor(from, at.point.load_factor);
+}
+
+std::optional<PathPoint> StaticContinuation::ahead(const PathPoint& from, double step,
+                                                   bool may_branch) {
+  Plane along = plane(from);
+  if (scale_.load_control) along.load_factor *= from.load_rate < 0.0 ? -1.0 : 1.0;
+  Vector prediction(system_->size() + 1);
+  prediction << step * from.direction, step * from.load_rate / scale_.load_factor;
+  const double way = step * motion(from.direction);
+  const double longest =
+      scale_.load_control ? std::max(kFarFromPrediction, way) : std::max(scale_.motion, way);
+  try {
+    std::optional<PathPoint> out = correct(moved(from.point, prediction), along, longest);
+    if (out && position_residual(*out) > kDependentGap * model_.length) {
+      resisting_ = "joints that followed from others open";
+      return std::nullopt;
+    }
+    if (out && out->direction.size() == 0) {
+      if (!may_branch) return std::nullopt;
+      out->direction = from.direction;
+      out->load_rate = from.load_rate;
+    }
+    if (out) out->position = from.position + step;
+    return out;
+  } catch (const NumericalError& error) {  // a force law that cannot be evaluated there
+    resisting_ = error.what();
+    return std::nullopt;
+  }
+}
+
+std::optional<PathPoint> StaticContinuation::at_load_factor(const PathPoint& near,
+                                                            double load_factor) {
+  StaticPoint point = near.point;
+  point.load_factor = load_factor;
+  const double sign = near.load_rate < 0.0 ? -1.0 : 1.0;
+  Plane along = load_plane();
+  along.load_factor *= sign;
+  std::optional<PathPoint> out = correct(std::move(point), along, kFarFromPrediction);
+  if (out && out->direction.size() == 0) return std::nullopt;
+  if (out) {
+    out->point.load_factor = load_factor;  // to the last digit
+    out->position = near.position;
+  }
+  return out;
+}
+
+double StaticContinuation::alignment(const PathPoint& a, const PathPoint& b) const {
+  if (a.direction.size() != b.direction.size()) return 1.0;  // other joint rows since
+  Vector x = a.direction;
+  Vector y = b.direction;
+  for (int k = 0; k < system_->size(); ++k) {
+    if (system_->share(k) == Share::joint) x[k] = y[k] = 0.0;
+  }
+  const double norms = x.norm() * y.norm();
+  const double cosine = norms > 0.0 ? x.dot(y) / norms : 1.0;
+  const double motions = motion(a.direction) * motion(b.direction);
+  return cosine * motions / (scale_.motion * scale_.motion) +
+         a.load_rate * b.load_rate / (scale_.load_factor * scale_.load_factor);
+}
+
+std::optional<StaticModes> StaticContinuation::modes(const PathPoint& at, double sigma) {
+  system_->linearise(at.point, at.balance);
+  return static_modes(*system_, sigma);
+}
+
+double StaticContinuation::force_residual(const PathPoint& at) const {
+  return force_ * system_->largest(system_->residual(at.point, at.balance), Share::frame);
+}
+
+double StaticContinuation::position_residual(const PathPoint& at) const {
+  const Vector& g = at.balance.constraints.g;
+  return g.size() > 0 ? g.cwiseAbs().maxCoeff() : 0.0;
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/statics/descent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/statics/state.h"
+#include "buckens/analysis/statics/tolerances.h"
+#include "buckens/base/errors.h"
+#include "buckens/body/body_lengths.h"
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::analysis {
+
+using linalg::SparseMatrix;
+using linalg::Vector;
+using Share = StaticSystem::Share;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+namespace {
+
+constexpr int kMaxDescentIterations = 400;
+constexpr double kLongestStep = 0.3;      // rad, or of the model's length
+constexpr double kLongStep = 0.2;         // leaves the path of damped motion: more inertia
+constexpr double kShortStep = 0.1;        // follows it well: less inertia
+constexpr double kFarFromBalance = 1e-2;  // of the largest force: only there steps must go downhill
+constexpr double kLeastInertia = 1e-9;  // of σ that matters: lets directions without stiffness rest
+constexpr double kFarTurned = 40.0;     // rad
+constexpr double kFarMoved = 20.0;      // model lengths
+
+}  // namespace
+
+StaticDescent::StaticDescent(const model::Model& model, const dynamics::MassMetric& metric,
+                             const std::vector<const ElasticCompliance*>& compliance, double t,
+                             StaticPoint start)
+    : model_(model),
+      metric_(metric),
+      compliance_(compliance),
+      t_(t),
+      point_(std::move(start)),
+      start_(point_),
+      turned_(model.bodies.size(), Eigen::Vector3d::Zero()) {
+  set_scales();
+  choose_rows();
+  sigma_ = 10.0 * reference_;
+}
+
+void StaticDescent::set_scales() {
+  const double L = model_.length;
+  force_ = start_force_ = strongest_load(model_, point_, t_);
+  double softest = 0.0;
+  for (std::size_t b = 0; b < compliance_.size(); ++b) {
+    if (compliance_[b] == nullptr || compliance_[b]->interface().size() == 0) continue;
+    // Rotations by torques count as displacements by forces.
+    const Eigen::VectorXd lengths = body::interface_lengths(model_.bodies[b], L);
+    const Eigen::VectorXd answers = compliance_[b]->interface().diagonal();
+    softest = std::max(softest, answers.cwiseProduct(lengths.cwiseAbs2()).maxCoeff());
+  }
+  if (force_ == 0.0) force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
+  StaticSystem all(model_, compliance_, {}, t_, force_);
+  const StaticBalance balance = all.balance(point_);
+  double fastest = 0.0;
+  double heaviest = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const body::Body& body = model_.bodies[b];
+    const Vector6 a = dynamics::frame_mobility(body, body.J0) * balance.forces.frame[b];
+    fastest = std::max({fastest, a.head<3>().norm(), a.tail<3>().norm() / L});
+    heaviest = std::max(heaviest, body.mass);
+  }
+  reference_ = std::max(fastest, force_ / (std::max(heaviest, 1e-300) * L) * 1e-3);
+  force_rounding_ = spring_rounding(model_, motions_at(model_, point_));
+}
+
+void StaticDescent::choose_rows() {
+  if (++row_choices_ > 10) {
+    throw NumericalError(
+        "static equilibrium: the joints keep changing which of their equations are dependent (a "
+        "dead centre); start from another position");
+  }
+  StaticSystem all(model_, compliance_, {}, t_, force_);
+  const StaticBalance balance = all.balance(point_);
+  const std::vector<int> rows = metric_.split(balance.constraints.rows).independent;
+  for (int k = 0; k < model_.num_constraint_rows(); ++k) {
+    if (!std::binary_search(rows.begin(), rows.end(), k)) point_.lambda[k] = 0.0;
+  }
+  system_.emplace(model_, compliance_, rows, t_, force_);
+  lu_.reset();
+  evaluate();
+}
+
+void StaticDescent::evaluate() {
+  balance_ = system_->balance(point_);
+  residual_ = system_->residual(point_, balance_);
+  largest_force_ = std::max(start_force_, strongest_load(model_, point_, t_));
+}
+
+double StaticDescent::force_residual() const {
+  return system_->force() * system_->largest(residual_, Share::frame);
+}
+
+double StaticDescent::misfit() const {
+  return std::max({system_->largest(residual_, Share::frame),
+                   system_->largest(residual_, Share::joint),
+                   system_->largest(residual_, Share::elastic)});
+}
+
+bool StaticDescent::is_balanced() const {
+  return force_residual() <= kForceTolerance * largest_force_ + force_rounding_ &&
+         system_->largest(residual_, Share::joint) <= closed_share(model_, point_) &&
+         system_->largest(residual_, Share::elastic) <=
+             kForceTolerance * system_->largest_deformation(point_) + 1e-15;
+}
+
+void StaticDescent::run() {
+  sigma_ = std::max(sigma_, 0.1 * reference_);
+  for (;;) {
+    if (is_balanced()) {
+      polish();
+      check_dependent_rows();
+      if (is_balanced()) return;
+    }
+    if (++iterations_ > kMaxDescentIterations) break;
+    const Vector step = find_step();
+    advance(step);
+    check_travel();
+  }
+  Eigen::Index worst = 0;
+  residual_.cwiseAbs().maxCoeff(&worst);
+  const Vector where = Vector::Unit(residual_.size(), worst);
+  throw NumericalError(fmt::format(
+      "no static equilibrium found after {} iterations: an unbalanced force of {:.3g} N is left "
+      "(largest force {:.3g} N), most of it where {}; start closer to the equilibrium, or let the "
+      "motion settle by "
+      "a simulation with dampers",
+      kMaxDescentIterations, force_residual(), largest_force_,
+      system_->share(static_cast<int>(worst)) == Share::frame
+          ? describe_motion(model_, *system_, point_, where)
+          : "joints do not close"));
+}
+
+bool StaticDescent::factorise(const SparseMatrix& tangent) {
+  if (lu_ && lu_->factorise(tangent)) return true;
+  lu_.emplace(tangent);  // anew: the pivots of another configuration may be of no use here
+  return lu_->factorise(tangent);
+}
+
+Vector StaticDescent::find_step() {
+  system_->linearise(point_, balance_);
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    const SparseMatrix tangent = system_->tangent(sigma_);
+    Vector step = -residual_;
+    const bool regular = factorise(tangent);
+    if (regular) lu_->solve_in_place(step);
+    if (regular && step.allFinite() && !leads_uphill(tangent, step)) {
+      return std::min(1.0, kLongestStep / motion_size(step)) * step;
+    }
+    if (attempt == 15) {  // more inertia does not help: perhaps other rows do
+      choose_rows();
+      system_->linearise(point_, balance_);
+      sigma_ = reference_;
+    }
+    sigma_ *= 4.0;
+  }
+  throw NumericalError(
+      "static equilibrium: the equations are singular whatever the inertia added (a dead centre of "
+      "the joints); start from another position");
+}
+
+bool StaticDescent::leads_uphill(const SparseMatrix& tangent, const Vector& step) const {
+  // Near a saddle Newton's method may end there; the way on is then known exactly.
+  if (force_residual() < kFarFromBalance * largest_force_) return false;
+  // Work of the step on the tangent, with the multipliers' share taken as if joints were closed.
+  double whole = 0.0;
+  Vector frame_only = step;
+  for (int k = 0; k < system_->size(); ++k) {
+    if (system_->share(k) == Share::frame) whole -= residual_[k] * step[k];
+    if (system_->share(k) == Share::joint) whole -= residual_[k] * step[k];
+    if (system_->share(k) != Share::frame) frame_only[k] = 0.0;
+  }
+  return whole < 0.0 && frame_only.dot(tangent * frame_only) < 0.0;
+}
+
+double StaticDescent::motion_size(const Vector& step) const {
+  double size = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Vector6 u = system_->frame_step(b, step);
+    size = std::max({size, u.head<3>().norm(), u.tail<3>().norm() / model_.length});
+  }
+  return size;
+}
+
+void StaticDescent::advance(const Vector& step) {
+  const StaticPoint from = point_;
+  const double before = system_->largest(residual_, Share::frame);
+  double factor = 1.0;
+  for (int halving = 0;; ++halving, factor *= 0.5) {
+    point_ = system_->moved(from, factor * step);
+    try {
+      evaluate();
+      break;
+    } catch (const NumericalError&) {
+      if (halving == 8) throw;  // a force law that cannot be evaluated anywhere near
+    }
+  }
+  for (std::size_t b = 0; b < turned_.size(); ++b) {
+    turned_[b] += factor * system_->frame_step(b, step).head<3>();
+  }
+  const double after = system_->largest(residual_, Share::frame);
+  const double size = motion_size(factor * step);
+  if (size > kLongStep) {
+    sigma_ *= 2.0;
+  } else if (size < kShortStep || after <= 0.5 * before) {
+    sigma_ *= after <= 0.5 * before ? 0.1 : 0.3;
+  }
+  sigma_ = std::max(sigma_, kLeastInertia * reference_);
+}
+
+void StaticDescent::polish() {
+  sigma_ = kLeastInertia * reference_;
+  for (int round = 0; round < 3; ++round) {
+    const StaticPoint best = point_;
+    const double before = misfit();
+    system_->linearise(point_, balance_);
+    const SparseMatrix tangent = system_->tangent(sigma_);
+    Vector step = -residual_;
+    if (before == 0.0 || !factorise(tangent)) return;
+    lu_->solve_in_place(step);
+    // A step that is no longer small says that the direction has no stiffness.
+    if (!step.allFinite() || motion_size(step) > kLongestStep) return;
+    point_ = system_->moved(best, step);
+    evaluate();
+    if (misfit() < 0.5 * before) continue;
+    if (misfit() > before) {
+      point_ = best;
+      evaluate();
+    }
+    return;
+  }
+}
+
+void StaticDescent::check_dependent_rows() {
+  if (system_->rows_in_use().size() == static_cast<std::size_t>(model_.num_constraint_rows())) {
+    return;
+  }
+  const Vector& g = balance_.constraints.g;
+  Eigen::Index worst = 0;
+  if (g.cwiseAbs().maxCoeff(&worst) <= kDependentGap * model_.length) return;
+  if (row_choices_ < 4) {
+    choose_rows();
+    if (!is_balanced()) return;
+  }
+  const auto [joint, row] = model_.owner_of_row(static_cast<int>(worst));
+  throw ModelError(fmt::format(
+      "joint \"{}\" ({} between {} and {}) cannot be closed: {:.3g} {} are left in equilibrium, "
+      "and no deformation would close them; correct the placement or remove a joint",
+      joint->name, joints::to_string(joint->type), joint->first.text, joint->second.text,
+      std::abs(g[worst]), joint->rows[static_cast<std::size_t>(row)].is_length() ? "m" : "rad"));
+}
+
+void StaticDescent::check_travel() const {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const std::string& name = model_.bodies[b].name;
+    const Eigen::Vector3d moved = point_.poses[b].p - start_.poses[b].p;
+    if (!(moved.norm() <= kFarMoved * model_.length)) {
+      refuse(fmt::format("body \"{}\" moves along {}", name, direction_text(moved)));
+    }
+    if (turned_[b].norm() > kFarTurned) {
+      const Eigen::Vector3d axis = point_.poses[b].q * turned_[b];
+      refuse(fmt::format("body \"{}\" turns about {}", name, direction_text(axis)));
+    }
+  }
+}
+
+void StaticDescent::refuse(const std::string& motion) const {
+  throw ModelError(fmt::format(
+      "no static equilibrium: under its loads {} and nothing holds it ({:.3g} N stay unbalanced); "
+      "add a joint or a spring that carries this load, remove the load, or start `as-given`",
+      motion, force_residual()));
+}
+
+std::optional<StaticModes> StaticDescent::modes() {
+  system_->linearise(point_, balance_);
+  return static_modes(*system_, reference_);
+}
+
+std::optional<StaticModes> StaticDescent::softest() {
+  system_->linearise(point_, balance_);
+  return softest_mode(*system_, reference_);
+}
+
+void StaticDescent::push(const Vector& shape, double amount, double stiffness) {
+  Vector step = shape * (amount / motion_size(shape));
+  for (int k = 0; k < system_->size(); ++k) {
+    if (system_->share(k) == Share::joint) step[k] = 0.0;
+  }
+  point_ = system_->moved(point_, step);
+  sigma_ = std::max(reference_, 2.0 * std::abs(stiffness));
+  evaluate();
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/analysis/statics/stability.h"
+#include "buckens/analysis/statics/system.h"
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/linalg/sparse_lu.h"
+
+namespace buckens::analysis {
+
+/// Pseudo-transient continuation of a mechanism towards equilibrium.
+///
+/// Each iteration is an implicit step of W q̇ = force: Newton with W/τ² added. τ grows where steps
+/// are short or the unbalanced force falls, and shrinks where they are long or would lead uphill
+/// (negative curvature), so that Newton takes over near an equilibrium only.
+class StaticDescent {
+ public:
+  StaticDescent(const model::Model& model, const dynamics::MassMetric& metric,
+                const std::vector<const ElasticCompliance*>& compliance, double t,
+                StaticPoint start);
+
+  /// Iterates to equilibrium.
+  /// @throws ModelError, NumericalError as find_static_equilibrium()
+  void run();
+  /// Stiffness of the configuration along its free motions.
+  std::optional<StaticModes> modes();
+  /// The softest of them, however many there are.
+  std::optional<StaticModes> softest();
+  /// Leaves a saddle along `shape` so that the largest rotation or relative displacement is
+  /// `amount`.
+  /// @param stiffness κ < 0 of this motion [1/s²]
+  void push(const linalg::Vector& shape, double amount, double stiffness);
+
+  const StaticSystem& system() const { return *system_; }
+  const StaticPoint& point() const { return point_; }
+  int iterations() const { return iterations_; }
+  double force_residual() const;
+  double largest_force() const { return largest_force_; }
+  /// σ that matters [1/s²]: the square of the rate at which the start would leave its place.
+  double reference() const { return reference_; }
+
+ private:
+  void choose_rows();
+  void set_scales();
+  void evaluate();
+  bool is_balanced() const;
+  double misfit() const;
+  bool factorise(const linalg::SparseMatrix& tangent);
+  linalg::Vector find_step();
+  bool leads_uphill(const linalg::SparseMatrix& tangent, const linalg::Vector& step) const;
+  double motion_size(const linalg::Vector& step) const;
+  void advance(const linalg::Vector& step);
+  void polish();
+  void check_dependent_rows();
+  void check_travel() const;
+  [[noreturn]] void refuse(const std::string& motion) const;
+
+  const model::Model& model_;
+  const dynamics::MassMetric& metric_;
+  const std::vector<const ElasticCompliance*>& compliance_;
+  double t_;
+  StaticPoint point_, start_;
+  std::vector<Eigen::Vector3d> turned_;  // sum of the steps, body axes [rad]
+  std::optional<StaticSystem> system_;
+  std::optional<linalg::SparseLu> lu_;
+  StaticBalance balance_;
+  linalg::Vector residual_;
+  double force_ = 1;           // scale [N]
+  double reference_ = 1;       // σ that matters [1/s²]
+  double sigma_ = 1;           // 1/τ² [1/s²]
+  double start_force_ = 0;     // largest load at the start [N]
+  double largest_force_ = 0;   // at the start or the point [N]
+  double force_rounding_ = 0;  // of stiff springs [N]
+  int iterations_ = 0;
+  int row_choices_ = 0;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buckens/analysis/statics/system.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// Static responses K⁺ of all flexible bodies of a model that outlives this object.
+struct Compliances {
+  std::vector<std::unique_ptr<ElasticCompliance>> owned;
+  std::vector<const ElasticCompliance*> of_body;  ///< one per body, null for rigid ones
+
+  explicit Compliances(const model::Model& model);
+};
+
+/// Unknowns of the static problem at a state, multipliers zero, load factor one.
+StaticPoint static_point(const model::Model& model, const model::State& state);
+
+/// The state at rest in a configuration: poses, nodal variables d = K⁺f, multipliers.
+/// @param state keeps its time
+void set_static_state(const StaticPoint& point, const dynamics::Forces& forces,
+                      const Compliances& compliances, model::State& state);
+
+/// Largest rotation of a node in the body frame [rad]; zero for rigid bodies and without rotations.
+double largest_nodal_rotation(const body::Body& body, const linalg::Vector& d);
+
+/// Beyond this nodal rotation linear elasticity in one frame is a stretch [rad].
+inline constexpr double kLargestNodalRotation = 0.1;
+
+/// Share of the model's length (of 1 rad) to which joints close in a configuration: kClosed, or
+/// rounding far from the origin.
+double closed_share(const model::Model& model, const StaticPoint& point);
+
+/// Force that rounding of positions leaves in the springs of a model [N].
+double spring_rounding(const model::Model& model, const std::vector<dynamics::BodyMotion>& motions);
+
+/// Largest single force that acts in a configuration [N]: weights, loads, joints; torques count
+/// divided by the model's length.
+double strongest_load(const model::Model& model, const StaticPoint& point, double t);
+
+}  // namespace buckens::analysis

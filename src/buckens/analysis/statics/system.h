@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/analysis/statics/elastic_compliance.h"
+#include "buckens/analysis/statics/linearised_loads.h"
+#include "buckens/dynamics/forces.h"
+
+namespace buckens::analysis {
+
+/// A configuration of the mechanism in the unknowns of the static problem.
+struct StaticPoint {
+  std::vector<spatial::Pose> poses;  ///< X_WB
+  std::vector<Eigen::VectorXd> y;    ///< interface values of the flexible bodies, empty: rigid
+  linalg::Vector lambda;             ///< multipliers of all joint rows; unused rows are zero
+  double load_factor = 1;            ///< of applied forces and torques
+};
+
+/// The bodies at rest in a configuration.
+std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const StaticPoint& point);
+
+/// Everything that acts in a configuration.
+struct StaticBalance {
+  dynamics::Forces forces;            ///< with joint forces: zero frame loads in equilibrium
+  dynamics::Constraints constraints;  ///< of all joint rows
+};
+
+/// The equations of static equilibrium and their tangent.
+///
+///     −(f + G_qᵀλ) = 0      frames, in the coordinates that each body has
+///     y − N K⁺Nᵀ f_y = 0    flexible bodies, f_y = interface loads of joints and force elements
+///     g = 0                 joints, independent rows only
+///
+/// Unknowns: increments of the frame coordinates and y body by body, then λ. All are scaled by the
+/// model's length L and a force F, so that the tangent is as symmetric as the loads are
+/// conservative. Derivatives of forces are those of LinearisedLoads; those of joints and
+/// multipliers are exact.
+class StaticSystem {
+ public:
+  /// @param compliance one entry per body, null for rigid ones
+  /// @param rows_in_use independent rows of λ
+  /// @param force F > 0 [N]
+  StaticSystem(const model::Model& model, const std::vector<const ElasticCompliance*>& compliance,
+               std::vector<int> rows_in_use, double t, double force);
+
+  StaticBalance balance(const StaticPoint& point) const;
+  /// Scaled residual of all equations.
+  linalg::Vector residual(const StaticPoint& point, const StaticBalance& balance) const;
+  /// Evaluates the derivatives of the residual.
+  void linearise(const StaticPoint& point, const StaticBalance& balance);
+  /// Tangent plus σ times the mass matrix of the frames, scaled; always the same pattern.
+  linalg::SparseMatrix tangent(double sigma) const;
+  /// The mass matrix of the frames in the same scaling; empty rows elsewhere.
+  linalg::SparseMatrix mass() const;
+  /// The configuration after a step of the scaled unknowns.
+  StaticPoint moved(const StaticPoint& point, const linalg::Vector& step) const;
+
+  int size() const { return size_; }
+  double force() const { return force_; }
+  const std::vector<int>& rows_in_use() const { return rows_in_use_; }
+
+  enum class Share { frame, elastic, joint };
+  /// To which equation (and unknown) an index belongs.
+  Share share(int index) const { return shares_[static_cast<std::size_t>(index)]; }
+  /// Body of a frame or elastic index.
+  std::size_t body_at(int index) const;
+  /// Joint of a joint index.
+  const model::Joint& joint_at(int index) const;
+  /// Largest interface value, scaled as elastic equations are.
+  double largest_deformation(const StaticPoint& point) const;
+  /// Largest magnitude of a scaled vector over one kind of equation or unknown.
+  double largest(const linalg::Vector& scaled, Share share) const;
+  /// Motion of a body's frame in a step: rotation in body axes [rad], translation [m].
+  Eigen::Matrix<double, 6, 1> frame_step(std::size_t body, const linalg::Vector& step) const;
+
+ private:
+  void lay_out();
+  void add_mass();
+  void add_joint_derivatives(const StaticBalance& balance);
+  void add_row(std::size_t index, const dynamics::BodyRow& part);
+  Eigen::VectorXd body_residual(std::size_t body, const Eigen::Matrix<double, 6, 1>& frame,
+                                const Eigen::VectorXd& interface) const;
+  int num_unknowns(std::size_t body) const;
+  void put(int row, int column, double value, std::vector<linalg::Triplet>& to) const;
+
+  const model::Model& model_;
+  const std::vector<const ElasticCompliance*>& compliance_;
+  std::vector<int> rows_in_use_;
+  double t_;
+  double force_;
+  LinearisedLoads loads_;
+  int size_ = 0;
+  int first_multiplier_ = 0;
+  std::vector<int> first_, num_frame_;  // unknowns of each body
+  std::vector<Share> shares_;
+  linalg::Vector row_scale_, column_scale_;
+  std::vector<linalg::Triplet> derivatives_, mass_;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/analysis/statics/linearised_loads.h"
+#include "buckens/dynamics/constraints.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// Coordinates of one body, with its momenta behind them.
+struct RestBody : BodyCoordinates {
+  int momenta = 0;  ///< relative momentum l = Lᵀd of a deformed body: 0 or 3
+
+  int size() const { return num_frame() + rows + momenta; }
+};
+
+/// What joints and loads contribute to small motions about a state of rest, in the coordinates s of
+/// all bodies: frames, interface values and momenta, body by body.
+struct RestTangent {
+  std::vector<RestBody> bodies;
+  int size = 0;
+  linalg::SparseMatrix rows;       ///< G: independent joint equations over s, G s = 0
+  linalg::SparseMatrix stiffness;  ///< Γ: loads on s per s, with minus; symmetric
+  double asymmetry = 0;            ///< ‖Γ − Γᵀ‖/‖Γ‖ before it was made symmetric
+};
+
+enum class RestLoads {
+  springs,  ///< stiffness of springs and bushings alone, as if nothing were loaded
+  all       ///< derivative of all loads and joint forces: gravity and preload, too
+};
+
+/// Linearises joints and loads at rest.
+///
+/// `all`: as LinearisedLoads; right where the state is an equilibrium.
+/// @param state velocities are taken as zero
+RestTangent rest_tangent(const model::Model& model, const model::State& state,
+                         const std::vector<int>& rows_in_use, RestLoads loads);
+
+}  // namespace buckens::analysis

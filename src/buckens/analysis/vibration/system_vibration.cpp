@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/vibration/system_vibration.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/initial/assembly_moves.h"
+#include "buckens/analysis/initial/position_assembly.h"
+#include "buckens/analysis/statics/equilibrium.h"
+#include "buckens/analysis/vibration/body_vibration.h"
+#include "buckens/analysis/vibration/mode_damping.h"
+#include "buckens/analysis/vibration/system_pencil.h"
+#include "buckens/base/errors.h"
+#include "buckens/body/shift_estimate.h"
+#include "buckens/linalg/inverse_iteration.h"
+
+namespace buckens::analysis {
+
+using Eigen::Vector3d;
+using linalg::Matrix;
+using linalg::Vector;
+
+namespace {
+
+// A shift more than this many times the lowest ω² crowds the low modes together.
+constexpr double kSlow = 300.0;
+constexpr int kMostShifts = 14;
+constexpr double kUnsymmetric = 1e-6;
+constexpr double kNoMotion = 1e-6;
+
+class SystemVibrations {
+ public:
+  SystemVibrations(const model::BuiltModel& built, const SystemVibrationSettings& settings)
+      : built_(built), model_(built.model), settings_(settings), metric_(model_) {}
+
+  VibrationReport run();
+
+ private:
+  void find_position();
+  double first_shift(const SystemPencil& pencil) const;
+  linalg::InversePairs iterate(SystemPencil& pencil);
+  void add_vibration(const SystemPencil& pencil, double theta, const Vector& x);
+  std::array<double, 3> effective_mass(const SystemPencil& pencil, const Vector& x) const;
+  double largest_motion_of(const std::vector<BodyShape>& shape) const;
+  void judge(const SystemPencil& pencil, const Matrix& shapes);
+
+  const model::BuiltModel& built_;
+  const model::Model& model_;
+  const SystemVibrationSettings settings_;
+  dynamics::MassMetric metric_;
+  Matrix zero_;
+  VibrationReport out_;
+};
+
+void SystemVibrations::find_position() {
+  const model::InitialSpec& initial = built_.description.initial;
+  out_.position = model::placed_state(model_);
+  bool is_closed = true;
+  try {
+    assemble_positions(model_, metric_, out_.position);
+  } catch (const ModelError&) {
+    if (!initial.preload) throw;
+    is_closed = false;
+  }
+  out_.notes = built_.description.warnings;
+  if (is_closed) {
+    for (std::string& text : judge_assembly(built_, assembly_moves(model_, out_.position))) {
+      out_.notes.push_back(std::move(text));
+    }
+  }
+  if (settings_.about == RestPosition::static_equilibrium || !is_closed) {
+    const StaticReport report = find_static_equilibrium(model_, metric_, out_.position);
+    out_.notes.insert(out_.notes.end(), report.notes.begin(), report.notes.end());
+    out_.work.factorisations += report.factorisations;
+    out_.work.solves += report.solves;
+  }
+  if (settings_.about == RestPosition::initial) out_.position.lambda.setZero();
+}
+
+double SystemVibrations::first_shift(const SystemPencil& pencil) const {
+  double lowest = 0.0;
+  for (const body::Body& body : model_.bodies) {
+    if (!body.is_flexible()) continue;
+    const double square = body::lowest_square_estimate(*body.flexible);
+    if (square > 0.0 && (lowest == 0.0 || square < lowest)) lowest = square;
+  }
+  const double frames = pencil.stiffest_frame();
+  if (lowest == 0.0) return frames > 0.0 ? frames : 1.0;
+  return 0.1 * lowest;
+}
+
+linalg::InversePairs SystemVibrations::iterate(SystemPencil& pencil) {
+  linalg::InverseIterationSettings settings;
+  settings.count = settings_.count;
+  settings.tolerance = settings_.tolerance;
+  const auto inverse = [&pencil](Matrix& F) { pencil.apply(F); };
+  double shift = first_shift(pencil);
+  double drowned = 0.0;
+  for (int attempt = 1; attempt <= kMostShifts; ++attempt) {
+    try {
+      pencil.factorise(shift);
+    } catch (const NumericalError&) {
+      if (attempt == kMostShifts) throw;
+      drowned = shift;
+      shift *= 30.0;
+      continue;
+    }
+    ++out_.work.factorisations;
+    out_.work.shift = shift;
+    if (attempt == 1) zero_ = pencil.zero_modes();
+    double next = 0.0;
+    settings.is_worthwhile = [&](double theta) {
+      const double square = 1.0 / theta - shift;
+      if (theta < 0.0 || square * kSlow > shift || shift <= 10.0 * drowned) return true;
+      next = std::max({10.0 * drowned, 3.0 * square, 1e-3 * shift});
+      return false;
+    };
+    if (attempt == kMostShifts) settings.is_worthwhile = nullptr;
+    linalg::InversePairs pairs =
+        linalg::largest_inverse_pairs(pencil.M(), inverse, zero_, settings);
+    out_.work.solves += pairs.solves;
+    if (next == 0.0) {
+      out_.work.sweeps = pairs.sweeps;
+      return pairs;
+    }
+    shift = next;
+  }
+  throw NumericalError("system vibrations: no shift makes K + μM positive definite");
+}
+
+std::array<double, 3> SystemVibrations::effective_mass(const SystemPencil& pencil,
+                                                       const Vector& x) const {
+  Vector3d momentum = Vector3d::Zero();  // of the mode at unit speed: participation factors
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    momentum += model_.bodies[b].mass * pencil.frame_part(b, x).tail<3>();
+  }
+  const double mass = x.dot(pencil.M() * x);
+  return {momentum.x() * momentum.x() / mass, momentum.y() * momentum.y() / mass,
+          momentum.z() * momentum.z() / mass};
+}
+
+double SystemVibrations::largest_motion_of(const std::vector<BodyShape>& shape) const {
+  double displacement = 0.0, turned = 0.0;
+  for (std::size_t b = 0; b < shape.size(); ++b) {
+    const body::Body& body = model_.bodies[b];
+    const Eigen::Quaterniond& q = out_.position.bodies[b].frame.X_WB.q;
+    const Vector3d w = shape[b].frame.head<3>();
+    const Vector3d v = q.conjugate() * shape[b].frame.tail<3>();  // body axes
+    turned = std::max(turned, body.length_scale() * w.norm());
+    const auto see = [&](const Vector3d& z, const Vector3d& u) {
+      displacement = std::max(displacement, (v + w.cross(z) + u).norm());
+    };
+    see(Vector3d::Zero(), Vector3d::Zero());
+    if (!body.is_flexible()) {
+      for (const body::Marker& marker : body.markers) see(marker.X_BF.p, Vector3d::Zero());
+      continue;
+    }
+    const fem::FeModel& fe = body.flexible->mesh();
+    for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
+      Vector3d u = Vector3d::Zero(), theta = Vector3d::Zero();
+      for (int a = 0; a < 3; ++a) {
+        const int translation = fe.dofs.node_dofs[node][static_cast<std::size_t>(a)];
+        const int rotation = fe.dofs.node_dofs[node][static_cast<std::size_t>(a + 3)];
+        if (translation >= 0) u[a] = shape[b].d[translation];
+        if (rotation >= 0) theta[a] = shape[b].d[rotation];
+      }
+      see(fe.nodes[node].position - body.com, u);
+      turned = std::max(turned, body.length_scale() * (w + theta).norm());
+    }
+  }
+  return displacement > kNoMotion * turned ? displacement : turned;
+}
+
+void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, const Vector& x) {
+  Vibration v;
+  v.square = 1.0 / theta - out_.work.shift;
+  v.frequency = std::sqrt(std::max(0.0, v.square)) / (2.0 * std::numbers::pi);
+  v.effective_mass = effective_mass(pencil, x);
+  const std::vector<double> energies = pencil.energies(x);
+  for (const model::WholeBody& whole : model_.wholes) {
+    double own = 0.0;
+    for (int b = whole.first; b < whole.first + whole.count; ++b) {
+      own += energies[static_cast<std::size_t>(b)];
+    }
+    v.energy_shares.push_back(own);
+  }
+  v.energy_shares.push_back(energies.back());
+  double sum = 0.0;
+  for (const double energy : v.energy_shares) sum += energy;
+  for (double& energy : v.energy_shares) energy = sum != 0.0 ? energy / sum : 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    Vector d = pencil.nodal_part(b, x);
+    if (model_.bodies[b].is_flexible()) d = model_.bodies[b].flexible->nodal(d);
+    v.shape.push_back({pencil.frame_part(b, x), std::move(d)});
+  }
+  const double largest = largest_motion_of(v.shape);
+  v.generalised_mass = x.dot(pencil.M() * x) / (largest * largest);
+  for (BodyShape& shape : v.shape) {
+    shape.frame /= largest;
+    shape.d /= largest;
+  }
+  v.damping_ratio = damping_ratio(model_, out_.position, v);
+  out_.vibrations.push_back(std::move(v));
+}
+
+/// Errors of the modes: one more application of the inverse.
+void SystemVibrations::judge(const SystemPencil& pencil, const Matrix& shapes) {
+  Matrix image = pencil.M() * shapes;
+  pencil.apply(image);
+  out_.work.solves += image.cols();
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    Vibration& v = out_.vibrations[static_cast<std::size_t>(k)];
+    const Vector left = shapes.col(k) - (v.square + out_.work.shift) * image.col(k);
+    v.error = std::sqrt(std::max(0.0, left.dot(pencil.M() * left)));
+  }
+}
+
+VibrationReport SystemVibrations::run() {
+  const auto begin = std::chrono::steady_clock::now();
+  out_.subject = "system";
+  out_.work.method = "subspace";
+  for (const model::WholeBody& whole : model_.wholes) {
+    out_.mass += whole.mass;
+    out_.energy_groups.push_back(whole.name);
+  }
+  out_.energy_groups.emplace_back("joints and loads");
+  find_position();
+  dynamics::Constraints constraints;
+  dynamics::evaluate_constraints(model_, dynamics::motions_of(model_, out_.position),
+                                 out_.position.t, constraints);
+  const std::vector<int> rows_in_use = metric_.split(constraints.rows).independent;
+  const bool is_static = settings_.about == RestPosition::static_equilibrium;
+  const RestTangent tangent = rest_tangent(model_, out_.position, rows_in_use,
+                                           is_static ? RestLoads::all : RestLoads::springs);
+  if (tangent.asymmetry > kUnsymmetric) {
+    out_.notes.push_back(fmt::format(
+        "loads that follow the motion make the stiffness unsymmetric ({:.1e}); the frequencies "
+        "belong to its symmetric part",
+        tangent.asymmetry));
+  }
+  SystemPencil pencil(model_, out_.position, tangent);
+  out_.dof = pencil.size();
+  const linalg::InversePairs pairs = iterate(pencil);
+  if (!pairs.is_complete) {
+    throw NumericalError(
+        fmt::format("system vibrations: the {} lowest modes did not converge in "
+                    "{} sweeps; ask for fewer modes (--count)",
+                    settings_.count, pairs.sweeps));
+  }
+  out_.rigid_modes = static_cast<int>(zero_.cols());
+  for (Eigen::Index k = 0; k < pairs.theta.size(); ++k) {
+    add_vibration(pencil, pairs.theta[k], pairs.shapes.col(k));
+  }
+  judge(pencil, pairs.shapes);
+  std::stable_sort(out_.vibrations.begin(), out_.vibrations.end(),
+                   [](const Vibration& a, const Vibration& b) { return a.square < b.square; });
+  if (!out_.vibrations.empty() && out_.vibrations.front().square < 0.0) {
+    out_.notes.push_back(fmt::format("the position is unstable: a motion grows at {:.4g} 1/s",
+                                     std::sqrt(-out_.vibrations.front().square)));
+  }
+  out_.work.factor_entries = pencil.factor_entries();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  out_.work.seconds = took.count();
+  return std::move(out_);
+}
+
+}  // namespace
+
+VibrationReport system_vibrations(const model::BuiltModel& built,
+                                  const SystemVibrationSettings& settings) {
+  return SystemVibrations(built, settings).run();
+}
+
+}  // namespace buckens::analysis

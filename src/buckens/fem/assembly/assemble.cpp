@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/assembly/assemble.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/fem/constraint/average_rows.h"
+#include "buckens/fem/element/node_label.h"
+
+namespace buckens::fem {
+
+using linalg::SparseMatrix;
+using linalg::Triplet;
+
+namespace {
+
+using Blocks = std::vector<std::shared_ptr<const ElementBlock>>;
+
+/// Calls visit(nodes) for the nodes of each link, a reference node first.
+template <class Visitor>
+void visit_links(const NodeLinks& links, Visitor&& visit) {
+  const auto with_reference = [&visit](const auto& link) {
+    std::vector<int> nodes = {link.reference};
+    nodes.insert(nodes.end(), link.nodes.begin(), link.nodes.end());
+    visit(nodes);
+  };
+  for (const RigidLink& link : links.rigid) with_reference(link);
+  for (const AverageLink& link : links.averages) with_reference(link);
+  for (const LinearEquation& equation : links.equations) {
+    std::vector<int> nodes;
+    for (const LinearEquation::Term& term : equation.terms) nodes.push_back(term.node);
+    visit(nodes);
+  }
+}
+
+void check_node_numbers(const Structure& structure, const Blocks& blocks) {
+  const int num_nodes = static_cast<int>(structure.nodes.size());
+  visit_links(structure.links, [&](const std::vector<int>& nodes) {
+    for (const int node : nodes) {
+      if (node >= 0 && node < num_nodes) continue;
+      throw ModelError(
+          fmt::format("a link refers to node {}, but there are {} nodes", node, num_nodes));
+    }
+  });
+  for (const auto& block : blocks) {
+    for (int e = 0; e < block->num_elements(); ++e) {
+      for (const int node : block->nodes(e)) {
+        if (node >= 0 && node < num_nodes) continue;
+        throw ModelError(
+            fmt::format("an element refers to node {}, but there are {} nodes", node, num_nodes));
+      }
+    }
+  }
+}
+
+/// Refuses nodes without elements that hold them and meshes in several pieces.
+void check_connected(const std::vector<Node>& nodes, const Blocks& blocks, const NodeLinks& links) {
+  std::vector<int> parent(nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<bool> used(nodes.size(), false);
+  const auto root = [&parent](int node) {
+    while (parent[static_cast<std::size_t>(node)] != node) {
+      int& up = parent[static_cast<std::size_t>(node)];
+      up = parent[static_cast<std::size_t>(up)];
+      node = up;
+    }
+    return node;
+  };
+  const auto join = [&](std::span<const int> together) {
+    for (const int node : together) {
+      used[static_cast<std::size_t>(node)] = true;
+      parent[static_cast<std::size_t>(root(node))] = root(together.front());
+    }
+  };
+  for (const auto& block : blocks) {
+    for (int e = 0; block->holds_nodes() && e < block->num_elements(); ++e) join(block->nodes(e));
+  }
+  visit_links(links, [&](const std::vector<int>& together) { join(together); });
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const int node = static_cast<int>(k);
+    if (!used[k]) {
+      throw ModelError(node_label(nodes, node) +
+                       " is connected to no element; remove it or join an element to it");
+    }
+    if (root(node) != root(0)) {
+      throw ModelError(fmt::format(
+          "{} and {} belong to parts that nothing holds together; join them by an element, or "
+          "make two bodies",
+          node_label(nodes, 0), node_label(nodes, node)));
+    }
+  }
+}
+
+std::array<bool, 6> kept_variables(std::optional<spatial::Plane> planar) {
+  std::array<bool, 6> kept;
+  kept.fill(true);
+  if (!planar) return kept;
+  const auto normal = static_cast<std::size_t>(spatial::normal_index(*planar));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    kept[axis] = axis != normal;
+    kept[3 + axis] = axis == normal;
+  }
+  return kept;
+}
+
+/// Followers that no element holds turn with their reference; references turn if what follows them
+/// has a lever or turns itself.
+void give_rotations_to_links(const Structure& structure, const std::vector<bool>& held,
+                             std::vector<bool>& turns) {
+  const auto place = [&](int node) {
+    return structure.nodes[static_cast<std::size_t>(node)].position;
+  };
+  for (const RigidLink& link : structure.links.rigid) {
+    const auto& v = link.variables;
+    for (const int node : link.nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      if (!held[n] && (v[3] || v[4] || v[5])) turns[n] = true;
+    }
+  }
+  for (bool found = true; found;) {
+    found = false;
+    for (const RigidLink& link : structure.links.rigid) {
+      const auto reference = static_cast<std::size_t>(link.reference);
+      const auto& v = link.variables;
+      for (const int node : link.nodes) {
+        const bool has_lever = (v[0] || v[1] || v[2]) && place(node) != place(link.reference);
+        const bool follows = (v[3] || v[4] || v[5]) && turns[static_cast<std::size_t>(node)];
+        if (turns[reference] || (!has_lever && !follows)) continue;
+        turns[reference] = found = true;
+      }
+    }
+  }
+}
+
+DofMap number_dofs(const Structure& structure, const Blocks& blocks,
+                   std::optional<spatial::Plane> planar) {
+  const std::size_t num_nodes = structure.nodes.size();
+  std::vector<bool> turns(num_nodes, false), held(num_nodes, false);
+  for (const AverageLink& link : structure.links.averages) {
+    if (gives_rotation(structure.nodes, link)) {
+      turns[static_cast<std::size_t>(link.reference)] = true;
+    }
+  }
+  for (const auto& block : blocks) {
+    const bool has_shape = block->is_line() || block->is_solid() || block->is_shell();
+    for (int e = 0; has_shape && e < block->num_elements(); ++e) {
+      for (const int node : block->nodes(e)) {
+        held[static_cast<std::size_t>(node)] = true;
+        if (block->has_rotations()) turns[static_cast<std::size_t>(node)] = true;
+      }
+    }
+  }
+  // A mass on a spring turns if it has inertia.
+  for (int m = 0; m < structure.masses.num_elements(); ++m) {
+    const auto node = static_cast<std::size_t>(structure.masses.ends(m)[0]);
+    if (!held[node] && !structure.masses.inertia(m).isZero(0.0)) turns[node] = true;
+  }
+  give_rotations_to_links(structure, held, turns);
+  const bool has_solids = std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
+    return block->is_solid() && block->num_elements() > 0;
+  });
+  const std::array<bool, 6> kept = kept_variables(has_solids ? std::nullopt : planar);
+  DofMap dofs;
+  dofs.node_dofs.resize(num_nodes);
+  for (std::size_t node = 0; node < num_nodes; ++node) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const bool present = kept[k] && (k < 3 || turns[node]);
+      dofs.node_dofs[node][k] = present ? dofs.num_dofs++ : -1;
+    }
+  }
+  return dofs;
+}
+
+SparseMatrix to_sparse(int n, const std::vector<Triplet>& triplets) {
+  SparseMatrix A(n, n);
+  A.setFromTriplets(triplets.begin(), triplets.end());
+  return A;
+}
+
+/// α and what it acts on, common to all materials.
+void set_mass_damping(FeModel& fe) {
+  const Material* first = nullptr;
+  for (const auto& block : fe.blocks) {
+    for (int e = 0; e < block->num_elements(); ++e) {
+      const Material* material = block->material(e);
+      if (material == nullptr) continue;
+      if (first == nullptr) first = material;
+      if (first->damping_mass != material->damping_mass) {
+        throw ModelError(fmt::format(
+            "its materials have different mass damping, {:g} and {:g} 1/s; mass damping "
+            "is one value per body",
+            first->damping_mass, material->damping_mass));
+      }
+      if (first->damps_held_motion != material->damps_held_motion) {
+        throw ModelError(
+            "one of its materials is damped as the joints hold the body, another one otherwise; "
+            "give the body a `damping` of its own");
+      }
+    }
+  }
+  if (first == nullptr) return;
+  fe.mass_damping = first->damping_mass;
+  fe.damps_held_motion = first->damps_held_motion;
+}
+
+/// Ms ⊗ 1 over the DOF.
+std::vector<Triplet> expand(const NodalMass& nodal) {
+  std::vector<Triplet> out;
+  out.reserve(static_cast<std::size_t>(3 * nodal.Ms.nonZeros()));
+  for (int column = 0; column < nodal.Ms.outerSize(); ++column) {
+    const auto& to = nodal.dofs[static_cast<std::size_t>(column)];
+    for (SparseMatrix::InnerIterator it(nodal.Ms, column); it; ++it) {
+      const auto& from = nodal.dofs[static_cast<std::size_t>(it.row())];
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (from[a] >= 0 && to[a] >= 0) out.emplace_back(from[a], to[a], it.value());
+      }
+    }
+  }
+  return out;
+}
+
+NodalMass nodal_mass(const MeshView& mesh, const std::vector<Triplet>& entries) {
+  NodalMass out;
+  out.Ms = to_sparse(static_cast<int>(mesh.nodes.size()), entries);
+  for (const auto& node : mesh.dofs.node_dofs) out.dofs.push_back({node[0], node[1], node[2]});
+  return out;
+}
+
+void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
+  MassMoment moment;
+  for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
+  if (!(moment.mass > 0.0)) {
+    throw ModelError("the mesh has no mass; give a material a density or add a point mass");
+  }
+  ShapeIntegrals& shape = fe.shape;
+  shape.mass = moment.mass;
+  shape.com = moment.first / moment.mass;
+
+  const int n = mesh.dofs.num_dofs;
+  InertiaSum sum;
+  sum.c = linalg::Matrix::Zero(n, 9);
+  for (const auto& block : blocks) block->add_inertia(mesh, shape.com, sum);
+  for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = to_sparse(n, sum.W[k]);
+  shape.c = std::move(sum.c);
+  shape.C0 = sum.C0;
+  shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
+  fe.M = shape.W[0] + shape.W[1];
+  fe.M += shape.W[2];
+  fe.M += to_sparse(n, sum.M_flywheel);
+  if (!sum.nodal.empty()) {
+    shape.nodal = nodal_mass(mesh, sum.nodal);
+    fe.M += to_sparse(n, expand(shape.nodal));
+  }
+  fe.M.makeCompressed();
+}
+
+}  // namespace
+
+FeModel assemble(const Structure& structure, std::optional<spatial::Plane> planar) {
+  FeModel fe;
+  fe.blocks = {std::make_shared<BeamBlock>(structure.beams),
+               std::make_shared<BarBlock>(structure.bars),
+               std::make_shared<PointMassBlock>(structure.masses),
+               std::make_shared<SolidBlock>(structure.solids)};
+  auto shells = std::make_shared<ShellBlock>(structure.shells);
+  fe.blocks.push_back(shells);
+  fe.blocks.push_back(std::make_shared<SpringBlock>(structure.springs));
+  check_node_numbers(structure, fe.blocks);
+  check_connected(structure.nodes, fe.blocks, structure.links);
+  shells->choose_directors(structure.nodes);
+  fe.nodes = structure.nodes;
+  fe.dofs = number_dofs(structure, fe.blocks, planar);
+  const MeshView mesh{fe.nodes, fe.dofs};
+  for (const auto& block : fe.blocks) block->check(mesh);
+
+  integrate_inertia(fe.blocks, mesh, fe);
+  StiffnessSum stiffness;
+  for (const auto& block : fe.blocks) block->add_stiffness(mesh, stiffness);
+  fe.K = to_sparse(fe.dofs.num_dofs, stiffness.K);
+  fe.K_damping = to_sparse(fe.dofs.num_dofs, stiffness.K_damping);
+  set_mass_damping(fe);
+  return fe;
+}
+
+}  // namespace buckens::fem

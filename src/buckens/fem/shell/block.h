@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "buckens/fem/element/block.h"
+#include "buckens/fem/shell/section.h"
+
+namespace buckens::fem {
+
+/// Places and directors of the nodes of a shell element, 3 or 4 columns each.
+using ShellVectors = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;
+
+/// Shells with three or four nodes, thin or moderately thick, six variables per node.
+///
+/// A material point moves by u = Σ N_i (u_i + θ_i × z n_i), z from the nodes along the director
+/// n_i; inertia follows from that field, stiffness from shell/element.h. Theory:
+/// docs/theory/15-shells.md.
+class ShellBlock final : public ElementBlock {
+ public:
+  /// @return number to give to add()
+  int add_section(const ShellSection& section);
+  /// @param nodes three or four, counter-clockwise seen from the side the normal points to
+  /// @return index of the element in this block
+  /// @throws ModelError for another number of nodes
+  int add(std::span<const int> nodes, int section);
+
+  int num_elements() const override { return static_cast<int>(elements_.size()); }
+  std::span<const int> nodes(int element) const override {
+    return {at(element).nodes.data(), static_cast<std::size_t>(at(element).count)};
+  }
+  bool is_line() const override { return false; }
+  bool is_shell() const override { return true; }
+  bool has_rotations() const override { return true; }
+  /// That of the first layer.
+  const Material* material(int element) const override {
+    return &shell_section(element).layers.front().material;
+  }
+  const Section* section(int /*element*/) const override { return nullptr; }
+
+  const ShellSection& shell_section(int element) const {
+    return sections_[static_cast<std::size_t>(at(element).section)];
+  }
+  const ShellStiffness& stiffness(int element) const {
+    return stiffness_[static_cast<std::size_t>(at(element).section)];
+  }
+
+  /// Gives every element a director at each of its nodes: the mean normal of the shells there that
+  /// lie within 25° of its own. Elements that have directors keep them.
+  void choose_directors(const std::vector<Node>& nodes);
+  /// Places of the nodes of an element in model axes [m].
+  ShellVectors positions(const std::vector<Node>& all, int element) const;
+  /// Unit vectors; the element's own normals before choose_directors().
+  ShellVectors directors(const std::vector<Node>& all, int element) const;
+
+  /// Some of the elements with their directors, in the given order.
+  /// @param node_numbers new number of each node
+  ShellBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
+
+  /// @throws ModelError naming an element that is squashed, folded or impossibly made
+  void check(const MeshView& mesh) const override;
+  void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;
+  void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,
+                   InertiaSum& sum) const override;
+  void add_stiffness(const MeshView& mesh, StiffnessSum& sum) const override;
+  void add_force_rows(const MeshView& /*mesh*/, int /*first_element*/,
+                      std::vector<linalg::Triplet>& /*rows*/) const override {}
+  PointRows point_rows(const MeshView& mesh, int element, double xi) const override;
+  void add_stress_rows(const MeshView& mesh, int first_element,
+                       std::vector<linalg::Triplet>& rows) const override;
+  std::vector<std::array<int, 4>> faces(int element) const override;
+
+ private:
+  struct Element {
+    std::array<int, 4> nodes;  // the fourth −1 for triangles
+    int count;
+    int section;
+  };
+
+  const Element& at(int element) const { return elements_.at(static_cast<std::size_t>(element)); }
+
+  std::vector<ShellSection> sections_;
+  std::vector<ShellStiffness> stiffness_;
+  std::vector<Element> elements_;
+  std::vector<ShellVectors> directors_;  // of the first elements; empty before choose_directors()
+};
+
+}  // namespace buckens::fem

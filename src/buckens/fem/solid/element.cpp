@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/solid/element.h"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "buckens/fem/element/quadrature.h"
+
+namespace buckens::fem {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// A rule with the shape functions at its points, made once per kind.
+struct ShapeRule {
+  struct Point {
+    SolidShape shape;
+    Vector3d natural;
+    double weight;
+  };
+  std::vector<Point> points;
+
+  ShapeRule(SolidKind kind, const QuadratureRule& rule) {
+    for (const QuadraturePoint& p : rule) {
+      points.push_back({solid_shape(kind, p.natural), p.natural, p.weight});
+    }
+  }
+};
+
+using RuleTable = std::array<ShapeRule, 7>;  // in the order of SolidKind
+
+const ShapeRule& stiffness_rule(SolidKind kind) {
+  static const RuleTable all = {ShapeRule(SolidKind::hex8, cube_rule(2)),
+                                ShapeRule(SolidKind::hex20, cube_rule(3)),
+                                ShapeRule(SolidKind::tet4, conical_rule(1)),
+                                ShapeRule(SolidKind::tet10, symmetric_tetrahedron_rule()),
+                                ShapeRule(SolidKind::wedge6, symmetric_wedge_rule(3, 2)),
+                                ShapeRule(SolidKind::wedge15, symmetric_wedge_rule(6, 3)),
+                                ShapeRule(SolidKind::pyramid5, pyramid_rule(2))};
+  return all[static_cast<std::size_t>(kind)];
+}
+
+/// N Nᵀ det ∂x/∂ξ has in each coordinate degree 2 + 2 (hex8), 4 + 5 (hex20); in total 2 + 0 (tet4),
+/// 4 + 3 (tet10); in the triangle and in ζ 2 + 1, 2 + 2 (wedge6), 4 + 4, 4 + 5 (wedge15); in the
+/// collapsed coordinates 2 + 2 (pyramid5).
+const ShapeRule& mass_rule(SolidKind kind) {
+  static const RuleTable all = {
+      ShapeRule(SolidKind::hex8, cube_rule(3)),       ShapeRule(SolidKind::hex20, cube_rule(5)),
+      ShapeRule(SolidKind::tet4, conical_rule(2)),    ShapeRule(SolidKind::tet10, conical_rule(4)),
+      ShapeRule(SolidKind::wedge6, wedge_rule(3)),    ShapeRule(SolidKind::wedge15, wedge_rule(5)),
+      ShapeRule(SolidKind::pyramid5, pyramid_rule(3))};
+  return all[static_cast<std::size_t>(kind)];
+}
+
+const ShapeRule& node_rule(SolidKind kind) {
+  const auto at_nodes = [](SolidKind own) {
+    QuadratureRule rule;
+    for (const auto& place : solid_topology(own).natural.colwise()) rule.push_back({place, 1.0});
+    return ShapeRule(own, rule);
+  };
+  static const RuleTable all = {at_nodes(SolidKind::hex8),    at_nodes(SolidKind::hex20),
+                                at_nodes(SolidKind::tet4),    at_nodes(SolidKind::tet10),
+                                at_nodes(SolidKind::wedge6),  at_nodes(SolidKind::wedge15),
+                                at_nodes(SolidKind::pyramid5)};
+  return all[static_cast<std::size_t>(kind)];
+}
+
+Matrix3d jacobian(const NodeVectors& x, const SolidShape& shape) {
+  return x.lazyProduct(shape.slope.transpose());  // ∂x/∂ξ
+}
+
+template <int nodes>
+using Rows = Eigen::Matrix<double, 6, 3 * nodes>;
+
+/// Strain rows of the 3 columns that belong to a gradient.
+template <class Block>
+void set_strain(const Vector3d& g, Block&& block) {
+  block.template topRows<3>() = g.asDiagonal();
+  block.row(3) << g.y(), g.x(), 0.0;
+  block.row(4) << 0.0, g.z(), g.y();
+  block.row(5) << g.z(), 0.0, g.x();
+}
+
+template <int nodes>
+Rows<nodes> strain_rows(const Matrix3d& inverse, const SolidShape& shape) {
+  Rows<nodes> B;
+  for (int node = 0; node < nodes; ++node) {
+    const Vector3d g = inverse.transpose() * shape.slope.col(node);
+    set_strain(g, B.template middleCols<3>(3 * node));
+  }
+  return B;
+}
+
+/// Fixed sizes let the compiler unroll: assembly is most of what a large mesh costs before its
+/// factor.
+template <int nodes>
+SolidStiffness full_stiffness(SolidKind kind, const NodeVectors& x, const Elasticity& D) {
+  Eigen::Matrix<double, 3 * nodes, 3 * nodes> K;
+  K.setZero();
+  for (const auto& point : stiffness_rule(kind).points) {
+    const Matrix3d J = jacobian(x, point.shape);
+    const Rows<nodes> B = strain_rows<nodes>(J.inverse(), point.shape);
+    const Rows<nodes> stress = (point.weight * J.determinant()) * (D * B);
+    K.noalias() += B.transpose() * stress;
+  }
+  return 0.5 * (K + K.transpose());
+}
+
+SolidStiffness incompatible_stiffness(const NodeVectors& x, const Elasticity& D) {
+  using Inner = Eigen::Matrix<double, 6, 9>;
+  Eigen::Matrix<double, 24, 24> K = Eigen::Matrix<double, 24, 24>::Zero();
+  Eigen::Matrix<double, 24, 9> mixed = Eigen::Matrix<double, 24, 9>::Zero();
+  Eigen::Matrix<double, 9, 9> inner = Eigen::Matrix<double, 9, 9>::Zero();
+  const Matrix3d centre = jacobian(x, solid_shape(SolidKind::hex8, Vector3d::Zero()));
+  const Matrix3d centre_inverse = centre.inverse();
+  const double centre_volume = centre.determinant();
+  for (const auto& point : stiffness_rule(SolidKind::hex8).points) {
+    const Matrix3d J = jacobian(x, point.shape);
+    const double volume = J.determinant();
+    const Rows<8> B = strain_rows<8>(J.inverse(), point.shape);
+    Inner G;
+    for (int a = 0; a < 3; ++a) {
+      const double slope = -2.0 * point.natural[a] * centre_volume / volume;
+      const Vector3d g = slope * centre_inverse.row(a).transpose();
+      set_strain(g, G.middleCols<3>(3 * a));
+    }
+    const double weight = point.weight * volume;
+    const Rows<8> stress = weight * (D * B);
+    const Inner inner_stress = weight * (D * G);
+    K.noalias() += B.transpose() * stress;
+    mixed.noalias() += B.transpose() * inner_stress;
+    inner.noalias() += G.transpose() * inner_stress;
+  }
+  K.noalias() -= mixed * inner.llt().solve(mixed.transpose());
+  return 0.5 * (K + K.transpose());
+}
+
+}  // namespace
+
+SolidPoint solid_point(SolidKind kind, const NodeVectors& x, const Vector3d& natural) {
+  const SolidShape shape = solid_shape(kind, natural);
+  const Matrix3d J = jacobian(x, shape);
+  return {shape.N, J.inverse().transpose() * shape.slope, J.determinant()};
+}
+
+double solid_least_volume(SolidKind kind, const NodeVectors& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto* rule : {&stiffness_rule(kind), &mass_rule(kind), &node_rule(kind)}) {
+    for (const auto& point : rule->points) {
+      least = std::min(least, jacobian(x, point.shape).determinant());
+    }
+  }
+  return least;
+}
+
+StrainRows solid_strain(const NodeVectors& gradient) {
+  StrainRows B(6, 3 * gradient.cols());
+  for (Eigen::Index node = 0; node < gradient.cols(); ++node) {
+    const Vector3d g = gradient.col(node);
+    set_strain(g, B.middleCols<3>(3 * node));
+  }
+  return B;
+}
+
+SolidStiffness solid_stiffness(const SolidForm& form, const NodeVectors& x, const Elasticity& D) {
+  switch (form.kind) {
+    case SolidKind::hex8:
+      return form.integration == SolidIntegration::incompatible_modes
+                 ? incompatible_stiffness(x, D)
+                 : full_stiffness<8>(form.kind, x, D);
+    case SolidKind::hex20:
+      return full_stiffness<20>(form.kind, x, D);
+    case SolidKind::tet4:
+      return full_stiffness<4>(form.kind, x, D);
+    case SolidKind::tet10:
+      return full_stiffness<10>(form.kind, x, D);
+    case SolidKind::wedge6:
+      return full_stiffness<6>(form.kind, x, D);
+    case SolidKind::wedge15:
+      return full_stiffness<15>(form.kind, x, D);
+    case SolidKind::pyramid5:
+      break;
+  }
+  return full_stiffness<5>(form.kind, x, D);
+}
+
+NodeProducts solid_volume_products(SolidKind kind, const NodeVectors& x) {
+  NodeProducts products = NodeProducts::Zero(x.cols(), x.cols());
+  for (const auto& point : mass_rule(kind).points) {
+    const double weight = point.weight * jacobian(x, point.shape).determinant();
+    products.noalias() += (weight * point.shape.N).lazyProduct(point.shape.N.transpose());
+  }
+  return 0.5 * (products + products.transpose());
+}
+
+}  // namespace buckens::fem

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/solid/recovery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "buckens/fem/element/block.h"
+
+namespace buckens::fem {
+
+namespace {
+
+/// Solids, then shells; shells may be left out.
+template <class Visitor>
+void visit_elements(const FeModel& fe, Visitor&& visit) {
+  int number = 0;
+  for (const bool of_shells : {false, true}) {
+    for (const auto& block : fe.blocks) {
+      if (of_shells ? !block->is_shell() : !block->is_solid()) continue;
+      for (int e = 0; e < block->num_elements(); ++e) visit(*block, e, number++);
+    }
+  }
+}
+
+template <class Visitor>
+void visit_solids(const FeModel& fe, Visitor&& visit) {
+  int number = 0;
+  for (const auto& block : fe.blocks) {
+    if (!block->is_solid()) continue;
+    for (int e = 0; e < block->num_elements(); ++e) visit(*block, e, number++);
+  }
+}
+
+}  // namespace
+
+double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s) {
+  const double direct =
+      std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
+  return std::sqrt(0.5 * direct + 3.0 * s.tail<3>().squaredNorm());
+}
+
+bool solids_join_by_faces(const FeModel& fe) {
+  std::map<std::array<int, 4>, int> first;  // element that was seen with the face
+  std::vector<int> parent;
+  const auto root = [&parent](int e) {
+    while (parent[static_cast<std::size_t>(e)] != e) {
+      int& up = parent[static_cast<std::size_t>(e)];
+      up = parent[static_cast<std::size_t>(up)];  // halves the way of those that come later
+      e = up;
+    }
+    return e;
+  };
+  int parts = 0;
+  visit_solids(fe, [&](const ElementBlock& block, int e, int number) {
+    parent.push_back(number);
+    ++parts;
+    for (auto face : block.faces(e)) {
+      std::sort(face.begin(), face.end());
+      const auto [entry, is_new] = first.emplace(face, number);
+      const int other = root(entry->second);
+      const int own = root(number);
+      if (other == own) continue;
+      parent[static_cast<std::size_t>(own)] = other;
+      --parts;
+    }
+  });
+  return parts <= 1;
+}
+
+std::vector<SurfaceFace> surface_faces(const FeModel& fe) {
+  struct Seen {
+    SurfaceFace face;
+    int count = 0;
+  };
+  std::map<std::array<int, 4>, Seen> seen;
+  visit_solids(fe, [&](const ElementBlock& block, int e, int number) {
+    for (const auto& face : block.faces(e)) {
+      std::array<int, 4> key = face;
+      std::sort(key.begin(), key.end());
+      Seen& entry = seen[key];
+      if (entry.count++ == 0) entry.face = {face, number};
+    }
+  });
+  std::vector<SurfaceFace> out;
+  for (const auto& [key, entry] : seen) {
+    if (entry.count == 1) out.push_back(entry.face);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const SurfaceFace& a, const SurfaceFace& b) {
+    return a.element < b.element;
+  });
+  visit_elements(fe, [&out](const ElementBlock& block, int e, int number) {
+    if (!block.is_shell()) return;
+    for (const auto& face : block.faces(e)) out.push_back({face, number});
+  });
+  return out;
+}
+
+int num_solids(const FeModel& fe) {
+  int count = 0;
+  visit_elements(fe, [&count](const ElementBlock&, int, int) { ++count; });
+  return count;
+}
+
+std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe) {
+  std::vector<std::vector<int>> out(fe.nodes.size());
+  visit_elements(fe, [&](const ElementBlock& block, int e, int number) {
+    for (const int node : block.nodes(e)) out[static_cast<std::size_t>(node)].push_back(number);
+  });
+  return out;
+}
+
+SolidRecovery::SolidRecovery(const FeModel& fe) {
+  std::vector<linalg::Triplet> triplets, of_shells;
+  for (const auto& block : fe.blocks) {
+    if (block->is_solid()) {
+      block->add_stress_rows({fe.nodes, fe.dofs}, num_solids_, triplets);
+      num_solids_ += block->num_elements();
+    } else if (block->is_shell()) {
+      block->add_stress_rows({fe.nodes, fe.dofs}, num_shells_, of_shells);
+      num_shells_ += block->num_elements();
+    }
+  }
+  for (const linalg::Triplet& entry : of_shells) {
+    triplets.emplace_back(6 * num_solids_ + entry.row(), entry.col(), entry.value());
+  }
+  rows_.resize(6 * num_solids_ + 12 * num_shells_, fe.dofs.num_dofs);
+  rows_.setFromTriplets(triplets.begin(), triplets.end());
+}
+
+linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
+  const linalg::Vector values = rows_ * d;
+  linalg::Matrix out(7, num_elements());
+  for (Eigen::Index e = 0; e < num_solids_; ++e) {
+    out.col(e).head<6>() = values.segment<6>(6 * e);
+    out(kMises, e) = mises_stress(values.segment<6>(6 * e));
+  }
+  for (Eigen::Index e = 0; e < num_shells_; ++e) {
+    const Eigen::Index first = 6 * num_solids_ + 12 * e;
+    out.col(num_solids_ + e).head<6>() = values.segment<6>(first);
+    out(kMises, num_solids_ + e) = std::max(mises_stress(values.segment<6>(first)),
+                                            mises_stress(values.segment<6>(first + 6)));
+  }
+  return out;
+}
+
+}  // namespace buckens::fem

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/add_joint.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/bushing.h"
+
+namespace buckens::model {
+
+namespace {
+
+class JointBuilder {
+ public:
+  explicit JointBuilder(MarkerFinder& find) : find_(find) {}
+
+  void add(const joints::JointSpec& spec) {
+    using joints::JointType;
+    struct Adder {
+      JointBuilder& b;
+      const joints::JointSpec& spec;
+      void operator()(const joints::RevoluteSpec& k) { b.add_rows(JointType::revolute, k, spec); }
+      void operator()(const joints::SphericalSpec& k) { b.add_rows(JointType::spherical, k, spec); }
+      void operator()(const joints::PrismaticSpec& k) { b.add_rows(JointType::prismatic, k, spec); }
+      void operator()(const joints::FixedSpec& k) { b.add_rows(JointType::fixed, k, spec); }
+      void operator()(const joints::BushingSpec& k) { b.add_bushing(k, spec); }
+      void operator()(const joints::PrescribedRotationSpec& k) {
+        b.add_rows(JointType::prescribed_rotation, k, spec);
+      }
+      void operator()(const joints::PrescribedTranslationSpec& k) {
+        b.add_rows(JointType::prescribed_translation, k, spec);
+      }
+    };
+    std::visit(Adder{*this, spec}, spec.kind);
+  }
+
+ private:
+  template <class Spec>
+  void add_rows(joints::JointType type, const Spec& kind, const joints::JointSpec& spec) {
+    const std::string what = fmt::format("joint \"{}\"", spec.name);
+    Joint joint;
+    joint.name = spec.name;
+    joint.type = type;
+    joint.first = find_.marker(kind.between[0], true);
+    joint.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(joint.first, joint.second, what, spec.where);
+    joints::Placement placement = find_.placement(joint.first, joint.second);
+    if constexpr (requires { kind.axis; }) {
+      placement.axis_F = find_.axis_or_normal(kind.axis, placement.R_WF, what, spec.where);
+    }
+    if constexpr (requires { kind.law(); }) placement.law = kind.law();
+    if constexpr (requires { kind.displacement; }) placement.law = kind.displacement;
+    try {
+      joint.axis_F = joints::unit_axis(placement);
+      joint.rows = joints::make_rows(type, placement);
+    } catch (const ModelError& error) {
+      throw ModelError(spec.where, fmt::format("{}: {}", what, error.what()));
+    }
+    for (const joints::ConstraintRow& row : joint.rows) {
+      if (row.kind() == joints::ConstraintRow::Kind::point_world) continue;
+      find_.require_moment(joint.first, what, spec.where);
+      if (row.kind() == joints::ConstraintRow::Kind::direction) {
+        find_.require_moment(joint.second, what, spec.where);
+      }
+    }
+    joint.where = spec.where;
+    joint.first_row = find_.model().num_constraint_rows();
+    find_.model().joints.push_back(std::move(joint));
+  }
+
+  void add_bushing(const joints::BushingSpec& kind, const joints::JointSpec& spec) {
+    const std::string what = fmt::format("joint \"{}\"", spec.name);
+    Load load;
+    load.name = spec.name;
+    load.first = find_.marker(kind.between[0], true);
+    load.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(load.first, load.second, what, spec.where);
+    find_.require_moment(load.first, what, spec.where);
+    find_.require_moment(load.second, what, spec.where);
+    const joints::Placement p = find_.placement(load.first, load.second);
+    load.element = std::make_unique<loads::Bushing>(
+        loads::Bushing::Coefficients{kind.stiffness, kind.rotational_stiffness, kind.damping,
+                                     kind.rotational_damping},
+        p.R_WF.transpose() * p.R_WM, p.r_F);
+    load.kind = "bushing";
+    find_.model().loads.push_back(std::move(load));
+  }
+
+  MarkerFinder& find_;
+};
+
+}  // namespace
+
+void add_joint(const joints::JointSpec& spec, MarkerFinder& find) { JointBuilder(find).add(spec); }
+
+}  // namespace buckens::model

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/add_load.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/applied_load.h"
+#include "buckens/loads/spring_damper.h"
+
+namespace buckens::model {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Sine of the angle up to which a direction counts as lying in the plane of a planar model.
+constexpr double kOutOfPlane = 1e-6;
+// The same for axes, as of joints.
+constexpr double kTurnedAxis = 2e-4;
+
+class LoadBuilder {
+ public:
+  explicit LoadBuilder(MarkerFinder& find) : find_(find) {}
+
+  void add(const loads::LoadSpec& spec) {
+    Load load;
+    load.name = spec.name;
+    load.kind = spec.kind_name();
+    if (const auto* force = std::get_if<loads::ForceSpec>(&spec.kind)) {
+      add_applied(*force, loads::AppliedLoad::Kind::force, load, spec.where);
+    } else if (const auto* torque = std::get_if<loads::TorqueSpec>(&spec.kind)) {
+      add_applied(*torque, loads::AppliedLoad::Kind::torque, load, spec.where);
+    } else if (const auto* spring = std::get_if<loads::SpringDamperSpec>(&spec.kind)) {
+      add_spring(*spring, load, spec.where);
+    } else if (const auto* torsional = std::get_if<loads::TorsionalSpringSpec>(&spec.kind)) {
+      add_torsional(*torsional, load, spec.where);
+    }
+    find_.model().loads.push_back(std::move(load));
+  }
+
+ private:
+  /// Forces act in the plane, torques about its normal; anything else would be dropped silently.
+  /// @param R_WA axes of the load; those of a marker keep their angles with the normal
+  void require_in_plane(const std::array<base::TimeLaw, 3>& value, const Matrix3d& R_WA,
+                        bool moment, const Load& load, const SourceLocation& where) {
+    const Vector3d normal_A = R_WA.transpose() * spatial::normal(*find_.model().planar);
+    const auto lost = [&](const Vector3d& v) {
+      return moment ? Vector3d(v - normal_A * normal_A.dot(v)).norm() : std::abs(normal_A.dot(v));
+    };
+    const auto is_constant = [](const base::TimeLaw& law) { return law.is_constant(); };
+    if (std::all_of(value.begin(), value.end(), is_constant)) {
+      // Components across the plane may cancel.
+      const Vector3d whole(value[0].value(0), value[1].value(0), value[2].value(0));
+      if (lost(whole) <= kOutOfPlane * whole.norm()) return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const base::TimeLaw& law = value[static_cast<std::size_t>(axis)];
+      if (lost(Vector3d::Unit(axis)) <= kOutOfPlane) continue;
+      if (law.is_constant() && law.value(0) == 0.0) continue;
+      throw InputError(
+          where,
+          fmt::format(
+              "load \"{}\": in a planar model a {}; set component {} to zero, or leave "
+              "`planar` out",
+              load.name,
+              moment ? "torque acts about the normal of the plane" : "force acts in the plane",
+              "xyz"[axis]));
+    }
+  }
+
+  template <class Spec>
+  void add_applied(const Spec& kind, loads::AppliedLoad::Kind what, Load& load,
+                   const SourceLocation& where) {
+    load.unit = what == loads::AppliedLoad::Kind::torque ? "N m" : "N";
+    load.first = find_.marker(kind.on, true);
+    if (load.first.body == kGround) {
+      throw ModelError(where, fmt::format("load \"{}\" acts on the ground, which does not move; "
+                                          "apply it to a body",
+                                          load.name));
+    }
+    const bool moment = what == loads::AppliedLoad::Kind::torque;
+    if (moment || kind.axes == loads::LoadAxes::following) {
+      find_.require_moment(load.first, fmt::format("load \"{}\"", load.name), where);
+    }
+    if (find_.model().planar) {
+      const bool follows = kind.axes == loads::LoadAxes::following;
+      const Matrix3d R_WA = follows ? find_.placed(load.first).R() : Matrix3d::Identity();
+      require_in_plane(kind.value, R_WA, moment, load, where);
+    }
+    load.element = std::make_unique<loads::AppliedLoad>(what, kind.axes, kind.value);
+  }
+
+  void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {
+    load.first = find_.marker(kind.between[0], true);
+    load.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
+    const double distance = (find_.placed(load.second).p - find_.placed(load.first).p).norm();
+    if (distance == 0.0 && (kind.length.value_or(0.0) > 0.0 || kind.force)) {
+      throw InputError(where,
+                       fmt::format("load \"{}\": its markers coincide as placed, so its force "
+                                   "has no direction; place them apart or use a bushing",
+                                   load.name));
+    }
+    load.element = std::make_unique<loads::SpringDamper>(
+        kind.stiffness, kind.damping, kind.length.value_or(distance), kind.force);
+  }
+
+  void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,
+                     const SourceLocation& where) {
+    const std::string what = fmt::format("load \"{}\"", load.name);
+    load.first = find_.marker(kind.between[0], true);
+    load.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(load.first, load.second, what, where);
+    find_.require_moment(load.first, what, where);
+    find_.require_moment(load.second, what, where);
+    joints::Placement p = find_.placement(load.first, load.second);
+    p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
+    if (find_.model().planar) {
+      const Vector3d axis_W = p.R_WF * joints::unit_axis(p);
+      if (axis_W.cross(spatial::normal(*find_.model().planar)).norm() > kTurnedAxis) {
+        throw InputError(where, fmt::format("{}: the axis of a torsional spring of a planar model "
+                                            "must be normal to the plane; leave `axis` out or turn "
+                                            "it",
+                                            what));
+      }
+    }
+    if (std::abs(kind.angle) >= loads::TorsionalSpring::kLargestAngle) {
+      throw InputError(where,
+                       fmt::format("{}: a torsional spring measures up to {} rad from the "
+                                   "position as placed, its free angle {:.4g} rad lies beyond",
+                                   what, loads::TorsionalSpring::kLargestAngle, kind.angle));
+    }
+    load.element =
+        std::make_unique<loads::TorsionalSpring>(joints::unit_axis(p), p.R_WF.transpose() * p.R_WM,
+                                                 kind.stiffness, kind.damping, kind.angle);
+  }
+
+  MarkerFinder& find_;
+};
+
+}  // namespace
+
+void add_load(const loads::LoadSpec& spec, MarkerFinder& find) { LoadBuilder(find).add(spec); }
+
+void add_own_force(const OwnForce& force, MarkerFinder& find) {
+  if (!force.element) {
+    throw InputError(force.where,
+                     fmt::format("load \"{}\" has no force law; give it one", force.name));
+  }
+  Load load;
+  load.name = force.name;
+  load.kind = "force law";
+  load.first = find.marker(force.first, true);
+  load.second = find.marker(force.second, true);
+  find.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", force.name),
+                          force.where);
+  load.element = force.element;
+  find.model().loads.push_back(std::move(load));
+}
+
+}  // namespace buckens::model

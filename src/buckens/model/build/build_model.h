@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "buckens/body/basis_store.h"
+#include "buckens/model/build/field_places.h"
+#include "buckens/model/model.h"
+#include "buckens/model/spec/model_description.h"
+
+namespace buckens::model {
+
+/// Where a sensor looks.
+struct SensorPlace {
+  std::vector<MarkerId> markers;  ///< in the order in which the spec names them
+  int body = kGround;             ///< of section forces and stresses, index into Model::bodies
+  int element = -1;  ///< line element of that body; −1 without `solids`: all, other parts, too
+  int end = 0;       ///< 0 its first end, 1 its second
+  std::vector<int> solids;  ///< solid elements of that body at which stresses are averaged
+};
+
+/// A built model with what the description said beyond the mechanics.
+struct BuiltModel {
+  Model model;
+  ModelDescription description;
+  std::vector<SensorPlace> sensors;  ///< one per entry of description.output.sensors
+  std::vector<FieldPlaces> fields;   ///< of description.output.field_output; empty without it
+};
+
+/// Builds and checks the mechanism.
+/// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and
+/// markers
+/// @param bases keeps reduced bases between runs; null: nothing is kept
+std::unique_ptr<BuiltModel> build_model(ModelDescription description,
+                                        body::BasisStore* bases = nullptr);
+
+}  // namespace buckens::model

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/base/source_location.h"
+#include "buckens/fem/mesh/imported_mesh.h"
+#include "buckens/fem/mesh/mesh_file_spec.h"
+#include "buckens/fem/structure.h"
+
+namespace buckens::model {
+
+/// Marks the nodes that links and springs of a mesh file use.
+/// @param used one entry per node of the file
+void mark_linked_nodes(const fem::ImportedMesh& mesh, std::vector<bool>& used);
+
+/// Marks the nodes that point masses and links of the model file use; names that are none of the
+/// file are left to those who add them.
+void mark_given_nodes(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
+                      std::vector<bool>& used);
+
+/// Adds rigid links, averages, equations, springs and point masses of a mesh file. A mass beside
+/// its node gets a node of its own, linked rigidly.
+/// @param numbers node of the structure per node of the file
+/// @param where the body in the model file, for messages
+/// @throws InputError for a spring to ground or an average without nodes
+void add_imported_links(const fem::ImportedMesh& mesh, const std::vector<int>& numbers,
+                        const SourceLocation& where, fem::Structure& structure);
+
+}  // namespace buckens::model

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "buckens/fem/element/material.h"
+#include "buckens/fem/mesh/mesh_file_spec.h"
+
+namespace buckens::model {
+
+/// Which material each element of a mesh file has. In the order of precedence: `materials` by the
+/// name of an element set, then by that of the property, the file's own material, `material`.
+///
+/// Orthotropic materials of solids lie in the axes that the file gives the property; those of the
+/// model file, too, unless they have axes of their own. (Shells have a direction per section.)
+class ImportedMaterials {
+ public:
+  /// @throws InputError if a name in `materials` is neither a property nor an element set
+  ImportedMaterials(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
+                    const std::optional<fem::DampingSpec>& damping, const SourceLocation& where);
+
+  /// Elements with the same number have the same material.
+  /// @param element counted through all blocks
+  /// @throws InputError if it has none, or one without elastic constants
+  int number(const fem::ImportedBlock& block, int element);
+  /// The same as the model or the mesh file has it, null if there is none.
+  const fem::MaterialSpec* find(const fem::ImportedBlock& block, int element) const;
+  /// What number() makes a material of. @throws InputError as number()
+  const fem::MaterialSpec& spec(const fem::ImportedBlock& block, int element) const;
+  /// Number of a material of the file, for the layers of a laminate.
+  int number(const std::string& name);
+
+  const fem::Material& material(int number) const {
+    return materials_[static_cast<std::size_t>(number)];
+  }
+
+ private:
+  [[noreturn]] void refuse(const fem::ImportedBlock& block, const std::string& what) const;
+  /// Property whose axes turn the material, −1: none.
+  int turning_property(const fem::ImportedBlock& block, const fem::MaterialSpec& spec) const;
+  int number_of(const fem::MaterialSpec& spec, int property);
+
+  const fem::ImportedMesh& mesh_;
+  const fem::GroupMaterials& given_;
+  const std::optional<fem::DampingSpec>& damping_;
+  SourceLocation where_;
+  std::vector<const fem::MaterialSpec*> by_set_;  // per element, null where no set names one
+  /// By material and the property that turns it.
+  std::map<std::pair<const fem::MaterialSpec*, int>, int> numbers_;
+  std::vector<fem::Material> materials_;
+};
+
+}  // namespace buckens::model

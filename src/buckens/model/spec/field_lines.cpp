@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/spec/field_lines.h"
+
+#include <array>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/visit_fields.h"
+
+namespace buckens::model {
+
+namespace {
+
+/// The shortest text that gives the same bits again.
+std::string text_of(double value) { return fmt::format("{}", value); }
+
+struct AnyFieldVisitor {
+  template <class T>
+  void operator()(const base::Field<T>&) {}
+};
+
+template <class T>
+concept HasFieldList = requires(T& spec, AnyFieldVisitor& visit) {
+  spec.fields(visit);
+};
+
+/// Collects lines below a path.
+class LineCollector {
+ public:
+  LineCollector(std::vector<std::string>& lines, double duration)
+      : lines_(lines), duration_(duration) {}
+
+  template <class T>
+  void add(const std::string& path, const T& value) {
+    if constexpr (std::is_same_v<T, bool>) {
+      put(path, value ? "on" : "off");
+    } else if constexpr (std::is_enum_v<T>) {
+      put(path, choice_names(T{})[static_cast<std::size_t>(value)]);
+    } else if constexpr (std::is_same_v<T, int>) {
+      put(path, std::to_string(value));
+    } else if constexpr (HasFieldList<T>) {
+      fields_in(path, value);
+    } else {
+      add_special(path, value);
+    }
+  }
+
+ private:
+  template <class T>
+  void fields_in(const std::string& path, const T& value) {
+    base::visit_fields(value, [&](const auto& field) {
+      add(field.note.name.empty() ? path : path + "." + field.note.name, field.member);
+    });
+  }
+
+  void put(const std::string& path, const std::string& text) {
+    lines_.push_back(path.substr(path.front() == '.' ? 1 : 0) + ": " + text);
+  }
+
+  void add_special(const std::string& path, double value) { put(path, text_of(value)); }
+  void add_special(const std::string& path, const std::string& value) { put(path, value); }
+  void add_special(const std::string& path, const Eigen::Vector3d& value) {
+    put(path, fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()));
+  }
+  void add_special(const std::string& path, const base::MarkerRef& value) {
+    const Eigen::Vector3d point = value.point.value_or(Eigen::Vector3d::Zero());
+    add_special(path, value.body + "/" + value.marker);
+    if (value.point) add_special(path, point);
+  }
+  void add_special(const std::string& path, const DeflectionBase& value) {
+    if (value == DeflectionBase::other) return add_special(path, value.marker);
+    put(path, DeflectionBase::kWords[static_cast<std::size_t>(value.kind)]);
+  }
+  void add_special(const std::string& path, const body::FrameDivision& value) {
+    put(path, value.per_element ? "per-element" : std::to_string(value.count));
+  }
+  void add_special(const std::string& path, const PositionLaw& value) {
+    if (value.given) put(path, fmt::format("{} x {}", value.expression.text(), value.scale));
+  }
+  void add_special(const std::string& path, const base::TimeLaw& value) {
+    std::string text = value.text();
+    constexpr std::array kShares = {0.0, 0.171, 0.377, 0.593, 0.811, 1.0};
+    for (const double share : kShares) text += ", " + value_at(value, share * duration_);
+    put(path, text);
+  }
+  static std::string value_at(const base::TimeLaw& law, double t) {
+    try {
+      return text_of(law.value(t));
+    } catch (const NumericalError&) {
+      return "none";  // outside of a table
+    }
+  }
+
+  template <class T>
+  void add_special(const std::string& path, const std::optional<T>& value) {
+    if (value) add(path, *value);
+  }
+  template <class T>
+  void add_special(const std::string& path, const base::Reference<T>& value) {
+    add(path, value.value);
+  }
+  template <class... T>
+  void add_special(const std::string& path, const std::variant<T...>& value) {
+    std::visit(
+        [&](const auto& alternative) {
+          add(path + "." + std::remove_cvref_t<decltype(alternative)>::kKey, alternative);
+        },
+        value);
+  }
+  template <class T, std::size_t n>
+  void add_special(const std::string& path, const std::array<T, n>& values) {
+    add_items(path, values);
+  }
+  template <class T>
+  void add_special(const std::string& path, const std::vector<T>& values) {
+    add_items(path, values);
+  }
+  template <class List>
+  void add_items(const std::string& path, const List& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if constexpr (requires { values[k].name; }) {
+        put(path + "." + values[k].name, "");
+        add(path + "." + values[k].name, values[k]);
+      } else {
+        add(fmt::format("{}.{}", path, k), values[k]);
+      }
+    }
+  }
+
+  std::vector<std::string>& lines_;
+  double duration_;
+};
+
+}  // namespace
+
+std::vector<std::string> field_lines(const ModelDescription& description) {
+  std::vector<std::string> all;
+  // Laws are told by their values within the same second, however long the run is.
+  LineCollector(all, 1.0).add("", description);
+  std::vector<std::string> out;
+  for (std::string& line : all) {
+    if (line.starts_with("title:") || line.starts_with("simulation.duration:")) continue;
+    out.push_back(std::move(line));
+  }
+  return out;
+}
+
+std::vector<std::string> built_lines(const Model& model) {
+  std::vector<std::string> out;
+  for (const body::Body& body : model.bodies) {
+    out.push_back(fmt::format("body {}: {} variables, {} rows, mass {:.9g} kg", body.name,
+                              body.num_dofs(), body.num_interface_rows(), body.mass));
+  }
+  out.push_back(fmt::format("joints: {} equations", model.num_constraint_rows()));
+  for (const Load& load : model.loads) out.push_back("load " + load.name + ": " + load.kind);
+  return out;
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "buckens/base/field.h"
+#include "buckens/base/marker_ref.h"
+#include "buckens/model/spec/field_spec.h"
+
+namespace buckens::model {
+
+/// A vector quantity of one marker.
+struct MarkerSensor {
+  base::MarkerRef of;
+  std::optional<base::MarkerRef> in;     ///< axes of the components; default: world
+  std::optional<Eigen::Vector3d> along;  ///< record the component along it only; any length
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "marker that is observed").required().shorthand().like("rod/end"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+    visit(base::field("along", along, "direction along which the one component is recorded")
+              .like("[0, -1, 0]")
+              .otherwise("all three components"));
+  }
+};
+
+struct PositionSensor : MarkerSensor {
+  static constexpr const char* kKey = "position";
+  static constexpr const char* kDoc = "place of a marker in the world";
+};
+struct DisplacementSensor : MarkerSensor {
+  static constexpr const char* kKey = "displacement";
+  static constexpr const char* kDoc = "way of a marker in the world since t = 0";
+};
+struct VelocitySensor : MarkerSensor {
+  static constexpr const char* kKey = "velocity";
+  static constexpr const char* kDoc = "velocity of a marker";
+};
+struct AccelerationSensor : MarkerSensor {
+  static constexpr const char* kKey = "acceleration";
+  static constexpr const char* kDoc = "acceleration of a marker";
+};
+/// Rotation vector of a marker since t = 0.
+struct RotationSensor : MarkerSensor {
+  static constexpr const char* kKey = "rotation";
+  static constexpr const char* kDoc = "rotation vector of a marker since t = 0";
+};
+struct AngularVelocitySensor : MarkerSensor {
+  static constexpr const char* kKey = "angular-velocity";
+  static constexpr const char* kDoc = "angular velocity of a marker";
+};
+
+/// From where the deflection of a marker is seen.
+struct DeflectionBase {
+  enum Kind { chord, frame, other };
+  static constexpr std::array<const char*, 2> kWords = {"chord", "frame"};
+
+  Kind kind = chord;
+  base::MarkerRef marker;  ///< only of `other`: a marker of the same body
+
+  DeflectionBase(Kind k = chord) : kind(k) {}
+  friend bool operator==(const DeflectionBase& base, Kind k) { return base.kind == k; }
+};
+
+/// Elastic displacement of a marker of a flexible body.
+struct DeflectionSensor {
+  static constexpr const char* kKey = "deflection";
+  static constexpr const char* kDoc =
+      "elastic displacement of a marker, seen from a chord between two markers, from another "
+      "marker "
+      "or from the body frame";
+  base::MarkerRef of;
+  DeflectionBase from;
+  std::optional<std::array<base::MarkerRef, 2>> chord;  ///< in place of start and end
+
+  /// The given ends of the chord, or start and end of the body.
+  std::array<base::MarkerRef, 2> chord_ends() const {
+    if (chord) return *chord;
+    std::array<base::MarkerRef, 2> ends = {of, of};
+    ends[0].marker = "start";
+    ends[1].marker = "end";
+    return ends;
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "marker that is observed").required().shorthand().like("rod/mid"));
+    visit(
+        base::field("from", from,
+                    "`chord`: from the straight line between `start` and `end` of a beam or "
+                    "between the two markers of `chord`, in axes that turn with it; `frame`: from "
+                    "the body frame, in its axes; a marker of the same body: from where that "
+                    "moves and how it turns, in its axes"));
+    visit(base::field("chord", chord,
+                      "the two markers of the body between which the chord runs; the observed one "
+                      "is compared with the point of the chord that it is beside when undeformed")
+              .like("[rod/start, rod/mid]")
+              .otherwise("`start` and `end` of a beam"));
+  }
+};
+
+enum class RelativeQuantity { position, distance, velocity, rotation, angle, angular_velocity };
+
+constexpr std::array<const char*, 6> choice_names(RelativeQuantity) {
+  return {"position", "distance", "velocity", "rotation", "angle", "angular-velocity"};
+}
+
+/// Motion of the second marker as seen from the first, in the first one's axes.
+struct RelativeSensor {
+  static constexpr const char* kKey = "relative";
+  static constexpr const char* kDoc = "motion of the second marker as seen from the first";
+  std::array<base::MarkerRef, 2> between;
+  RelativeQuantity quantity = RelativeQuantity::position;
+  std::optional<Eigen::Vector3d> axis;  ///< of `angle`, in the first marker
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers").required().like("[crank, rod]"));
+    visit(
+        base::field("quantity", quantity,
+                    "what is recorded; `angle` counts turns about the axis and is zero as placed, "
+                    "before assembly and static start move the bodies"));
+    visit(base::field("axis", axis, "axis of `angle` in the first marker's axes")
+              .like("[0, 0, 1]")
+              .otherwise("planar models: the normal of the plane"));
+  }
+};
+
+/// Force or torque of a joint on its second marker.
+struct JointForceSensor {
+  static constexpr const char* kKey = "joint-force";
+  static constexpr const char* kDoc = "force of a joint on its second marker";
+  std::string joint;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("joint", joint, "name of the joint").required().shorthand().like("base"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+struct JointTorqueSensor : JointForceSensor {
+  static constexpr const char* kKey = "joint-torque";
+  static constexpr const char* kDoc = "torque of a joint on its second marker";
+};
+
+/// Resultant of a load on all bodies that it acts on.
+struct LoadForceSensor {
+  static constexpr const char* kKey = "load-force";
+  static constexpr const char* kDoc = "resultant force of a load on the bodies that it acts on";
+  std::string load;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("load", load, "name of the load").required().shorthand().like("gas"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+struct LoadTorqueSensor {
+  static constexpr const char* kKey = "load-torque";
+  static constexpr const char* kDoc =
+      "resultant torque of a load about a marker, or about the origin of the world";
+  std::string load;
+  std::optional<base::MarkerRef> about;
+  std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("load", load, "name of the load").required().shorthand().like("gas"));
+    visit(base::field("about", about, "marker about whose place the torque is taken")
+              .like("crank")
+              .otherwise("the origin of the world"));
+    visit(base::field("in", in, "marker whose axes the components refer to")
+              .like("rod")
+              .otherwise("world axes"));
+  }
+};
+
+/// Force of a spring, damper or bushing, tension positive.
+struct SpringForceSensor {
+  static constexpr const char* kKey = "spring-force";
+  static constexpr const char* kDoc =
+      "force of a spring-damper or bushing on its first marker: of a spring-damper the tension "
+      "between its markers, positive where it pulls them together; of a bushing three components "
+      "in "
+      "the axes of its first marker, positive where the second marker is pulled back";
+  std::string spring;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("spring", spring, "name of the load or bushing")
+              .required()
+              .shorthand()
+              .like("strut"));
+  }
+};
+struct SpringTorqueSensor {
+  static constexpr const char* kKey = "spring-torque";
+  static constexpr const char* kDoc =
+      "torque of a torsional-spring or bushing: of a torsional spring about its axis, positive "
+      "where "
+      "it turns the second marker back against a positive angle; of a bushing three components in "
+      "the axes of its first marker, with the same sign";
+  std::string spring;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("spring", spring, "name of the load or bushing")
+              .required()
+              .shorthand()
+              .like("strut"));
+  }
+};
+
+/// Section of a beam: at a marker on the mesh, or at an end of a numbered element. Solid elements
+/// around a node, or a numbered one.
+struct SectionPlace {
+  base::MarkerRef of;
+  std::optional<int> element;  ///< from 1, in the order of the model file
+
+  template <class Visitor>
+  void place_fields(Visitor& visit) {
+    visit(base::field("of", of,
+                      "start, mid, end or a node of a flexible body; with `element` the body")
+              .required()
+              .shorthand()
+              .like("rod/mid"));
+    visit(
+        base::field("element", element,
+                    "number of the element, counted from 1: beams, bars and solids in the order of "
+                    "the file, meshes along x, then y, then z; of lines the first end is meant")
+            .positive()
+            .otherwise("the first element that touches the marker"));
+  }
+};
+struct SectionForceSensor : SectionPlace {
+  static constexpr const char* kKey = "section-force";
+  static constexpr const char* kDoc =
+      "normal force, shear forces, torsion and bending moments of "
+      "a beam in its local axes";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    place_fields(visit);
+  }
+};
+struct StressSensor : SectionPlace {
+  static constexpr const char* kKey = "stress";
+  static constexpr const char* kDoc =
+      "largest stress in a section of a beam or bar; at a node of solids the von Mises stress "
+      "of the mean over the elements there, taken at their centres; for a body without marker "
+      "the largest anywhere in it";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    place_fields(visit);
+  }
+};
+
+enum class EnergyKind { total, kinetic, potential, strain, work, dissipated, balance };
+
+constexpr std::array<const char*, 7> choice_names(EnergyKind) {
+  return {"total", "kinetic", "potential", "strain", "work", "dissipated", "balance"};
+}
+
+struct EnergySensor {
+  static constexpr const char* kKey = "energy";
+  static constexpr const char* kDoc =
+      "energy of the whole model: `kinetic`; `strain` of deformed bodies; `potential` is strain "
+      "plus "
+      "gravity plus springs; `total` is kinetic plus potential; `work` of loads and drives and "
+      "what "
+      "dampers `dissipated` since t = 0; `balance` is what these two leave open of the change of "
+      "the total since t = 0";
+  EnergyKind kind = EnergyKind::total;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("kind", kind, "which energy").shorthand());
+  }
+};
+
+/// Something observed over time, one or more columns of sensors.csv.
+struct SensorSpec {
+  std::string name;
+  SourceLocation where;
+  std::variant<PositionSensor, DisplacementSensor, VelocitySensor, AccelerationSensor,
+               RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
+               JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
+               SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
+               EnergySensor>
+      kind;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(kind, "what is observed").required());
+  }
+};
+
+/// What is recorded and how often.
+struct OutputSpec {
+  SourceLocation where;
+  std::optional<double> every;  ///< [s]; default: about 500 records over the duration
+  std::vector<SensorSpec> sensors;
+  std::optional<FieldOutputSpec> field_output;  ///< of meshes
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(
+        base::field("every", every, "time between two records; interpolated where steps do not fit")
+            .in(base::kTime)
+            .positive()
+            .like("1 ms")
+            .otherwise("duration/500, at least one step"));
+    visit(base::field("sensors", sensors, "observed quantities by name")
+              .like("{tip: {position: rod/end}}"));
+    visit(base::field("fields", field_output, "fields over the meshes of bodies")
+              .like("[von-mises]")
+              .otherwise("displacements of all nodes; stresses of lines and at the centres of "
+                         "solids"));
+  }
+};
+
+}  // namespace buckens::model
