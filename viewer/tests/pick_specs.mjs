@@ -160,6 +160,7 @@ export async function pickSpecs({ test, browser, variant }) {
     assert.equal(await mostly(), '15,15,15');
     await tab.keyboard.press('t');
     assert.match(await isDark(), /dark$/);
+    await settle(tab); // The button's name follows with the next picture.
     assert.match(await tab.locator('[data-theme-choice]').getAttribute('aria-label'), /dark/);
     await tab.keyboard.press('t');
     await tab.emulateMedia({ colorScheme: 'light' });
