@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""tools/census.py sorts files by what becomes of them, follows the remedies of messages and groups reasons."""
+
+import json
+import subprocess
+import sys
+
+from conftest import PROGRAM, SOURCE
+
+DECK = """GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,0.,1.,0.
+GRID,4,,0.,0.,1.
+CTETRA,1,1,1,2,3,4
+PSOLID,1,1
+MAT1,1,2.1E11,,0.3{density}
+ENDDATA
+"""
+
+
+def test_sorts_files_and_reasons(tmp_path):
+    folder = tmp_path / "decks"
+    folder.mkdir()
+    (folder / "whole.bdf").write_text(DECK.format(density=",7850."))
+    (folder / "without_density.bdf").write_text(DECK.format(density=""))
+    (folder / "empty.bdf").write_text("ENDDATA\n")
+    for name in ("first", "second"):
+        (folder / f"{name}.bdf").write_text(f"CBEND,{len(name)},1,1,2\n" + DECK.format(density=""))
+    (folder / "note.txt").write_text("not a mesh")
+    outcome = tmp_path / "outcome.json"
+    done = subprocess.run([sys.executable, SOURCE / "tools" / "census.py", folder, "--program", PROGRAM, "--json", outcome],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    row = next(line for line in done.stdout.splitlines() if line.startswith("| `.bdf`"))
+    # files, read, body, with help, refused rightly, else, time out, crash
+    assert [int(cell) for cell in row.split("|")[2:10]] == [5, 2, 1, 2, 1, 2, 0, 0]
+    assert sum("CBEND #" in line and line.strip().startswith("2 read") for line in done.stdout.splitlines()) == 1
+    by_name = {entry["file"].rsplit("/", 1)[-1]: entry for entry in json.loads(outcome.read_text())}
+    assert set(by_name) == {"whole.bdf", "without_density.bdf", "empty.bdf", "first.bdf", "second.bdf"}
+    assert by_name["without_density.bdf"]["helped"] and not by_name["without_density.bdf"]["body"]
+
+
+def test_tells_of_a_crash(tmp_path):
+    """A program that dies is counted and makes the census fail."""
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\nkill -SEGV $$\n")
+    program.chmod(0o755)
+    deck = tmp_path / "deck.bdf"
+    deck.write_text(DECK)
+    done = subprocess.run([sys.executable, SOURCE / "tools" / "census.py", deck, "--program", program],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "| 1 | 0.0 s |" in done.stdout

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What becomes of files that nobody here wrote: each is read as a new user would, alone, under limits.
+
+    tools/census.py FOLDER... [--program build/release/bin/buckens] [--json FILE] [--list] [--jobs 1]
+
+"read": `mesh-info` understands the file. "body": `check` makes a body of it, with the file named in the model file
+and nothing else (for formats that know no materials: with the material steel). "with help": it makes a body once the
+model file gives the materials, thicknesses and cross-sections that the messages ask for. Files that no program could
+make a body of (no mesh in them, not complete, other physics) are known by their message: RIGHT below. What remains of
+the refusals is still to be done.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+DECKS = {".inp", ".bdf", ".dat", ".nas"}
+MESHES = {".msh", ".unv"}
+STEPS = {".step", ".stp", ".p21"}
+MATERIAL = "steel"
+MATERIALS = {MATERIAL: {"E": "210 GPa", "nu": 0.3, "rho": "7850 kg/m^3"}}
+MOST_ATTEMPTS = 8
+
+# Messages after which nobody can be helped: the file holds no body, or not all of it is there.
+RIGHT = [re.compile(text) for text in (
+    r"the deck has no nodes", r"the deck has nodes, but no elements", r"the mesh has no elements", r"the file is empty",
+    r"INCLUDE.*cannot read", r"there is no (GRID|material|PBUSH|node|element) ", r"truncated|cut off|not complete",
+    r"there is another (element|property|material)", r"appears twice", r"not a text file|zero byte",
+    r"fluid|acoustic|axisymmetric|hyperelastic|superelement", r"parts that nothing holds together",
+    r"the mesh has no mass", r"is not a (Gmsh mesh|deck of Nastran|STEP file)",
+    r"turned inside out", r"is a mechanism in itself",
+)]
+
+
+def limited(memory):
+    def apply():
+        os.setsid()
+        resource.setrlimit(resource.RLIMIT_AS, (memory << 20, memory << 20))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    return apply
+
+
+class Runner:
+    def __init__(self, program, seconds, memory):
+        self.program, self.seconds, self.memory = str(pathlib.Path(program).resolve()), seconds, memory
+
+    def run(self, *words):
+        """(exit code or "time" or "signal n", message in one line, seconds, output)."""
+        begin = time.monotonic()
+        with subprocess.Popen([self.program, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              errors="replace", preexec_fn=limited(self.memory)) as process:
+            try:
+                out, err = process.communicate(timeout=self.seconds)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.communicate()
+                return "time", f"more than {self.seconds:g} s", time.monotonic() - begin, ""
+        code = process.returncode if process.returncode >= 0 else f"signal {-process.returncode}"
+        text = next((line for line in err.splitlines() if "error:" in line), err.strip().split("\n")[0])
+        return code, text.split("error:", 1)[-1].strip() if code else "", time.monotonic() - begin, out
+
+
+class Model:
+    """A model file of one body; grows by what the program's messages ask for, as a user would write it."""
+
+    def __init__(self, path, ending):
+        self.path, self.ending = str(path), ending
+        self.mesh = {"file": self.path, "length-unit": "m", "mass-unit": "kg"}
+        if ending in MESHES:
+            self.mesh["material"] = MATERIAL
+
+    def text(self):
+        body = {"step": self.path, "material": MATERIAL} if self.ending in STEPS else {"mesh": self.mesh}
+        return json.dumps({"buckens": 1, "materials": MATERIALS, "bodies": {"b": body}})
+
+    def add_section(self, text, section):
+        group = re.search(r'elements? of "([^"]*)"', text) or re.search(r' of "([^"]*)" have', text)
+        place = self.mesh.setdefault("sections", {}) if group else self.mesh
+        key = group.group(1) if group else "section"
+        if key in place:
+            return False
+        place[key] = section
+        return True
+
+    def help(self, text, properties):
+        """Adds what the message asks for. @return whether there was anything to add"""
+        if self.ending in STEPS:
+            return False
+        if "have no thickness" in text:
+            return self.add_section(text, {"thickness": "1 mm"})
+        if "have no cross-section" in text:
+            return self.add_section(text, {"beam": {"circle": {"diameter": "10 mm"}}})
+        if re.search(r"no mass|no material|elastic constants|`materials?`", text) and "materials" not in self.mesh:
+            self.mesh["materials"] = {name: MATERIAL for name in properties}
+            self.mesh.setdefault("material", MATERIAL)
+            return True
+        return False
+
+
+def reason(text):
+    """A message without what differs from file to file."""
+    text = re.sub(r"^model\.yaml:\d+:\d+: ", "", text)
+    text = re.sub(r"^(body )?\"b\": ", "", text)
+    text = re.sub(r"(/[^/:]+)+\.\w+(:\d+)*: ", "", text)
+    text = re.sub(r"\"[^\"]*\"", "\"…\"", text)
+    text = re.sub(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", "#", text)
+    return text[:160]
+
+
+def examine(runner, path):
+    ending = path.suffix.lower()
+    out = {"file": str(path), "format": ending, "read": False, "body": False, "helped": False}
+    properties = []
+    if ending not in STEPS:
+        code, text, seconds, told = runner.run("mesh-info", "--json", str(path))
+        out.update(read=code == 0, code=code, seconds=seconds, reason=text)
+        if code:
+            return out
+        properties = sorted({entry["name"] for entry in json.loads(told)["properties"]})
+    model = Model(path, ending)
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "model.yaml")
+        for attempt in range(MOST_ATTEMPTS):
+            file.write_text(model.text(), encoding="utf-8")
+            code, text, seconds, _ = runner.run("check", str(file))
+            text = text.replace(str(file), "model.yaml")
+            out.update(code=code, reason=text, check_seconds=seconds, helped=code == 0)
+            if attempt == 0:
+                out.update(body=code == 0, check_seconds=seconds)
+                if ending in STEPS:
+                    out["read"] = code in (0, 3)
+            if code == 0 or not model.help(text, properties):
+                break
+    return out
+
+
+def is_right(text):
+    return any(pattern.search(text) for pattern in RIGHT)
+
+
+def has_crashed(entry):
+    return str(entry.get("code", 0)).startswith("signal") or entry.get("code") == 1
+
+
+def table(entries):
+    lines = ["| format | files | read | body | with help | refused rightly | else | time out | crash | slowest |",
+             "|---|---|---|---|---|---|---|---|---|---|"]
+    for form in sorted({entry["format"] for entry in entries}):
+        own = [entry for entry in entries if entry["format"] == form]
+        bad = [entry for entry in own if not entry["helped"]]
+        right = [entry for entry in bad if is_right(entry["reason"])]
+        late = [entry for entry in bad if entry.get("code") == "time"]
+        crash = [entry for entry in own if has_crashed(entry)]
+        slowest = max(entry.get("seconds", 0) + entry.get("check_seconds", 0) for entry in own)
+        lines.append(f"| `{form}` | {len(own)} | {sum(e['read'] for e in own)} | {sum(e['body'] for e in own)}"
+                     f" | {sum(e['helped'] for e in own)} | {len(right)} |"
+                     f" {len(bad) - len(right) - len(late) - len(crash)} | {len(late)} | {len(crash)} | {slowest:.1f} s |")
+    return "\n".join(lines)
+
+
+def reasons(entries, with_files):
+    out = []
+    for form in sorted({entry["format"] for entry in entries}):
+        groups = collections.defaultdict(list)
+        for entry in entries:
+            if entry["format"] == form and not entry["helped"]:
+                groups[reason(entry["reason"])].append(entry)
+        out.append(f"\n{form}")
+        for text, group in sorted(groups.items(), key=lambda item: (-len(item[1]), item[0])):
+            stage = "body" if group[0]["read"] else "read"
+            mark = "right" if is_right(group[0]["reason"]) else "     "
+            out.append(f"{len(group):5d} {stage} {mark} {text}")
+            if with_files:
+                out += [f"              {entry['file']}: {entry['reason'][:200]}" for entry in group]
+    return "\n".join(out)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", type=pathlib.Path)
+    parser.add_argument("--program", default="build/release/bin/buckens")
+    parser.add_argument("--seconds", type=float, default=60, help="for one call of the program")
+    parser.add_argument("--memory", type=int, default=6000, help="megabytes of addresses for one call")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--json", type=pathlib.Path, help="every file with its outcome")
+    parser.add_argument("--list", action="store_true", help="the files under every reason")
+    args = parser.parse_args()
+    if not os.access(args.program, os.X_OK):
+        sys.exit(f"{args.program}: there is no such program; build it, or name it with --program")
+    known = DECKS | MESHES | STEPS
+    files = [path for folder in args.folders for path in ([folder] if folder.is_file() else sorted(folder.rglob("*")))
+             if path.is_file() and path.suffix.lower() in known]
+    if not files:
+        sys.exit("no files with one of the endings " + ", ".join(sorted(known)))
+    runner = Runner(args.program, args.seconds, args.memory)
+    with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
+        entries = list(pool.map(lambda path: examine(runner, path.resolve()), files))
+    if args.json:
+        args.json.write_text(json.dumps(entries, indent=1), encoding="utf-8")
+    print(table(entries))
+    print(reasons(entries, args.list))
+    return 1 if any(has_crashed(entry) for entry in entries) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
