@@ -68,10 +68,10 @@ void for_each_user(const ImportedMesh& mesh, Visit visit) {
   }
 }
 
-using Cell = std::array<std::int64_t, 3>;
+using GridCell = std::array<std::int64_t, 3>;
 
 struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
+  std::size_t operator()(const GridCell& cell) const {
     std::uint64_t out = 1469598103934665603U;
     for (const std::int64_t k : cell) {
       out = (out ^ static_cast<std::uint64_t>(k)) * 1099511628211U;
@@ -123,12 +123,12 @@ std::vector<std::pair<int, int>> coincident_nodes(const ImportedMesh& mesh) {
   const double width = 8.0 * tolerance;
   const Eigen::Vector3d origin = box.min() - Eigen::Vector3d::Constant(0.381966 * width);
   constexpr int kNone = -1;
-  std::unordered_map<Cell, int, CellHash> cells;                               // last node in it
+  std::unordered_map<GridCell, int, CellHash> cells;                           // last node in it
   std::vector<int> before(static_cast<std::size_t>(mesh.num_nodes()), kNone);  // in the same cell
   for (int node = 0; node < mesh.num_nodes(); ++node) {
     if (!used[static_cast<std::size_t>(node)]) continue;
     const Eigen::Vector3d& x = mesh.positions[static_cast<std::size_t>(node)];
-    Cell cell, least, most;
+    GridCell cell, least, most;
     for (std::size_t k = 0; k < 3; ++k) {
       const double at =
           (x[static_cast<Eigen::Index>(k)] - origin[static_cast<Eigen::Index>(k)]) / width;
@@ -136,7 +136,7 @@ std::vector<std::pair<int, int>> coincident_nodes(const ImportedMesh& mesh) {
       least[k] = static_cast<std::int64_t>(std::floor(at - 0.126));  // a tolerance is 1/8
       most[k] = static_cast<std::int64_t>(std::floor(at + 0.126));
     }
-    const auto compare_with = [&](const Cell& near) {
+    const auto compare_with = [&](const GridCell& near) {
       const auto found = cells.find(near);
       for (int other = found == cells.end() ? kNone : found->second; other != kNone;
            other = before[static_cast<std::size_t>(other)]) {
@@ -144,7 +144,7 @@ std::vector<std::pair<int, int>> coincident_nodes(const ImportedMesh& mesh) {
         if ((x - y).norm() <= tolerance) out.emplace_back(other, node);
       }
     };
-    Cell near;
+    GridCell near;
     for (near[0] = least[0]; near[0] <= most[0]; ++near[0]) {
       for (near[1] = least[1]; near[1] <= most[1]; ++near[1]) {
         for (near[2] = least[2]; near[2] <= most[2]; ++near[2]) compare_with(near);
