@@ -3,6 +3,7 @@
 
 import csv
 import json
+import math
 
 import pytest
 
@@ -72,3 +73,20 @@ def test_changed_velocities_are_told(run, tmp_path):
     text = PENDULUM + "initial: {bodies: {rod: {velocity: [0, 1, 0]}}}\n"
     run("step: 1 ms", text).must(0)
     assert any('"rod" cannot start' in warning for warning in summary(tmp_path)["warnings"])
+
+
+@pytest.mark.parametrize("step", ["5 ms, tolerance: 1e-5", "1.25 ms"])
+def test_steps_that_hit_a_dead_centre_go_on(buckens, tmp_path, models, step):
+    """Three parallel cranks at 180 degrees, at t = 0.46625 s: a multiple of both steps.
+
+    There two equations of the pins hold nothing; the motion carries the cranks through.
+    """
+    text = (models / "parallel_cranks.yaml").read_text()
+    (tmp_path / "model.yaml").write_text(text.replace("step: 5 ms", f"step: {step}"))
+    buckens("run", "model.yaml", "-o", tmp_path / "out").must(0)
+    assert summary(tmp_path)["trust"] == "ok"
+    with open(tmp_path / "out" / "sensors.csv") as file:
+        rows = [row for row in csv.reader(file) if row and row[0][0].isdigit()]
+    assert float(rows[-1][0]) == pytest.approx(2.2)
+    for row in rows:  # the third crank is parallel to the driven one
+        assert float(row[1]) == pytest.approx(math.radians(320 * float(row[0])), abs=1e-12)

@@ -56,6 +56,7 @@ void RowWatch::visit_saved(const base::SaveVisit& visit) {
 void SmallNewton::visit_saved(const base::SaveVisit& visit) {
   visit_rows(visit, "rows_in_use", model_, rows_in_use_);
   visit.counts("dependent", dependent_, 0, model_.num_constraint_rows() - 1);
+  visit.flag("gave_up_rows", gave_up_rows_);
   visit.number("trusted_pivots", trusted_pivots_);
   watch_.visit_saved(visit.inside("watch"));
   visit.count("num_selections", num_selections_, 0, 1 << 30);

@@ -22,6 +22,10 @@ namespace {
 // Pivots this much smaller than when the rows were chosen: others may have become the better
 // choice.
 constexpr double kPivotDrop = 1e-3;
+// Pivots fall with the square of what is left of a lever arm. Below this, rounding of positions
+// moves what the lever drives by more than the iteration's end admits: the step has hit a dead
+// centre.
+constexpr double kDeadCentre = 1e-10;
 // Convergence is linear with the frozen matrix of the step: what the next iteration would change is
 // known from the last two. It has to be this much smaller than what the tolerance admits.
 constexpr double kForeseen = 0.01;
@@ -132,8 +136,10 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   dynamics::evaluate_soft_rows(model_, at_evaluation(), soft_);
   bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
-  if (!is_closed || watch_.has_open_rows() || pivots < kPivotDrop * trusted_pivots_) {
-    if (select_rows_anew(t)) is_closed = condense(t);
+  const bool is_dead_centre = !is_closed || pivots < kDeadCentre * trusted_pivots_;
+  if (is_dead_centre || gave_up_rows_ || watch_.has_open_rows() ||
+      pivots < kPivotDrop * trusted_pivots_) {
+    if (select_rows_anew(t, is_dead_centre)) is_closed = condense(t);
     trusted_pivots_ = condensation_->pivot_ratio();
   } else {
     trusted_pivots_ = std::max(trusted_pivots_, pivots);
@@ -216,7 +222,7 @@ bool SmallNewton::condense(double t) {
   return condensation_->factorise(compliance_, soft_compliance_);
 }
 
-bool SmallNewton::select_rows_anew(double t) {
+bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
   watch_.rows_are_chosen();
   std::vector<dynamics::BodyCompliance> compliance = compliance_;
   for (std::size_t b = 0; b < compliance.size(); ++b) {
@@ -226,10 +232,11 @@ bool SmallNewton::select_rows_anew(double t) {
   dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
   linalg::RowRank rank = select_rows(model_, all.rows, compliance);
   dependent_ = std::move(rank.dependent);
-  // Fewer rows mean a dead centre: the step goes on with those it has, or fails and says so.
-  if (rank.independent == rows_in_use_ || rank.independent.size() < rows_in_use_.size()) {
-    return false;
-  }
+  // Fewer rows mean a dead centre. Near it the step goes on with those it has; where it is hit,
+  // they hold nothing for this step, and the motion carries the mechanism through.
+  const bool are_fewer = rank.independent.size() < rows_in_use_.size();
+  if (rank.independent == rows_in_use_ || (are_fewer && !may_give_up)) return false;
+  gave_up_rows_ = are_fewer;
   rows_in_use_ = std::move(rank.independent);
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();

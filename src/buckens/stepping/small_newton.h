@@ -94,8 +94,10 @@ class SmallNewton {
   void set_soft_rows();
   /// Assembles and factorises S for the rows in use. @return false if it is singular
   bool condense(double t);
-  /// Asks again which rows are independent. @return true if others are used from now on
-  bool select_rows_anew(double t);
+  /// Asks again which rows are independent.
+  /// @param may_give_up whether fewer rows are taken, too
+  /// @return true if others are used from now on
+  bool select_rows_anew(double t, bool may_give_up);
   /// Multipliers of rows that were given up are zero.
   void leave_to_rows_in_use(linalg::Vector& lambda) const;
   /// Reports how far rows are open, and notes a row not in use that no longer follows from the
@@ -110,6 +112,7 @@ class SmallNewton {
   std::vector<const BodyAnswer*> answers_;
   std::vector<int> rows_in_use_;
   std::vector<int> dependent_;  // at the last selection
+  bool gave_up_rows_ = false;   // fewer rows in use than hold elsewhere: a dead centre was hit
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   RowWatch watch_;
   bool has_quasi_static_ = false;
