@@ -163,7 +163,7 @@ Formula read_formula(const ReadPlace& place, const FieldNote& note,
     std::string text = std::string(error.what()).substr(prefix.size());
     if (text.back() != '.' && text.back() != '?') text += '.';
     throw InputError(error.where(),
-                     fmt::format("{}: {} Expected is {}", place.path, text, expectation(note)));
+                     fmt::format("{}: {} Expected {}", place.path, text, expectation(note)));
   }
 }
 
