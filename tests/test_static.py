@@ -114,3 +114,15 @@ def test_bars_that_bend_buckle_before_the_truss_snaps(buckens, tmp_path):
     assert points[0]["kind"] == "limit point" and 0.29 < points[0]["load_factor"] < 0.33
     # The branch of straight bars is passed, too: its limit point is that of the truss.
     assert max(point["load_factor"] for point in points) == pytest.approx(force(W_LIMIT) / 1000, rel=0.02)
+
+
+def test_an_unloaded_start_of_a_path_is_balanced(buckens, tmp_path):
+    """Without gravity all forces are rounding there; none may be asked to balance to a share of the others."""
+    model = SOURCE / "examples" / "large_bend" / "large_bend.yaml"
+    buckens("static", model, "-o", "path").must(0)
+    with open(tmp_path / "path" / "sensors.csv") as file:
+        last = list(csv.reader(file))[-1]
+    assert float(last[1]) == pytest.approx(1.0)
+    # The equilibrium that `initial: {start: static}` finds with 16 elements; its table has three digits.
+    tip = [float(last[2]) - 70.711, float(last[3]) - 29.289, float(last[4])]
+    assert tip == pytest.approx([-23.808, -13.722, 53.614], abs=1e-3)

@@ -28,8 +28,11 @@ constexpr double kLongStep = 0.2;         // leaves the path of damped motion: m
 constexpr double kShortStep = 0.1;        // follows it well: less inertia
 constexpr double kFarFromBalance = 1e-2;  // of the largest force: only there steps must go downhill
 constexpr double kLeastInertia = 1e-9;  // of σ that matters: lets directions without stiffness rest
-constexpr double kFarTurned = 40.0;     // rad
-constexpr double kFarMoved = 20.0;      // model lengths
+// A force that moves no point by this share of the model's length is rounding: an unloaded path
+// begins with multipliers of that size.
+constexpr double kNoMotion = 1e-18;
+constexpr double kFarTurned = 40.0;  // rad
+constexpr double kFarMoved = 20.0;   // model lengths
 
 }  // namespace
 
@@ -59,7 +62,8 @@ void StaticDescent::set_scales() {
     const Eigen::VectorXd answers = compliance_[b]->interface().diagonal();
     softest = std::max(softest, answers.cwiseProduct(lengths.cwiseAbs2()).maxCoeff());
   }
-  if (force_ == 0.0) force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
+  no_force_ = softest > 0.0 ? kNoMotion * L / softest : 0.0;
+  if (force_ <= no_force_) force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
   StaticSystem all(model_, compliance_, {}, t_, force_);
   const StaticBalance balance = all.balance(point_);
   double fastest = 0.0;
@@ -108,7 +112,7 @@ double StaticDescent::misfit() const {
 }
 
 bool StaticDescent::is_balanced() const {
-  return force_residual() <= kForceTolerance * largest_force_ + force_rounding_ &&
+  return force_residual() <= kForceTolerance * largest_force_ + force_rounding_ + no_force_ &&
          system_->largest(residual_, Share::joint) <= closed_share(model_, point_) &&
          system_->largest(residual_, Share::elastic) <=
              kForceTolerance * system_->largest_deformation(point_) + 1e-15;

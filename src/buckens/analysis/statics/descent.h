@@ -75,6 +75,7 @@ class StaticDescent {
   double start_force_ = 0;     // largest load at the start [N]
   double largest_force_ = 0;   // at the start or the point [N]
   double force_rounding_ = 0;  // of stiff springs [N]
+  double no_force_ = 0;        // moves nothing, see set_scales() [N]
   int iterations_ = 0;
   int row_choices_ = 0;
 };
