@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "buckens/fem/mesh/cell_measure.h"
@@ -37,11 +38,29 @@ double density(const ImportedMesh& mesh, const std::string& material) {
   return found == nullptr ? 0.0 : found->rho;
 }
 
-/// Mass per volume of a solid, per area of a shell; of lines it is not taken.
+struct AreaOf {
+  double operator()(const CircleSpec& s) const {
+    return 0.25 * std::numbers::pi * s.diameter * s.diameter;
+  }
+  double operator()(const TubeSpec& s) const {
+    return 0.25 * std::numbers::pi * (s.outer_diameter * s.outer_diameter - s.inner() * s.inner());
+  }
+  double operator()(const RectangleSpec& s) const { return s.width * s.height; }
+  double operator()(const BoxSpec& s) const {
+    return s.width * s.height - (s.width - 2.0 * s.thickness) * (s.height - 2.0 * s.thickness);
+  }
+  double operator()(const GeneralSectionSpec& s) const { return s.A; }
+};
+
+/// Mass per volume of a solid, per area of a shell, per length of a line.
 double specific_mass(const ImportedMesh& mesh, const ImportedBlock& block) {
   if (block.property < 0) return 0.0;
   const auto& property = mesh.properties[static_cast<std::size_t>(block.property)];
   if (dimension_of(block.kind) == 3) return density(mesh, property.material);
+  if (dimension_of(block.kind) == 1) {
+    const double area = property.section ? std::visit(AreaOf{}, property.section->shape) : 0.0;
+    return density(mesh, property.material) * area;
+  }
   if (dimension_of(block.kind) != 2) return 0.0;
   double out = density(mesh, property.material) * property.thickness.value_or(0.0);
   for (const ImportedLayer& layer : property.layers) {

@@ -47,7 +47,7 @@ struct MeshReport {
   Eigen::AlignedBox3d box;                                  ///< [m]
   double volume = 0;                                        ///< of the solids [m³]
   Eigen::Vector3d volume_centre = Eigen::Vector3d::Zero();  ///< [m]
-  /// Of solids, shells and point masses whose density the file gives.
+  /// Of elements and point masses whose density the file gives.
   double mass = 0;
   Eigen::Vector3d mass_centre = Eigen::Vector3d::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the mass centre [kg m²]

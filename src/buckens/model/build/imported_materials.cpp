@@ -27,14 +27,25 @@ ImportedMaterials::ImportedMaterials(const fem::ImportedMesh& mesh,
         by_set_.at(static_cast<std::size_t>(element)) = &*group.material;
       }
     }
-    if (set != nullptr || base::find_named(mesh.properties, group.name) != nullptr) continue;
+    if (set != nullptr || base::find_named(mesh.properties, group.name) != nullptr ||
+        base::find_named(mesh.materials, group.name) != nullptr) {
+      continue;
+    }
     std::vector<std::string> known;
     for (const auto& property : mesh.properties) known.push_back(property.name);
     for (const auto& other : mesh.element_sets) known.push_back(other.name);
+    for (const auto& other : mesh.materials) known.push_back(other.name);
     throw InputError(group.where,
-                     fmt::format("{} has neither a property nor an element set \"{}\".{}",
-                                 mesh.file, group.name, base::suggestion(group.name, known)));
+                     fmt::format("{} has no property, element set or material \"{}\".{}", mesh.file,
+                                 group.name, base::suggestion(group.name, known)));
   }
+}
+
+const fem::MaterialSpec* ImportedMaterials::named(const std::string& name) const {
+  if (const auto* group = base::find_named(given_.materials, name)) return &*group->material;
+  const fem::MaterialSpec* own = base::find_named(mesh_.materials, name);
+  const bool is_elastic = own != nullptr && (own->E > 0.0 || own->orthotropic);
+  return !is_elastic && given_.material ? &**given_.material : own;
 }
 
 const fem::MaterialSpec* ImportedMaterials::find(const fem::ImportedBlock& block,
@@ -45,7 +56,7 @@ const fem::MaterialSpec* ImportedMaterials::find(const fem::ImportedBlock& block
     if (const auto* group = base::find_named(given_.materials, property.name)) {
       return &*group->material;
     }
-    if (!property.material.empty()) return base::find_named(mesh_.materials, property.material);
+    if (!property.material.empty()) return named(property.material);
   }
   return given_.material ? &**given_.material : nullptr;
 }
@@ -101,12 +112,11 @@ int ImportedMaterials::number(const fem::ImportedBlock& block, int element) {
 }
 
 int ImportedMaterials::number(const std::string& name) {
-  const fem::MaterialSpec* spec = nullptr;
-  if (const auto* group = base::find_named(given_.materials, name)) spec = &*group->material;
-  if (spec == nullptr) spec = base::find_named(mesh_.materials, name);
-  if (spec == nullptr) {
-    throw InputError(
-        where_, fmt::format("{} has no material \"{}\"; give it in `materials`", mesh_.file, name));
+  const fem::MaterialSpec* spec = named(name);
+  if (spec == nullptr || (!(spec->E > 0.0) && !spec->orthotropic)) {
+    throw InputError(where_, fmt::format("{}: material \"{}\" of a layer has no elastic constants; "
+                                         "give it in the model file: materials: {{\"{}\": …}}",
+                                         mesh_.file, name, name));
   }
   return number_of(*spec, -1);
 }

@@ -13,13 +13,15 @@
 namespace buckens::model {
 
 /// Which material each element of a mesh file has. In the order of precedence: `materials` by the
-/// name of an element set, then by that of the property, the file's own material, `material`.
+/// name of an element set, then by that of the property, then by that of the file's material; the
+/// file's own material if it has elastic constants; `material`.
 ///
 /// Orthotropic materials of solids lie in the axes that the file gives the property; those of the
 /// model file, too, unless they have axes of their own. (Shells have a direction per section.)
 class ImportedMaterials {
  public:
-  /// @throws InputError if a name in `materials` is neither a property nor an element set
+  /// @throws InputError if a name in `materials` is no property, element set or material of the
+  /// file
   ImportedMaterials(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
                     const std::optional<fem::DampingSpec>& damping, const SourceLocation& where);
 
@@ -39,6 +41,9 @@ class ImportedMaterials {
   }
 
  private:
+  /// What the model file or the mesh file says of a material of the mesh file; one without elastic
+  /// constants only if there is nothing else. Null if the file has none of this name.
+  const fem::MaterialSpec* named(const std::string& name) const;
   [[noreturn]] void refuse(const fem::ImportedBlock& block, const std::string& what) const;
   /// Property whose axes turn the material, −1: none.
   int turning_property(const fem::ImportedBlock& block, const fem::MaterialSpec& spec) const;

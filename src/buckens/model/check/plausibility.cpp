@@ -196,7 +196,8 @@ class Doubts {
   void look_at_file(const fem::MeshSpec& mesh) {
     for (const fem::MaterialSpec& material : mesh.imported->materials) {
       const std::size_t before = out_.size();
-      look_at_modulus("", material.E);
+      // Without elastic constants it takes those of the model file.
+      if (material.E > 0.0) look_at_modulus("", material.E);
       look_at_density("", material.rho);
       for (std::size_t k = before; k < out_.size(); ++k) {
         out_[k].text = fmt::format("material \"{}\" of {} has {}", material.name,
