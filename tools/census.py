@@ -40,6 +40,8 @@ RIGHT = [re.compile(text) for text in (
     r"fluid|acoustic|axisymmetric|hyperelastic|superelement", r"parts that nothing holds together",
     r"the mesh has no mass", r"is not a (Gmsh mesh|deck of Nastran|STEP file)",
     r"turned inside out", r"is a mechanism in itself",
+    r"no element of this deck can be part of a flexible body", r"plane and no part of a body in space",
+    r"and there is no \*NODE|the file has no \*NODE",
 )]
 
 

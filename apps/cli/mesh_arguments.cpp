@@ -57,7 +57,7 @@ fem::MassUnit MeshArguments::unit_of_mass() const {
 }
 
 fem::ImportedMesh MeshArguments::read() const {
-  if (!is_step()) return mesh_io::read_mesh_file(file);
+  if (!is_step()) return mesh_io::read_mesh_file(file, {{}, skip, only});
   if (size.empty()) {
     throw InputError({file, 0, 0},
                      "a STEP file has no elements; give their size, for example "
@@ -76,6 +76,17 @@ void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {
       "--mass-unit", arguments.mass_unit,
       "Unit of mass of the constants in the file: kg, t, g, lb or slinch; without it t\n"
       "with millimetres, else kg");
+  verb.add_option("--only", arguments.only,
+                  "Of a mesh file: the element sets, groups or properties that alone are taken")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb.add_option("--skip", arguments.skip,
+                  "Of a deck: keywords, cards and element types to leave out although they have\n"
+                  "mass or stiffness, such as --skip CELAS2,CONM1")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   verb.add_option("--size", arguments.size, "Of a STEP file: length of the edges of the elements")
       ->type_name("LENGTH");
   verb.add_option("--order", arguments.order, "Of a STEP file: order of the elements, 1 or 2")

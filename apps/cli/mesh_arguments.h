@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +16,7 @@ struct MeshArguments {
   std::string length_unit, mass_unit;  ///< empty: not given
   std::string size;                    ///< of elements, for STEP files
   int order = 2;
+  std::vector<std::string> only, skip;  ///< see fem::MeshWishes
 
   fem::LengthUnit unit_of_length() const;
   fem::MassUnit unit_of_mass() const;

@@ -256,9 +256,14 @@ MeshNotes mesh_notes(const body::BodySpec& body) {
   for (const std::string& text : complaints(report)) {
     out.complaints.push_back(fmt::format("body \"{}\": {}", body.name, text));
   }
+  for (const fem::ImportNote& note : mesh->notes) {
+    if (!note.is_doubtful) continue;
+    out.complaints.push_back(fmt::format("body \"{}\": {}", body.name, note_text(note)));
+  }
   // What the model file says instead is in the notes of `buckens mesh-info` only.
-  const auto first = std::find_if(mesh->notes.begin(), mesh->notes.end(),
-                                  [](const auto& note) { return !note.is_expected; });
+  const auto first = std::find_if(mesh->notes.begin(), mesh->notes.end(), [](const auto& note) {
+    return !note.is_expected && !note.is_doubtful;
+  });
   if (first != mesh->notes.end()) {
     std::string text = note_text(*first);
     if (mesh->notes.size() > 1) {

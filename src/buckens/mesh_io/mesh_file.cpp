@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/mesh/part_selection.h"
 #include "buckens/mesh_io/abaqus/deck.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/nastran/deck.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -18,22 +20,30 @@ namespace {
 
 struct Format {
   std::string ending;
-  fem::ImportedMesh (*read)(const std::filesystem::path&, const std::vector<std::string>& members);
+  fem::ImportedMesh (*read)(const std::filesystem::path&, const fem::MeshWishes&, SkipList&);
 };
 
 /// Decks say of every element what it is.
-template <fem::ImportedMesh (*read)(const std::filesystem::path&)>
-fem::ImportedMesh read_deck(const std::filesystem::path& path, const std::vector<std::string>&) {
-  return read(path);
+fem::ImportedMesh abaqus_deck(const std::filesystem::path& path, const fem::MeshWishes&,
+                              SkipList& skip) {
+  return read_abaqus_deck(path, skip);
+}
+
+fem::ImportedMesh nastran_deck(const std::filesystem::path& path, const fem::MeshWishes&,
+                               SkipList&) {
+  return read_nastran_deck(path);
+}
+
+/// A mesh without stiffness and mass of its own: there is nothing to leave out.
+fem::ImportedMesh gmsh_mesh(const std::filesystem::path& path, const fem::MeshWishes& wishes,
+                            SkipList&) {
+  return read_gmsh_mesh(path, wishes.members);
 }
 
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {{".inp", read_deck<read_abaqus_deck>},
-                                          {".msh", read_gmsh_mesh},
-                                          {".unv", read_gmsh_mesh},
-                                          {".bdf", read_deck<read_nastran_deck>},
-                                          {".dat", read_deck<read_nastran_deck>},
-                                          {".nas", read_deck<read_nastran_deck>}};
+  static const std::vector<Format> all = {{".inp", abaqus_deck},  {".msh", gmsh_mesh},
+                                          {".unv", gmsh_mesh},    {".bdf", nastran_deck},
+                                          {".dat", nastran_deck}, {".nas", nastran_deck}};
   return all;
 }
 
@@ -50,11 +60,16 @@ std::vector<std::string> mesh_file_endings() {
   return out;
 }
 
-fem::ImportedMesh read_mesh_file(const std::filesystem::path& path,
-                                 const std::vector<std::string>& members) {
+fem::ImportedMesh read_mesh_file(const std::filesystem::path& path, const fem::MeshWishes& wishes) {
   const std::string ending = lower_case(path.extension().string());
   for (const Format& format : formats()) {
-    if (format.ending == ending) return format.read(path, members);
+    if (format.ending != ending) continue;
+    SkipList skip(wishes.skip);
+    fem::ImportedMesh mesh = format.read(path, wishes, skip);
+    // First, since the user asked for it.
+    const std::vector<fem::ImportNote> skipped = skip.notes();
+    mesh.notes.insert(mesh.notes.begin(), skipped.begin(), skipped.end());
+    return wishes.only.empty() ? mesh : fem::only_part(mesh, wishes.only);
   }
   throw InputError(
       {path.string(), 0, 0},

@@ -6,17 +6,16 @@
 #include <vector>
 
 #include "buckens/fem/mesh/imported_mesh.h"
+#include "buckens/fem/mesh/mesh_wishes.h"
 
 namespace buckens::mesh_io {
 
 /// Reads a mesh in the way its file name ends. Lengths, masses and constants stay in the units of
 /// the file.
-/// @param members groups of surfaces and lines that are elements also where they lie on others, see
-/// mesh_of_groups()
-/// @throws InputError with file and line where the contents cannot be, IoError if the file cannot
-/// be read
+/// @throws InputError with file and line where the contents cannot be, or if a wish names what the
+/// file does not have; IoError if the file cannot be read
 fem::ImportedMesh read_mesh_file(const std::filesystem::path& path,
-                                 const std::vector<std::string>& members = {});
+                                 const fem::MeshWishes& wishes = {});
 
 /// Endings of the files that can be read: ".inp", ".msh" …
 std::vector<std::string> mesh_file_endings();

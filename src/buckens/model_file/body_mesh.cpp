@@ -51,9 +51,11 @@ void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
   if (mesh == nullptr || !mesh->is_file() || mesh->imported) return;
   const auto& source = std::get<fem::MeshFileSpec>(mesh->shape);
   try {
-    std::vector<std::string> members;
-    for (const fem::GroupSectionSpec& section : mesh->sections) members.push_back(section.name);
-    fem::ImportedMesh read = mesh_io::read_mesh_file(full_path(source.path, context), members);
+    fem::MeshWishes wishes{{}, mesh->skip, mesh->only};
+    for (const fem::GroupSectionSpec& section : mesh->sections) {
+      wishes.members.push_back(section.name);
+    }
+    fem::ImportedMesh read = mesh_io::read_mesh_file(full_path(source.path, context), wishes);
     mesh->imported = std::make_shared<const fem::ImportedMesh>(fem::in_si(
         std::move(read), fem::size_of(mesh->unit_of_length()), fem::size_of(mesh->unit_of_mass())));
   } catch (const IoError& error) {

@@ -131,6 +131,22 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
   judge_shape(whole, bent, deformation, summary);
 }
 
+namespace {
+
+/// What the meshes of other programs lack because the model file wants parts of them left out.
+void doubt_meshes(const model::ModelDescription& description, results::RunSummary& summary) {
+  for (const body::BodySpec& body : description.bodies) {
+    const auto* mesh = std::get_if<fem::MeshSpec>(&body.kind);
+    if (mesh == nullptr || !mesh->imported) continue;
+    for (const fem::ImportNote& note : mesh->imported->notes) {
+      if (!note.is_doubtful) continue;
+      summary.trust.push_back(fmt::format("body \"{}\": {}", body.name, note.text));
+    }
+  }
+}
+
+}  // namespace
+
 void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& summary) const {
   summary.steps = steps_;
   fill_step_control(march, summary.step_control);
@@ -146,6 +162,7 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   summary.measures.emplace_back(
       "steps_with_repeated_solve",
       steps_ > 0 ? static_cast<double>(repeated_solves_) / static_cast<double>(steps_) : 0.0);
+  doubt_meshes(built_.description, summary);
   for (const model::WholeBody& whole : built_.model.wholes)
     add_whole(whole, march.ladder(), summary);
   if (!is_finite_) {

@@ -90,7 +90,7 @@ std::map<std::string, std::string> texts_of_a_run(const std::filesystem::path& p
 TEST(DecimalComma, DoesNotChangeWhatIsRead) {
   const std::filesystem::path mesh =
       std::filesystem::path(buckens::test::kSourceDirectory) / "tests/parts/crank_web_41.msh";
-  const fem::ImportedMesh plain_mesh = mesh_io::read_mesh_file(mesh, {});
+  const fem::ImportedMesh plain_mesh = mesh_io::read_mesh_file(mesh);
   const model::ModelDescription plain =
       model_file::read_model_text(model_file::kSampleModel, "sample.yaml");
   const CommaLocale comma;
@@ -105,7 +105,7 @@ TEST(DecimalComma, DoesNotChangeWhatIsRead) {
   for (std::size_t k = 0; k < plain.parameters.size(); ++k) {
     EXPECT_EQ(model.parameters[k].value, plain.parameters[k].value);
   }
-  EXPECT_EQ(mesh_io::read_mesh_file(mesh, {}).positions, plain_mesh.positions);
+  EXPECT_EQ(mesh_io::read_mesh_file(mesh).positions, plain_mesh.positions);
 }
 
 TEST(DecimalComma, DoesNotChangeWhatIsWritten) {

@@ -129,6 +129,8 @@ struct ImportNote {
   int count = 1;     ///< how often the same was met
   /// The model file says these things in any case (loads, supports, output): no reason to worry.
   bool is_expected = false;
+  /// Mass or stiffness is missing because the model file wants it so: results are to be doubted.
+  bool is_doubtful = false;
 };
 
 /// A mesh as a file holds it, in the units of the file: what all readers of meshes deliver.

@@ -179,6 +179,7 @@ struct MeshSpec : GroupMaterials {
       shape;
   std::optional<LengthUnit> length_unit;
   std::optional<MassUnit> mass_unit;
+  std::vector<std::string> only, skip;
 
   bool is_file() const { return std::holds_alternative<MeshFileSpec>(shape); }
   LengthUnit unit_of_length() const { return length_unit.value_or(LengthUnit::m); }
@@ -197,6 +198,17 @@ struct MeshSpec : GroupMaterials {
                       "of a file: unit of mass of the constants in it; time is in seconds")
               .like("t")
               .otherwise("t with millimetres, so that stresses are in MPa; else kg"));
+    visit(base::field("only", only,
+                      "of a file: the element set, physical group, instance or property that alone "
+                      "becomes the body, or several; links to the rest are left out")
+              .like("HOUSING")
+              .otherwise("everything in the file"));
+    visit(base::field("skip", skip,
+                      "of a file: keywords, cards and element types that are left out although "
+                      "they have mass or stiffness; how many there were stands in the notes and "
+                      "in `trust`")
+              .like("[CELAS2, NONSTRUCTURAL MASS]")
+              .otherwise("nothing; what is not supported is refused"));
     visit(base::field("integration", integration,
                       "of a file: how its hex8 are integrated; `full` takes their shape functions "
                       "alone, as plain C3D8 of other programs do. Generated shapes have a key of "

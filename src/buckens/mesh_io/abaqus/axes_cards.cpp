@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cctype>
 #include <numbers>
 #include <optional>
 
@@ -23,6 +24,12 @@ std::optional<Matrix3d> axes_from(const Vector3d& a, const Vector3d& b) {
   out.col(2) = normal.normalized();
   out.col(1) = out.col(2).cross(out.col(0));
   return out;
+}
+
+/// Whether the first value is a name in place of a number.
+bool is_by_distribution(AbaqusReading& in) {
+  const std::string text = in.lines.first_cell_ahead();
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0;
 }
 
 /// The points a, b and c that span rectangular axes.
@@ -69,6 +76,7 @@ void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
   const bool from_z = out.system == "Z RECTANGULAR";
   if (from_z) out.system = "RECTANGULAR";
   if (!definition.empty() && definition != "COORDINATES") out.system = "DEFINITION=" + definition;
+  if (out.system == "RECTANGULAR" && is_by_distribution(in)) out.system = "a distribution";
   if (out.system == "RECTANGULAR") {
     out.axes = read_axes(in, keyword, from_z);
     read_additional_rotation(in, out);
@@ -78,6 +86,26 @@ void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
                                        out.system));
   }
   in.scope->orientations[upper(out.name)] = out;
+}
+
+void read_system(AbaqusReading& in, const DeckKeyword& keyword) {
+  in.system_axes.setIdentity();
+  in.system_origin.setZero();
+  DeckRow row;
+  if (!in.lines.next_row(row)) return;
+  const Vector3d origin = read_vector(in.lines, row, 0, "coordinate of the origin");
+  in.system_origin = origin;
+  if (row.cell(3).empty() && row.cell(4).empty() && row.cell(5).empty()) return;
+  const Vector3d on_x = read_vector(in.lines, row, 3, "coordinate on the x axis") - origin;
+  DeckRow second;
+  // Without a third point the z axis stays.
+  Vector3d in_plane = Vector3d::UnitZ().cross(on_x);
+  if (in.lines.next_row(second)) {
+    in_plane = read_vector(in.lines, second, 0, "coordinate in the x-y plane") - origin;
+  }
+  const auto axes = axes_from(on_x, in_plane);
+  if (!axes) in.lines.fail(keyword.place, "the points of *SYSTEM lie on one line and give no axes");
+  in.system_axes = *axes;
 }
 
 void read_transform(AbaqusReading& in, const DeckKeyword& keyword) {

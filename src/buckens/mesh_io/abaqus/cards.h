@@ -6,6 +6,8 @@
 
 #include "buckens/mesh_io/abaqus/lines.h"
 #include "buckens/mesh_io/abaqus/scope.h"
+#include "buckens/mesh_io/label_index.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -15,10 +17,17 @@ struct AbaqusReading {
   AbaqusDeck deck;
   AbaqusScope* scope;                     ///< where definitions go at the moment
   fem::MaterialSpec* material = nullptr;  ///< that of the last *MATERIAL
-  AbaqusLink* coupling = nullptr;         ///< of the last *COUPLING, until its kind is known
+  /// Of *SYSTEM: nodes are at axes × coordinates + origin.
+  Eigen::Matrix3d system_axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d system_origin = Eigen::Vector3d::Zero();
+  std::int64_t num_generated = 0;  ///< nodes and elements by *NGEN and its kin
+  AbaqusLink* coupling = nullptr;  ///< of the last *COUPLING, until its kind is known
   std::map<std::string, fem::ImportNote> repeated;  ///< notes that are counted, by their text
 
-  explicit AbaqusReading(const std::filesystem::path& path) : lines(path), scope(&deck.root) {}
+  SkipList& skip;  ///< what the model file wants left out
+
+  AbaqusReading(const std::filesystem::path& path, SkipList& left_out)
+      : lines(path), scope(&deck.root), skip(left_out) {}
 
   /// Adds a note, or counts it if it is there.
   /// @param is_expected see fem::ImportNote
@@ -40,14 +49,24 @@ void read_node_set(AbaqusReading& in, const DeckKeyword& keyword);
 void read_element_set(AbaqusReading& in, const DeckKeyword& keyword);
 void read_surface(AbaqusReading& in, const DeckKeyword& keyword);
 
+// Nodes and elements that are described in place of listed.
+void read_ngen(AbaqusReading& in, const DeckKeyword& keyword);
+void read_nfill(AbaqusReading& in, const DeckKeyword& keyword);
+void read_ncopy(AbaqusReading& in, const DeckKeyword& keyword);
+void read_elgen(AbaqusReading& in, const DeckKeyword& keyword);
+void read_elcopy(AbaqusReading& in, const DeckKeyword& keyword);
+
 // Sections, masses, axes.
 void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword);
 void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword);
 void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword);
 void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword);
+void read_nodal_thickness(AbaqusReading& in, const DeckKeyword& keyword);
+void read_spring(AbaqusReading& in, const DeckKeyword& keyword);
 void read_mass(AbaqusReading& in, const DeckKeyword& keyword);
 void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword);
 void read_orientation(AbaqusReading& in, const DeckKeyword& keyword);
+void read_system(AbaqusReading& in, const DeckKeyword& keyword);
 void read_transform(AbaqusReading& in, const DeckKeyword& keyword);
 
 // Materials.
@@ -64,6 +83,8 @@ void read_kinematic_coupling(AbaqusReading& in, const DeckKeyword& keyword);
 void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword);
 void read_mpc(AbaqusReading& in, const DeckKeyword& keyword);
 void read_equation(AbaqusReading& in, const DeckKeyword& keyword);
+void read_tie(AbaqusReading& in, const DeckKeyword& keyword);
+void read_distributing_coupling(AbaqusReading& in, const DeckKeyword& keyword);
 
 /// The set with this name in a map of sets, made if it is not there.
 AbaqusSet& set_called(std::map<std::string, AbaqusSet>& sets, const std::string& name);

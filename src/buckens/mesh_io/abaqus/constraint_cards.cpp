@@ -22,6 +22,12 @@ int variable_of(AbaqusReading& in, std::string_view text, DeckPlace place) {
                                    std::string(text.substr(0, 40))));
 }
 
+/// Temperatures, pressures and potentials, which no body here has.
+bool is_elsewhere(std::string_view text) {
+  const auto value = files::deck_integer(text);
+  return value && (*value == 0 || (*value > 6 && *value <= 1000));
+}
+
 /// Adds first … last degree of freedom; an empty row means all.
 void add_variables(AbaqusReading& in, const DeckRow& row, std::size_t first,
                    std::array<bool, 6>& variables) {
@@ -29,6 +35,7 @@ void add_variables(AbaqusReading& in, const DeckRow& row, std::size_t first,
     variables.fill(true);
     return;
   }
+  if (is_elsewhere(row.cell(first))) return;
   const int from = variable_of(in, row.cell(first), row.place);
   const int to =
       row.cell(first + 1).empty() ? from : variable_of(in, row.cell(first + 1), row.place);
@@ -130,11 +137,11 @@ void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword) {
   link.reference = reference;
   for (const char* key : {"NSET", "TIENSET"}) {
     const std::string name = in.optional_parameter(keyword, key);
-    if (!name.empty()) link.nodes.push_back(name);
+    if (!name.empty()) link.node_sets.push_back(name);
   }
   const std::string elements = in.optional_parameter(keyword, "ELSET");
   if (!elements.empty()) link.element_sets.push_back(elements);
-  const bool has_none = link.nodes.empty() && link.element_sets.empty();
+  const bool has_none = link.node_sets.empty() && link.element_sets.empty();
   const std::string pinned = in.optional_parameter(keyword, "PINNSET");
   if (has_none && pinned.empty()) {
     in.lines.fail(keyword.place, "*RIGID BODY needs ELSET, NSET, TIE NSET or PIN NSET");
@@ -146,8 +153,84 @@ void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword) {
   if (pinned.empty()) return;
   AbaqusLink& pins = add_link(in, AbaqusLinkKind::rigid_body, keyword.place);
   pins.reference = reference;
-  pins.nodes.push_back(pinned);
+  pins.node_sets.push_back(pinned);
   pins.variables = {true, true, true, false, false, false};
+}
+
+namespace {
+
+/// Nodes that stay in the plane of the first three, or on the line of the first two.
+void read_aligned_nodes(AbaqusReading& in, DeckRow row, const std::string& type) {
+  AbaqusLink& link = add_link(
+      in, type == "PLANE" ? AbaqusLinkKind::mpc_plane : AbaqusLinkKind::mpc_straight, row.place);
+  link.name = type;
+  for (std::size_t first = 1;; first = 0) {
+    for (std::size_t k = first; k < row.cells.size(); ++k) {
+      if (!row.cell(k).empty()) link.nodes.emplace_back(row.cell(k));
+    }
+    if (!row.continues || !in.lines.next_row(row)) return;
+  }
+}
+
+/// What does not hold a free body: the mean rotation of nodes, which only a support or a load would
+/// use, and distances that are merely bounded.
+bool pass_over_mpc(AbaqusReading& in, DeckRow& row, const std::string& type) {
+  if (type != "MEANROT" && type != "DIST") return false;
+  in.note(row.place,
+          type == "DIST"
+              ? "*MPC, DIST is ignored: a largest distance is a contact, which a body does not have"
+              : "*MPC, MEANROT is ignored: it gives a mean rotation a name for supports and loads, "
+                "which come from the model file",
+          type == "MEANROT");
+  while (row.continues && in.lines.next_row(row)) {
+  }
+  return true;
+}
+
+}  // namespace
+
+void read_tie(AbaqusReading& in, const DeckKeyword& keyword) {
+  for (const char* kind : {"CYCLICSYMMETRY", "MULTISTAGE", "FLUIDPERIODIC", "FLUIDCYCLIC"}) {
+    if (!keyword.has(kind)) continue;
+    return in.note(keyword.place,
+                   fmt::format("*TIE, {} is ignored: the body is the sector or stage that the deck "
+                               "has, with free faces where others follow",
+                               kind));
+  }
+  AbaqusTie tie;
+  tie.name = in.optional_parameter(keyword, "NAME");
+  tie.ties_rotations = !keyword.has("NOROTATION");
+  if (const std::string text = in.optional_parameter(keyword, "POSITIONTOLERANCE"); !text.empty()) {
+    tie.tolerance = files::deck_number(text);
+    if (!tie.tolerance || *tie.tolerance < 0.0) {
+      in.lines.fail(keyword.place, fmt::format("POSITION TOLERANCE={} is not a distance", text));
+    }
+  }
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    tie.slave = row.cell(0);
+    tie.master = row.cell(1);
+    tie.place = row.place;
+    if (tie.slave.empty() || tie.master.empty()) {
+      in.lines.fail(row.place, "a line of *TIE names the slave surface and the master surface");
+    }
+    in.scope->ties.push_back(tie);
+  }
+}
+
+/// Of CalculiX: the element set holds one DCOUP3D on the reference node; nodes or sets with weights
+/// follow.
+void read_distributing_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusLink& link = add_link(in, AbaqusLinkKind::distributing, keyword.place);
+  link.element_sets.push_back(in.parameter(keyword, "ELSET"));
+  link.name = link.element_sets.front();
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    link.nodes.emplace_back(row.cell(0));
+    link.weights.push_back(in.lines.number_or(row, 1, 1.0, "weight of the nodes"));
+    if (!(link.weights.back() > 0.0)) in.lines.fail(row.place, "a weight must be positive");
+  }
+  if (link.nodes.empty()) in.lines.fail(keyword.place, "the coupled nodes are missing");
 }
 
 void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
@@ -158,6 +241,11 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
   DeckRow row;
   while (in.lines.next_row(row)) {
     const std::string type = upper(row.cell(0));
+    if (type == "PLANE" || type == "STRAIGHT") {
+      read_aligned_nodes(in, row, type);
+      continue;
+    }
+    if (pass_over_mpc(in, row, type)) continue;
     AbaqusLinkKind kind = AbaqusLinkKind::mpc_beam;
     if (type == "TIE") {
       kind = AbaqusLinkKind::mpc_tie;
@@ -166,9 +254,10 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
     } else if (type == "LINK") {
       kind = AbaqusLinkKind::mpc_link;
     } else if (type != "BEAM") {
-      in.lines.fail(row.place, fmt::format("*MPC of type \"{}\" is not supported; BEAM, TIE, PIN "
-                                           "and LINK are. Write it as *EQUATION",
-                                           type.substr(0, 40)));
+      in.lines.fail(row.place, fmt::format("*MPC of type \"{}\" is not supported; BEAM, TIE, PIN, "
+                                           "LINK, PLANE and STRAIGHT are. Write it as "
+                                           "*EQUATION{}",
+                                           type.substr(0, 40), SkipList::remedy("MPC")));
     }
     if (kind == AbaqusLinkKind::mpc_beam) {
       in.note(row.place,
@@ -185,11 +274,56 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
   }
 }
 
+void read_spring(AbaqusReading& in, const DeckKeyword& keyword) {
+  AbaqusSpring& spring = in.scope->springs.emplace_back();
+  spring.element_set = in.parameter(keyword, "ELSET");
+  spring.place = keyword.place;
+  spring.is_turned = keyword.has("ORIENTATION");
+  DeckRow row;
+  if (!in.lines.next_row_or_blank(row)) {
+    in.lines.fail(keyword.place,
+                  "the degrees of freedom and the stiffness of the spring are missing");
+  }
+  if (row.cells.size() == 1 && !files::deck_integer(row.cell(0))) {
+    // Without the empty line that SPRINGA has in place of degrees of freedom.
+    spring.stiffness = in.lines.number(row, 0, "stiffness of the spring");
+    return;
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    // Some decks have zeros where the line may stay empty.
+    const std::string_view text = row.cell(k);
+    if (!text.empty() && text != "0") spring.variables[k] = variable_of(in, text, row.place);
+  }
+  if (spring.variables[1] < 0) spring.variables[1] = spring.variables[0];
+  if (!in.lines.next_row(row)) {
+    in.lines.fail(keyword.place, "the stiffness of the spring is missing on the second line");
+  }
+  spring.stiffness = in.lines.number(row, 0, "stiffness of the spring");
+  if (keyword.has("NONLINEAR")) {
+    // Pairs of force and elongation: the slope where it passes zero.
+    double force = spring.stiffness, at = in.lines.number(row, 1, "elongation of the spring");
+    spring.stiffness = 0;
+    for (bool is_there = false; in.lines.next_row(row);) {
+      const double next = in.lines.number(row, 0, "force of the spring");
+      const double where = in.lines.number(row, 1, "elongation of the spring");
+      if (!is_there && where > at) spring.stiffness = (next - force) / (where - at);
+      is_there = is_there || where > 0.0;
+      force = next;
+      at = where;
+    }
+    in.note(keyword.place, "*SPRING, NONLINEAR: the stiffness at zero elongation is taken");
+  }
+  if (spring.stiffness >= 0.0) return;
+  in.lines.fail(keyword.place,
+                fmt::format("the stiffness {:g} of the spring is negative", spring.stiffness));
+}
+
 void read_equation(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
   DeckRow row;
   while (in.lines.next_row(row)) {
     AbaqusEquation& equation = in.scope->equations.emplace_back();
     equation.place = row.place;
+    bool is_other = false;  // of temperatures or pressures
     const auto count = files::deck_integer(row.cell(0));
     if (!count || *count < 1 || *count > kMostTerms || row.cells.size() != 1) {
       in.lines.fail(row.place, "the number of terms of the equation must be alone on this line");
@@ -202,6 +336,10 @@ void read_equation(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
       for (std::size_t i = 0; i < row.cells.size(); i += 3) {
         AbaqusEquation::Term& term = equation.terms.emplace_back();
         term.reference = row.cell(i);
+        if (is_elsewhere(row.cell(i + 1))) {
+          is_other = true;
+          continue;
+        }
         term.variable = variable_of(in, row.cell(i + 1), row.place);
         term.coefficient = in.lines.number(row, i + 2, "coefficient");
       }
@@ -209,6 +347,12 @@ void read_equation(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
     if (static_cast<std::int64_t>(equation.terms.size()) > *count) {
       in.lines.fail(row.place, fmt::format("the equation has {} terms, here are {}", *count,
                                            equation.terms.size()));
+    }
+    if (is_other) {
+      in.note(equation.place, "*EQUATION between temperatures, pressures or potentials is ignored",
+              true);
+      in.scope->equations.pop_back();
+      continue;
     }
     if (equation.terms.front().coefficient == 0.0) {
       in.lines.fail(equation.place,

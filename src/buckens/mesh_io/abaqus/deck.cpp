@@ -11,6 +11,7 @@
 
 #include "buckens/base/nearest.h"
 #include "buckens/mesh_io/abaqus/cards.h"
+#include "buckens/mesh_io/abaqus/keywords.h"
 #include "buckens/mesh_io/abaqus/mesh.h"
 
 namespace buckens::mesh_io {
@@ -27,6 +28,11 @@ struct NamedCard {
 constexpr NamedCard kCards[] = {
     {"NODE", read_nodes},
     {"ELEMENT", read_elements},
+    {"NGEN", read_ngen},
+    {"NFILL", read_nfill},
+    {"NCOPY", read_ncopy},
+    {"ELGEN", read_elgen},
+    {"ELCOPY", read_elcopy},
     {"NSET", read_node_set},
     {"ELSET", read_element_set},
     {"SURFACE", read_surface},
@@ -39,6 +45,8 @@ constexpr NamedCard kCards[] = {
     {"ROTARYINERTIA", read_rotary_inertia},
     {"ORIENTATION", read_orientation},
     {"TRANSFORM", read_transform},
+    {"SYSTEM", read_system},
+    {"SPRING", read_spring},
     {"MATERIAL", read_material},
     {"ELASTIC", read_elastic},
     {"DENSITY", read_density},
@@ -50,24 +58,15 @@ constexpr NamedCard kCards[] = {
     {"RIGIDBODY", read_rigid_body},
     {"MPC", read_mpc},
     {"EQUATION", read_equation},
+    {"TIE", read_tie},
+    {"NODALTHICKNESS", read_nodal_thickness},
+    {"DISTRIBUTINGCOUPLING", read_distributing_coupling},
 };
-
-/// Keywords that change the mesh in ways that are not read: without them the body would be another.
-constexpr std::string_view kRefused[] = {"NGEN",  "NCOPY",  "NFILL",  "NMAP",
-                                         "ELGEN", "ELCOPY", "SYSTEM", "MODELCHANGE"};
-
-/// Keywords that are passed over without a word.
-constexpr std::string_view kSilent[] = {"HEADING", "PREPRINT", "ENDASSEMBLY"};
-
-template <std::size_t n>
-bool is_among(const std::string_view (&list)[n], const std::string& name) {
-  return std::find(std::begin(list), std::end(list), name) != std::end(list);
-}
 
 /// Reads keyword by keyword and keeps track of parts, instances and steps.
 class DeckReader {
  public:
-  explicit DeckReader(const std::filesystem::path& path) : in_(path) {}
+  DeckReader(const std::filesystem::path& path, SkipList& skip) : in_(path, skip) {}
 
   fem::ImportedMesh run() {
     DeckKeyword keyword;
@@ -82,12 +81,10 @@ class DeckReader {
   }
 
  private:
+  /// Some decks have a stray line before the first keyword; files that are no decks have many.
   void check_beginning() {
     DeckRow row;
-    if (!in_.lines.next_row(row)) return;
-    in_.lines.fail(row.place,
-                   "this line comes before any keyword; a deck of Abaqus or CalculiX begins with a "
-                   "line such as *HEADING or *NODE");
+    if (in_.lines.next_row(row)) before_keywords_ = row.place;
   }
 
   static std::string end_of(const std::string& name) { return "*END " + name; }
@@ -100,6 +97,9 @@ class DeckReader {
                      "*COUPLING must be followed by *KINEMATIC or "
                      "*DISTRIBUTING");
     }
+    if (name.empty()) return in_.note(keyword.place, "a lone star is taken as a comment");
+    if (in_.skip.takes(name, line_in_main(keyword.place))) return;
+    if (is_below_coupling && in_.skip.has("COUPLING")) return;
     if (name == "STEP") return skip_step(keyword);
     if (name == "PART" || name == "INSTANCE") return open(keyword);
     if (name == "ENDPART" || name == "ENDINSTANCE") return close(keyword);
@@ -107,47 +107,38 @@ class DeckReader {
       if (!open_.name.empty()) refuse_nested(keyword);
       return;
     }
-    if (is_among(kSilent, name)) return;
-    if (is_among(kRefused, name)) {
-      in_.lines.fail(keyword.place,
-                     fmt::format("{} is not supported; write the deck with all nodes "
-                                 "and elements listed",
-                                 keyword.written));
-    }
     const auto* card = std::find_if(std::begin(kCards), std::end(kCards),
                                     [&](const NamedCard& known) { return known.name == name; });
     if (card != std::end(kCards)) return card->read(in_, keyword);
-    in_.note(keyword.place, ignored(keyword));
+    pass_over(keyword);
   }
 
-  static std::string ignored(const DeckKeyword& keyword) {
-    static constexpr std::string_view kFromModel[] = {"BOUNDARY", "AMPLITUDE", "INITIALCONDITIONS",
-                                                      "CLOAD",    "DLOAD",     "BASEMOTION"};
-    static constexpr std::string_view kHolding[] = {"TIE",
-                                                    "CONTACTPAIR",
-                                                    "CONTACT",
-                                                    "DISTRIBUTINGCOUPLING",
-                                                    "EMBEDDEDELEMENT",
-                                                    "NONSTRUCTURALMASS",
-                                                    "SHELLTOSOLIDCOUPLING",
-                                                    "FASTENER",
-                                                    "RELEASE",
-                                                    "NORMAL",
-                                                    "BEAMSECTIONOFFSET",
-                                                    "CENTROID",
-                                                    "SHEARCENTER"};
-    if (is_among(kFromModel, keyword.name)) {
-      return fmt::format(
-          "{} is ignored: loads, supports and initial values come from the model file",
-          keyword.written);
+  /// Lines of included files would mislead.
+  static int line_in_main(DeckPlace place) { return place.file == 0 ? place.line : 0; }
+
+  void pass_over(const DeckKeyword& keyword) {
+    const auto note = [&](const char* what, bool is_expected) {
+      in_.note(keyword.place, fmt::format("{} is ignored{}", keyword.written, what), is_expected);
+    };
+    switch (role_of_keyword(keyword.name)) {
+      case KeywordRole::silent:
+        return;
+      case KeywordRole::elsewhere:
+        return note(": loads, supports and initial values come from the model file", true);
+      case KeywordRole::weightless:
+        return note(": it has neither mass nor stiffness in a linear elastic body", true);
+      case KeywordRole::nonlinear:
+        return note(": materials are linear elastic", false);
+      case KeywordRole::periodic:
+        return note(": the body is the part of the whole that the deck has", false);
+      case KeywordRole::holding:
+        in_.lines.fail(keyword.place,
+                       fmt::format("{} is not supported, and without it the body would have "
+                                   "another mesh, mass or stiffness{}",
+                                   keyword.written, SkipList::remedy(keyword.written.substr(1))));
+      case KeywordRole::unknown:
+        return note(": it is not a keyword that is known here", false);
     }
-    if (is_among(kHolding, keyword.name)) {
-      return fmt::format(
-          "{} is ignored, although it changes how the parts hold together, how stiff they are or "
-          "what they weigh",
-          keyword.written);
-    }
-    return fmt::format("{} is ignored", keyword.written);
   }
 
   void skip_step(const DeckKeyword& step) {
@@ -243,20 +234,40 @@ class DeckReader {
                      "*COUPLING must be followed by *KINEMATIC or "
                      "*DISTRIBUTING");
     }
-    if (!in_.deck.parts.empty() && in_.deck.instances.empty()) {
-      in_.lines.fail({0, 0},
-                     "the deck has parts but no *INSTANCE that places them in the *ASSEMBLY");
-    }
+    if (in_.deck.instances.empty()) place_parts();
     const bool has_nodes =
         !in_.deck.root.nodes.ids.empty() ||
         std::any_of(in_.deck.instances.begin(), in_.deck.instances.end(),
                     [](const auto& instance) { return !instance.scope.nodes.ids.empty(); });
-    if (!has_nodes) {
-      in_.lines.fail({0, 0},
-                     "the file has no *NODE and so no mesh; is it a deck of Abaqus or "
-                     "CalculiX?");
+    if (!has_nodes) refuse_without_nodes();
+    if (before_keywords_) {
+      in_.note(*before_keywords_, "lines before the first keyword are taken as comments");
     }
     for (auto& [text, note] : in_.repeated) in_.deck.notes.push_back(note);
+  }
+
+  [[noreturn]] void refuse_without_nodes() {
+    if (before_keywords_) {
+      in_.lines.fail(*before_keywords_,
+                     "this line comes before any keyword, and there is no *NODE; a deck of Abaqus "
+                     "or CalculiX begins with a line such as *HEADING or *NODE");
+    }
+    in_.lines.fail({0, 0},
+                   "the file has no *NODE and so no mesh; is it a deck of Abaqus or CalculiX?");
+  }
+
+  /// Without an *ASSEMBLY parts are where they were drawn.
+  void place_parts() {
+    for (const auto& [key, part] : in_.deck.parts) {
+      AbaqusInstance& instance = in_.deck.instances.emplace_back();
+      instance.name = part.name;
+      instance.scope = part;
+    }
+    if (in_.deck.parts.empty()) return;
+    in_.deck.notes.push_back(
+        {"the deck has parts but no *INSTANCE that places them; each is taken once, where it was "
+         "drawn",
+         0, static_cast<int>(in_.deck.parts.size())});
   }
 
   /// What a copy of a part costs.
@@ -271,7 +282,9 @@ class DeckReader {
         }
       }
     }
-    for (const auto& [key, surface] : part.surfaces) count += 1 + surface.items.size();
+    for (const auto* all : {&part.surfaces, &part.node_surfaces}) {
+      for (const auto& [key, surface] : *all) count += 1 + surface.items.size();
+    }
     for (const AbaqusEquation& equation : part.equations) count += 1 + equation.terms.size();
     return count + part.sections.size() + part.links.size();
   }
@@ -282,6 +295,7 @@ class DeckReader {
   DeckKeyword open_;  ///< the *PART or *INSTANCE that has not ended; its name is empty otherwise
   std::set<std::string> instance_names_;
   std::size_t entries_of_instances_ = 0;
+  std::optional<DeckPlace> before_keywords_;  ///< the first line, if it is no keyword
 };
 
 }  // namespace
@@ -309,8 +323,13 @@ std::string AbaqusReading::optional_parameter(const DeckKeyword& keyword, const 
   return value == nullptr ? "" : *value;
 }
 
+fem::ImportedMesh read_abaqus_deck(const std::filesystem::path& path, SkipList& skip) {
+  return DeckReader(path, skip).run();
+}
+
 fem::ImportedMesh read_abaqus_deck(const std::filesystem::path& path) {
-  return DeckReader(path).run();
+  SkipList skip;
+  return read_abaqus_deck(path, skip);
 }
 
 }  // namespace buckens::mesh_io

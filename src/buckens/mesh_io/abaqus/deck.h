@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "buckens/fem/mesh/imported_mesh.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -12,8 +13,11 @@ namespace buckens::mesh_io {
 /// Parts are placed as their instances say. Steps, boundary conditions and everything else that is
 /// not the body itself is left out and listed in the notes. What each keyword becomes stands in
 /// docs/tutorials/meshes-abaqus.md.
+/// @param skip keywords and types of elements to leave out; counts what it meets
 /// @throws InputError with file and line, also of included files; IoError if the deck itself cannot
 /// be read
+fem::ImportedMesh read_abaqus_deck(const std::filesystem::path& path, SkipList& skip);
+/// The same with nothing left out.
 fem::ImportedMesh read_abaqus_deck(const std::filesystem::path& path);
 
 }  // namespace buckens::mesh_io

@@ -18,7 +18,9 @@ enum class AbaqusRole {
   bar,
   mass,            ///< MASS
   rotary_inertia,  ///< ROTARYI
-  left_out,        ///< springs, connectors, rigid and surface elements
+  spring,          ///< SPRING2, SPRINGA
+  plane,           ///< CPS, CPE: passed over beside others, shells where there are no others
+  left_out,        ///< dashpots, connectors, rigid and surface elements
 };
 
 /// Whether elements become elements of the body.

@@ -48,6 +48,13 @@ std::vector<std::string_view> split_keyword(std::string_view line) {
   return out;
 }
 
+/// Many decks have a comma at the end of a keyword line and go on with numbers.
+bool begins_as_data(std::string_view line) {
+  if (line.empty()) return true;
+  const char c = line.front();
+  return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '+' || c == '.';
+}
+
 std::string unquoted(std::string_view text) {
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
     text = text.substr(1, text.size() - 2);
@@ -197,7 +204,7 @@ bool AbaqusLines::next_keyword(DeckKeyword& out) {
     if (!line_.starts_with('*')) continue;
     const DeckPlace place = place_;
     std::string line(line_);
-    while (line.ends_with(',') && peek() && !line_.starts_with('*')) {
+    while (line.ends_with(',') && peek() && !line_.starts_with('*') && !begins_as_data(line_)) {
       line += line_;
       has_line_ = false;
       if (line.size() > kLongestKeyword) fail(place, "the keyword line is too long");
@@ -214,7 +221,7 @@ DeckKeyword AbaqusLines::parse_keyword(std::string line, DeckPlace place) const 
   const auto parts = split_keyword(line);
   out.name = squeezed(parts[0].substr(1));
   out.written = upper(parts[0].substr(0, 40));
-  if (out.name.empty()) fail(place, "found a lone star; a keyword such as *NODE must follow it");
+  if (out.name.empty()) return out;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (parts[i].empty()) continue;
     const std::size_t equals = parts[i].find('=');
@@ -255,6 +262,11 @@ bool AbaqusLines::next_row(DeckRow& out, bool with_blank) {
     out.cells.pop_back();
   }
   return true;
+}
+
+std::string AbaqusLines::first_cell_ahead() {
+  if (!peek() || line_.starts_with('*')) return "";
+  return std::string(files::stripped(line_.substr(0, line_.find(','))));
 }
 
 double AbaqusLines::number(const DeckRow& row, std::size_t i, const char* what) const {

@@ -25,7 +25,7 @@ struct DeckKeyword {
     std::string value;
   };
 
-  std::string name;     ///< capitals without star and blanks: "SOLIDSECTION"
+  std::string name;     ///< capitals without star and blanks: "SOLIDSECTION"; empty: a lone star
   std::string written;  ///< as a message names it: "*SOLID SECTION"
   std::vector<Parameter> parameters;
   DeckPlace place;
@@ -62,6 +62,8 @@ class AbaqusLines {
   bool next_row(DeckRow& out) { return next_row(out, false); }
   /// The same, with empty lines as rows without cells: they stand for values left out.
   bool next_row_or_blank(DeckRow& out) { return next_row(out, true); }
+  /// First value of the data line that comes next; empty if none does. Nothing is taken.
+  std::string first_cell_ahead();
   /// Reads the data lines of a keyword from another file: `*NODE, INPUT=nodes.txt`.
   void include(const std::string& name, DeckPlace place);
 

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/abaqus/mesh.h"
+#include "buckens/mesh_io/abaqus/ties.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -35,36 +38,24 @@ class LinkMaker {
       : lines_(lines), names_(names), out_(out) {}
 
   void run() {
-    find_turning();
+    turns_ = names_.turning_nodes();
     find_transforms();
     for (std::size_t s = 0; s < names_.scopes().size(); ++s) {
       const AbaqusScope& scope = *names_.scopes()[s].scope;
       scope_ = static_cast<int>(s);
       for (const AbaqusLink& link : scope.links) add(link);
       for (const AbaqusEquation& equation : scope.equations) add(equation);
+      for (const AbaqusSpring& spring : scope.springs) add(spring);
     }
+    add_abaqus_ties(lines_, names_, turns_, out_);
   }
 
  private:
-  /// Marks the nodes that have rotations.
-  void find_turning() {
-    turns_.assign(names_.positions().size(), false);
-    for (std::size_t s = 0; s < names_.scopes().size(); ++s) {
-      for (int e = 0; e < names_.scopes()[s].num_elements; ++e) {
-        const AbaqusRole role = names_.scopes()[s].at(e).first->type->role;
-        if (role != AbaqusRole::shell && role != AbaqusRole::beam) continue;
-        for (const int node : names_.element_nodes({static_cast<int>(s), e})) {
-          turns_[static_cast<std::size_t>(node)] = true;
-        }
-      }
-    }
-  }
-
   void find_transforms() {
     for (std::size_t s = 0; s < names_.scopes().size(); ++s) {
       for (const AbaqusTransform& transform : names_.scopes()[s].scope->transforms) {
         for (const int node :
-             names_.nodes(static_cast<int>(s), transform.node_set, transform.place)) {
+             names_.nodes_of_set(static_cast<int>(s), transform.node_set, transform.place)) {
           transforms_[node] = {&transform, static_cast<int>(s)};
         }
       }
@@ -74,8 +65,12 @@ class LinkMaker {
   /// The nodes that follow, with their weights in a mean.
   std::map<int, double> followers(const AbaqusLink& link, int reference) {
     std::map<int, double> nodes;
-    for (const std::string& name : link.nodes) {
-      for (const int node : names_.nodes(scope_, name, link.place)) nodes[node] = 1.0;
+    for (std::size_t k = 0; k < link.nodes.size(); ++k) {
+      const double weight = link.weights.empty() ? 1.0 : link.weights[k];
+      for (const int node : names_.nodes(scope_, link.nodes[k], link.place)) nodes[node] = weight;
+    }
+    for (const std::string& name : link.node_sets) {
+      for (const int node : names_.nodes_of_set(scope_, name, link.place)) nodes[node] = 1.0;
     }
     for (const std::string& name : link.surfaces) {
       for (const auto& [node, share] : names_.surface_nodes(scope_, name, link.place)) {
@@ -83,7 +78,8 @@ class LinkMaker {
       }
     }
     for (const std::string& name : link.element_sets) {
-      for (const auto& at : names_.elements(scope_, name, link.place)) {
+      if (link.reference.empty()) break;  // that of the reference itself
+      for (const auto& at : names_.elements_of_set(scope_, name, link.place)) {
         for (const int node : names_.element_nodes(at)) nodes[node] = 1.0;
       }
     }
@@ -136,11 +132,15 @@ class LinkMaker {
   }
 
   void add(const AbaqusLink& link) {
+    if (link.kind == AbaqusLinkKind::mpc_plane || link.kind == AbaqusLinkKind::mpc_straight) {
+      return add_aligned(link);
+    }
     if (link.kind != AbaqusLinkKind::kinematic && link.kind != AbaqusLinkKind::distributing &&
         link.kind != AbaqusLinkKind::rigid_body) {
       return add_pairs(link);
     }
-    const int reference = names_.node(scope_, link.reference, link.place);
+    const int reference = link.reference.empty() ? coupled_node(link)
+                                                 : names_.node(scope_, link.reference, link.place);
     std::vector<int> nodes;
     std::vector<double> weights;
     for (const auto& [node, weight] : followers(link, reference)) {
@@ -160,6 +160,80 @@ class LinkMaker {
     } else {
       out_.rigid_links.push_back(
           {link.name, reference, std::move(nodes), link.variables, link.place.line});
+    }
+  }
+
+  /// The node of the one DCOUP3D of a *DISTRIBUTING COUPLING.
+  int coupled_node(const AbaqusLink& link) {
+    const auto elements = names_.elements_of_set(scope_, link.element_sets.front(), link.place);
+    const auto nodes =
+        elements.size() == 1 ? names_.element_nodes(elements.front()) : std::vector<int>{};
+    if (nodes.size() == 1) return nodes.front();
+    lines_.fail(link.place, fmt::format("element set \"{}\" must hold one element of type DCOUP3D",
+                                        link.element_sets.front()));
+  }
+
+  /// Nodes that stay in a plane, or on a line: what they do across it, the first nodes do there.
+  void add_aligned(const AbaqusLink& link) {
+    std::vector<int> nodes;
+    for (const std::string& name : link.nodes) {
+      const auto more = names_.nodes_in_order(scope_, name, link.place);
+      nodes.insert(nodes.end(), more.begin(), more.end());
+    }
+    const bool is_plane = link.kind == AbaqusLinkKind::mpc_plane;
+    const std::size_t num_leading = is_plane ? 3 : 2;
+    if (nodes.size() <= num_leading) {
+      lines_.fail(link.place, fmt::format("*MPC, {} needs more than {} nodes, here are {}",
+                                          link.name, num_leading, nodes.size()));
+    }
+    count_linked(nodes.size(), link.place);
+    const auto place = [&](int node) { return names_.positions()[static_cast<std::size_t>(node)]; };
+    lead_by_widest(nodes, num_leading);
+    Eigen::MatrixXd spread(3, num_leading - 1);
+    for (std::size_t k = 1; k < num_leading; ++k) {
+      spread.col(static_cast<Eigen::Index>(k) - 1) = place(nodes[k]) - place(nodes[0]);
+    }
+    // Left singular vectors beyond the first: directions across the plane or line.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(spread, Eigen::ComputeFullU | Eigen::ComputeThinV);
+    if (!(svd.singularValues().minCoeff() > 1e-6 * svd.singularValues().maxCoeff())) {
+      lines_.fail(link.place, fmt::format("the nodes of *MPC, {} span no {}", link.name,
+                                          is_plane ? "plane" : "line"));
+    }
+    for (std::size_t i = num_leading; i < nodes.size(); ++i) {
+      const Eigen::VectorXd by = svd.solve(place(nodes[i]) - place(nodes[0]));
+      for (Eigen::Index c = spread.cols(); c < 3; ++c) {
+        const Vector3d across = svd.matrixU().col(c);
+        fem::ImportedEquation& equation = out_.equations.emplace_back();
+        equation.line = link.place.line;
+        add_shares(nodes[i], across, equation);
+        add_shares(nodes[0], -(1.0 - by.sum()) * across, equation);
+        for (Eigen::Index k = 0; k < by.size(); ++k) {
+          add_shares(nodes[static_cast<std::size_t>(k) + 1], -by[k] * across, equation);
+        }
+      }
+    }
+  }
+
+  /// Brings nodes that lie far from each other to the front: the second farthest from the first,
+  /// the third farthest from the line of both.
+  void lead_by_widest(std::vector<int>& nodes, std::size_t num_leading) const {
+    const auto place = [&](int node) { return names_.positions()[static_cast<std::size_t>(node)]; };
+    for (std::size_t k = 1; k < num_leading; ++k) {
+      const auto height = [&](int node) {
+        const Vector3d r = place(node) - place(nodes[0]);
+        return k == 1 ? r.norm() : r.cross(place(nodes[1]) - place(nodes[0])).norm();
+      };
+      const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(k);
+      const auto widest =
+          std::max_element(begin, nodes.end(), [&](int a, int b) { return height(a) < height(b); });
+      std::rotate(begin, widest, widest + 1);
+    }
+  }
+
+  /// The displacement of a node along a direction, as terms.
+  static void add_shares(int node, const Vector3d& along, fem::ImportedEquation& out) {
+    for (const int k : largest_first(along)) {
+      if (std::abs(along[k]) > kNoShare) out.terms.push_back({node, k, along[k]});
     }
   }
 
@@ -239,6 +313,45 @@ class LinkMaker {
         add_term(node, equation.terms[i], out);
       }
     }
+  }
+
+  void add(const AbaqusSpring& spring) {
+    for (const auto& at : names_.elements_of_set(scope_, spring.element_set, spring.place)) {
+      const AbaqusElementType& type =
+          *names_.scopes()[static_cast<std::size_t>(at.scope)].at(at.element).first->type;
+      if (type.role != AbaqusRole::spring) continue;
+      const std::vector<int> nodes = names_.element_nodes(at);
+      fem::ImportedSpring own;
+      own.nodes = {nodes[0], nodes[1]};
+      if (type.name == "SPRINGA") {
+        const Vector3d between = names_.positions()[static_cast<std::size_t>(nodes[1])] -
+                                 names_.positions()[static_cast<std::size_t>(nodes[0])];
+        if (!(between.norm() > 0.0)) {
+          lines_.fail(spring.place,
+                      "a SPRINGA lies between nodes at one place and has no direction");
+        }
+        const Vector3d along = between.normalized();
+        own.stiffness.topLeftCorner<3, 3>() = spring.stiffness * along * along.transpose();
+      } else {
+        add_direction(spring, nodes, own);
+      }
+      out_.springs.push_back(own);
+    }
+  }
+
+  /// SPRING2: between one degree of freedom of both nodes.
+  void add_direction(const AbaqusSpring& spring, const std::vector<int>& nodes,
+                     fem::ImportedSpring& own) const {
+    const int v = spring.variables[0];
+    const auto turns = [&](int node) { return turns_[static_cast<std::size_t>(node)]; };
+    if (spring.is_turned || v != spring.variables[1] || v < 0 ||
+        (v > 2 && !(turns(nodes[0]) && turns(nodes[1])))) {
+      lines_.fail(spring.place,
+                  fmt::format("*SPRING of SPRING2 with ORIENTATION, between different degrees of "
+                              "freedom or at rotations that its nodes lack is not supported{}",
+                              SkipList::remedy("SPRING2")));
+    }
+    own.stiffness(v, v) = spring.stiffness;
   }
 
   /// A term in the axes of *TRANSFORM becomes up to three in those of the mesh.

@@ -7,13 +7,15 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "buckens/base/field.h"
+
 namespace buckens::mesh_io {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 AbaqusMesh::AbaqusMesh(const AbaqusDeck& deck, const AbaqusLines& lines)
-    : deck_(deck), lines_(lines), names_(deck, lines) {}
+    : deck_(deck), lines_(lines), names_(deck, lines), has_bodies_(has_bodies()) {}
 
 fem::ImportedMesh AbaqusMesh::run() {
   out_.file = lines_.where({0, 0}).file;
@@ -30,6 +32,8 @@ fem::ImportedMesh AbaqusMesh::run() {
     add_sets(s);
     add_surfaces(s);
   }
+  add_instances();
+  refuse_without_elements();
   note_element_types();
   add_abaqus_links(lines_, names_, out_);
   return std::move(out_);
@@ -94,11 +98,54 @@ void AbaqusMesh::add_nodes() {
   }
 }
 
+bool AbaqusMesh::has_bodies() const {
+  for (const AbaqusPlaced& placed : names_.scopes()) {
+    for (const AbaqusElements& block : placed.scope->elements) {
+      const AbaqusRole role = block.type->role;
+      const bool fills = role == AbaqusRole::solid || role == AbaqusRole::shell;
+      if ((fills || role == AbaqusRole::beam) && !block.ids.empty()) return true;
+    }
+  }
+  return false;
+}
+
+AbaqusRole AbaqusMesh::role_of(int scope, int element) const {
+  const auto s = static_cast<std::size_t>(scope);
+  const AbaqusRole role = names_.scopes()[s].at(element).first->type->role;
+  const bool has_section = section_of_[s][static_cast<std::size_t>(element)] >= 0;
+  if (role == AbaqusRole::plane) return has_bodies_ ? AbaqusRole::left_out : AbaqusRole::shell;
+  if (role == AbaqusRole::bar && !has_section && has_bodies_) return AbaqusRole::left_out;
+  return role;
+}
+
+/// Without any element there is no body; with those of other kinds that needs saying.
+void AbaqusMesh::refuse_without_elements() const {
+  if (out_.num_elements() > 0 || !out_.masses.empty()) return;
+  std::map<std::string_view, int> counts;
+  const AbaqusElements* first = nullptr;
+  for (const AbaqusPlaced& placed : names_.scopes()) {
+    for (const AbaqusElements& block : placed.scope->elements) {
+      if (block.ids.empty()) continue;
+      counts[block.type->name] += static_cast<int>(block.ids.size());
+      if (first == nullptr) first = &block;
+    }
+  }
+  if (first == nullptr) return;
+  std::string types;
+  for (const auto& [name, count] : counts) {
+    types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, name);
+  }
+  lines_.fail(first->places.front(),
+              fmt::format("no element of this deck can be part of a flexible body: {}; it needs "
+                          "solids, shells, beams or bars",
+                          types));
+}
+
 void AbaqusMesh::add_elements(int scope) {
   const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
   numbers_.emplace_back(static_cast<std::size_t>(placed.num_elements));
   for (int e = 0; e < placed.num_elements; ++e) {
-    if (is_kept(placed.at(e).first->type->role)) add_element(scope, e);
+    if (is_kept(role_of(scope, e))) add_element(scope, e);
   }
 }
 
@@ -110,7 +157,7 @@ void AbaqusMesh::add_element(int scope, int element) {
   int property = -1;
   if (section_number >= 0) {
     const auto& section = placed.scope->sections[static_cast<std::size_t>(section_number)];
-    property = property_for(scope, section, *raw->type);
+    property = property_for(scope, section, element);
   }
   const auto [entry, is_new] = block_of_.try_emplace({raw->type, property}, out_.blocks.size());
   if (is_new) {
@@ -189,7 +236,7 @@ void AbaqusMesh::add_masses(int scope) {
       }
       axes = placed.rotation * own->axes;
     }
-    for (const auto& at : names_.elements(scope, mass.element_set, mass.place)) {
+    for (const auto& at : names_.elements_of_set(scope, mass.element_set, mass.place)) {
       const AbaqusRole role =
           names_.scopes()[static_cast<std::size_t>(at.scope)].at(at.element).first->type->role;
       if (role != (mass.is_rotary ? AbaqusRole::rotary_inertia : AbaqusRole::mass)) {
@@ -233,6 +280,21 @@ void AbaqusMesh::add_sets(int scope) {
   }
 }
 
+/// With several instances each is an element set, so that one of them can be chosen.
+void AbaqusMesh::add_instances() {
+  const auto& scopes = names_.scopes();
+  if (scopes.size() <= 2) return;
+  for (std::size_t s = 1; s < scopes.size(); ++s) {
+    if (base::find_named(out_.element_sets, scopes[s].instance) != nullptr) continue;
+    fem::ImportedElementSet set{scopes[s].instance, {}};
+    for (const Numbers& numbers : numbers_[s]) {
+      for (int k = 0; k < numbers.count; ++k) set.elements.push_back(numbers.first + k);
+    }
+    std::sort(set.elements.begin(), set.elements.end());
+    if (!set.elements.empty()) out_.element_sets.push_back(std::move(set));
+  }
+}
+
 void AbaqusMesh::add_surfaces(int scope) {
   const AbaqusScope& own = *names_.scopes()[static_cast<std::size_t>(scope)].scope;
   const auto add_nodes_of = [&](const std::string& name, const AbaqusSurface& surface) {
@@ -242,12 +304,11 @@ void AbaqusMesh::add_surfaces(int scope) {
       set.nodes.push_back(node);
     }
   };
+  for (const auto& [key, surface] : own.node_surfaces) {
+    add_nodes_of(prefixed(scope, surface.name), surface);
+  }
   for (const auto& [key, surface] : own.surfaces) {
     const std::string name = prefixed(scope, surface.name);
-    if (surface.is_of_nodes) {
-      add_nodes_of(name, surface);
-      continue;
-    }
     fem::ImportedFaceSet entry{name, {}};
     bool has_edges = false;
     for (const AbaqusFace& face : names_.faces(scope, surface)) {
@@ -267,7 +328,7 @@ void AbaqusMesh::add_surfaces(int scope) {
 
 void AbaqusMesh::note_element_types() {
   std::map<const AbaqusElementType*, std::pair<DeckPlace, int>> seen;
-  std::map<const AbaqusElementType*, std::pair<DeckPlace, int>> bare;
+  std::map<const AbaqusElementType*, std::pair<DeckPlace, int>> bare, edges;
   const auto& scopes = names_.scopes();
   for (std::size_t s = 0; s < scopes.size(); ++s) {
     for (int e = 0; e < scopes[s].num_elements; ++e) {
@@ -278,15 +339,24 @@ void AbaqusMesh::note_element_types() {
       };
       if (!block->type->becomes.empty()) count(seen);
       const bool has_section = section_of_[s][static_cast<std::size_t>(e)] >= 0;
-      if (is_kept(block->type->role) && !has_section) count(bare);
+      const AbaqusRole role = role_of(static_cast<int>(s), e);
+      if (is_kept(role) && !has_section) count(bare);
+      if (block->type->role == AbaqusRole::bar && !is_kept(role)) count(edges);
     }
   }
   for (const auto& [type, entry] : seen) {
-    const bool is_left_out = type->role == AbaqusRole::left_out;
+    const bool is_left_out = type->role == AbaqusRole::left_out || type->role == AbaqusRole::plane;
     out_.notes.push_back(
         note_at(entry.first,
                 fmt::format("{} {} {}", type->name, is_left_out ? "is" : "becomes", type->becomes),
                 entry.second));
+  }
+  for (const auto& [type, entry] : edges) {
+    out_.notes.push_back(note_at(entry.first,
+                                 fmt::format("{} without a section beside solids, shells or beams "
+                                             "are left out; mesh generators write edges so",
+                                             type->name),
+                                 entry.second));
   }
   for (const auto& [type, entry] : bare) {
     out_.notes.push_back(note_at(entry.first,

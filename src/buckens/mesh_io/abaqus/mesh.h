@@ -29,10 +29,17 @@ class AbaqusMesh {
   };
 
   bool labels_meet() const;
+  /// Whether a scope has elements that fill or span space.
+  bool has_bodies() const;
+  /// What an element becomes: plane ones are shells where there is nothing else, and bars without a
+  /// section beside solids and shells are the edges of a mesh generator.
+  AbaqusRole role_of(int scope, int element) const;
+  void refuse_without_elements() const;
+  double mean_thickness(int scope, int element);
   void add_nodes();
   void add_materials();
   void assign_sections(int scope);
-  int property_for(int scope, const AbaqusSection& section, const AbaqusElementType& type);
+  int property_for(int scope, const AbaqusSection& section, int element);
   void fill_property(int scope, const AbaqusSection& section, fem::ImportedProperty& property);
   std::string material_called(const std::string& name, DeckPlace place);
   const AbaqusOrientation* orientation_called(int scope, const std::string& name,
@@ -44,6 +51,7 @@ class AbaqusMesh {
   void add_masses(int scope);
   void add_sets(int scope);
   void add_surfaces(int scope);
+  void add_instances();
   void note_element_types();
   std::string prefixed(int scope, const std::string& name) const;
   fem::ImportNote note_at(DeckPlace place, std::string text, int count) const;
@@ -54,8 +62,11 @@ class AbaqusMesh {
   fem::ImportedMesh out_;
   /// Per placed scope and element: the section, −1 without.
   std::vector<std::vector<int>> section_of_;
-  /// By file and line of the section, placed scope, kind and whether beams shear.
-  std::map<std::tuple<int, int, int, fem::PropertyKind, bool>, int> properties_;
+  /// By file and line of the section, placed scope, kind, whether beams shear, thickness.
+  std::map<std::tuple<int, int, int, fem::PropertyKind, bool, double>, int> properties_;
+  std::map<int, std::map<int, double>> thicknesses_;  ///< of nodes, by placed scope
+  std::set<int> thicknesses_noted_;                   ///< lines of sections
+  bool has_bodies_ = false;
   std::set<std::string> property_names_;          ///< in capitals
   std::map<std::string, std::string> materials_;  ///< names as written by names in capitals
   std::map<std::pair<const AbaqusElementType*, int>, std::size_t> block_of_;

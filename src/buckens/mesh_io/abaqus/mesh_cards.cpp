@@ -58,8 +58,37 @@ void check_count(AbaqusReading& in, const AbaqusElementType& type, std::size_t g
   const auto needed = static_cast<std::size_t>(type.num_nodes);
   const bool has_direction = type.role == AbaqusRole::beam && given == needed + 1;
   if (given == needed || has_direction) return;
+  if (given > needed && type.role != AbaqusRole::beam) {
+    in.note(place, fmt::format("an element of type {} has {} nodes; those behind them on its line "
+                               "are left out, as CalculiX does",
+                               type.name, needed));
+    return;
+  }
   in.lines.fail(place, fmt::format("an element of type {} has {} nodes, here are {}", type.name,
                                    needed, given));
+}
+
+/// Elements that the model file wants left out keep their numbers, for the sets.
+const AbaqusElementType* skipped_type(AbaqusReading& in, const std::string& name) {
+  for (const AbaqusSkippedType& known : in.deck.skipped) {
+    if (known.name == name) return &known.type;
+  }
+  AbaqusSkippedType& own = in.deck.skipped.emplace_back();
+  own.name = name;
+  own.type = {own.name, AbaqusRole::left_out, fem::CellKind::point1, -1, ""};
+  return &own.type;
+}
+
+const char* why_unusable(const std::string& name) {
+  if (name.starts_with("CAX") || name.starts_with("MAX") || name.starts_with("SAX")) {
+    return "are axisymmetric and no part of a body in space";
+  }
+  if (name.starts_with("M3D")) return "are membranes, which are not supported";
+  if (name.starts_with("COH") || name.starts_with("GK")) {
+    return "are cohesive or gasket elements, which are not supported";
+  }
+  if (name.starts_with("U")) return "are user elements, of which the deck does not say all";
+  return "cannot be used";
 }
 
 /// Adds the data lines of *NSET or *ELSET.
@@ -136,7 +165,7 @@ void read_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
               "their sections, shells the normals of their elements");
     }
     nodes.ids.push_back(id);
-    nodes.positions.push_back(rectangular(system, given));
+    nodes.positions.push_back(in.system_axes * rectangular(system, given) + in.system_origin);
     nodes.places.push_back(row.place);
     if (part != nullptr) part->ids.push_back(id);
   }
@@ -144,13 +173,14 @@ void read_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
 
 void read_elements(AbaqusReading& in, const DeckKeyword& keyword) {
   const std::string name = upper(in.parameter(keyword, "TYPE"));
-  const AbaqusElementType* type = find_abaqus_element(name);
+  const AbaqusElementType* type =
+      in.skip.has(name) ? skipped_type(in, name) : find_abaqus_element(name);
   if (type == nullptr) {
-    in.lines.fail(keyword.place,
-                  fmt::format("elements of type {} cannot be used; solids C3D4 … C3D20R, shells S3 "
-                              "… S4R, beams B31 … B33, bars T3D2, MASS and ROTARYI can. Remove "
-                              "them or make them anew",
-                              name.substr(0, 40)));
+    in.lines.fail(
+        keyword.place,
+        fmt::format("elements of type {} {}; solids C3D4 … C3D20R, shells S3 … S8R, beams "
+                    "B31 … B33, bars T3D2, MASS and ROTARYI can be used{}",
+                    name.substr(0, 40), why_unusable(name), SkipList::remedy(name.substr(0, 40))));
   }
   enter_file(in, keyword);
   AbaqusElements& block = in.scope->elements.emplace_back();
@@ -163,13 +193,17 @@ void read_elements(AbaqusReading& in, const DeckKeyword& keyword) {
     block.places.push_back(place);
     if (type->num_nodes < 0) continue;
     check_count(in, *type, cells.size() - 1, place);
-    for (std::size_t k = 1; k < cells.size(); ++k) {
+    const auto num_nodes = static_cast<std::size_t>(type->num_nodes);
+    const std::size_t num_read = num_nodes + (type->role == AbaqusRole::beam ? 1 : 0);
+    for (std::size_t k = 1; k < cells.size() && k <= num_read; ++k) {
       const std::int64_t node = in.lines.label(cells[k], place, "node of the element");
-      const bool is_direction = k > static_cast<std::size_t>(type->num_nodes);
+      const bool is_direction = k > num_nodes;
       (is_direction ? block.direction_nodes : block.nodes).push_back(node);
     }
     if (type->role == AbaqusRole::beam) block.direction_nodes.resize(block.ids.size(), -1);
   }
+  in.skip.takes(name, keyword.place.file == 0 ? keyword.place.line : 0,
+                static_cast<int>(block.ids.size()));
   const std::string set_name = in.optional_parameter(keyword, "ELSET");
   if (set_name.empty()) return;
   AbaqusSetPart& part = set_called(in.scope->element_sets, set_name).parts.emplace_back();
@@ -208,7 +242,8 @@ void read_surface(AbaqusReading& in, const DeckKeyword& keyword) {
                                        name));
     return;
   }
-  AbaqusSurface& surface = in.scope->surfaces[upper(name)];
+  auto& surfaces = type == "NODE" ? in.scope->node_surfaces : in.scope->surfaces;
+  AbaqusSurface& surface = surfaces[upper(name)];
   surface.name = name;
   surface.is_of_nodes = type == "NODE";
   surface.is_internal = keyword.has("INTERNAL");

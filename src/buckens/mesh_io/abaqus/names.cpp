@@ -116,6 +116,8 @@ AbaqusNames::Scoped AbaqusNames::in_instance(int scope, const std::string& refer
   if (!instance.empty()) {
     const int found = find_instance(instance);
     if (found >= 0) return {found, reference};
+    // Decks that were flattened keep the parameter.
+    if (instances_.empty()) return {scope, reference};
     lines_.fail(place, fmt::format("there is no instance \"{}\"", instance));
   }
   for (std::size_t dot = reference.find('.'); scope == 0 && dot != std::string::npos;
@@ -139,6 +141,21 @@ std::vector<int> AbaqusNames::nodes(int scope, const std::string& reference, Dec
   lines_.fail(place,
               fmt::format("there is no node set \"{}\"{}.{}", scoped.name, described(scoped.scope),
                           base::suggestion(scoped.name, names_in(placed.scope->node_sets))));
+}
+
+std::vector<int> AbaqusNames::nodes_of_set(int scope, const std::string& name, DeckPlace place) {
+  const Scoped scoped = in_instance(scope, name, "", place);
+  const auto& sets = scopes_[static_cast<std::size_t>(scoped.scope)].scope->node_sets;
+  const auto found = sets.find(upper(scoped.name));
+  return found != sets.end() ? nodes(scoped.scope, found->second) : nodes(scope, name, place);
+}
+
+std::vector<AbaqusElementAt> AbaqusNames::elements_of_set(int scope, const std::string& name,
+                                                          DeckPlace place) {
+  const Scoped scoped = in_instance(scope, name, "", place);
+  const auto& sets = scopes_[static_cast<std::size_t>(scoped.scope)].scope->element_sets;
+  const auto found = sets.find(upper(scoped.name));
+  return found != sets.end() ? elements(scoped.scope, found->second) : elements(scope, name, place);
 }
 
 int AbaqusNames::node(int scope, const std::string& reference, DeckPlace place) {
@@ -165,6 +182,20 @@ std::vector<AbaqusElementAt> AbaqusNames::elements(int scope, const std::string&
       place,
       fmt::format("there is no element set \"{}\"{}.{}", scoped.name, described(scoped.scope),
                   base::suggestion(scoped.name, names_in(placed.scope->element_sets))));
+}
+
+std::vector<bool> AbaqusNames::turning_nodes() const {
+  std::vector<bool> out(positions_.size(), false);
+  for (std::size_t s = 0; s < scopes_.size(); ++s) {
+    for (int e = 0; e < scopes_[s].num_elements; ++e) {
+      const AbaqusRole role = scopes_[s].at(e).first->type->role;
+      if (role != AbaqusRole::shell && role != AbaqusRole::beam) continue;
+      for (const int node : element_nodes({static_cast<int>(s), e})) {
+        out[static_cast<std::size_t>(node)] = true;
+      }
+    }
+  }
+  return out;
 }
 
 std::vector<int> AbaqusNames::element_nodes(const AbaqusElementAt& at) const {

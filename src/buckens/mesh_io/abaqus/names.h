@@ -64,15 +64,21 @@ class AbaqusNames {
   /// Numbers of the nodes in the deck, instance by instance.
   const std::vector<std::int64_t>& labels() const { return labels_; }
 
-  /// Nodes of a reference, ascending. @throws InputError if there is no such thing
+  /// Nodes of a reference on a data line, ascending: a number is that of a node, as in CalculiX,
+  /// also where a set has this number for its name.
+  /// @throws InputError if there is no such thing
   std::vector<int> nodes(int scope, const std::string& reference, DeckPlace place);
+  /// Nodes of a set by the name that a parameter gives (NSET=2): a set of this name stands above a
+  /// node of this number.
+  std::vector<int> nodes_of_set(int scope, const std::string& name, DeckPlace place);
   /// Nodes of a reference in the order in which those of two sets make pairs: by their numbers, of
   /// sets with UNSORTED as they are written.
   std::vector<int> nodes_in_order(int scope, const std::string& reference, DeckPlace place);
   /// The one node of a reference. @throws InputError also if there are several
   int node(int scope, const std::string& reference, DeckPlace place);
-  /// Elements of a reference, ascending.
+  /// Elements of a reference, as nodes() and nodes_of_set().
   std::vector<AbaqusElementAt> elements(int scope, const std::string& reference, DeckPlace place);
+  std::vector<AbaqusElementAt> elements_of_set(int scope, const std::string& name, DeckPlace place);
   std::vector<AbaqusFace> faces(int scope, const AbaqusSurface& surface);
   /// Nodes and elements of a set of a scope, ascending; its name may look like a number.
   std::vector<int> nodes(int scope, const AbaqusSet& set) {
@@ -86,6 +92,10 @@ class AbaqusNames {
   std::map<int, double> surface_nodes(int scope, const AbaqusSurface& surface);
   /// The same by the name of the surface.
   std::map<int, double> surface_nodes(int scope, const std::string& name, DeckPlace place);
+  /// Faces of the surface of elements with this name; none if it is one of nodes.
+  std::vector<AbaqusFace> faces(int scope, const std::string& name, DeckPlace place);
+  /// Per node whether a shell or beam gives it rotations.
+  std::vector<bool> turning_nodes() const;
   /// Nodes of an element, those at mid-sides included.
   std::vector<int> element_nodes(const AbaqusElementAt& at) const;
 

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/files/deck_number.h"
 #include "buckens/mesh_io/abaqus/mesh.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -36,16 +38,13 @@ const char* name_of(PropertyKind kind) {
 
 void AbaqusMesh::add_materials() {
   for (const auto& [key, material] : deck_.materials) {
-    if (material.E > 0.0 || material.orthotropic) {
-      materials_[key] = material.name;
-      out_.materials.push_back(material);
-      continue;
-    }
+    materials_[key] = material.name;
+    out_.materials.push_back(material);
+    if (material.E > 0.0 || material.orthotropic) continue;
     out_.notes.push_back({fmt::format("material \"{}\" has no *ELASTIC; its parts need a material "
                                       "from the model file",
                                       material.name),
                           material.where.line, 1});
-    materials_[key] = "";
   }
 }
 
@@ -53,18 +52,19 @@ std::string AbaqusMesh::material_called(const std::string& name, DeckPlace place
   if (name.empty()) return "";
   const auto found = materials_.find(upper(name));
   if (found != materials_.end()) return found->second;
-  if (materials_.empty()) {
-    out_.notes.push_back(note_at(place,
-                                 fmt::format("material \"{}\" is not defined here; give it "
-                                             "in the model file",
-                                             name),
-                                 1));
-    return "";
-  }
   std::vector<std::string> known;
   for (const auto& [key, written] : materials_) known.push_back(written);
-  lines_.fail(place,
-              fmt::format("there is no material \"{}\".{}", name, base::suggestion(name, known)));
+  out_.notes.push_back(
+      note_at(place,
+              fmt::format("material \"{}\" is not defined here; give it in the "
+                          "model file.{}",
+                          name, known.empty() ? "" : base::suggestion(name, known)),
+              1));
+  // It has neither stiffness nor density, but a name under which the model file can give both.
+  fem::MaterialSpec& material = out_.materials.emplace_back();
+  material.name = name;
+  material.where = lines_.where(place);
+  return materials_[upper(name)] = name;
 }
 
 const AbaqusOrientation* AbaqusMesh::orientation_called(int scope, const std::string& name,
@@ -85,9 +85,16 @@ void AbaqusMesh::assign_sections(int scope) {
   DeckPlace where;
   for (std::size_t k = 0; k < placed.scope->sections.size(); ++k) {
     const AbaqusSection& section = placed.scope->sections[k];
-    for (const auto& at : names_.elements(scope, section.element_set, section.place)) {
+    for (const auto& at : names_.elements_of_set(scope, section.element_set, section.place)) {
       if (at.scope != scope) continue;
-      const AbaqusElementType& type = *placed.at(at.element).first->type;
+      const auto [block, place_in_block] = placed.at(at.element);
+      const AbaqusElementType& type = *block->type;
+      if (type.role == AbaqusRole::plane) {
+        lines_.fail(block->places[place_in_block],
+                    fmt::format("elements of type {} with a section are plane and no part of a "
+                                "body in space{}",
+                                type.name, SkipList::remedy(type.name)));
+      }
       if (!is_kept(type.role)) continue;
       PropertyKind kind;
       if (!fits(type.role, section.kind, kind)) {
@@ -107,14 +114,45 @@ void AbaqusMesh::assign_sections(int scope) {
       note_at(where, "elements with two sections: the one that comes last is taken", replaced));
 }
 
-int AbaqusMesh::property_for(int scope, const AbaqusSection& section,
-                             const AbaqusElementType& type) {
+/// Of the nodes of an element, by *NODAL THICKNESS; nodes without one have that of the section.
+double AbaqusMesh::mean_thickness(int scope, int element) {
+  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
+  const auto [known, is_new] = thicknesses_.try_emplace(scope);
+  if (is_new) {
+    for (const AbaqusThickness& entry : placed.scope->thicknesses) {
+      for (const int node : names_.nodes(scope, entry.reference, entry.place)) {
+        known->second[node] = entry.thickness;
+      }
+    }
+  }
+  const int number =
+      section_of_[static_cast<std::size_t>(scope)][static_cast<std::size_t>(element)];
+  const AbaqusSection& section = placed.scope->sections[static_cast<std::size_t>(number)];
+  const std::vector<int> nodes = names_.element_nodes({scope, element});
+  double sum = 0;
+  for (const int node : nodes) {
+    const auto found = known->second.find(node);
+    if (found == known->second.end() && !section.thickness) {
+      lines_.fail(section.place,
+                  fmt::format("node {} has no *NODAL THICKNESS, and its section no thickness",
+                              names_.labels()[static_cast<std::size_t>(node)]));
+    }
+    sum += found == known->second.end() ? *section.thickness : found->second;
+  }
+  // Ten digits, so that equal ones make one property whatever the order of the sum.
+  return *files::deck_number(fmt::format("{:.10g}", sum / static_cast<double>(nodes.size())));
+}
+
+int AbaqusMesh::property_for(int scope, const AbaqusSection& section, int element) {
+  const AbaqusElementType& type =
+      *names_.scopes()[static_cast<std::size_t>(scope)].at(element).first->type;
+  const double thickness = section.has_nodal_thickness ? mean_thickness(scope, element) : 0.0;
   PropertyKind kind;
   fits(type.role, section.kind, kind);
   // Axes turn with an instance; other properties are shared by those of a part.
   const bool is_own = !section.orientation.empty();
   const auto key = std::make_tuple(section.place.file, section.place.line, is_own ? scope : 0, kind,
-                                   type.shear_flexible);
+                                   type.shear_flexible, thickness);
   const auto known = properties_.find(key);
   if (known != properties_.end()) return known->second;
   fem::ImportedProperty property;
@@ -133,6 +171,14 @@ int AbaqusMesh::property_for(int scope, const AbaqusSection& section,
     property.name = fmt::format("{} ({})", section.element_set, k);
   }
   fill_property(scope, section, property);
+  if (section.has_nodal_thickness) {
+    property.thickness = thickness;
+    property.offset = -section.offset * thickness;
+    if (thicknesses_noted_.insert(section.place.line).second) {
+      out_.notes.push_back(note_at(
+          section.place, "NODAL THICKNESS: each shell has the mean thickness of its nodes", 1));
+    }
+  }
   property_names_.insert(upper(property.name));
   out_.properties.push_back(std::move(property));
   return properties_[key] = static_cast<int>(out_.properties.size()) - 1;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -87,7 +88,8 @@ struct AbaqusSection {
   std::string orientation;
   double area = 1;  ///< of bars
   std::optional<double> thickness;
-  double offset = 0;  ///< of the nodes' surface from the middle one, in thicknesses
+  bool has_nodal_thickness = false;  ///< that of *NODAL THICKNESS stands above the other
+  double offset = 0;                 ///< of the nodes' surface from the middle one, in thicknesses
   std::vector<Layer> layers;
   std::optional<fem::SectionSpec> shape;
   Eigen::Vector3d n1 = -Eigen::Vector3d::UnitZ();
@@ -130,6 +132,32 @@ enum class AbaqusLinkKind {
   mpc_tie,
   mpc_pin,
   mpc_link,
+  mpc_plane,
+  mpc_straight,
+};
+
+/// A *SPRING.
+struct AbaqusSpring {
+  std::string element_set;
+  std::array<int, 2> variables = {-1, -1};  ///< of SPRING2, from 0
+  double stiffness = 0;
+  bool is_turned = false;  ///< the directions are in axes of their own, ORIENTATION=
+  DeckPlace place;
+};
+
+/// A line of *NODAL THICKNESS.
+struct AbaqusThickness {
+  std::string reference;
+  double thickness = 0;
+  DeckPlace place;
+};
+
+/// A line of *TIE.
+struct AbaqusTie {
+  std::string name, slave, master;
+  std::optional<double> tolerance;
+  bool ties_rotations = true;
+  DeckPlace place;
 };
 
 /// A *COUPLING, *KINEMATIC COUPLING, *RIGID BODY or a line of *MPC.
@@ -137,11 +165,12 @@ struct AbaqusLink {
   AbaqusLinkKind kind = AbaqusLinkKind::kinematic;
   std::string name;
   std::string reference;  ///< the node that leads
-  /// The nodes that follow: references, surfaces or element sets.
-  std::vector<std::string> nodes, surfaces, element_sets;
+  /// The nodes that follow: references on data lines, node sets, surfaces or element sets.
+  std::vector<std::string> nodes, node_sets, surfaces, element_sets;
   std::array<bool, 6> variables = {true, true, true, true, true, true};
   bool is_turned = false;        ///< the variables are in axes of their own, ORIENTATION=
   std::optional<double> radius;  ///< *COUPLING, INFLUENCE RADIUS=
+  std::vector<double> weights;   ///< of `nodes`; empty: 1 each
   DeckPlace place;
 };
 
@@ -161,13 +190,17 @@ struct AbaqusScope {
   AbaqusNodes nodes;
   std::vector<AbaqusElements> elements;
   std::map<std::string, AbaqusSet> node_sets, element_sets;  ///< by name in capitals
-  std::map<std::string, AbaqusSurface> surfaces;
+  /// By name in capitals. A surface of nodes and one of faces may share a name, as in CalculiX.
+  std::map<std::string, AbaqusSurface> surfaces, node_surfaces;
   std::vector<AbaqusSection> sections;
   std::map<std::string, AbaqusOrientation> orientations;
   std::vector<AbaqusMass> masses;
   std::vector<AbaqusTransform> transforms;
   std::vector<AbaqusLink> links;
   std::vector<AbaqusEquation> equations;
+  std::vector<AbaqusTie> ties;
+  std::vector<AbaqusSpring> springs;
+  std::vector<AbaqusThickness> thicknesses;
 };
 
 /// A part placed in the assembly: first moved, then turned.
@@ -180,9 +213,16 @@ struct AbaqusInstance {
   DeckPlace place;
 };
 
+/// A type of elements that the model file wants left out.
+struct AbaqusSkippedType {
+  std::string name;
+  AbaqusElementType type;
+};
+
 /// A whole deck.
 struct AbaqusDeck {
-  AbaqusScope root;  ///< the assembly, or everything
+  std::list<AbaqusSkippedType> skipped;  ///< elements point into it
+  AbaqusScope root;                      ///< the assembly, or everything
   std::map<std::string, AbaqusScope> parts;
   std::vector<AbaqusInstance> instances;
   std::map<std::string, fem::MaterialSpec> materials;  ///< by name in capitals

@@ -70,11 +70,11 @@ void read_layers(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSection& s
 
 /// Thicknesses and stiffnesses that are not those of the data lines.
 void refuse_other_thickness(AbaqusReading& in, const DeckKeyword& keyword) {
-  for (const char* key : {"NODALTHICKNESS", "SHELLTHICKNESS"}) {
-    if (!keyword.has(key)) continue;
-    in.lines.fail(keyword.place, fmt::format("{} with {}: thicknesses that vary over a section are "
-                                             "not supported; give each thickness a section",
-                                             keyword.written, key));
+  if (keyword.has("SHELLTHICKNESS")) {
+    in.lines.fail(keyword.place, fmt::format("{} with SHELL THICKNESS: thicknesses by a table are "
+                                             "not supported; give each thickness a section, or "
+                                             "write NODAL THICKNESS",
+                                             keyword.written));
   }
   const bool is_general = keyword.name == "SHELLGENERALSECTION";
   if (is_general && !keyword.has("COMPOSITE") && !keyword.has("MATERIAL")) {
@@ -153,10 +153,11 @@ fem::CircleSpec read_circle(AbaqusReading& in, const DeckRow& row) {
 /// The shape on a data line. Direction 1 of the section becomes local y, direction 2 local z.
 fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row) {
   fem::SectionSpec out;
-  if (name == "RECT") {
+  // CalculiX looks at the first letters only.
+  if (name.starts_with("RECT")) {
     const double a = positive(in, row, 0, "width of the rectangle");
     out.shape = fem::RectangleSpec{a, positive(in, row, 1, "height of the rectangle")};
-  } else if (name == "CIRC") {
+  } else if (name.starts_with("CIRC")) {
     out.shape = read_circle(in, row);
   } else if (name == "PIPE") {
     const double radius = positive(in, row, 0, "radius of the pipe");
@@ -210,11 +211,23 @@ void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword) {
   section.offset = read_offset(in, keyword);
   refuse_other_thickness(in, keyword);
   if (keyword.has("COMPOSITE")) return read_layers(in, keyword, section);
+  section.has_nodal_thickness = keyword.has("NODALTHICKNESS");
   DeckRow row;
   if (!in.lines.next_row(row)) {
+    if (section.has_nodal_thickness) return;
     in.lines.fail(keyword.place, "the thickness of the shell is missing on the next line");
   }
   section.thickness = positive(in, row, 0, "thickness of the shell");
+}
+
+void read_nodal_thickness(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    AbaqusThickness& entry = in.scope->thicknesses.emplace_back();
+    entry.reference = row.cell(0);
+    entry.thickness = positive(in, row, 1, "thickness at the node");
+    entry.place = row.place;
+  }
 }
 
 void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword) {

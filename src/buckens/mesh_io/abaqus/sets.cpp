@@ -120,7 +120,7 @@ void AbaqusNames::add_part(int scope, const AbaqusSet& set, const AbaqusSetPart&
   }
   if constexpr (std::is_same_v<Entry, int>) {
     if (part.of_elements.empty()) return;
-    for (const AbaqusElementAt& at : elements(own, part.of_elements, part.place)) {
+    for (const AbaqusElementAt& at : elements_of_set(own, part.of_elements, part.place)) {
       const auto more = element_nodes(at);
       out.insert(out.end(), more.begin(), more.end());
     }

@@ -14,16 +14,20 @@ int num_corners(fem::CellKind kind) {
   return kind == fem::CellKind::tri3 || kind == fem::CellKind::tri6 ? 3 : 4;
 }
 
-/// Adds the mid-side nodes of those edges whose corners both lie on the face.
+/// Adds the mid-side nodes of the edges of a face, the first between its corners 1 and 2.
 void add_mid_sides(fem::CellKind kind, const std::vector<int>& nodes,
                    const std::vector<int>& corners, std::vector<int>& out) {
   const auto edges = abaqus_edges(kind);
   const std::size_t first = nodes.size() - edges.size();
-  const auto is_corner = [&](int corner) {
-    return std::find(corners.begin(), corners.end(), corner) != corners.end();
-  };
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (is_corner(edges[e][0]) && is_corner(edges[e][1])) out.push_back(nodes[first + e]);
+  // Two corners are an edge of a shell, which has one side only.
+  const std::size_t sides = corners.size() == 2 ? 1 : corners.size();
+  for (std::size_t k = 0; k < sides; ++k) {
+    const int a = corners[k], b = corners[(k + 1) % corners.size()];
+    const auto edge = std::find_if(edges.begin(), edges.end(), [&](const auto& e) {
+      return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a);
+    });
+    if (edge == edges.end()) continue;
+    out.push_back(nodes[first + static_cast<std::size_t>(edge - edges.begin())]);
   }
 }
 
@@ -78,7 +82,12 @@ AbaqusFace AbaqusNames::shell_face(const AbaqusElementAt& at, bool is_positive) 
   static_cast<void>(k);
   AbaqusFace out{at.scope, at.element, {}, element_nodes(at), false};
   out.corners.assign(out.nodes.begin(), out.nodes.begin() + num_corners(block->type->kind));
-  if (!is_positive) std::reverse(out.corners.begin(), out.corners.end());
+  if (is_positive) return out;
+  std::reverse(out.corners.begin(), out.corners.end());
+  // The side between the last two corners is the second to last of the other direction.
+  const auto mid = out.nodes.begin() + static_cast<std::ptrdiff_t>(out.corners.size());
+  std::copy(out.corners.begin(), out.corners.end(), out.nodes.begin());
+  if (mid != out.nodes.end()) std::reverse(mid, out.nodes.end() - 1);
   return out;
 }
 
@@ -146,13 +155,17 @@ void AbaqusNames::add_faces(const AbaqusElementAt& at, const AbaqusSurface::Item
     out.push_back(solid_face(at, number));
     return;
   }
-  if (type.role != AbaqusRole::shell) refuse("surfaces consist of faces of solids and shells");
+  // Surfaces of contact with what has no stiffness, edges of plane elements.
+  if (type.role != AbaqusRole::shell) return;
   if (face.empty() || face == "SPOS" || face == "POS" || face == "S2") {
     out.push_back(shell_face(at, true));
   } else if (face == "SNEG" || face == "NEG" || face == "S1") {
     out.push_back(shell_face(at, false));
   } else if (number_behind('E') < static_cast<std::size_t>(num_corners(type.kind))) {
     out.push_back(shell_edge(at, number_behind('E')));
+  } else if (number_behind('S') < static_cast<std::size_t>(num_corners(type.kind)) + 2) {
+    // CalculiX: faces 3, 4, … of the solid that it makes of a shell.
+    out.push_back(shell_edge(at, number_behind('S') - 2));
   } else {
     refuse("the sides of a shell are SPOS and SNEG, its edges E1, E2, …");
   }
@@ -169,18 +182,27 @@ std::vector<AbaqusFace> AbaqusNames::faces(int scope, const AbaqusSurface& surfa
   return out;
 }
 
+std::vector<AbaqusFace> AbaqusNames::faces(int scope, const std::string& name, DeckPlace place) {
+  const Scoped scoped = in_instance(scope, name, "", place);
+  const AbaqusScope& own = *scopes_[static_cast<std::size_t>(scoped.scope)].scope;
+  const auto found = own.surfaces.find(upper(scoped.name));
+  if (found != own.surfaces.end()) return faces(scoped.scope, found->second);
+  surface_nodes(scope, name, place);  // refuses what there is not
+  return {};
+}
+
 std::map<int, double> AbaqusNames::surface_nodes(int scope, const std::string& name,
                                                  DeckPlace place) {
   const Scoped scoped = in_instance(scope, name, "", place);
   const AbaqusScope& own = *scopes_[static_cast<std::size_t>(scoped.scope)].scope;
-  const auto found = own.surfaces.find(upper(scoped.name));
-  if (found == own.surfaces.end()) {
-    std::vector<std::string> known;
-    for (const auto& [key, surface] : own.surfaces) known.push_back(surface.name);
-    lines_.fail(place, fmt::format("there is no surface \"{}\".{}", scoped.name,
-                                   base::suggestion(scoped.name, known)));
+  std::vector<std::string> known;
+  for (const auto* all : {&own.surfaces, &own.node_surfaces}) {
+    const auto found = all->find(upper(scoped.name));
+    if (found != all->end()) return surface_nodes(scoped.scope, found->second);
+    for (const auto& [key, surface] : *all) known.push_back(surface.name);
   }
-  return surface_nodes(scoped.scope, found->second);
+  lines_.fail(place, fmt::format("there is no surface \"{}\".{}", scoped.name,
+                                 base::suggestion(scoped.name, known)));
 }
 
 std::map<int, double> AbaqusNames::surface_nodes(int scope, const AbaqusSurface& surface) {

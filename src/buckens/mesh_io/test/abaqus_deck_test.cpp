@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "buckens/base/errors.h"
 #include "buckens/base/field.h"
 #include "buckens/base/test/source_directory.h"
 #include "buckens/base/test/temporary_directory.h"
@@ -280,7 +281,6 @@ TEST(AbaqusMasses, MassesAndInertiasSitOnTheirNodes) {
   const Eigen::Vector3d diagonal = mesh.masses[1].inertia.diagonal();
   EXPECT_LT((diagonal - Eigen::Vector3d(0.2, 0.1, 0.3)).norm(), 1e-15);
   EXPECT_THAT(note(mesh, "SPRING1").text, HasSubstr("left out"));
-  EXPECT_THAT(note(mesh, "*SPRING is ignored").text, HasSubstr("*SPRING"));
 }
 
 TEST(AbaqusAssembly, InstancesAreMovedThenTurned) {
@@ -323,7 +323,9 @@ TEST(AbaqusAssembly, CouplingsBecomeLinksAndAverages) {
   EXPECT_THAT(mesh.averages[0].weights, ElementsAre(0.25, 0.25, 0.25, 0.25));
   EXPECT_THAT(mesh.averages[0].variables, ElementsAre(true, true, true, false, true, false));
   EXPECT_EQ(mesh.node_ids[static_cast<std::size_t>(mesh.rigid_links[1].reference)], 31);
-  EXPECT_THAT(note(mesh, "*TIE").text, HasSubstr("hold together"));
+  // The plate lies four units below the pin.
+  EXPECT_THAT(note(mesh, "*TIE").text, HasSubstr("not tied"));
+  EXPECT_EQ(note(mesh, "*TIE").count, 4);
 }
 
 TEST(AbaqusConstraints, MultiPointConstraintsJoinSetsByNumber) {
@@ -389,11 +391,22 @@ TEST(AbaqusBeams, CirclesAreRadiiOfAbaqusOrDiametersOfCalculix) {
   EXPECT_EQ(note(two, "two values are the diameters").line, 7);
 }
 
-TEST(AbaqusNotes, WhatChangesHowPartsHoldTogetherIsSaid) {
-  const ImportedMesh mesh = read_text(
+TEST(AbaqusNotes, WhatChangesHowPartsHoldTogetherIsRefusedOrSkipped) {
+  const std::string deck =
       "*NODE\n1,0,0,0,0,0,1\n2,1,0,0\n*ELEMENT, TYPE=B31, ELSET=E\n1,1,2\n"
-      "*BEAM SECTION, ELSET=E, SECTION=RECT\n1,1\n*RELEASE\n1,S1,M1\n");
-  EXPECT_THAT(note(mesh, "*RELEASE").text, HasSubstr("hold together"));
+      "*BEAM SECTION, ELSET=E, SECTION=RECT\n1,1\n*RELEASE\n1,S1,M1\n";
+  EXPECT_THROW(read_text(deck), InputError);
+  const buckens::test::TemporaryDirectory folder;
+  std::ofstream(folder / "deck.inp") << deck;
+  SkipList skip({"Release", "*other"});
+  const ImportedMesh mesh = read_abaqus_deck(folder / "deck.inp", skip);
+  const auto skipped = skip.notes();
+  ASSERT_EQ(skipped.size(), 2u);
+  EXPECT_THAT(skipped[0].text, HasSubstr("no \"*other\""));
+  EXPECT_THAT(skipped[1].text, HasSubstr("1 of Release left out"));
+  EXPECT_TRUE(skipped[1].is_doubtful);
+  EXPECT_FALSE(skipped[0].is_doubtful);
+  EXPECT_EQ(skipped[1].line, 8);
   EXPECT_EQ(note(mesh, "normals behind the coordinates").line, 2);
 }
 

@@ -173,6 +173,8 @@ Found problem(const fem::MeshSpec& spec, const ModelDescription&) {
   const char* of_files = spec.section             ? "section"
                          : !spec.sections.empty() ? "sections"
                          : spec.links             ? "links"
+                         : !spec.only.empty()     ? "only"
+                         : !spec.skip.empty()     ? "skip"
                          : spec.integration       ? "integration"
                                                   : nullptr;
   if (of_files != nullptr) {
