@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -154,29 +155,57 @@ fem::ShapeIntegrals condensed(const fem::ShapeIntegrals& full, const Condensatio
   return out;
 }
 
-/// Refuses variables that move no mass: a reference node whose links leave it a motion of its own.
+/// The entries of a symmetric matrix between these variables.
+Eigen::MatrixXd block_of(const SparseMatrix& A, const std::vector<int>& variables) {
+  const auto count = static_cast<Eigen::Index>(variables.size());
+  Eigen::MatrixXd out(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      out(i, j) =
+          A.coeff(variables[static_cast<std::size_t>(i)], variables[static_cast<std::size_t>(j)]);
+    }
+  }
+  return out;
+}
+
+/// Motions of a node that move no mass, orthonormal in the variables that have some, a column each.
+Eigen::MatrixXd massless_motions(const Eigen::MatrixXd& M) {
+  const Eigen::Index count = M.rows();
+  // Variables without mass stand for themselves.
+  const Eigen::VectorXd size =
+      (M.diagonal().array() > 0.0).select(M.diagonal().cwiseSqrt(), Eigen::VectorXd::Ones(count));
+  const Eigen::MatrixXd scaled =
+      size.cwiseInverse().asDiagonal() * M * size.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  Eigen::Index num_massless = 0;
+  while (num_massless < count && solver.eigenvalues()[num_massless] < kMassless) ++num_massless;
+  return size.cwiseInverse().asDiagonal() * solver.eigenvectors().leftCols(num_massless);
+}
+
+/// Refuses variables that move neither mass nor an element: a reference node whose links leave it a
+/// motion of its own. Where elements resist, as ends of massless beams do, the motion follows.
 void refuse_massless(const std::string& body, const fem::FeModel& fe) {
   for (std::size_t node = 0; node < fe.dofs.node_dofs.size(); ++node) {
     std::vector<int> own;
     for (const int dof : fe.dofs.node_dofs[node]) {
       if (dof >= 0) own.push_back(dof);
     }
-    const auto count = static_cast<Eigen::Index>(own.size());
-    Eigen::MatrixXd M(count, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      for (Eigen::Index j = 0; j < count; ++j) {
-        M(i, j) = fe.M.coeff(own[static_cast<std::size_t>(i)], own[static_cast<std::size_t>(j)]);
-      }
-    }
-    const Eigen::VectorXd size = M.diagonal().cwiseSqrt();
-    bool is_massless = count > 0 && !(size.minCoeff() > 0.0);
-    if (count > 0 && !is_massless) {
-      const Eigen::MatrixXd scaled =
-          size.cwiseInverse().asDiagonal() * M * size.cwiseInverse().asDiagonal();
-      is_massless = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
-                        .eigenvalues()[0] < kMassless;
-    }
-    if (!is_massless) continue;
+    if (own.empty()) continue;
+    const Eigen::MatrixXd Z = massless_motions(block_of(fe.M, own));
+    if (Z.cols() == 0) continue;
+    const Eigen::MatrixXd K = block_of(fe.K, own);
+    const Eigen::VectorXd size =
+        (K.diagonal().array() > 0.0)
+            .select(K.diagonal().cwiseSqrt(), Eigen::VectorXd::Ones(K.rows()));
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(size.asDiagonal() * Z);
+    const Eigen::MatrixXd motions =
+        qr.householderQ() * Eigen::MatrixXd::Identity(Z.rows(), Z.cols());
+    const Eigen::MatrixXd scaled =
+        size.cwiseInverse().asDiagonal() * K * size.cwiseInverse().asDiagonal();
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                             motions.transpose() * scaled * motions, Eigen::EigenvaluesOnly)
+                             .eigenvalues()[0];
+    if (least > kMassless) continue;
     throw ModelError(fmt::format(
         "body \"{}\": {} can move or turn without moving any mass, since what is linked to it does "
         "not hold it in all directions; link nodes that span a surface, or nodes with rotations, "
