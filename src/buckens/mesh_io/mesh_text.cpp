@@ -141,10 +141,10 @@ double MeshText::binary_number(std::string_view what) {
   return out;
 }
 
-bool MeshText::skip_to(std::string_view mark) {
+bool MeshText::skip_to(std::string_view mark, bool after_bytes) {
   for (std::size_t at = bytes_.find(mark, place_); at != std::string_view::npos;
        at = bytes_.find(mark, at + 1)) {
-    const bool begins_line = at == 0 || bytes_[at - 1] == '\n';
+    const bool begins_line = after_bytes || at == 0 || bytes_[at - 1] == '\n';
     const std::size_t end = at + mark.size();
     if (!begins_line || (end < bytes_.size() && !is_blank(bytes_[end]))) continue;
     for (; place_ < at; ++place_) line_ += bytes_[place_] == '\n' ? 1 : 0;

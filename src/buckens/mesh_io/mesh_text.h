@@ -63,7 +63,8 @@ class MeshText {
   }
 
   /// Goes on behind the next line that is `mark`. @return false if there is none
-  bool skip_to(std::string_view mark);
+  /// @param after_bytes the mark may also follow binary data without a line end between
+  bool skip_to(std::string_view mark, bool after_bytes = false);
 
   /// @throws InputError at the word read last
   [[noreturn]] void fail(const std::string& text) const;

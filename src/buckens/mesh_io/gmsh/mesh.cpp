@@ -18,23 +18,35 @@ namespace {
 constexpr std::size_t kLargestMesh = std::size_t{2} << 30;
 
 struct MshVersion {
-  bool is_4 = false;
+  int major = 1;
+  bool is_4_0 = false;
   bool is_binary = false;
+
+  const char* name() const {
+    return major == 1 ? "1.0" : major == 2 ? "2.2" : is_4_0 ? "4.0" : "4.1";
+  }
 };
 
+/// Comments may stand before the head. Version 1 has none.
 MshVersion read_version(MeshText& text) {
   while (!text.at_end() && text.peek_line().empty()) text.next_line("$MeshFormat");
   if (text.at_end()) text.fail("the file is empty; a Gmsh mesh begins with $MeshFormat");
-  if (text.next_line("$MeshFormat") != "$MeshFormat") {
+  if (text.peek_line() == "$NOD") return {};
+  const std::string_view head = text.next_line("$MeshFormat");
+  if (head == "$Comments" && text.skip_to("$EndComments")) return read_version(text);
+  if (head != "$MeshFormat") {
     text.fail("this is not a Gmsh mesh: it does not begin with $MeshFormat");
   }
   MshVersion out;
   const std::string version(text.word("the version"));
-  if (version == "4.1") {
-    out.is_4 = true;
-  } else if (version != "2.2" && version != "2.1" && version != "2") {
+  if (version == "4.1" || version == "4" || version == "4.0") {
+    out.major = 4;
+    out.is_4_0 = version != "4.1";
+  } else if (version == "2" || version.starts_with("2.")) {
+    out.major = 2;
+  } else {
     text.fail(
-        fmt::format("version {:.20} of the format of Gmsh cannot be read; 2.2 and 4.1 can "
+        fmt::format("version {:.20} of the format of Gmsh cannot be read; 1, 2, 4.0 and 4.1 can "
                     "(in Gmsh: File > Export, or `gmsh -format msh41`)",
                     version));
   }
@@ -60,13 +72,14 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
   TaggedMesh mesh;
   mesh.file = file;
   const MshVersion version = read_version(text);
-  mesh.format = fmt::format("Gmsh {} {}", version.is_4 ? "4.1" : "2.2",
-                            version.is_binary ? "binary" : "text");
-  mesh.repeats_elements = !version.is_4;
+  mesh.format = fmt::format("Gmsh {} {}", version.name(), version.is_binary ? "binary" : "text");
+  mesh.repeats_elements = version.major != 4;
   GmshReader reader(text, mesh, version.is_binary);
-  reader.expect_end("$MeshFormat");
-  GmshSections4 sections(reader);
+  if (version.major != 1) reader.expect_end("$MeshFormat");
+  GmshSections4 sections(reader, version.is_4_0);
   std::set<std::string> seen;
+  const std::string nodes = version.major == 1 ? "$NOD" : "$Nodes";
+  const std::string elements = version.major == 1 ? "$ELM" : "$Elements";
   while (!text.at_end()) {
     const std::string section(text.next_line("a section"));
     if (section.empty()) continue;
@@ -75,25 +88,28 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
     }
     bool known = section == "$PhysicalNames";
     if (known) reader.read_physical_names();
-    if (section == "$Elements" && seen.count("$Nodes") == 0) {
-      text.fail("the section $Elements comes before $Nodes");
+    if (section == elements && seen.count(nodes) == 0) {
+      text.fail(fmt::format("the section {} comes before {}", elements, nodes));
     }
-    known = known || (version.is_4 ? sections.read(section) : read_section_2(reader, section));
+    known = known || (version.major == 4   ? sections.read(section)
+                      : version.major == 2 ? read_section_2(reader, section)
+                                           : read_section_1(reader, section));
     if (known && !seen.insert(section).second) {
       text.fail(fmt::format("the section {} appears twice", section));
     }
     if (known) {
       reader.expect_end(section);
       if (!text.at_end()) text.next_line(section);
-    } else if (!text.skip_to("$End" + section.substr(1))) {
+    } else if (!text.skip_to("$End" + section.substr(1), version.is_binary)) {
       text.fail(fmt::format("the section {} has no end; the file seems to be truncated", section));
     } else if (section != "$Comments" && section != "$Periodic") {
       mesh.notes.push_back({fmt::format("the section {} is ignored", section), text.line(), 1});
     }
   }
-  for (const char* needed : {"$Nodes", "$Elements"}) {
+  for (const std::string& needed : {nodes, elements}) {
     if (seen.count(needed) == 0) text.fail(fmt::format("the file has no section {}", needed));
   }
+  reader.name_groups();
   return mesh;
 }
 

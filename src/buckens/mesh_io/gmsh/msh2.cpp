@@ -69,7 +69,39 @@ void read_elements(GmshReader& reader) {
   }
 }
 
+/// Version 1: number, type, physical group, entity, number of nodes, nodes.
+void read_old_elements(GmshReader& reader) {
+  const std::size_t count = reader.text().count("the number of elements", 6);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t id = reader.int32("the number of an element", 0);
+    const GmshElement& element = reader.element_of(reader.int32("the type of an element", 1));
+    const std::int64_t tag = reader.int32("the physical group of an element", kLowestTag + 1);
+    reader.int32("the entity of an element", kLowestTag + 1);
+    if (reader.int32("the number of nodes", 1) != element.num_nodes) {
+      reader.text().fail(fmt::format("a {} must have {} nodes", element.name, element.num_nodes));
+    }
+    std::vector<int> groups;
+    if (tag != 0) {
+      groups.push_back(reader.mesh().group(fem::dimension_of(element.kind), std::abs(tag)));
+    }
+    std::vector<std::int64_t> nodes(static_cast<std::size_t>(element.num_nodes));
+    for (std::int64_t& node : nodes) node = reader.int32("a node of an element", 0);
+    reader.add_element(element, id, groups, nodes);
+  }
+}
+
 }  // namespace
+
+bool read_section_1(GmshReader& reader, const std::string& section) {
+  if (section == "$NOD") {
+    read_nodes(reader);
+  } else if (section == "$ELM") {
+    read_old_elements(reader);
+  } else {
+    return false;
+  }
+  return true;
+}
 
 bool read_section_2(GmshReader& reader, const std::string& section) {
   if (section == "$Nodes") {

@@ -32,7 +32,8 @@ std::size_t GmshReader::count64(std::string_view what, std::size_t text_bytes,
 }
 
 void GmshReader::expect_end(const std::string& section) {
-  const std::string mark = "$End" + section.substr(1);
+  const bool is_old = section == "$NOD" || section == "$ELM";
+  const std::string mark = (is_old ? "$END" : "$End") + section.substr(1);
   if (text_.word(mark) == mark) return;
   text_.fail(fmt::format(
       "expected {}; a number at the head of the section {} is wrong, or data are missing", mark,
@@ -42,12 +43,30 @@ void GmshReader::expect_end(const std::string& section) {
 void GmshReader::read_physical_names() {
   const std::size_t count = text_.count("the number of physical names", 5);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto dimension =
-        static_cast<int>(text_.integer("the dimension of a physical group", 0, 3));
-    const std::int64_t tag = text_.integer("the number of a physical group", -kMostInt, kMostInt);
+    const std::int64_t first = text_.integer("the dimension of a physical group", -1, kMostInt);
+    const std::string_view rest = text_.peek_line();
+    const std::size_t begin = rest.find_first_not_of(" \t");
+    // Gmsh 2.3 did not write dimensions, others write -1 for any.
+    const bool is_tag = begin != std::string_view::npos && rest[begin] == '"';
+    const std::int64_t tag =
+        is_tag ? first : text_.integer("the number of a physical group", -kMostInt, kMostInt);
     const std::string name = text_.quoted("the name of a physical group");
-    const int group = mesh_.group(dimension, std::abs(tag));
+    // Other programs add words of their own.
+    if (!text_.at_end()) text_.next_line("the next physical group");
+    if (is_tag || first == -1) {
+      names_of_any_[std::abs(tag)] = name;
+      continue;
+    }
+    if (first > 3) text_.fail(fmt::format("the dimension of a physical group cannot be {}", first));
+    const int group = mesh_.group(static_cast<int>(first), std::abs(tag));
     if (!name.empty()) mesh_.groups[static_cast<std::size_t>(group)].name = name;
+  }
+}
+
+void GmshReader::name_groups() {
+  for (CellGroup& group : mesh_.groups) {
+    const auto found = names_of_any_.find(group.tag);
+    if (found != names_of_any_.end() && !found->second.empty()) group.name = found->second;
   }
 }
 

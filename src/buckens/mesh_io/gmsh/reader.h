@@ -26,6 +26,8 @@ class GmshReader {
                    const std::vector<std::int64_t>& nodes);
   /// The element with a number of Gmsh's. @throws InputError for those that have no place here
   const GmshElement& element_of(std::int64_t type) const;
+  /// Gives their names to groups whose dimension was not said. Call it at the end.
+  void name_groups();
   /// Makes sure that the section ends here.
   void expect_end(const std::string& section);
 
@@ -44,23 +46,32 @@ class GmshReader {
   TaggedMesh& mesh_;
   bool is_binary_;
   std::unordered_map<std::int64_t, int> numbers_;
+  std::map<std::int64_t, std::string> names_of_any_;  // of groups without a dimension
 };
 
-/// Sections of version 2.2 and 4.1. @return false for a section that is not known
+/// Sections of version 2. @return false for a section that is not known
 bool read_section_2(GmshReader& reader, const std::string& section);
+/// Sections of version 1, which has no head: $NOD and $ELM.
+bool read_section_1(GmshReader& reader, const std::string& section);
 
-/// Entities of version 4.1 carry the physical groups of their elements.
+/// Entities of version 4 carry the physical groups of their elements.
 class GmshSections4 {
  public:
-  explicit GmshSections4(GmshReader& reader) : reader_(reader) {}
+  GmshSections4(GmshReader& reader, bool is_4_0) : reader_(reader), is_4_0_(is_4_0) {}
   bool read(const std::string& section);
 
  private:
+  void skip_box(int dimension);
+  void read_groups(int dimension, std::vector<int>& groups);
+  std::pair<int, std::int64_t> read_entity();
+  void add_node(std::int64_t id, bool is_parametric, int dimension);
   void read_entities();
+  void read_partitioned_entities();
   void read_nodes();
   void read_elements();
 
   GmshReader& reader_;
+  bool is_4_0_;
   std::map<std::pair<int, std::int64_t>, std::vector<int>> groups_;  // by dimension and tag
 };
 

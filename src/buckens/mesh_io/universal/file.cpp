@@ -200,6 +200,8 @@ void UniversalReader::read_groups() {
     std::string name(trimmed(text_.next_line("the name of a group")));
     read_group_members(number, name.empty() ? fmt::format("group {}", number) : name, count);
     if (count > 0) text_.next_line("the next group");
+    // An empty group may leave an empty line.
+    while (!text_.at_end() && trimmed(text_.peek_line()).empty()) text_.next_line("the next group");
   }
 }
 
