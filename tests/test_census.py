@@ -25,18 +25,19 @@ def test_sorts_files_and_reasons(tmp_path):
     (folder / "without_density.bdf").write_text(DECK.format(density=""))
     (folder / "empty.bdf").write_text("ENDDATA\n")
     for name in ("first", "second"):
-        (folder / f"{name}.bdf").write_text(f"CBEND,{len(name)},1,1,2\n" + DECK.format(density=""))
+        (folder / f"{name}.bdf").write_text(f"GRID,{name}\n" + DECK.format(density=""))
+    (folder / "skipping.bdf").write_text("CBEND,7,1,1,2\n" + DECK.format(density=",7850."))
     (folder / "note.txt").write_text("not a mesh")
     outcome = tmp_path / "outcome.json"
     done = subprocess.run([sys.executable, SOURCE / "tools" / "census.py", folder, "--program", PROGRAM, "--json", outcome],
                           capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     row = next(line for line in done.stdout.splitlines() if line.startswith("| `.bdf`"))
-    # files, read, body, with help, refused rightly, else, time out, crash
-    assert [int(cell) for cell in row.split("|")[2:10]] == [5, 2, 1, 2, 1, 2, 0, 0]
-    assert sum("CBEND #" in line and line.strip().startswith("2 read") for line in done.stdout.splitlines()) == 1
+    # files, read, body, with help, of these skipping, refused rightly, else, time out, crash
+    assert [int(cell) for cell in row.split("|")[2:11]] == [6, 2, 1, 3, 1, 1, 2, 0, 0]
+    assert sum("GRID, field #" in line and line.strip().startswith("2 read") for line in done.stdout.splitlines()) == 1
     by_name = {entry["file"].rsplit("/", 1)[-1]: entry for entry in json.loads(outcome.read_text())}
-    assert set(by_name) == {"whole.bdf", "without_density.bdf", "empty.bdf", "first.bdf", "second.bdf"}
+    assert set(by_name) == {"whole.bdf", "without_density.bdf", "skipping.bdf", "empty.bdf", "first.bdf", "second.bdf"}
     assert by_name["without_density.bdf"]["helped"] and not by_name["without_density.bdf"]["body"]
 
 

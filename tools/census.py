@@ -6,7 +6,8 @@
 
 "read": `mesh-info` understands the file. "body": `check` makes a body of it, with the file named in the model file
 and nothing else (for formats that know no materials: with the material steel). "with help": it makes a body once the
-model file gives the materials, thicknesses and cross-sections that the messages ask for. Files that no program could
+model file gives the materials, thicknesses and cross-sections that the messages ask for, and leaves out (`skip`) what
+they offer to leave out. Files that no program could
 make a body of (no mesh in them, not complete, other physics) are known by their message: RIGHT below. What remains of
 the refusals is still to be done.
 """
@@ -79,6 +80,7 @@ class Model:
     def __init__(self, path, ending):
         self.path, self.ending = str(path), ending
         self.mesh = {"file": self.path, "length-unit": "m", "mass-unit": "kg"}
+        self.skipped = []
         if ending in MESHES:
             self.mesh["material"] = MATERIAL
 
@@ -95,10 +97,21 @@ class Model:
         place[key] = section
         return True
 
+    def skip(self, text):
+        """Leaves out what a message offers to leave out. @return whether it does, and that is new"""
+        offer = re.search(r"mesh: \{skip: \[([^\]]+)\]\}", text)
+        if not offer or offer.group(1) in self.skipped:
+            return False
+        self.skipped.append(offer.group(1))
+        self.mesh["skip"] = self.skipped
+        return True
+
     def help(self, text, properties):
         """Adds what the message asks for. @return whether there was anything to add"""
         if self.ending in STEPS:
             return False
+        if self.skip(text):
+            return True
         if "have no thickness" in text:
             return self.add_section(text, {"thickness": "1 mm"})
         if "have no cross-section" in text:
@@ -124,13 +137,20 @@ def examine(runner, path):
     ending = path.suffix.lower()
     out = {"file": str(path), "format": ending, "read": False, "body": False, "helped": False}
     properties = []
+    model = Model(path, ending)
     if ending not in STEPS:
-        code, text, seconds, told = runner.run("mesh-info", "--json", str(path))
-        out.update(read=code == 0, code=code, seconds=seconds, reason=text)
+        for attempt in range(MOST_ATTEMPTS):
+            options = [word for name in model.skipped for word in ("--skip", name)]
+            code, text, seconds, told = runner.run("mesh-info", "--json", *options, str(path))
+            if attempt == 0:
+                out.update(read=code == 0, code=code, seconds=seconds, reason=text)
+            if code == 0 or not model.skip(text):
+                break
+        out["skipped"] = model.skipped
         if code:
+            out.update(code=code, reason=text)
             return out
         properties = sorted({entry["name"] for entry in json.loads(told)["properties"]})
-    model = Model(path, ending)
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "model.yaml")
         for attempt in range(MOST_ATTEMPTS):
@@ -139,7 +159,7 @@ def examine(runner, path):
             text = text.replace(str(file), "model.yaml")
             out.update(code=code, reason=text, check_seconds=seconds, helped=code == 0)
             if attempt == 0:
-                out.update(body=code == 0, check_seconds=seconds)
+                out.update(body=code == 0 and out["read"], check_seconds=seconds)
                 if ending in STEPS:
                     out["read"] = code in (0, 3)
             if code == 0 or not model.help(text, properties):
@@ -156,8 +176,8 @@ def has_crashed(entry):
 
 
 def table(entries):
-    lines = ["| format | files | read | body | with help | refused rightly | else | time out | crash | slowest |",
-             "|---|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| format | files | read | body | with help | of these skipping | refused rightly | else | time out | crash"
+             " | slowest |", "|---|---|---|---|---|---|---|---|---|---|---|"]
     for form in sorted({entry["format"] for entry in entries}):
         own = [entry for entry in entries if entry["format"] == form]
         bad = [entry for entry in own if not entry["helped"]]
@@ -166,7 +186,7 @@ def table(entries):
         crash = [entry for entry in own if has_crashed(entry)]
         slowest = max(entry.get("seconds", 0) + entry.get("check_seconds", 0) for entry in own)
         lines.append(f"| `{form}` | {len(own)} | {sum(e['read'] for e in own)} | {sum(e['body'] for e in own)}"
-                     f" | {sum(e['helped'] for e in own)} | {len(right)} |"
+                     f" | {sum(e['helped'] for e in own)} | {sum(e['helped'] and bool(e.get('skipped')) for e in own)} | {len(right)} |"
                      f" {len(bad) - len(right) - len(late) - len(crash)} | {len(late)} | {len(crash)} | {slowest:.1f} s |")
     return "\n".join(lines)
 

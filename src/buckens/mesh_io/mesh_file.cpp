@@ -30,8 +30,8 @@ fem::ImportedMesh abaqus_deck(const std::filesystem::path& path, const fem::Mesh
 }
 
 fem::ImportedMesh nastran_deck(const std::filesystem::path& path, const fem::MeshWishes&,
-                               SkipList&) {
-  return read_nastran_deck(path);
+                               SkipList& skip) {
+  return read_nastran_deck(path, skip);
 }
 
 /// A mesh without stiffness and mass of its own: there is nothing to leave out.

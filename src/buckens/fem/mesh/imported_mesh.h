@@ -50,6 +50,8 @@ struct ImportedProperty {
   /// Without axes the x axis of a shell lies along the first side of each element rather than near
   /// the x axis of the mesh.
   bool along_first_side = false;
+  /// Why material or section is missing, where the file does give something; ends no sentence.
+  std::string lacking;
   int line = 0;
 };
 

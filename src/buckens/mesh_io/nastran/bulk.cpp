@@ -16,11 +16,14 @@ namespace {
 using Names = std::set<std::string_view>;
 
 const Names& kept_names() {
-  static const Names names = {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PSOLID",
-                              "PSHELL", "PCOMP",  "PCOMPG", "PBAR",   "PBARL",  "PBEAM",  "PBEAML",
-                              "PROD",   "PBUSH",  "MAT1",   "MAT2",   "MAT3",   "MAT8",   "MAT9",
-                              "MAT10",  "CONM2",  "CBUSH",  "RBE2",   "RBE3",   "RBAR",   "MPC",
-                              "MPCADD", "SET1",   "SET3"};
+  static const Names names = {
+      "CORD1R", "CORD1C", "CORD1S", "CORD2R",  "CORD2C",  "CORD2S", "PSOLID", "PSHELL", "PCOMP",
+      "PCOMPG", "PBAR",   "PBARL",  "PBEAM",   "PBEAML",  "PROD",   "PTUBE",  "PBUSH",  "PIHEX",
+      "PQUAD1", "PQUAD2", "PQDMEM", "PQDMEM1", "PQDMEM2", "PTRIA1", "PTRIA2", "PTRMEM", "MAT1",
+      "MAT2",   "MAT3",   "MAT8",   "MAT9",    "MAT10",   "CONM1",  "SPOINT", "CELAS1", "CELAS2",
+      "CELAS3", "CELAS4", "PELAS",  "CMASS1",  "CMASS2",  "CMASS3", "CMASS4", "PMASS",  "CONM2",
+      "CBUSH",  "RBE2",   "RBE3",   "RBAR",    "RBE1",    "RTRPLT", "RROD",   "CRIGD1", "CRIGD2",
+      "MPC",    "MPCADD", "SET1",   "SET3"};
   return names;
 }
 
@@ -33,50 +36,68 @@ const Names& support_names() {
   return names;
 }
 
+/// Cards named like elements that have neither mass nor stiffness for us: heat, fluids, air,
+/// contact, damping, and what numbers or names something.
+const Names& harmless_names() {
+  static const Names names = {
+      "CHBDY",   "CHBDYE",  "CHBDYG",  "CHBDYP",  "CONV",    "CONVM",   "CAERO1",  "CAERO2",
+      "CAERO3",  "CAERO4",  "CAERO5",  "CAERO7",  "CSSCHD",  "CELLBOX", "CELLWNG", "CAABSF",
+      "CACINF3", "CACINF4", "CHACAB",  "CHACBR",  "CFLUID2", "CFLUID3", "CFLUID4", "CAXIF2",
+      "CAXIF3",  "CAXIF4",  "CSLOT3",  "CSLOT4",  "CFFREE",  "CFHEX1",  "CFHEX2",  "CFLSTR",
+      "CFTETRA", "CFWEDGE", "CDAMP1",  "CDAMP2",  "CDAMP3",  "CDAMP4",  "CDAMP5",  "CVISC",
+      "CGAP",    "CBARAO",  "CGEN",    "CLOAD",   "CMFREE",  "CNGRNT",  "CREEP",   "CYAX",
+      "CYJOIN",  "CYSUP",   "CYSYM",   "CSET",    "CSET1",   "CSUPER",  "CSUPEXT", "CEMLOOP",
+      "CRAKTP",  "CONTRLT", "CONCHEM", "CONSTIT", "CAMPBEL", "CASECC",  "CBUTT",   "CELUSET",
+      "CIFQUAD", "CIFHEX",  "COMBWLD", "CORD3G",  "CSPOT",   "CONEAX0", "CNTRLT"};
+  return names;
+}
+
+/// Whether a name is that of an element that the structure would lack.
+bool is_unknown_element(std::string_view name) {
+  const bool is_rigid = name.starts_with("RBE") || name.starts_with("CRBE") ||
+                        name.starts_with("CRIG") || name == "CRBAR" || name == "CRROD" ||
+                        name == "CRTRPLT" || name == "CRSPLINE";
+  return is_rigid || (name.starts_with('C') && !harmless_names().contains(name));
+}
+
 /// Cards without which the structure would be another one.
-const char* reason_to_refuse(std::string_view name) {
+std::string reason_to_refuse(std::string_view name) {
   static const std::map<std::string_view, const char*> reasons = {
-      {"SPOINT", "scalar points are not supported; take them and what uses them out"},
-      {"EPOINT", "extra points are not supported; take them and what uses them out"},
       {"CQUAD8", "shells with mid-side nodes are not supported; mesh with CQUAD4"},
       {"CTRIA6", "shells with mid-side nodes are not supported; mesh with CTRIA3"},
       {"CQUAD", "hyperelastic shells are not supported; mesh with CQUAD4"},
       {"CSHEAR", "shear panels are not supported; use CQUAD4"},
-      {"CTUBE", "tubes are not supported; use CROD with the area of the tube"},
       {"CBEND", "curved beams are not supported; use a chain of CBEAM"},
       {"CBEAM3", "three-node beams are not supported; use two CBEAM"},
-      {"CONM1", "full mass matrices are not supported; use CONM2"},
-      {"CMASS1", "scalar masses are not supported; use CONM2"},
-      {"CMASS2", "scalar masses are not supported; use CONM2"},
-      {"CELAS1", "scalar springs are not supported; use CBUSH"},
-      {"CELAS2", "scalar springs are not supported; use CBUSH"},
-      {"CELAS3", "scalar springs are not supported; use CBUSH"},
-      {"CELAS4", "scalar springs are not supported; use CBUSH"},
       {"CWELD", "connections of patches are not supported; use RBE3 and CBUSH"},
       {"CFAST", "connections of patches are not supported; use RBE3 and CBUSH"},
       {"CSEAM", "connections of patches are not supported; use RBE3"},
       {"CTRIAX6", "axisymmetric elements have no place in a spatial body"},
       {"CTRIAX", "axisymmetric elements have no place in a spatial body"},
       {"CQUADX", "axisymmetric elements have no place in a spatial body"},
-      {"RBE1", "this rigid element is not supported; use RBE2"},
-      {"RROD", "this rigid element is not supported; use RBAR or MPC"},
-      {"RTRPLT", "this rigid element is not supported; use RBE2"},
       {"RTRPLT1", "this rigid element is not supported; use RBE2"},
       {"RBAR1", "this rigid element is not supported; use RBAR"},
       {"RJOINT", "this rigid element is not supported; use a joint of the model file"},
       {"RSPLINE", "this interpolation is not supported; use RBE3"},
       {"RSSCON", "this connection is not supported; use RBE3"},
-      {"BAROR", "defaults of CBAR are not supported; write them on the elements"},
-      {"BEAMOR", "defaults of CBEAM are not supported; write them on the elements"},
-      {"GENEL", "general elements are not supported"},
-      {"BEGIN", "further bulk data sections (superelements) are not supported"}};
+      {"GENEL", "general elements are not supported"}};
   const auto entry = reasons.find(name);
-  return entry == reasons.end() ? nullptr : entry->second;
+  if (entry != reasons.end()) return entry->second;
+  return is_unknown_element(name) ? "this element is not supported" : "";
+}
+
+[[noreturn]] void refuse_further_section(const NastranCard& card) {
+  throw InputError(card.where(),
+                   "a further section of bulk data (BEGIN SUPER, a superelement) is not supported; "
+                   "write it as a deck of its own, or let Nastran write the whole as one" +
+                       SkipList::remedy("SUPER"));
 }
 
 NastranGrid read_grid(const NastranCard& card, NastranNotes& notes) {
   NastranGrid grid;
   grid.id = card.id(0);
+  constexpr int kMostFields = 8;
+  if (card.size() > kMostFields) card.fail(kMostFields, "a GRID has eight fields at most");
   grid.cp = card.integer(1, NastranGrid::kBlank);
   for (int i = 0; i < 3; ++i) grid.x[static_cast<std::size_t>(i)] = card.real(2 + i, 0.0);
   grid.cd = card.integer(5, NastranGrid::kBlank);
@@ -129,14 +150,21 @@ const std::vector<NastranCard>& NastranBulk::cards_named(const std::string& name
   return entry == cards.end() ? none : entry->second;
 }
 
-NastranBulk read_nastran_bulk(NastranCardReader& reader, NastranNotes& notes) {
+NastranBulk read_nastran_bulk(NastranCardReader& reader, SkipList& skip, NastranNotes& notes) {
   // A gigabyte of fields that are kept.
   constexpr std::size_t kMostFields = std::size_t{1} << 26;
   NastranBulk bulk;
   NastranCard card;
   std::size_t num_kept_fields = 0;
+  bool is_left_out = false;  // a further section of bulk data
   while (reader.next(card)) {
-    if (card.name == "GRID") {
+    if (card.name == "BEGIN") {
+      if (!skip.takes("SUPER", card.line)) refuse_further_section(card);
+      is_left_out = true;
+    }
+    if (is_left_out || skip.takes(card.name, card.line)) {
+      continue;
+    } else if (card.name == "GRID") {
       bulk.grids.push_back(read_grid(card, notes));
     } else if (read_element_card(card, bulk, notes)) {
       continue;
@@ -146,13 +174,21 @@ NastranBulk read_nastran_bulk(NastranCardReader& reader, NastranNotes& notes) {
       bulk.cards[card.name].push_back(card);
     } else if (card.name == "GRDSET") {
       read_grid_defaults(card, bulk);
+    } else if (card.name == "BAROR" || card.name == "BEAMOR") {
+      read_nastran_line_defaults(card, bulk);
     } else if (card.name == "PARAM") {
       read_parameter(card, bulk, notes);
-    } else if (const char* reason = reason_to_refuse(card.name)) {
-      card.fail(reason);
+    } else if (const std::string reason = reason_to_refuse(card.name); !reason.empty()) {
+      card.fail(reason + SkipList::remedy(card.name));
     } else {
       note_unused(card, notes);
     }
+  }
+  for (NastranElement& element : bulk.elements) {
+    if (element.property != 0) continue;
+    const bool is_bar = element.kind == NastranElementKind::bar;
+    const std::int64_t general = is_bar ? bulk.bar_defaults.property : bulk.beam_defaults.property;
+    element.property = general != 0 ? general : element.id;
   }
   return bulk;
 }

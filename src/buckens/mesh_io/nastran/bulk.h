@@ -9,6 +9,7 @@
 
 #include "buckens/mesh_io/nastran/card_reader.h"
 #include "buckens/mesh_io/nastran/notes.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -25,13 +26,14 @@ enum class NastranElementKind {
   bar,
   beam,
   rod,
+  tube,
   conrod,
 };
 
 constexpr const char* name_of(NastranElementKind kind) {
-  constexpr std::array<const char*, 12> names = {"CTETRA", "CPYRAM", "CPENTA", "CHEXA",
-                                                 "CTRIA3", "CTRIAR", "CQUAD4", "CQUADR",
-                                                 "CBAR",   "CBEAM",  "CROD",   "CONROD"};
+  constexpr std::array<const char*, 13> names = {"CTETRA", "CPYRAM", "CPENTA", "CHEXA", "CTRIA3",
+                                                 "CTRIAR", "CQUAD4", "CQUADR", "CBAR",  "CBEAM",
+                                                 "CROD",   "CTUBE",  "CONROD"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -53,6 +55,8 @@ struct NastranElement {
   int num_nodes = 0;
   std::uint32_t first_node = 0;  ///< in NastranBulk::element_nodes
   std::int32_t details = -1;     ///< in NastranBulk::shells or lines
+  /// Of elements of NASTRAN-95: the card that the property is on, "MAT1" if it is a material.
+  const char* property_card = nullptr;
   NastranPlace place;
 };
 
@@ -68,11 +72,20 @@ struct NastranShellDetails {
 
 /// Fields of CBAR and CBEAM beyond nodes and property.
 struct NastranLineDetails {
+  bool has_orientation = false;       ///< else that of BAROR or BEAMOR counts
   std::int64_t orientation_node = 0;  ///< G0; 0: the vector counts
   std::array<double, 3> orientation = {0, 0, 0};
   bool basic_orientation = false;  ///< vector in the basic system, not in that of the first node
   std::array<double, 3> offset_a = {0, 0, 0};
   std::array<double, 3> offset_b = {0, 0, 0};
+  std::array<bool, 2> own_offsets = {false, false};  ///< in the axes of the beam, not of its node
+  std::array<std::array<bool, 6>, 2> pins{};         ///< PA, PB: released in the axes of the beam
+};
+
+/// BAROR or BEAMOR: what elements have that do not say otherwise.
+struct NastranLineDefaults {
+  std::int64_t property = 0;  ///< 0: none
+  NastranLineDetails line;
 };
 
 /// The bulk data as they are written: numbers read, references not yet followed.
@@ -84,6 +97,7 @@ struct NastranBulk {
   std::vector<std::int64_t> element_nodes;
   std::vector<NastranShellDetails> shells;
   std::vector<NastranLineDetails> lines;
+  NastranLineDefaults bar_defaults, beam_defaults;
   /// Cards that are read when something refers to them, and those of which there are few.
   std::map<std::string, std::vector<NastranCard>> cards;
   double weight_to_mass = 1;  ///< PARAM,WTMASS
@@ -92,9 +106,10 @@ struct NastranBulk {
   const std::vector<NastranCard>& cards_named(const std::string& name) const;
 };
 
-/// Reads all cards. Cards that carry no part of a mesh are noted, with how many there are.
+/// Reads all cards but those to leave out. Cards that carry no part of a mesh are noted, with how
+/// many there are.
 /// @throws InputError with the place for what cannot be read, and for cards that change the
 /// structure and are not supported
-NastranBulk read_nastran_bulk(NastranCardReader& reader, NastranNotes& notes);
+NastranBulk read_nastran_bulk(NastranCardReader& reader, SkipList& skip, NastranNotes& notes);
 
 }  // namespace buckens::mesh_io

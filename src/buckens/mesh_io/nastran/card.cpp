@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/mesh_io/nastran/card.h"
 
+#include <functional>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -74,6 +76,12 @@ SourceLocation NastranCard::where(int i) const {
   if (blank(i)) return where();
   const NastranField& field = fields[static_cast<std::size_t>(i)];
   int column = 1;
+  // Text that a repetition made has no place in the file.
+  const std::less<> is_before;
+  const char* const end = file->text.data() + file->text.size();
+  if (is_before(field.begin, file->text.data()) || !is_before(field.begin, end)) {
+    return {file->name, static_cast<int>(field.line), column};
+  }
   for (const char* c = field.begin; c != file->text.data() && *(c - 1) != '\n'; --c) ++column;
   return {file->name, static_cast<int>(field.line), column};
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/mesh_io/nastran/card_reader.h"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,134 +12,40 @@ namespace buckens::mesh_io {
 
 namespace {
 
-constexpr std::size_t kRow = 8;
 /// 64 MB of fields: an RBE2 with four million nodes.
 constexpr std::size_t kMostFields = std::size_t{1} << 22;
-
-/// One line cut into its fields.
-struct Row {
-  std::string_view head;  ///< name, or mark of a continuation
-  std::array<std::string_view, kRow> data;
-  std::size_t num_data = kRow;  ///< 4 in large field
-  std::string_view mark;        ///< that the next line repeats
-};
 
 [[noreturn]] void fail(const NastranLine& line, const std::string& text) {
   throw InputError({line.file->name, line.number, 1}, text);
 }
 
-/// A tab ends a field of eight columns, so that the text of a field is in one piece all the same.
-Row split_columns(const NastranLine& line) {
-  Row row;
-  std::array<std::string_view, 10> fields;
-  std::size_t column = 0, width = 8;
-  const std::string_view text = line.text;
-  for (std::size_t i = 0; i < text.size() && column < 80; ++i) {
-    const char c = text[i];
-    if (c == '\t') {
-      column = (column / 8 + 1) * 8;
-      continue;
-    }
-    // The head is complete when its ninth column is reached, by whatever way.
-    if (column >= 8 && width == 8) {
-      const std::string_view head = fields[0];
-      if (head.starts_with('*') || head.ends_with('*')) width = 16;
-    }
-    const std::size_t at = column < 8 ? 0 : column >= 72 ? 9 : 1 + (column - 8) / width;
-    ++column;
-    if (c == ' ') continue;
-    std::string_view& field = fields[at];
-    const std::size_t begin =
-        field.empty() ? i : static_cast<std::size_t>(field.data() - text.data());
-    field = text.substr(begin, i + 1 - begin);
-  }
-  row.head = fields[0];
-  row.num_data = row.head.starts_with('*') || row.head.ends_with('*') ? 4 : kRow;
-  std::copy_n(fields.begin() + 1, kRow, row.data.begin());
-  row.mark = fields[9];
-  return row;
-}
+bool has_sign(const NastranLine& line) { return line.text[0] == '+' || line.text[0] == '*'; }
 
-bool is_mark(std::string_view field) {
-  if (field.empty() || (field[0] != '+' && field[0] != '*')) return false;
-  return !nastran_real(field);
-}
+bool ends_with_comma(const NastranLine& line) { return trimmed(line.text).ends_with(','); }
 
-Row split_commas(const NastranLine& line) {
-  Row row;
-  std::array<std::string_view, 10> fields;
-  std::size_t count = 0, begin = 0;
-  const std::string_view text = line.text;
-  while (begin <= text.size()) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string_view field = trimmed(text.substr(begin, end - begin));
-    if (count < fields.size()) fields[count] = field;
-    if (count >= fields.size() && !field.empty()) {
-      fail(line, fmt::format("more than ten fields in one line; {} is too much. Break the card "
-                             "into continuation lines",
-                             quoted_excerpt(field)));
-    }
-    ++count;
-    begin = end + 1;
-  }
-  row.head = fields[0];
-  row.num_data = row.head.starts_with('*') || row.head.ends_with('*') ? 4 : kRow;
-  std::size_t last = std::min(count, fields.size()) - 1;
-  if (last > row.num_data || (last > 0 && is_mark(fields[last]))) {
-    row.mark = fields[last];
-    fields[last] = {};
-  }
-  for (std::size_t i = row.num_data + 1; i < fields.size(); ++i) {
-    if (fields[i].empty()) continue;
-    fail(line, fmt::format("more than {} data fields in one line; {} is too much. Break the card "
-                           "into continuation lines",
-                           row.num_data, quoted_excerpt(fields[i])));
-  }
-  std::copy_n(fields.begin() + 1, kRow, row.data.begin());
-  return row;
-}
-
-Row split(const NastranLine& line) {
-  return line.text.find(',') == std::string_view::npos ? split_columns(line) : split_commas(line);
-}
-
-bool is_continuation(const NastranLine& line) {
-  const char first = line.text[0];
-  if (first == '+' || first == '*' || first == ',') return true;
-  if (first != ' ' && first != '\t') return false;
-  return split(line).head.empty();
-}
-
-/// Cards may not be torn apart: what follows must be what the card before announced.
-void check_mark(std::string_view announced, std::string_view found, const NastranLine& line) {
-  const auto core = [](std::string_view mark) {
-    if (!mark.empty() && (mark[0] == '+' || mark[0] == '*')) mark.remove_prefix(1);
-    return trimmed(mark);
-  };
-  if (core(announced).empty() || core(found).empty() || core(announced) == core(found)) return;
-  fail(line, fmt::format("found continuation {} where {} should follow; put the lines of a card "
-                         "one after the other",
-                         quoted_excerpt(found), quoted_excerpt(announced)));
-}
-
-void append(NastranCard& card, const Row& row, const NastranLine& line) {
+void append(NastranCard& card, const NastranRow& row, const NastranLine& line) {
+  constexpr std::size_t kRow = NastranRow::kSize;
   if (row.num_data == kRow && card.fields.size() % kRow != 0) {
     card.fields.resize((card.fields.size() / kRow + 1) * kRow);
   }
-  if (card.fields.size() + kRow > kMostFields) {
+  if (card.fields.size() + row.num_data + row.more.size() > kMostFields) {
     fail(line, fmt::format("the card {} has more than {} fields", card.name, kMostFields));
   }
-  for (std::size_t i = 0; i < row.num_data; ++i) {
-    const std::string_view field = row.data[i];
+  const auto add = [&](std::string_view field) {
     card.fields.push_back({field.data(), static_cast<std::uint32_t>(field.size()),
                            static_cast<std::uint32_t>(line.number)});
-  }
+  };
+  for (std::size_t i = 0; i < row.num_data; ++i) add(row.data[i]);
+  for (const std::string_view field : row.more) add(field);
 }
 
-std::string card_name(const Row& row, const NastranLine& line) {
+std::string card_name(const NastranRow& row, const NastranLine& line) {
   std::string_view text = row.head;
   if (text.ends_with('*')) text.remove_suffix(1);
   std::string name = upper_case(trimmed(text));
+  // NASTRAN-95 takes lines of an earlier run away.
+  if (name == "/") return name;
+  if (name.starts_with("BEGIN")) return "BEGIN";
   bool is_name = !name.empty() && name.size() <= 8 && name[0] >= 'A' && name[0] <= 'Z';
   for (const char c : name) {
     is_name = is_name && ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_');
@@ -159,7 +63,7 @@ bool is_end(std::string_view text) {
 
 }  // namespace
 
-std::optional<NastranLine> NastranCardReader::take() {
+std::optional<NastranLine> NastranCardReader::from_source() {
   if (found_end_) return std::nullopt;
   std::optional<NastranLine> line =
       pending_ ? std::exchange(pending_, std::nullopt) : source_.next();
@@ -170,29 +74,113 @@ std::optional<NastranLine> NastranCardReader::take() {
   return line;
 }
 
-bool NastranCardReader::next(NastranCard& card) {
-  const std::optional<NastranLine> first = take();
-  if (!first) return false;
-  if (is_continuation(*first)) {
-    fail(*first, "this continues a card, but there is none before it");
+std::optional<NastranLine> NastranCardReader::take() {
+  if (!has_gathered_) return from_source();
+  while (place_ < ahead_.size() && ahead_[place_].used) ++place_;
+  if (place_ == ahead_.size()) return std::nullopt;
+  return ahead_[place_++].line;
+}
+
+void NastranCardReader::put_back(const NastranLine& line) {
+  if (has_gathered_) {
+    --place_;
+  } else {
+    pending_ = line;
   }
-  Row row = split(*first);
-  card.name = card_name(row, *first);
-  card.file = first->file;
-  card.line = first->number;
-  card.fields.clear();
-  append(card, row, *first);
-  std::string_view announced = row.mark;
-  while (const std::optional<NastranLine> line = take()) {
-    if (!is_continuation(*line)) {
-      pending_ = line;
-      break;
+}
+
+void NastranCardReader::gather() {
+  while (const auto line = from_source()) {
+    if (has_sign(*line)) {
+      const std::string_view mark = bare_mark(split_nastran_line(*line).head);
+      if (!mark.empty()) marks_[std::string(mark)].push_back(ahead_.size());
     }
-    if (line->file != card.file) fail(*line, "this continues a card of another file");
-    row = split(*line);
-    check_mark(announced, row.head, *line);
-    append(card, row, *line);
-    announced = row.mark;
+    ahead_.push_back({*line});
+  }
+  has_gathered_ = true;
+}
+
+std::optional<NastranLine> NastranCardReader::find_continuation(std::string_view announced) {
+  if (bare_mark(announced).empty()) return std::nullopt;
+  if (!has_gathered_) gather();
+  for (const std::string_view mark : {bare_mark(announced), trimmed(announced.substr(1))}) {
+    const auto places = marks_.find(std::string(mark));
+    if (places == marks_.end()) continue;
+    for (const std::size_t place : places->second) {
+      if (place < place_ || ahead_[place].used) continue;
+      ahead_[place].used = true;
+      return ahead_[place].line;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The line that goes on with a card: the next one, or that with the announced mark.
+std::optional<NastranLine> NastranCardReader::continuation_of(const NastranCard& card,
+                                                              std::string_view announced,
+                                                              bool after_comma) {
+  const std::optional<NastranLine> line = take();
+  const bool continues = line && (continues_nastran_card(*line, after_comma) ||
+                                  (card.name == "DEQATN" && line->text[0] == ' '));
+  if (continues) {
+    const NastranRow row = split_nastran_line(*line);
+    const bool fits = bare_mark(announced).empty() || bare_mark(row.head).empty() ||
+                      is_same_mark(announced, row.head);
+    if (fits || card.name == "DEQATN") {
+      if (line->file != card.file) fail(*line, "this continues a card of another file");
+      return line;
+    }
+  }
+  if (line) put_back(*line);
+  if (auto found = find_continuation(announced)) return found;
+  if (!continues) return std::nullopt;
+  fail(*line,
+       fmt::format("found continuation {} where {} should follow, which the deck does not "
+                   "have",
+                   quoted_excerpt(split_nastran_line(*line).head), quoted_excerpt(announced)));
+}
+
+/// Cards are repeated without their continuations.
+NastranRow NastranCardReader::first_row(const NastranLine& line) {
+  const NastranRow row = split_nastran_line(line);
+  if (!row.repeats()) {
+    replication_.remember(row);
+    return row;
+  }
+  replication_.begin(row, line);
+  repeating_ = line;
+  return replication_.next(line);
+}
+
+bool NastranCardReader::next(NastranCard& card) {
+  NastranLine first;
+  NastranRow row;
+  if (replication_.is_going_on()) {
+    first = repeating_;
+    row = replication_.next(first);
+  } else {
+    const std::optional<NastranLine> line = take();
+    if (!line) return false;
+    if (continues_nastran_card(*line, false)) {
+      fail(*line, "this continues a card, but there is none before it");
+    }
+    first = *line;
+    row = first_row(first);
+  }
+  card.name = card_name(row, first);
+  card.file = first.file;
+  card.line = first.number;
+  card.fields.clear();
+  append(card, row, first);
+  std::string mark(row.mark);
+  bool after_comma = ends_with_comma(first);
+  while (!replication_.is_going_on()) {
+    const std::optional<NastranLine> line = continuation_of(card, mark, after_comma);
+    if (!line) break;
+    row = split_nastran_line(*line);
+    if (card.name != "DEQATN") append(card, row, *line);
+    mark = row.mark;
+    after_comma = ends_with_comma(*line);
   }
   while (!card.fields.empty() && card.fields.back().size == 0) card.fields.pop_back();
   return true;

@@ -2,24 +2,28 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "buckens/mesh_io/nastran/card.h"
+#include "buckens/mesh_io/nastran/replication.h"
 #include "buckens/mesh_io/nastran/source.h"
 
 namespace buckens::mesh_io {
 
 /// Joins the lines of the bulk data section to cards.
 ///
-/// Lines with a comma are in free field, lines whose first field ends or begins with an asterisk in
-/// large field (16 columns), others in small field (8 columns); a tab goes on to the next multiple
-/// of eight columns. Continuations follow their card directly.
+/// A continuation follows its card directly, or has the mark that the card announces, wherever it
+/// stands behind it. Lines that repeat others (NastranReplication) become cards of their own.
 class NastranCardReader {
  public:
   /// @param first a line of the bulk data that was taken from the source already
   explicit NastranCardReader(NastranSource& source, std::optional<NastranLine> first = {})
       : source_(source), pending_(first) {}
 
-  /// Puts the next card into `card`, whose memory is used again. @return false at the end
+  /// Puts the next card into `card`, whose memory is used again. Its text lives as long as source
+  /// and reader. @return false at the end
   /// @throws InputError for lines that are no cards and lost continuations
   bool next(NastranCard& card);
 
@@ -27,11 +31,30 @@ class NastranCardReader {
   bool found_end() const { return found_end_; }
 
  private:
+  std::optional<NastranLine> from_source();
   std::optional<NastranLine> take();
+  void put_back(const NastranLine& line);
+  void gather();
+  std::optional<NastranLine> find_continuation(std::string_view announced);
+  std::optional<NastranLine> continuation_of(const NastranCard& card, std::string_view announced,
+                                             bool after_comma);
+  NastranRow first_row(const NastranLine& line);
 
   NastranSource& source_;
   std::optional<NastranLine> pending_;  // read ahead
   bool found_end_ = false;
+  NastranReplication replication_;
+  NastranLine repeating_;  // the line that replication_ carries out
+
+  // All further lines, once a continuation was not where it should be.
+  struct Ahead {
+    NastranLine line;
+    bool used = false;
+  };
+  bool has_gathered_ = false;
+  std::vector<Ahead> ahead_;
+  std::size_t place_ = 0;
+  std::unordered_map<std::string, std::vector<std::size_t>> marks_;  // places in ahead_
 };
 
 }  // namespace buckens::mesh_io

@@ -7,33 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "buckens/mesh_io/nastran/rigid_elements.h"
+
 namespace buckens::mesh_io {
 
 namespace {
 
-using Variables = std::array<bool, 6>;
-
-/// "123" and the like. @throws InputError for other digits
-Variables read_variables(const NastranCard& card, int field) {
-  Variables out{};
-  for (const char c : card.text(field)) {
-    if (c < '1' || c > '6') {
-      card.fail(field, fmt::format("\"{}\" must hold the digits 1 to 6 only", card.text(field)));
-    }
-    out[static_cast<std::size_t>(c - '1')] = true;
-  }
-  return out;
-}
-
-bool all_of(const Variables& v, int first) {
-  const auto i = static_cast<std::size_t>(first);
-  return v[i] && v[i + 1] && v[i + 2];
-}
-
-bool none_of(const Variables& v, int first) {
-  const auto i = static_cast<std::size_t>(first);
-  return !v[i] && !v[i + 1] && !v[i + 2];
-}
+using Variables = NastranVariables;
 
 class ConnectionBuilder {
  public:
@@ -41,18 +21,16 @@ class ConnectionBuilder {
                     NastranNotes& notes, fem::ImportedMesh& mesh)
       : bulk_(bulk), coordinates_(coordinates), notes_(notes), mesh_(mesh) {}
 
-  void add_rbe2(const NastranCard& card);
-  void add_rbar(const NastranCard& card);
   void add_rbe3(const NastranCard& card);
   void add_mpc(const NastranCard& card);
 
  private:
   int node(const NastranCard& card, int field) const {
-    const int index = coordinates_.find_node(card.id(field));
-    if (index < 0) card.fail(field, fmt::format("there is no GRID {}", card.id(field)));
-    return index;
+    return nastran_node(card, field, coordinates_);
   }
-  void check_axes(const NastranCard& card, const Variables& variables, int node) const;
+  void check_axes(const NastranCard& card, const Variables& variables, int node) const {
+    check_nastran_axes(card, variables, node, coordinates_);
+  }
   std::array<bool, 3> read_weight(const NastranCard& card, int field, double& weight);
 
   const NastranBulk& bulk_;
@@ -61,89 +39,19 @@ class ConnectionBuilder {
   fem::ImportedMesh& mesh_;
 };
 
-/// Components count in the displacement system of the node: single ones mean the same in mesh axes
-/// only if that system is the basic one.
-void ConnectionBuilder::check_axes(const NastranCard& card, const Variables& variables,
-                                   int node) const {
-  const bool whole = (all_of(variables, 0) || none_of(variables, 0)) &&
-                     (all_of(variables, 3) || none_of(variables, 3));
-  if (whole || coordinates_.displacement_system(node) == 0) return;
-  card.fail(
-      fmt::format("single components at GRID {}, whose displacements are in system {}, are "
-                  "not supported; tie all three translations or use the basic system",
-                  coordinates_.node_ids()[static_cast<std::size_t>(node)],
-                  coordinates_.displacement_system(node)));
-}
-
-void ConnectionBuilder::add_rbe2(const NastranCard& card) {
-  fem::ImportedRigidLink link;
-  link.name = card.label();
-  link.line = card.line;
-  card.id(0);
-  link.reference = node(card, 1);
-  if (card.blank(2)) card.fail(2, "is blank; give the components CM");
-  link.variables = read_variables(card, 2);
-  std::set<int> seen = {link.reference};
-  for (int field = 3; field < card.size(); ++field) {
-    if (card.blank(field)) continue;
-    if (!card.is_integer(field) && field + 1 == card.size()) {
-      card.real(field);
-      notes_.add("RBE2: thermal expansion ALPHA is left out", {card.file, card.line});
-      break;
-    }
-    const int follower = node(card, field);
-    if (!seen.insert(follower).second) {
-      card.fail(field, fmt::format("node {} appears there twice", card.id(field)));
-    }
-    check_axes(card, link.variables, follower);
-    link.nodes.push_back(follower);
-  }
-  if (link.nodes.empty()) card.fail("there are no dependent nodes");
-  mesh_.rigid_links.push_back(std::move(link));
-}
-
-void ConnectionBuilder::add_rbar(const NastranCard& card) {
-  fem::ImportedRigidLink link;
-  link.name = card.label();
-  link.line = card.line;
-  card.id(0);
-  const std::array<int, 2> ends = {node(card, 1), node(card, 2)};
-  if (ends[0] == ends[1]) card.fail(2, "both ends are one node");
-  const auto read_end = [&card](int field) {  // zero stands for none
-    return card.text(field) == "0" ? Variables{} : read_variables(card, field);
-  };
-  const std::array<Variables, 2> independent = {read_end(3), read_end(4)};
-  const auto all = [](const Variables& v) { return all_of(v, 0) && all_of(v, 3); };
-  const auto none = [](const Variables& v) { return none_of(v, 0) && none_of(v, 3); };
-  std::size_t first = 0;
-  if (all(independent[1]) && none(independent[0])) {
-    first = 1;
-  } else if (!all(independent[0]) || !none(independent[1])) {
-    card.fail("one end must have all six independent components, the other none");
-  }
-  const std::size_t second = 1 - first;
-  link.reference = ends[first];
-  link.nodes = {ends[second]};
-  const int dependent_field = 5 + static_cast<int>(second);
-  const Variables dependent = read_end(dependent_field);
-  if (!none_of(dependent, 0) || !none_of(dependent, 3)) link.variables = dependent;
-  check_axes(card, link.variables, ends[second]);
-  mesh_.rigid_links.push_back(std::move(link));
-}
-
 /// A weight and the components that it holds for. @return how each of the three displacements
 /// counts
 std::array<bool, 3> ConnectionBuilder::read_weight(const NastranCard& card, int field,
                                                    double& weight) {
   weight = card.real(field);
   if (!(weight > 0)) card.fail(field, fmt::format("the weight {:g} must be positive", weight));
-  const Variables used = read_variables(card, field + 1);
-  if (none_of(used, 0)) {
+  const Variables used = read_nastran_variables(card, field + 1);
+  if (is_without(used, 0)) {
     card.fail(field + 1,
               "no displacement (1, 2, 3) of the nodes counts; means of rotations alone are not "
               "supported");
   }
-  if (!none_of(used, 3)) {
+  if (!is_without(used, 3)) {
     notes_.add("RBE3: rotations of the nodes do not take part in the mean", {card.file, card.line});
   }
   return {used[0], used[1], used[2]};
@@ -157,7 +65,7 @@ void ConnectionBuilder::add_rbe3(const NastranCard& card) {
   card.id(0);
   average.reference = node(card, 2);
   if (card.blank(3)) card.fail(3, "is blank; give the components REFC that follow");
-  average.variables = read_variables(card, 3);
+  average.variables = read_nastran_variables(card, 3);
   check_axes(card, average.variables, average.reference);
   double weight = 0;
   std::array<bool, 3> used = {true, true, true};
@@ -273,8 +181,7 @@ void add_nastran_connections(const NastranBulk& bulk, bool has_control,
                              const NastranCoordinates& coordinates, NastranNotes& notes,
                              fem::ImportedMesh& mesh) {
   ConnectionBuilder builder(bulk, coordinates, notes, mesh);
-  for (const NastranCard& card : bulk.cards_named("RBE2")) builder.add_rbe2(card);
-  for (const NastranCard& card : bulk.cards_named("RBAR")) builder.add_rbar(card);
+  add_nastran_rigid_elements(bulk, coordinates, notes, mesh);
   for (const NastranCard& card : bulk.cards_named("RBE3")) builder.add_rbe3(card);
   const std::set<std::int64_t> sets = chosen_sets(bulk, has_control, mpc_set, notes);
   for (const NastranCard& card : bulk.cards_named("MPC")) {

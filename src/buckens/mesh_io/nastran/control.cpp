@@ -40,13 +40,14 @@ std::vector<std::string> words_of(std::string_view text) {
   return out;
 }
 
-/// Whether a line is BEGIN BULK, with blanks or a comma between.
+/// Whether a line is BEGIN BULK, with blanks or a comma between. A BEGIN alone is the start of a
+/// DMAP program, which ends before CEND.
 bool is_begin(std::string_view text) {
   text = trimmed(text);
   constexpr std::size_t kMostLength = 200;
   if (text.size() < 5 || upper_case(text.substr(0, 5)) != "BEGIN") return false;
   const std::vector<std::string> words = words_of(text.substr(0, kMostLength));
-  return words[0] == "BEGIN";
+  return words.size() > 1 && words[0] == "BEGIN" && words[1] != "$";
 }
 
 bool has_begin_line(std::string_view text) {

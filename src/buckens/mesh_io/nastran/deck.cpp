@@ -37,13 +37,13 @@ void note_sections(const NastranControl& control, bool found_end, const NastranF
 }  // namespace
 
 fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::path& name,
-                                    const LoadNastranFile& load) {
+                                    const LoadNastranFile& load, SkipList& skip) {
   NastranSource source(name, std::move(text), load);
   NastranNotes notes(source.main_file());
   std::optional<NastranLine> first;
   const NastranControl control = read_nastran_control(source, first);
   NastranCardReader reader(source, first);
-  NastranBulk bulk = read_nastran_bulk(reader, notes);
+  NastranBulk bulk = read_nastran_bulk(reader, skip, notes);
   if (control.weight_to_mass) bulk.weight_to_mass = *control.weight_to_mass;
   note_sections(control, reader.found_end(), source.main_file(), notes);
   if (bulk.grids.empty()) {
@@ -70,14 +70,25 @@ fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::pat
   return mesh;
 }
 
-fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path) {
+fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::path& name,
+                                    const LoadNastranFile& load) {
+  SkipList skip;
+  return read_nastran_text(std::move(text), name, load, skip);
+}
+
+fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path, SkipList& skip) {
   fem::ImportedMesh mesh = read_nastran_text(
-      files::read_text_file(path, "Nastran deck", kLargestDeck), path, load_nastran_file);
+      files::read_text_file(path, "Nastran deck", kLargestDeck), path, load_nastran_file, skip);
   if (mesh.num_elements() == 0 && mesh.masses.empty()) {
     throw InputError({mesh.file, 0, 0},
                      "the deck has nodes, but no elements and no masses; is it complete?");
   }
   return mesh;
+}
+
+fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path) {
+  SkipList skip;
+  return read_nastran_deck(path, skip);
 }
 
 }  // namespace buckens::mesh_io

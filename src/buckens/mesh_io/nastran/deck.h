@@ -6,6 +6,7 @@
 
 #include "buckens/fem/mesh/imported_mesh.h"
 #include "buckens/mesh_io/nastran/source.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -19,10 +20,14 @@ namespace buckens::mesh_io {
 /// @throws InputError with file, line and field for everything that cannot be taken over and would
 /// make another structure if it were left out; the rest stands in ImportedMesh::notes
 fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path);
+/// The same without the cards that are to be left out; counts those it meets.
+fem::ImportedMesh read_nastran_deck(const std::filesystem::path& path, SkipList& skip);
 
 /// The same from a text, which may hold nodes alone; `name` stands for the file in messages and
 /// beside it included files are looked for.
 fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::path& name,
                                     const LoadNastranFile& load = load_nastran_file);
+fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::path& name,
+                                    const LoadNastranFile& load, SkipList& skip);
 
 }  // namespace buckens::mesh_io

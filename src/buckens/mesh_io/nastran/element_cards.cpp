@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "buckens/mesh_io/nastran/number.h"
+#include "buckens/mesh_io/nastran/rigid_elements.h"
+
 namespace buckens::mesh_io {
 
 namespace {
@@ -19,6 +22,35 @@ std::optional<Kind> kind_named(std::string_view name) {
     if (name == name_of(static_cast<Kind>(i))) return static_cast<Kind>(i);
   }
   return std::nullopt;
+}
+
+/// Elements of NASTRAN-95 that have a successor.
+struct OldElement {
+  std::string_view name;
+  Kind kind;
+  const char* property;    ///< card of its property, "MAT1" if it has a material in its place
+  const char* difference;  ///< for the note, "" if there is none worth telling
+};
+
+const OldElement* old_element(std::string_view name) {
+  static constexpr const char* kMembrane = ", with bending stiffness, which it did not have";
+  static constexpr std::array<OldElement, 13> all = {
+      {{"CQUAD1", Kind::quad4, "PQUAD1", ""},
+       {"CQUAD2", Kind::quad4, "PQUAD2", ""},
+       {"CQDMEM", Kind::quad4, "PQDMEM", kMembrane},
+       {"CQDMEM1", Kind::quad4, "PQDMEM1", kMembrane},
+       {"CQDMEM2", Kind::quad4, "PQDMEM2", kMembrane},
+       {"CTRIA1", Kind::tria3, "PTRIA1", ""},
+       {"CTRIA2", Kind::tria3, "PTRIA2", ""},
+       {"CTRMEM", Kind::tria3, "PTRMEM", kMembrane},
+       {"CWEDGE", Kind::penta, "MAT1", ""},
+       {"CHEXA1", Kind::hexa, "MAT1", ""},
+       {"CHEXA2", Kind::hexa, "MAT1", ""},
+       {"CIHEX1", Kind::hexa, "PIHEX", ""},
+       {"CIHEX2", Kind::hexa, "PIHEX", ""}}};
+  const auto* const found =
+      std::find_if(all.begin(), all.end(), [&](const OldElement& old) { return old.name == name; });
+  return found == all.end() ? nullptr : found;
 }
 
 /// Adds the nodes in the fields from `first` on. @throws InputError if one stands there twice
@@ -65,6 +97,13 @@ void read_solid(const NastranCard& card, NastranBulk& bulk, NastranElement& elem
                       : element.kind == Kind::penta   ? Count{6, 15}
                                                       : Count{8, 20};
   add_nodes(card, 2, num_solid_nodes(card, count.corners, count.all), bulk, element);
+  if (card.name != "CIHEX2" || element.num_nodes != 20) return;
+  // It lists nodes around the lower face, those of upright edges, and around the upper face.
+  static constexpr std::array<std::size_t, 20> kOrder = {0, 2, 4, 6, 12, 14, 16, 18, 1,  3,
+                                                         5, 7, 8, 9, 10, 11, 13, 15, 17, 19};
+  const auto nodes = bulk.element_nodes.begin() + element.first_node;
+  const std::vector<std::int64_t> written(nodes, nodes + 20);
+  for (std::size_t i = 0; i < 20; ++i) nodes[static_cast<std::ptrdiff_t>(i)] = written[kOrder[i]];
 }
 
 void read_shell(const NastranCard& card, NastranBulk& bulk, NastranElement& element,
@@ -100,41 +139,53 @@ void read_shell(const NastranCard& card, NastranBulk& bulk, NastranElement& elem
   bulk.shells.push_back(std::move(details));
 }
 
-void refuse_pins(const NastranCard& card) {
-  for (const int field : {8, 9}) {
-    if (card.blank(field) || card.text(field) == "0") continue;
-    card.fail(field, fmt::format("pin flags {} are not supported: the beam's end would be hinged. "
-                                 "Use CROD for a bar with two hinges, or joints between bodies",
-                                 card.text(field)));
+/// PA and PB. A beam that may turn about its own axis at both ends would spin: it is held at the
+/// first.
+void read_pins(const NastranCard& card, NastranLineDetails& line) {
+  for (const std::size_t end : {0, 1}) {
+    const int field = 8 + static_cast<int>(end);
+    if (card.text(field) != "0") line.pins[end] = read_nastran_variables(card, field);
   }
+  if (line.pins[1][3]) line.pins[0][3] = false;
 }
 
 /// OFFT: one letter each for the orientation vector and the offsets of both ends; G: system of the
-/// node, B (for the vector): basic system. E and O are offsets in the element's system.
+/// node, B (for the vector): basic system, O: axes of the beam. NASTRAN-95 has F there: 1 for a
+/// vector, 2 for a node.
 void read_offset_flags(const NastranCard& card, NastranLineDetails& line) {
-  if (card.blank(7)) return;
   const std::string flags = card.word(7);
-  if (flags == "BGG") {
-    line.basic_orientation = true;
-  } else if (flags != "GGG") {
-    card.fail(7, fmt::format("{} is not supported; offsets must be GGG or BGG", flags));
+  if (flags.empty() || flags == "1" || flags == "2") return;
+  const auto is_one_of = [&](std::size_t i, std::string_view letters) {
+    return letters.find(flags[i]) != std::string_view::npos;
+  };
+  if (flags.size() != 3 || !is_one_of(0, "GB") || !is_one_of(1, "GO") || !is_one_of(2, "GO")) {
+    card.fail(7, fmt::format("{} is not supported; OFFT has G or B, and twice G or O",
+                             quoted_excerpt(flags)));
   }
+  line.basic_orientation = flags[0] == 'B';
+  line.own_offsets = {flags[1] == 'O', flags[2] == 'O'};
+}
+
+/// X1 to X3 or G0, also of BAROR and BEAMOR.
+void read_orientation(const NastranCard& card, NastranLineDetails& line) {
+  // An integer in the first field of the vector is the node G0.
+  const bool is_node = card.text(7) == "2" || (card.is_integer(4) && card.blank(5) &&
+                                               card.blank(6) && card.text(7) != "1");
+  if (!card.blank(4) && is_node) {
+    line.orientation_node = card.id(4);
+    line.has_orientation = true;
+  } else {
+    for (int i = 0; i < 3; ++i) line.orientation[static_cast<std::size_t>(i)] = card.real(4 + i, 0);
+    line.has_orientation = line.orientation != std::array<double, 3>{0, 0, 0};
+  }
+  read_offset_flags(card, line);
 }
 
 void read_beam(const NastranCard& card, NastranBulk& bulk, NastranElement& element) {
   add_nodes(card, 2, 2, bulk, element);
   NastranLineDetails line;
-  // An integer in the first field of the vector is the node G0.
-  if (!card.blank(4) && card.is_integer(4) && card.blank(5) && card.blank(6)) {
-    line.orientation_node = card.id(4);
-  } else {
-    for (int i = 0; i < 3; ++i) line.orientation[static_cast<std::size_t>(i)] = card.real(4 + i, 0);
-    if (line.orientation == std::array<double, 3>{0, 0, 0}) {
-      card.fail(4, "the orientation vector is missing; give X1, X2, X3 or a node G0");
-    }
-  }
-  read_offset_flags(card, line);
-  refuse_pins(card);
+  read_orientation(card, line);
+  read_pins(card, line);
   for (std::size_t i = 0; i < 3; ++i) {
     line.offset_a[i] = card.real(10 + static_cast<int>(i), 0.0);
     line.offset_b[i] = card.real(13 + static_cast<int>(i), 0.0);
@@ -145,13 +196,26 @@ void read_beam(const NastranCard& card, NastranBulk& bulk, NastranElement& eleme
 
 }  // namespace
 
+void read_nastran_line_defaults(const NastranCard& card, NastranBulk& bulk) {
+  NastranLineDefaults& defaults = card.name == "BAROR" ? bulk.bar_defaults : bulk.beam_defaults;
+  defaults.property = card.id(1, 0);
+  read_orientation(card, defaults.line);
+}
+
 bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes& notes) {
-  const auto kind = kind_named(card.name);
+  auto kind = kind_named(card.name);
+  const OldElement* const old = old_element(card.name);
+  if (old != nullptr) {
+    kind = old->kind;
+    notes.add(fmt::format("{}: taken as {}{}", card.name, name_of(old->kind), old->difference),
+              {card.file, card.line});
+  }
   if (!kind) return false;
   NastranElement element;
   element.id = card.id(0);
   element.kind = *kind;
   element.place = {card.file, card.line};
+  if (old != nullptr) element.property_card = old->property;
   switch (*kind) {
     case Kind::tetra:
     case Kind::pyramid:
@@ -169,10 +233,11 @@ bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes&
       break;
     case Kind::bar:
     case Kind::beam:
-      element.property = card.id(1, element.id);
+      element.property = card.id(1, 0);  // 0: that of BAROR or BEAMOR, or its own number
       read_beam(card, bulk, element);
       break;
     case Kind::rod:
+    case Kind::tube:
       element.property = card.id(1, element.id);
       add_nodes(card, 2, 2, bulk, element);
       break;

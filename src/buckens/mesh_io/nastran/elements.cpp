@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/mesh_io/nastran/hinges.h"
 
 namespace buckens::mesh_io {
 
@@ -69,9 +70,11 @@ class ElementBuilder {
   fem::ImportedBlock& block_of(const NastranElement& element, CellKind kind, int property);
   void read_nodes(const NastranElement& element);
   void add_line(const NastranElement& element);
-  int shifted_end(int node, const std::array<double, 3>& offset, const NastranElement& element);
-  Vector3d up_direction(const NastranElement& element, int node_a, const Vector3d& along,
-                        double angle) const;
+  int shifted_end(int node, const Vector3d& shift, const NastranElement& element);
+  void add_hinges(const NastranElement& element, const NastranLineDetails& line, int node_a);
+  NastranLineDetails line_details(const NastranElement& element) const;
+  Vector3d up_direction(const NastranElement& element, const NastranLineDetails& line, int node_a,
+                        const Vector3d& along, double angle) const;
   void spread_mass(const NastranElement& element, int property);
   const Vector3d& position(int node) const {
     return coordinates_.positions()[static_cast<std::size_t>(node)];
@@ -139,11 +142,8 @@ void ElementBuilder::add(const NastranElement& element) {
 }
 
 /// The end of a beam: the node itself, or a node beside it that follows it as a rigid body.
-int ElementBuilder::shifted_end(int node, const std::array<double, 3>& offset,
-                                const NastranElement& element) {
-  if (offset == std::array<double, 3>{0, 0, 0}) return node;
-  const Vector3d local(offset[0], offset[1], offset[2]);
-  const Vector3d shift = coordinates_.displacement_axes(node) * local;
+int ElementBuilder::shifted_end(int node, const Vector3d& shift, const NastranElement& element) {
+  if (shift.isZero(0.0)) return node;
   const auto [entry, is_new] = shifted_.try_emplace({node, {shift.x(), shift.y(), shift.z()}}, 0);
   if (is_new) {
     const Vector3d place = position(node) + shift;
@@ -161,9 +161,11 @@ int ElementBuilder::shifted_end(int node, const std::array<double, 3>& offset,
   return entry->second;
 }
 
-Vector3d ElementBuilder::up_direction(const NastranElement& element, int node_a,
-                                      const Vector3d& along, double angle) const {
-  const NastranLineDetails& line = bulk_.lines[static_cast<std::size_t>(element.details)];
+/// The section's z axis.
+/// @param along from one end to the other
+/// @param angle by which the section is turned from Nastran's axes
+Vector3d ElementBuilder::up_direction(const NastranElement& element, const NastranLineDetails& line,
+                                      int node_a, const Vector3d& along, double angle) const {
   Vector3d v(line.orientation[0], line.orientation[1], line.orientation[2]);
   if (line.orientation_node != 0) {
     const int node = coordinates_.find_node(line.orientation_node);
@@ -181,13 +183,65 @@ Vector3d ElementBuilder::up_direction(const NastranElement& element, int node_a,
   return std::cos(angle) * z_unit - std::sin(angle) * z_unit.cross(x);
 }
 
+/// What the element says of its axes, else what BAROR or BEAMOR does.
+NastranLineDetails ElementBuilder::line_details(const NastranElement& element) const {
+  NastranLineDetails own = bulk_.lines[static_cast<std::size_t>(element.details)];
+  if (own.has_orientation) return own;
+  const NastranLineDetails& general =
+      element.kind == Kind::bar ? bulk_.bar_defaults.line : bulk_.beam_defaults.line;
+  if (!general.has_orientation) {
+    fail(element, "the orientation vector is missing; give X1, X2, X3 or a node G0");
+  }
+  own.orientation_node = general.orientation_node;
+  own.orientation = general.orientation;
+  own.basic_orientation = general.basic_orientation;
+  return own;
+}
+
+void ElementBuilder::add_hinges(const NastranElement& element, const NastranLineDetails& line,
+                                int node_a) {
+  const Vector3d along = position(nodes_[1]) - position(nodes_[0]);
+  for (const std::size_t end : {0, 1}) {
+    if (line.pins[end] == std::array<bool, 6>{}) continue;
+    Matrix3d axes;
+    axes.col(0) = along.normalized();
+    axes.col(2) = up_direction(element, line, node_a, along, 0.0);
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    nodes_[end] = add_nastran_hinge(
+        nodes_[end], axes, line.pins[end],
+        fmt::format("pin {} of {} {}", end == 0 ? "PA" : "PB", name_of(element.kind), element.id),
+        element.place.line, coordinates_, mesh_);
+    notes_.add(fmt::format("{}: pin flags PA, PB become nodes of their own, tied in what is not "
+                           "released",
+                           name_of(element.kind)),
+               element.place);
+  }
+}
+
 void ElementBuilder::add_line(const NastranElement& element) {
-  const NastranLineDetails& line = bulk_.lines[static_cast<std::size_t>(element.details)];
+  const NastranLineDetails line = line_details(element);
   const int property = properties_.of(element, {});
   const int grid_a = nodes_[0];
-  nodes_[0] = shifted_end(nodes_[0], line.offset_a, element);
-  nodes_[1] = shifted_end(nodes_[1], line.offset_b, element);
-  const Vector3d up = up_direction(element, grid_a, position(nodes_[1]) - position(nodes_[0]),
+  const Vector3d between = position(nodes_[1]) - position(nodes_[0]);
+  const std::array<double, 2>& neutral = properties_.neutral_axis(property);
+  const auto shift = [&](std::size_t end) -> Vector3d {
+    const std::array<double, 3>& offset = end == 0 ? line.offset_a : line.offset_b;
+    const Vector3d local(offset[0], offset[1], offset[2]), across(0.0, neutral[0], neutral[1]);
+    if (local.isZero(0.0) && across.isZero(0.0)) return local;
+    Matrix3d axes;
+    axes.col(0) = between.normalized();
+    axes.col(2) = up_direction(element, line, grid_a, between, 0.0);
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    const Vector3d own = line.own_offsets[end]
+                             ? Vector3d(axes * local)
+                             : Vector3d(coordinates_.displacement_axes(nodes_[end]) * local);
+    return own + axes * across;
+  };
+  const Vector3d shift_a = shift(0), shift_b = shift(1);
+  nodes_[0] = shifted_end(nodes_[0], shift_a, element);
+  nodes_[1] = shifted_end(nodes_[1], shift_b, element);
+  add_hinges(element, line, grid_a);
+  const Vector3d up = up_direction(element, line, grid_a, between + shift_b - shift_a,
                                    properties_.section_angle(property));
   fem::ImportedBlock& block = block_of(element, CellKind::line2, property);
   block.ids.push_back(element.id);

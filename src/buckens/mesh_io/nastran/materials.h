@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "buckens/fem/element/material_spec.h"
@@ -15,18 +17,23 @@ namespace buckens::mesh_io {
 
 /// The materials of a deck, taken over when something is made of them.
 ///
-/// MAT1 becomes isotropic; MAT8 orthotropic with E3 = E2 and without contraction across, which thin
-/// shells do not feel; MAT9 orthotropic if it is that in its axes, else it is refused.
+/// MAT1 becomes isotropic. Solids and shells have the G of its E and NU, as in Nastran; where that
+/// of the deck differs, beams have theirs in a material of its own. MAT8 becomes orthotropic with
+/// E3 = E2 and without contraction across, which thin shells do not feel; so does MAT2 if it is
+/// orthotropic in its axes, and MAT9 for solids. Others are left to the model file.
 class NastranMaterials {
  public:
   /// What an element can be made of.
-  enum class Use { solid, shell, line };
+  enum class Use { solid, shell, beam, bar };
 
   /// @throws InputError if two cards have one number
   NastranMaterials(const NastranBulk& bulk, const NastranNames& names, NastranNotes& notes);
 
-  /// Name of the material with this number.
+  bool has(std::int64_t id) const { return cards_.contains(id); }
+  /// Why the material with this number cannot be used for that, "" if it can.
   /// @param user says what is made of it
+  std::string lack(std::int64_t id, Use use, const std::string& user) const;
+  /// Name of the material with this number.
   /// @throws InputError if it is missing or cannot be used for that
   std::string name(std::int64_t id, Use use, const std::string& user, const NastranPlace& place);
   /// Whether directions matter in it; false if it is missing.
@@ -36,11 +43,15 @@ class NastranMaterials {
   std::vector<fem::MaterialSpec> take() { return std::move(specs_); }
 
  private:
-  fem::MaterialSpec convert(const NastranCard& card);
+  fem::MaterialSpec convert(const NastranCard& card, Use use);
+  void set_moduli(const NastranCard& card, Use use, fem::MaterialSpec& out);
   std::string unique_name(const NastranCard& card);
 
   std::unordered_map<std::int64_t, const NastranCard*> cards_;
-  std::unordered_map<std::int64_t, std::size_t> taken_;
+  /// One card may become several materials.
+  enum class Variant { usual, own_G, without_nu };
+  Variant variant(const NastranCard& card, Use use) const;
+  std::map<std::pair<std::int64_t, Variant>, std::size_t> taken_;
   std::vector<fem::MaterialSpec> specs_;
   std::set<std::string> used_names_;
   const NastranNames* names_;

@@ -33,6 +33,17 @@ std::optional<std::int64_t> nastran_integer(std::string_view text) {
 std::optional<double> nastran_real(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   if (text.empty() || text.size() > kLongestReal) return std::nullopt;
+  std::string joined;
+  if (const std::size_t blank = text.find(' '); blank != std::string_view::npos) {
+    // NASTRAN-95 has blanks before an exponent: "20.0 E+7".
+    const std::string_view exponent = trimmed(text.substr(blank));
+    if (exponent.empty() || std::string_view("eEdD").find(exponent[0]) == std::string_view::npos) {
+      return std::nullopt;
+    }
+    joined = text.substr(0, blank);
+    joined += exponent;
+    text = joined;
+  }
   // The mantissa up to an exponent letter or to a sign that is not the first character.
   std::size_t split = 0;
   while (split < text.size() &&

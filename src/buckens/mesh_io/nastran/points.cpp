@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "buckens/mesh_io/nastran/scalar_elements.h"
+
 namespace buckens::mesh_io {
 
 using Eigen::Matrix3d;
@@ -216,6 +218,10 @@ void add_nastran_points(const NastranBulk& bulk, NastranCoordinates& coordinates
   for (const NastranCard& card : bulk.cards_named("CONM2")) {
     add_mass(card, bulk, coordinates, mesh);
   }
+  for (const NastranCard& card : bulk.cards_named("CONM1")) {
+    add_nastran_mass_matrix(card, bulk, coordinates, mesh);
+  }
+  add_nastran_scalar_elements(bulk, coordinates, notes, mesh);
   SpringBuilder springs(bulk, coordinates, notes, mesh);
   for (const NastranCard& card : bulk.cards_named("CBUSH")) springs.add(card);
 }

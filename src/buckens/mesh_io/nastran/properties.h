@@ -32,7 +32,9 @@ class NastranProperties {
 
   /// Index of the property of an element; its kind tells which cards count.
   /// @param nodes places of the corners of a shell; else not used
-  /// @throws InputError if it is missing or not supported
+  /// One that the deck does not have, or gives in a way that is not supported, is left to the model
+  /// file: see fem::ImportedProperty::lacking.
+  /// @throws InputError if its card cannot be read
   int of(const NastranElement& element, const std::vector<Eigen::Vector3d>& nodes);
 
   /// Non-structural mass per area or length, as the file weighs.
@@ -40,14 +42,18 @@ class NastranProperties {
   /// Of the section's y axis from Nastran's, about x [rad].
   double section_angle(int property) const { return more(property).angle; }
 
+  /// Of the neutral axis from the line between the nodes, in Nastran's axes (y, z).
+  const std::array<double, 2>& neutral_axis(int property) const { return more(property).offset; }
+
   std::vector<fem::ImportedProperty> take() { return std::move(properties_); }
 
  private:
-  enum class Family { solid, shell, bar, beam, rod, conrod };
+  enum class Family { solid, shell, bar, beam, rod, tube, conrod };
 
   struct More {
     double mass = 0;
     double angle = 0;
+    std::array<double, 2> offset = {0, 0};
   };
 
   struct Shell {
@@ -66,16 +72,25 @@ class NastranProperties {
   using ShellKey = std::tuple<const NastranCard*, double, double, std::array<double, 3>, double>;
 
   const More& more(int property) const { return more_[static_cast<std::size_t>(property)]; }
-  const NastranCard& card_of(const NastranElement& element, Family family) const;
+  using Cards = std::unordered_map<std::int64_t, const NastranCard*>;
+
+  static void add_card(const NastranCard& card, Cards& cards);
+  /// Null if the deck has none.
+  const NastranCard* card_of(const NastranElement& element, Family family) const;
+  int missing(const NastranElement& element, Family family);
+  std::string unique_name(const std::string& wanted);
   std::string name_of_card(const NastranCard& card);
   int add(fem::ImportedProperty property, const More& more);
 
   int solid(const NastranElement& element);
   int line(const NastranElement& element, Family family);
+  void set_material(std::int64_t material, NastranMaterials::Use use, const NastranCard& card,
+                    fem::ImportedProperty& out);
   int shell(const NastranElement& element, const std::vector<Eigen::Vector3d>& nodes);
 
   fem::ImportedProperty convert_solid(const NastranCard& card);
   Shell convert_pshell(const NastranCard& card);
+  Shell convert_old_shell(const NastranCard& card);
   Shell convert_pcomp(const NastranCard& card);
   std::vector<fem::ImportedLayer> read_layers(const NastranCard& card);
   double thickness_of(const NastranElement& element, const Shell& shell);
@@ -87,10 +102,12 @@ class NastranProperties {
   const NastranCoordinates* coordinates_;
   NastranMaterials* materials_;
   NastranNotes* notes_;
-  std::map<Family, std::unordered_map<std::int64_t, const NastranCard*>> cards_;
+  std::map<Family, Cards> cards_;
+  std::map<std::string, Cards> old_cards_;
   std::map<const NastranCard*, std::string> card_names_;
   std::set<std::string> used_names_;
-  std::map<const NastranCard*, int> plain_;  // solids and lines
+  std::map<const NastranCard*, int> plain_;                      // solids and lines
+  std::map<std::pair<Family, std::int64_t>, int> without_card_;  // by number
   std::map<const NastranCard*, Shell> shells_;
   std::map<ShellKey, int> shell_variants_;
   std::vector<fem::ImportedProperty> properties_;

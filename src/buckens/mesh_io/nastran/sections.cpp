@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/box_section.h"
+#include "buckens/mesh_io/nastran/number.h"
+#include "buckens/mesh_io/nastran/section_shapes.h"
 
 namespace buckens::mesh_io {
 
@@ -15,6 +17,10 @@ namespace {
 
 /// A shear factor that makes shear deformation vanish where a card has it in the other plane only.
 constexpr double kShearRigid = 1e6;
+
+constexpr const char* kNeutralAxisNote =
+    "beams whose neutral axis is not at the shear centre lie in the neutral axis; torsion is about "
+    "it, too";
 
 /// A, I1, I2, I12, J and NSM in the axes of Nastran.
 struct Constants {
@@ -42,13 +48,30 @@ std::vector<std::array<double, 2>> read_stress_points(const NastranCard& card, i
   return out;
 }
 
+/// Whether the constants are those of a beam. Those of a bar with an area alone are taken, others
+/// left to the model file.
+bool is_beam_section(const NastranCard& card, const Constants& c, NastranSection& out) {
+  if (!(c.A > 0.0)) {
+    out.lacking = fmt::format("{}: the area {:g} is not positive", card.label(), c.A);
+  } else if (c.I1 == 0.0 && c.I2 == 0.0 && c.J == 0.0) {
+    out.is_bar = true;
+    out.section.shape = fem::CircleSpec{2.0 * std::sqrt(c.A / std::numbers::pi)};
+  } else if (!(c.I1 > 0.0 && c.I2 > 0.0 && c.J > 0.0)) {
+    out.lacking = fmt::format(
+        "{}: I1 = {:g}, I2 = {:g}, J = {:g}, so that the beam would not "
+        "resist bending or torsion",
+        card.label(), c.I1, c.I2, c.J);
+  } else if (!(c.I1 * c.I2 > c.I12 * c.I12)) {
+    out.lacking = fmt::format("{}: I12 = {:g} is too large for I1 = {:g} and I2 = {:g}",
+                              card.label(), c.I12, c.I1, c.I2);
+  }
+  return out.lacking.empty() && !out.is_bar;
+}
+
 /// A general section in its principal axes.
 void set_general(const NastranCard& card, const Constants& c, double K1, double K2,
                  std::vector<std::array<double, 2>> points, NastranSection& out) {
-  if (!(c.I1 * c.I2 > c.I12 * c.I12)) {
-    card.fail(
-        fmt::format("I12 = {:g} is too large for I1 = {:g} and I2 = {:g}", c.I12, c.I1, c.I2));
-  }
+  if (!is_beam_section(card, c, out)) return;
   fem::GeneralSectionSpec section;
   section.A = c.A;
   section.J = c.J;
@@ -85,8 +108,8 @@ void set_general(const NastranCard& card, const Constants& c, double K1, double 
 }
 
 void read_pbar(const NastranCard& card, NastranSection& out) {
-  Constants c{card.positive(2), card.positive(3), card.positive(4), 0.0,
-              card.positive(5), card.real(6, 0.0)};
+  Constants c{card.real(2, 0.0), card.real(3, 0.0), card.real(4, 0.0), 0.0,
+              card.real(5, 0.0), card.real(6, 0.0)};
   const double K1 = card.real(16, 0.0), K2 = card.real(17, 0.0);
   c.I12 = card.real(18, 0.0);
   out.mass_per_length = c.mass;
@@ -138,7 +161,7 @@ void read_stations(const NastranCard& card, int& field, std::vector<Station>& st
 }
 
 /// The two lines at the end of a PBEAM: shear factors, warping, offsets of masses and neutral axes.
-void check_pbeam_end(const NastranCard& card, int field, NastranNotes& notes) {
+void read_pbeam_end(const NastranCard& card, int field, NastranNotes& notes, NastranSection& out) {
   const auto any = [&](int from, int to) {
     for (int i = from; i < to; ++i) {
       if (card.real(field + i, 0.0) != 0.0) return true;
@@ -147,9 +170,12 @@ void check_pbeam_end(const NastranCard& card, int field, NastranNotes& notes) {
   };
   const NastranPlace place{card.file, card.line};
   if (any(12, 16)) {
-    card.fail(
-        "a neutral axis off the shear centre (N1, N2) is not supported; use the offsets WA, "
-        "WB of CBEAM");
+    // N1 and N2 at end A and at end B, where blank stands for end A.
+    for (int i = 0; i < 2; ++i) {
+      const double a = card.real(field + 12 + i, 0.0);
+      out.offset[static_cast<std::size_t>(i)] = 0.5 * (a + card.real(field + 14 + i, a));
+    }
+    notes.add(kNeutralAxisNote, place);
   }
   if (any(2, 4)) notes.add("PBEAM: shear relief S1, S2 is left out", place);
   if (any(4, 8)) notes.add("PBEAM: NSI and warping CW are left out", place);
@@ -158,8 +184,8 @@ void check_pbeam_end(const NastranCard& card, int field, NastranNotes& notes) {
 
 void read_pbeam(const NastranCard& card, NastranNotes& notes, NastranSection& out) {
   std::vector<Station> stations(1);
-  stations[0].constants = {card.positive(2),  card.positive(3), card.positive(4),
-                           card.real(5, 0.0), card.positive(6), card.real(7, 0.0)};
+  stations[0].constants = {card.real(2, 0.0), card.real(3, 0.0), card.real(4, 0.0),
+                           card.real(5, 0.0), card.real(6, 0.0), card.real(7, 0.0)};
   int field = 8;
   std::vector<std::array<double, 2>> points;
   if (!is_station(card, field)) {
@@ -167,7 +193,7 @@ void read_pbeam(const NastranCard& card, NastranNotes& notes, NastranSection& ou
     field += 8;
   }
   read_stations(card, field, stations);
-  check_pbeam_end(card, field, notes);
+  read_pbeam_end(card, field, notes, out);
   const Constants mean = mean_of(stations);
   const Constants& first = stations[0].constants;
   for (const double difference : {mean.A - first.A, mean.I1 - first.I1, mean.I2 - first.I2}) {
@@ -182,7 +208,7 @@ void read_pbeam(const NastranCard& card, NastranNotes& notes, NastranSection& ou
 
 /// DIM1 lies along z, DIM2 along y of Nastran's element axes; DIM3 are the walls along z, DIM4
 /// those along y.
-void set_box(const NastranCard& card, const std::array<double, 4>& dim, NastranSection& out) {
+void set_box(const NastranCard& card, const std::vector<double>& dim, NastranSection& out) {
   const BoxWalls box{dim[1], dim[0], dim[2], dim[3]};
   if (!(2 * box.side < box.width && 2 * box.flat < box.height)) {
     card.fail("the walls of the BOX fill it");
@@ -190,34 +216,60 @@ void set_box(const NastranCard& card, const std::array<double, 4>& dim, NastranS
   out.section.shape = box_section(box).shape;
 }
 
-void set_shape(const NastranCard& card, const std::string& type, const std::array<double, 4>& dim,
-               NastranSection& out) {
-  out.shear_flexible = true;
-  if (type == "ROD") out.section.shape = fem::CircleSpec{2.0 * dim[0]};
-  if (type == "BAR") out.section.shape = fem::RectangleSpec{dim[1], dim[0]};
-  if (type == "BOX") set_box(card, dim, out);
-  if (type != "TUBE") return;
-  if (!(dim[1] >= 0.0 && dim[1] < dim[0])) {
-    card.fail("TUBE: DIM1, the outer radius, must exceed DIM2, the inner one");
+void set_tube(const NastranCard& card, double outer, double inner, NastranSection& out) {
+  if (!(inner >= 0.0 && inner < outer)) {
+    card.fail(
+        fmt::format("the inner radius {:g} of the tube must be smaller than the outer one, "
+                    "{:g}",
+                    inner, outer));
   }
-  if (dim[1] == 0.0) {
-    out.section.shape = fem::CircleSpec{2.0 * dim[0]};
+  if (inner == 0.0) {
+    out.section.shape = fem::CircleSpec{2.0 * outer};
   } else {
-    out.section.shape = fem::TubeSpec{2.0 * dim[0], std::nullopt, 2.0 * dim[1]};
+    out.section.shape = fem::TubeSpec{2.0 * outer, std::nullopt, 2.0 * inner};
   }
+}
+
+void set_shape(const NastranCard& card, const std::string& type, const std::vector<double>& dim,
+               NastranNotes& notes, NastranSection& out) {
+  out.shear_flexible = true;
+  if (type == "ROD") {
+    out.section.shape = fem::CircleSpec{2.0 * dim[0]};
+  } else if (type == "BAR") {
+    out.section.shape = fem::RectangleSpec{dim[1], dim[0]};
+  } else if (type == "BOX") {
+    set_box(card, dim, out);
+  } else if (type == "TUBE") {
+    set_tube(card, dim[0], dim[1], out);
+  } else if (type == "TUBE2") {
+    set_tube(card, dim[0], dim[0] - dim[1], out);
+  } else {
+    const NastranShapeConstants c = nastran_shape(type, dim);
+    if (!(c.A > 0)) card.fail(fmt::format("the plates of the section {} do not fit", type));
+    set_general(card, {c.A, c.I1, c.I2, c.I12, c.J, 0.0}, c.K1, c.K2, c.corners, out);
+    if (card.name != "PBEAML" || (c.y == 0.0 && c.z == 0.0)) return;
+    out.offset = {c.y, c.z};
+    notes.add(kNeutralAxisNote, {card.file, card.line});
+  }
+}
+
+int num_dimensions(const std::string& type) {
+  if (type == "ROD") return 1;
+  if (type == "TUBE" || type == "TUBE2" || type == "BAR") return 2;
+  return type == "BOX" ? 4 : num_nastran_shape_dimensions(type);
 }
 
 /// PBARL and PBEAML: a shape by name and its dimensions, the latter perhaps at several stations.
 void read_shape(const NastranCard& card, NastranNotes& notes, NastranSection& out) {
   const std::string type = card.word(3);
-  const int count = type == "ROD" ? 1 : type == "TUBE" || type == "BAR" ? 2 : type == "BOX" ? 4 : 0;
+  const int count = num_dimensions(type);
   if (count == 0) {
-    card.fail(3, fmt::format("sections of type \"{}\" are not supported; there are ROD, TUBE, BAR "
-                             "and BOX, and PBAR or PBEAM with constants for others",
-                             type));
+    out.lacking = fmt::format("{}: sections of type {} are not supported", card.label(),
+                              quoted_excerpt(type));
+    return;
   }
-  std::array<double, 4> dim = {0, 0, 0, 0};
-  const auto read = [&](int first, std::array<double, 4>& to) {
+  std::vector<double> dim(static_cast<std::size_t>(count));
+  const auto read = [&](int first, std::vector<double>& to) {
     for (int i = 0; i < count; ++i) {
       const bool may_be_zero = type == "TUBE" && i == 1;
       double& value = to[static_cast<std::size_t>(i)];
@@ -228,7 +280,7 @@ void read_shape(const NastranCard& card, NastranNotes& notes, NastranSection& ou
   };
   read(8, dim);
   out.mass_per_length = card.real(8 + count, 0.0);
-  std::array<double, 4> last = dim;
+  std::vector<double> last = dim;
   int field = 9 + count;
   // SO and X/XB of further stations may be blank, "YES" and 1 by default.
   for (; card.name == "PBEAML" && field < card.size(); field += count + 3) {
@@ -245,9 +297,9 @@ void read_shape(const NastranCard& card, NastranNotes& notes, NastranSection& ou
   if (last != dim) {
     notes.add("PBEAML: tapered beams get the mean of the dimensions at both ends",
               {card.file, card.line});
-    for (std::size_t i = 0; i < 4; ++i) dim[i] = 0.5 * (dim[i] + last[i]);
+    for (std::size_t i = 0; i < dim.size(); ++i) dim[i] = 0.5 * (dim[i] + last[i]);
   }
-  set_shape(card, type, dim, out);
+  set_shape(card, type, dim, notes, out);
 }
 
 }  // namespace
@@ -272,15 +324,25 @@ NastranSection read_nastran_rod_section(const NastranCard& card, NastranNotes& n
   NastranSection out;
   out.material = card.id(first);
   out.section.where = card.where();
-  const double A = card.positive(first + 1);
-  // Bars feel the area alone.
-  out.section.shape = fem::CircleSpec{2.0 * std::sqrt(A / std::numbers::pi)};
-  if (card.real(first + 2, 0.0) != 0.0) {
+  if (card.name == "PTUBE") {  // MID, OD, T, NSM
+    const double outer = 0.5 * card.positive(2), wall = card.real(3, 0.0);
+    set_tube(card, outer, wall == 0.0 ? 0.0 : outer - wall, out);
+    out.mass_per_length = card.real(4, 0.0);
+  } else {
+    const double A = card.real(first + 1, 0.0);
+    if (A > 0.0) {
+      // Bars feel the area alone.
+      out.section.shape = fem::CircleSpec{2.0 * std::sqrt(A / std::numbers::pi)};
+    } else {
+      out.lacking = fmt::format("{}: the area {:g} is not positive", card.label(), A);
+    }
+    out.mass_per_length = card.real(first + 4, 0.0);
+  }
+  if (card.name != "PTUBE" && card.real(first + 2, 0.0) != 0.0) {
     notes.add(fmt::format("{}: the torsional stiffness J is left out; bars carry axial force only",
                           card.name),
               {card.file, card.line});
   }
-  out.mass_per_length = card.real(first + 4, 0.0);
   if (out.mass_per_length < 0) card.fail("the non-structural mass NSM is negative");
   return out;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
 
 #include "buckens/fem/line/section_spec.h"
 #include "buckens/mesh_io/nastran/bulk.h"
@@ -18,14 +20,19 @@ struct NastranSection {
   double angle = 0;             ///< of the section's y axis from Nastran's, about x [rad]
   bool shear_flexible = false;  ///< Timoshenko
   double mass_per_length = 0;   ///< NSM, as written
+  bool is_bar = false;          ///< there is an area, but no bending and no torsion
+  /// Of the neutral axis from the line between the nodes (y, z), in Nastran's axes.
+  std::array<double, 2> offset = {0, 0};
+  /// Why there is no section, where the card can be read but not used; else "".
+  std::string lacking;
 };
 
-/// Reads PBAR, PBARL (ROD, TUBE, BAR, BOX), PBEAM, PBEAML; tapered beams get the mean section.
-/// @throws InputError for what cannot be read, for other sections and for neutral axes that are not
-/// at the shear centre
+/// Reads PBAR, PBARL, PBEAM, PBEAML; tapered beams get the mean section. Beams of CBEAM lie in the
+/// neutral axis, to which torsion then belongs, too.
+/// @throws InputError for what cannot be read
 NastranSection read_nastran_beam_section(const NastranCard& card, NastranNotes& notes);
 
-/// Reads the area of PROD or CONROD.
+/// Reads the area of PROD, PTUBE or CONROD.
 NastranSection read_nastran_rod_section(const NastranCard& card, NastranNotes& notes);
 
 }  // namespace buckens::mesh_io

@@ -67,11 +67,32 @@ NastranProperties::Shell NastranProperties::convert_pshell(const NastranCard& ca
   if (std::abs(card.real(6, 0.833333) - 0.833333) > 1e-4) {
     notes_->add("PSHELL: TS/T other than 5/6 is left out", place);
   }
-  out.property.material =
-      materials_->name(material, NastranMaterials::Use::shell, card.label(), place);
+  set_material(material, NastranMaterials::Use::shell, card, out.property);
   out.has_directions = materials_->has_directions(material);
   if (!card.blank(2)) out.property.thickness = card.positive(2);
   out.mass = card.real(7, 0.0);
+  return out;
+}
+
+/// Shells of NASTRAN-95. PQUAD1 and PTRIA1 have MID1, T1, MID2, I2, MID3, T3, NSM, the others MID,
+/// T and NSM.
+NastranProperties::Shell NastranProperties::convert_old_shell(const NastranCard& card) {
+  Shell out;
+  const bool is_general = card.name == "PQUAD1" || card.name == "PTRIA1";
+  const bool has_membrane = !card.blank(1) && card.real(2, 0.0) > 0;
+  const double bending = is_general ? card.real(4, 0.0) : 0.0;
+  if (is_general && !has_membrane && !(bending > 0)) card.fail("there is neither T1 nor I2");
+  const bool is_plate = is_general && !has_membrane;
+  const double thickness = is_plate ? std::cbrt(12.0 * bending) : card.positive(2);
+  set_material(card.id(is_plate ? 3 : 1), NastranMaterials::Use::shell, card, out.property);
+  out.property.thickness = thickness;
+  out.mass = card.real(is_general ? 7 : 3, 0.0);
+  if (is_general && (is_plate || differs(bending, std::pow(thickness, 3) / 12.0))) {
+    notes_->add(card.name +
+                    ": T1 and I2 are not those of one full section; it is taken as one of " +
+                    (is_plate ? "the bending stiffness I2" : "the thickness T1"),
+                {card.file, card.line});
+  }
   return out;
 }
 
@@ -91,8 +112,12 @@ std::vector<fem::ImportedLayer> NastranProperties::read_layers(const NastranCard
     }
     fem::ImportedLayer layer = layers.empty() ? fem::ImportedLayer{} : layers.back();
     if (!card.blank(first)) {
+      const std::int64_t material = card.id(first);
+      const std::string lack =
+          materials_->lack(material, NastranMaterials::Use::shell, card.label());
+      if (!lack.empty()) throw InputError(place.where(), lack);
       layer.material =
-          materials_->name(card.id(first), NastranMaterials::Use::shell, card.label(), place);
+          materials_->name(material, NastranMaterials::Use::shell, card.label(), place);
     }
     if (!card.blank(first + 1)) layer.thickness = card.positive(first + 1);
     layer.angle = card.real(first + 2, 0.0) * kDegree;
@@ -191,10 +216,14 @@ NastranProperties::Direction NastranProperties::shell_direction(
 }
 
 int NastranProperties::shell(const NastranElement& element, const std::vector<Vector3d>& nodes) {
-  const NastranCard& card = card_of(element, Family::shell);
+  const NastranCard* const found_card = card_of(element, Family::shell);
+  if (found_card == nullptr) return missing(element, Family::shell);
+  const NastranCard& card = *found_card;
   auto found = shells_.find(&card);
   if (found == shells_.end()) {
-    Shell shell = card.name == "PSHELL" ? convert_pshell(card) : convert_pcomp(card);
+    Shell shell = card.name == "PSHELL"              ? convert_pshell(card)
+                  : element.property_card != nullptr ? convert_old_shell(card)
+                                                     : convert_pcomp(card);
     if (shell.mass < 0) card.fail("the non-structural mass NSM is negative");
     shell.property.name = name_of_card(card);
     shell.property.kind = fem::PropertyKind::shell;

@@ -67,9 +67,13 @@ void ImportedMaterials::refuse(const fem::ImportedBlock& block, const std::strin
           ? "without a property"
           : fmt::format("of \"{}\"",
                         mesh_.properties.at(static_cast<std::size_t>(block.property)).name);
-  throw InputError(where_, fmt::format("{}: the {} elements {} {}; give `material`, or `materials` "
-                                       "by the name of the property or of an element set",
-                                       mesh_.file, block.source, of, what));
+  const std::string why =
+      block.property < 0 ? ""
+                         : mesh_.properties.at(static_cast<std::size_t>(block.property)).lacking;
+  throw InputError(
+      where_, fmt::format("{}: the {} elements {} {}{}; give `material`, or `materials` "
+                          "by the name of the property or of an element set",
+                          mesh_.file, block.source, of, what, why.empty() ? "" : " (" + why + ")"));
 }
 
 int ImportedMaterials::number_of(const fem::MaterialSpec& spec, int property) {

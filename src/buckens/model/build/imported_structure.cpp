@@ -167,10 +167,11 @@ void Import::refuse_without_section(const fem::ImportedBlock& block, const char*
                                     const char* example) const {
   const fem::ImportedProperty* of = property(block);
   const bool has_name = of != nullptr && !of->name.empty();
+  const std::string why = of == nullptr || of->lacking.empty() ? "" : " (" + of->lacking + ")";
   refuse(fmt::format(
-      "the {} elements {} have no {}; write it in the model file beside the name of "
+      "the {} elements {} have no {}{}; write it in the model file beside the name of "
       "the mesh file, for example {}",
-      block.source, has_name ? fmt::format("of \"{}\"", of->name) : "without a property", what,
+      block.source, has_name ? fmt::format("of \"{}\"", of->name) : "without a property", what, why,
       has_name ? fmt::format("sections: {{\"{}\": {}}}", of->name, example)
                : fmt::format("section: {}", example)));
 }

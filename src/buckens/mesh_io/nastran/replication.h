@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "buckens/mesh_io/nastran/row.h"
+
+namespace buckens::mesh_io {
+
+/// Lines that say what they are by the line before: `=` repeats a field, `==` the rest of the line,
+/// `*4` or `*(4)` adds to a number, `/` adds what the field before adds, `%(7)` goes to 7 in equal
+/// steps; `=3` or `=(3)` in the first field repeats the whole three times.
+class NastranReplication {
+ public:
+  /// Remembers a line that others may repeat.
+  void remember(const NastranRow& row) { before_ = row; }
+
+  /// Whether copies are still to be made.
+  bool is_going_on() const { return copies_left_ > 0; }
+
+  /// Takes a line that begins with `=`.
+  /// @throws InputError if there is nothing to repeat, or more than a million lines are made
+  void begin(const NastranRow& row, const NastranLine& line);
+
+  /// The next copy, valid as long as this object.
+  /// @throws InputError if something is added to what is no number
+  NastranRow next(const NastranLine& line);
+
+ private:
+  std::string_view keep(std::string text);
+  std::string_view field(std::string_view before, std::string_view pattern, std::string_view& step,
+                         const NastranLine& line);
+  std::string_view sum(std::string_view before, std::string_view step, const NastranLine& line);
+
+  NastranRow before_, pattern_;
+  std::int64_t copies_left_ = 0, num_copies_ = 0;
+  std::deque<std::string> texts_;
+};
+
+}  // namespace buckens::mesh_io

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "buckens/mesh_io/nastran/source.h"
+
+namespace buckens::mesh_io {
+
+/// One line of the bulk data cut into its fields.
+///
+/// Lines with a comma are in free field: fields end at commas, NASTRAN-95 also lets blanks part
+/// them and `8)246` name the place of a value. Lines whose first field ends or begins with an
+/// asterisk are in large field (16 columns), others in small field (8 columns); a tab goes on to
+/// the next multiple of eight columns. DEQATN holds a formula and has no fields.
+struct NastranRow {
+  static constexpr std::size_t kSize = 8;
+
+  std::string_view head;  ///< name, mark of a continuation, or a sign that repeats the line before
+  std::array<std::string_view, kSize> data;
+  std::size_t num_data = kSize;        ///< 4 in large field
+  std::vector<std::string_view> more;  ///< behind them, where a free line has more than it may
+  std::string_view mark;               ///< that the next line repeats
+
+  /// Whether fields stand for those of the line before: `=` first.
+  bool repeats() const { return head.starts_with('='); }
+};
+
+/// @throws InputError for a line with too many fields of which one is a mark of continuation
+NastranRow split_nastran_line(const NastranLine& line);
+
+/// Whether a line continues the card before it.
+/// @param after_comma the line before ended with a comma: then a number may come first
+bool continues_nastran_card(const NastranLine& line, bool after_comma);
+
+/// Whether the mark at the end of a line means the one at the head of another. The first character
+/// may be a plus sign, an asterisk or, as in NASTRAN-95, any.
+bool is_same_mark(std::string_view announced, std::string_view found);
+
+/// Without the sign at its front.
+std::string_view bare_mark(std::string_view mark);
+
+}  // namespace buckens::mesh_io
