@@ -51,7 +51,7 @@ Energy energy(const model::Model& model, const model::State& state) {
     }
   }
   Forces forces;
-  evaluate_forces(model, motions_of(model, state), state.t, forces);
+  evaluate_forces(model, motions_of(model, state), state.t, circumstances_of(state), forces);
   out.springs = forces.stored_energy;
   return out;
 }

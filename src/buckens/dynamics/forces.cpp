@@ -57,23 +57,16 @@ void Forces::reset(const model::Model& model) {
   stored_energy = 0;
   active_power = 0;
   dissipation = 0;
-}
-
-loads::Action action_of(const model::Model& model, std::size_t load, double t,
-                        const model::LoadInputs& inputs, const spatial::MarkerMotion& first,
-                        const spatial::MarkerMotion& second) {
-  const loads::ForceElement& element = *model.loads[load].element;
-  if (!inputs.empty() && inputs[load]) return element.act(*inputs[load], first);
-  return element.evaluate(t, first, second);
+  regimes.clear();
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor) {
-  evaluate_forces(model, motions, t, {}, out, load_factor);
+  evaluate_forces(model, motions, t, Circumstances(), out, load_factor);
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     const model::LoadInputs& inputs, Forces& out, double load_factor) {
+                     const Circumstances& around, Forces& out, double load_factor) {
   out.reset(model);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
@@ -81,9 +74,9 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     const auto second = evaluate_marker(model, load.second, motions);
     loads::Action action;
     try {
-      action = action_of(model, k, t, inputs, first.motion, second.motion);
+      action = action_of(model, k, t, around, first.motion, second.motion);
     } catch (const NumericalError& error) {
-      const char* what = load.kind == "bushing" ? "joint" : "load";  // as the model file has it
+      const char* what = load.is_among_joints ? "joint" : "load";
       throw NumericalError(error.where(),
                            fmt::format("{} \"{}\": {}", what, load.name, error.text()));
     }
@@ -101,6 +94,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
     out.dissipation += action.dissipation;
+    if (load.coordinate >= 0) out.regimes.push_back(action.regime);
   }
 }
 
@@ -115,16 +109,25 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out) {
+  evaluate_soft_rows(model, motions, 0.0, Circumstances(), out);
+}
+
+void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                        const Circumstances& around, SoftRows& out) {
+  out.regimes.clear();
   out.rows.clear();
   out.stiffness.clear();
   out.damping.clear();
   std::vector<loads::SoftRow>& rows = out.of_one;
-  for (const model::Load& load : model.loads) {
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
     if (load.element->num_soft_rows() == 0) continue;
     const auto first = evaluate_marker(model, load.first, motions);
     const auto second = evaluate_marker(model, load.second, motions);
     rows.clear();
-    load.element->append_soft_rows(first.motion, second.motion, rows);
+    const loads::Sight sight = sight_of(model, k, t, around, first.motion, second.motion);
+    load.element->append_tangent(sight, rows);
+    if (load.coordinate >= 0) out.regimes.push_back(load.element->respond(sight).regime);
     for (const loads::SoftRow& row : rows) {
       out.rows.push_back(system_row(model, load.first, first, load.second, second, row.J));
       out.stiffness.push_back(row.stiffness);

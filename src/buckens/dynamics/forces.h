@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
 
 namespace buckens::dynamics {
@@ -16,26 +17,21 @@ struct Forces {
   double stored_energy = 0;  ///< in springs [J]
   double active_power = 0;   ///< of loads and dampers [W], not counting stored energy
   double dissipation = 0;    ///< taken by dampers, contained in active_power with minus [W]
+  std::vector<int> regimes;  ///< of laws on joint coordinates, see loads::Action::regime
 
   void reset(const model::Model& model);
 };
 
 /// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load lies in the span
 /// of P, which the sieve removes.
-/// @param inputs given from outside
+/// @param around what force laws see beside the motions
 /// @param load_factor multiplies applied forces and torques, neither gravity nor springs
 /// @throws NumericalError naming the load whose law fails
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     const model::LoadInputs& inputs, Forces& out, double load_factor = 1.0);
-/// The same without inputs.
+                     const Circumstances& around, Forces& out, double load_factor = 1.0);
+/// The same without circumstances.
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor = 1.0);
-
-/// What one load does: by its law, or by what is given for it.
-/// @param load index into Model::loads
-loads::Action action_of(const model::Model& model, std::size_t load, double t,
-                        const model::LoadInputs& inputs, const spatial::MarkerMotion& first,
-                        const spatial::MarkerMotion& second);
 
 /// Adds what a wrench on a marker does to its body; on the ground nothing.
 void add_wrench(const model::Model& model, const model::MarkerId& id,
@@ -49,8 +45,12 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 struct SoftRows {
   std::vector<SystemRow> rows;
   std::vector<double> stiffness, damping;
+  std::vector<int> regimes;            ///< as in Forces
   std::vector<loads::SoftRow> of_one;  ///< scratch
 };
+void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                        const Circumstances& around, SoftRows& out);
+/// The same without circumstances, at t = 0.
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out);
 

@@ -11,6 +11,12 @@ int Model::num_constraint_rows() const {
   return joints.empty() ? 0 : joints.back().first_row + static_cast<int>(joints.back().rows.size());
 }
 
+int Model::num_law_states() const {
+  int sum = 0;
+  for (const Load& load : loads) sum += load.element->num_states();
+  return sum;
+}
+
 std::pair<const Joint*, int> Model::owner_of_row(int row) const {
   const auto next = std::upper_bound(joints.begin(), joints.end(), row,
                                      [](int r, const Joint& j) { return r < j.first_row; });
@@ -47,6 +53,8 @@ State placed_state(const Model& model) {
     if (model.bodies[k].is_flexible()) body.terms = model.bodies[k].flexible->coupling.terms;
   }
   state.lambda = linalg::Vector::Zero(model.num_constraint_rows());
+  state.memory.coordinates.resize(model.coordinates.size());
+  state.memory.laws = linalg::Vector::Zero(model.num_law_states());
   return state;
 }
 

@@ -8,6 +8,7 @@
 
 #include "buckens/body/body.h"
 #include "buckens/joints/joint.h"
+#include "buckens/joints/joint_coordinate.h"
 #include "buckens/loads/force_element.h"
 #include "buckens/model/whole_body.h"
 #include "buckens/spatial/plane.h"
@@ -38,6 +39,12 @@ struct Joint {
   bool is_tie = false;
 };
 
+/// A joint coordinate that somebody asks for: a force law or a sensor.
+struct Coordinate {
+  int joint = 0;  ///< index into Model::joints; its markers are those of the coordinate
+  joints::JointCoordinate law;
+};
+
 /// Where a distributed load can be drawn as an arrow.
 struct LoadFoot {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< model axes [m]
@@ -62,6 +69,10 @@ struct Load {
   std::string unit;  ///< of the values by laws of time, if there are any
   std::shared_ptr<const loads::ForceElement> element;
   MarkerId first, second;
+  bool is_among_joints = false;  ///< in the model file
+  int joint = -1;                ///< whose reaction it sees, −1: none
+  int coordinate = -1;           ///< index into Model::coordinates on which it acts, −1: none
+  int first_state = 0;           ///< of its own in RowMemory::laws
   /// Interface row of the first body along which Action::along_pattern acts, −1: none.
   int pattern_row = -1;
   std::optional<LoadRegion> region;  ///< of distributed loads
@@ -77,6 +88,7 @@ struct Model {
   std::vector<WholeBody> wholes;
   std::vector<Joint> joints;
   std::vector<Load> loads;
+  std::vector<Coordinate> coordinates;
   /// Where the world of this model begins in that of the model file [m]: zero unless the mechanism
   /// lies so far away that positions would lose digits. All positions of the library count from
   /// here; whoever shows one adds it.
@@ -86,6 +98,7 @@ struct Model {
   std::vector<std::string> notes;     ///< what a user should know about the model
 
   int num_constraint_rows() const;
+  int num_law_states() const;
   /// Joint and row within it that own a row of λ.
   std::pair<const Joint*, int> owner_of_row(int row) const;
   int find_body(const std::string& name) const;

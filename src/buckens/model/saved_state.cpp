@@ -10,6 +10,7 @@ namespace buckens::model {
 namespace {
 
 constexpr long kMostBodies = 1L << 60;
+constexpr int kMostTurns = 1 << 30;
 
 void visit_coupling(const base::SaveVisit& visit, Eigen::Index n, Coupling& coupling) {
   visit.number("t", coupling.t);
@@ -63,6 +64,16 @@ void visit_inputs(const base::SaveVisit& visit, const Model& model, LoadInputs& 
   }
 }
 
+void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& memory) {
+  memory.coordinates.resize(model.coordinates.size());
+  for (std::size_t k = 0; k < memory.coordinates.size(); ++k) {
+    const base::SaveVisit one = visit.inside("coordinates").inside(k);
+    one.count("turns", memory.coordinates[k].turns, -kMostTurns, kMostTurns);
+    one.number("fraction", memory.coordinates[k].fraction);
+  }
+  visit.vector("laws", memory.laws, model.num_law_states());
+}
+
 }  // namespace
 
 void visit_saved(const base::SaveVisit& visit, body::CouplingTerms& terms) {
@@ -90,6 +101,7 @@ void visit_saved(const base::SaveVisit& visit, const Model& model, State& state)
   visit.number("last_step", state.last_step);
   visit.count("history", state.history, 0, 3);
   visit_inputs(visit.inside("inputs"), model, state.inputs);
+  visit_memory(visit.inside("memory"), model, state.memory);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     visit_body(visit.inside("bodies").inside(b), model.bodies[b], state.history, state.bodies[b]);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/body/body.h"
+#include "buckens/joints/joint_coordinate.h"
 #include "buckens/model/model.h"
 
 namespace buckens::model {
@@ -30,6 +31,12 @@ struct BodyState {
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };
 
+/// What rows and force laws remember: part of the state, because the next step depends on it.
+struct RowMemory {
+  std::vector<joints::CountedValue> coordinates;  ///< one per Model::coordinates
+  linalg::Vector laws;  ///< states of force laws, from Load::first_state of each
+};
+
 /// Values given from outside in place of laws of time, one entry per load of the model: components
 /// of a force [N] or torque [N m] in the axes of the load. Empty: none is given.
 using LoadInputs = std::vector<std::optional<Eigen::Vector3d>>;
@@ -43,6 +50,7 @@ struct State {
   double last_step = 0;    ///< length of the step that led here [s]
   int history = 0;         ///< number of valid coupling entries: 0 … 3
   LoadInputs inputs;       ///< in force from here on
+  RowMemory memory;        ///< of joint coordinates and force laws
 };
 
 /// All bodies as placed, undeformed and at rest.

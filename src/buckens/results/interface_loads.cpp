@@ -109,8 +109,9 @@ Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
                         is_first ? 0 : 6);
   }
   const model::Load& load = model_.loads[share.index];
-  const loads::Action action = dynamics::action_of(model_, share.index, state.t, state.inputs,
-                                                   motion(load.first), motion(load.second));
+  const loads::Action action =
+      dynamics::action_of(model_, share.index, state.t, dynamics::circumstances_of(state),
+                          motion(load.first), motion(load.second));
   Wrench out = is_first ? action.on_first : action.on_second;
   if (load.element->is_applied()) {
     out.force *= load_factor;

@@ -36,8 +36,8 @@ class LoadSensor final : public Sensor {
       const model::Load& load = now.model.loads[k];
       const spatial::MarkerMotion first = motion(load.first);
       const spatial::Wrench wrench =
-          dynamics::action_of(now.model, k, now.state.t, now.state.inputs, first,
-                              motion(load.second))
+          dynamics::action_of(now.model, k, now.state.t, dynamics::circumstances_of(now.state),
+                              first, motion(load.second))
               .on_first;
       sum +=
           about_ ? Vector3d(wrench.torque + (first.p - point).cross(wrench.force)) : wrench.force;
@@ -54,6 +54,13 @@ class LoadSensor final : public Sensor {
   std::optional<MarkerId> in_;
 };
 
+/// Whether a force element acts by a torque alone.
+bool turns(const model::Model& model, const model::Load& load) {
+  if (load.coordinate < 0) return load.kind == "torsional-spring";
+  return model.coordinates[static_cast<std::size_t>(load.coordinate)].law.kind() ==
+         joints::JointCoordinate::Kind::angle;
+}
+
 }  // namespace
 
 std::unique_ptr<Sensor> make_load_sensor(const model::BuiltModel& built,
@@ -69,7 +76,7 @@ std::unique_ptr<Sensor> make_load_sensor(const model::BuiltModel& built,
               "sensor \"{}\": \"{}\" acts between two markers with opposite forces; observe "
               "its `{}`",
               spec.name, load,
-              built.model.loads[k].kind == "torsional-spring" ? "spring-torque" : "spring-force"));
+              turns(built.model, built.model.loads[k]) ? "spring-torque" : "spring-force"));
     }
     found.push_back(k);
   }

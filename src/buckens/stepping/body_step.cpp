@@ -82,6 +82,12 @@ body::DeformedMoments BodyStep::moments(const body::Body& body,
                                  motion.y_dot.tail<6>());
 }
 
+void BodyStep::drop_correction() {
+  correction.setZero();
+  correction_load.setZero();
+  y_correction.setZero();
+}
+
 void BodyStep::set_load(const Eigen::VectorXd& interface, const Vector3d& w) {
   load.head(interface.size()) = interface;
   if (load.size() > interface.size()) load.tail<6>() = dynamics::centrifugal_weights(terms, w);

@@ -50,6 +50,8 @@ struct BodyStep {
                             dynamics::BodyMotion& out) const;
   /// All moments of the frame equation at a motion of this step.
   body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;
+  /// Takes all corrections of positions back.
+  void drop_correction();
   /// Sets `load`: interface load and centrifugal weights, FM (24), at the evaluation instant.
   /// @param interface loads of joints and forces, @param w angular velocity there
   void set_load(const Eigen::VectorXd& interface, const Eigen::Vector3d& w);

@@ -12,6 +12,7 @@
 #include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
+#include "buckens/dynamics/row_memory.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/change_of_step.h"
 
@@ -147,6 +148,7 @@ void MonolithicStepper::start(const model::State& state) {
   z_ = Vector::Zero(size_);
   lambda_ = state.lambda;
   inputs_ = state.inputs;
+  memory_ = state.memory;
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     z_[first_lambda_ + static_cast<int>(k)] = scheme_.force * lambda_[rows_in_use_[k]];
   }
@@ -199,8 +201,8 @@ void MonolithicStepper::evaluate(double t) {
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, end_);
   dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, evaluation_);
-  dynamics::evaluate_soft_rows(model_, motions_evaluation_, soft_);
-  dynamics::evaluate_forces(model_, motions_evaluation_, t_e, inputs_, forces_);
+  dynamics::evaluate_soft_rows(model_, motions_evaluation_, t_e, around(), soft_);
+  dynamics::evaluate_forces(model_, motions_evaluation_, t_e, around(), forces_);
   dynamics::add_joint_forces(evaluation_, lambda_, forces_);
 }
 
@@ -209,6 +211,8 @@ void MonolithicStepper::predict(double t) {
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     parts_[b]->W = parts_[b]->metric(scheme_, motions_evaluation_[b].frame.w);
   }
+  predicted_rows_ = evaluation_.rows;
+  correcting_ = soft_;
   fixed_part();
 }
 
@@ -312,16 +316,24 @@ void MonolithicStepper::fixed_corrections() {
       fixed_.emplace_back(column, column, 1.0);
       continue;
     }
-    for (const Entry& e : entries(evaluation_.rows[static_cast<std::size_t>(rows_in_use_[k])])) {
+    for (const Entry& e : entries(predicted_rows_[static_cast<std::size_t>(rows_in_use_[k])])) {
       fixed_.emplace_back(e.correction_column, column, -e.value);
     }
   }
-  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
-    const double k_eff = scheme_.force * (scheme_.weight * soft_.stiffness[k] +
-                                          scheme_.mean_rate * soft_.damping[k]);
-    const std::vector<Entry> row = entries(soft_.rows[k]);
+  for (std::size_t k = 0; k < correcting_.rows.size(); ++k) {
+    const double k_eff = scheme_.force * (scheme_.weight * correcting_.stiffness[k] +
+                                          scheme_.mean_rate * correcting_.damping[k]);
+    const std::vector<Entry> row = entries(correcting_.rows[k]);
     add_product(row, row, k_eff, true, true);
   }
+}
+
+void MonolithicStepper::follow_regimes() {
+  if (correcting_.regimes == soft_.regimes) return;
+  correcting_.stiffness = soft_.stiffness;
+  correcting_.damping = soft_.damping;
+  correcting_.regimes = soft_.regimes;
+  fixed_part();
 }
 
 void MonolithicStepper::fixed_part() {
@@ -433,6 +445,7 @@ double MonolithicStepper::apply(const Vector& change, double& motion) {
 void MonolithicStepper::iterate(double t, StepReport& report) {
   double before = 0;
   for (int iteration = 0; iteration < settings_.max_newton; ++iteration) {
+    follow_regimes();
     std::vector<Triplet> all = fixed_;
     tangent(all);
     SparseMatrix A(size_, size_);
@@ -468,6 +481,7 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.inputs = state.inputs;
+  dynamics::advance_memory(model_, motions_end_, next.t, around(), next.memory);
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Part& part = *parts_[b];
     const model::BodyState& old = state.bodies[b];

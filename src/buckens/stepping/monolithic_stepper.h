@@ -45,6 +45,7 @@ class MonolithicStepper {
   struct Entry;  // one derivative of a scalar with respect to one unknown
 
   bool corrects_positions() const;
+  dynamics::Circumstances around() const { return {&inputs_, &memory_, &lambda_}; }
   void start(const model::State& state);
   void predict(double t);
   void evaluate(double t);
@@ -53,6 +54,8 @@ class MonolithicStepper {
   void fixed_part();
   void fixed_body(const Part& part);
   void fixed_corrections();
+  /// Forms the fixed part anew if a force law has changed its regime since.
+  void follow_regimes();
   void add_product(const std::vector<Entry>& row, const std::vector<Entry>& column, double factor,
                    bool row_corrects, bool column_corrects);
   void tangent(std::vector<linalg::Triplet>& out) const;
@@ -73,10 +76,14 @@ class MonolithicStepper {
   std::vector<linalg::Triplet> fixed_;  // what does not change within a step
   linalg::SparseMatrix fixed_matrix_;
   dynamics::SoftRows soft_;
+  // Of the corrections of positions: directions as predicted, stiffness of the regimes that hold.
+  dynamics::SoftRows correcting_;
+  std::vector<dynamics::SystemRow> predicted_rows_;
   dynamics::Constraints end_, evaluation_;
   std::vector<dynamics::BodyMotion> motions_end_, motions_evaluation_;
   dynamics::Forces forces_;
   model::LoadInputs inputs_;
+  model::RowMemory memory_;  // at the start of the step
 };
 
 }  // namespace buckens::stepping

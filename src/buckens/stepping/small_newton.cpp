@@ -99,7 +99,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
     if (!same) bodies[b].motion_at_evaluation(scheme_, answers_[b], evaluation_[b]);
   }
   const double t_e = scheme_.evaluation_time(t);
-  dynamics::evaluate_forces(model_, at_evaluation(), t_e, *inputs_, forces_);
+  dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_);
   if (same) {
     joints_.evaluate(end_, t + scheme_.h, residuals_, &lambda, &forces_);
   } else {
@@ -133,7 +133,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     compliance_[b].interface = answers_[b] ? &answers_[b]->interface_compliance() : nullptr;
   }
   rounding_length_ = dynamics::rounding_length(model_, end_);
-  dynamics::evaluate_soft_rows(model_, at_evaluation(), soft_);
+  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
   bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
   const bool is_dead_centre = !is_closed || pivots < kDeadCentre * trusted_pivots_;
@@ -220,6 +220,22 @@ bool SmallNewton::condense(double t) {
   set_joint_rows(t);
   set_soft_rows();
   return condensation_->factorise(compliance_, soft_compliance_);
+}
+
+bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
+  if (forces_.regimes == soft_.regimes) return true;
+  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
+                               soft_now_);
+  // Directions stay those of the predicted configuration, as of the joints.
+  std::swap(soft_.stiffness, soft_now_.stiffness);
+  std::swap(soft_.damping, soft_now_.damping);
+  std::swap(soft_.regimes, soft_now_.regimes);
+  set_soft_rows();
+  for (BodyStep& body : bodies) body.drop_correction();
+  if (!condensation_->factorise(compliance_, soft_compliance_)) {
+    fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
+  }
+  return false;
 }
 
 bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
@@ -359,8 +375,14 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     evaluate(bodies, t, lambda);
     record_residuals(report);
     if (before.size > 0.0) contraction_ = change.size / before.size;
-    if (settled(change, before)) break;
-    before = change;
+    if (regimes_hold(bodies, t, report)) {
+      if (settled(change, before)) break;
+      before = change;
+    } else {
+      evaluate(bodies, t, lambda);
+      before = {};  // another tangent converges at its own rate
+      contraction_ = 1.0;
+    }
     if (iteration >= settings_.max_newton) {
       fail(t, report, "the step's iteration does not converge");
     }

@@ -30,8 +30,8 @@ class SmallNewton {
   SmallNewton(const model::Model& model, const Scheme& scheme, const StepSettings& settings,
               std::vector<const BodyAnswer*> answers, std::vector<int> rows_in_use);
 
-  /// Values of loads in the steps that follow; they outlive these.
-  void use_inputs(const model::LoadInputs& inputs) { inputs_ = &inputs; }
+  /// What force laws see in the step that follows; it outlives that. λ is read as it is iterated.
+  void use(const dynamics::Circumstances& around) { around_ = around; }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
   void prepare(std::vector<BodyStep>& bodies, double t);
@@ -92,6 +92,9 @@ class SmallNewton {
   /// Hands the derivatives at this configuration to the condensation, soft rows last.
   void set_joint_rows(double t);
   void set_soft_rows();
+  /// Forms the matrix anew if a force law has changed its regime since. Position corrections are
+  /// then taken back: they weigh soft rows, and belong to one matrix. @return false if so
+  bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
   /// Assembles and factorises S for the rows in use. @return false if it is singular
   bool condense(double t);
   /// Asks again which rows are independent.
@@ -116,8 +119,7 @@ class SmallNewton {
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   RowWatch watch_;
   bool has_quasi_static_ = false;
-  const model::LoadInputs no_inputs_;
-  const model::LoadInputs* inputs_ = &no_inputs_;
+  dynamics::Circumstances around_;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation that is yet to be made, see visit_saved()
@@ -129,7 +131,7 @@ class SmallNewton {
   dynamics::JointResiduals residuals_;        // at the end of the step
   dynamics::JointResiduals other_residuals_;  // elsewhere
   dynamics::Forces forces_;
-  dynamics::SoftRows soft_;
+  dynamics::SoftRows soft_, soft_now_;  // at the predicted configuration; scratch
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
   std::vector<dynamics::BodyCompliance> compliance_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/row_memory.h"
 #include "buckens/stepping/change_of_step.h"
 #include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/step_failure.h"
@@ -247,6 +248,8 @@ void Stepper::form_next_state(const model::State& state) {
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.inputs = state.inputs;
+  dynamics::advance_memory(model_, newton_->motions_at_end(), next.t,
+                           {&state.inputs, &state.memory, &lambda_}, next.memory);
   for_bodies([&](std::size_t b) {
     const model::BodyState& old = state.bodies[b];
     model::BodyState& s = next.bodies[b];
@@ -308,7 +311,7 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   lambda_ = state.lambda;
   next_.bodies.resize(bodies_.size());
-  newton_->use_inputs(state.inputs);
+  newton_->use({&state.inputs, &state.memory, &lambda_});
   start_bodies(state);
   double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {

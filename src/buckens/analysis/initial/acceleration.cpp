@@ -56,7 +56,8 @@ class Accelerations {
     const auto motions = dynamics::motions_of(model_, state_);
     dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
     bias_ = dynamics::constraint_bias(model_, motions, state_.t);
-    dynamics::evaluate_forces(model_, motions, state_.t, state_.inputs, forces_);
+    dynamics::evaluate_forces(model_, motions, state_.t, dynamics::circumstances_of(state_),
+                              forces_);
     bodies_.resize(model_.bodies.size());
     std::vector<Matrix3d> J;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {

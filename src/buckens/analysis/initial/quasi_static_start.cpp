@@ -51,7 +51,7 @@ void settle_accelerations(const model::Model& model, const dynamics::MassMetric&
     dynamics::Constraints constraints;
     dynamics::evaluate_constraints(model, motions, state.t, constraints);
     dynamics::Forces forces;
-    dynamics::evaluate_forces(model, motions, state.t, state.inputs, forces);
+    dynamics::evaluate_forces(model, motions, state.t, dynamics::circumstances_of(state), forces);
     dynamics::add_joint_forces(constraints, state.lambda, forces);
     double change = 0;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {

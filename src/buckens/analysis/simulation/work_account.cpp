@@ -23,7 +23,7 @@ WorkAccount::WorkAccount(const model::Model& model, const model::State& start, b
 WorkAccount::Powers WorkAccount::powers(const model::State& state) {
   Powers out;
   const auto motions = dynamics::motions_of(model_, state);
-  dynamics::evaluate_forces(model_, motions, state.t, state.inputs, forces_);
+  dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces_);
   out.active = forces_.active_power + forces_.dissipation;
   out.damping = forces_.dissipation;
   joints_.evaluate(motions, state.t, residuals_, &state.lambda, &forces_);

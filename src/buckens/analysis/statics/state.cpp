@@ -93,10 +93,11 @@ double strongest_load(const model::Model& model, const StaticPoint& point, doubl
   for (const body::Body& body : model.bodies) {
     largest = std::max(largest, body.mass * model.gravity.norm());
   }
-  for (const model::Load& load : model.loads) {
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
     const auto first = dynamics::evaluate_marker(model, load.first, motions);
     const auto second = dynamics::evaluate_marker(model, load.second, motions);
-    const loads::Action action = load.element->evaluate(t, first.motion, second.motion);
+    const loads::Action action = dynamics::action_of(model, k, t, {}, first.motion, second.motion);
     const double factor = load.element->is_applied() ? std::abs(point.load_factor) : 1.0;
     largest = std::max(largest, factor * std::abs(action.along_pattern));
     count(action.on_first, factor);

@@ -161,13 +161,30 @@ class MasslessRotations {
                     model_.bodies[b].name, text(axis), joint.name));
   }
 
+  /// What a load does, at a reaction of some size where it sees one.
+  loads::Action probe(const Load& load, double t, const spatial::MarkerMotion& first,
+                      const spatial::MarkerMotion& second) const {
+    loads::Sight sight{t, first, second, {}, {}, nullptr};
+    sight.reaction = {Vector3d::Ones(), Vector3d::Ones()};
+    if (load.coordinate >= 0) {
+      const auto& law = model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;
+      loads::CoordinateMotion& motion = sight.coordinate;
+      motion.J = law.derivatives(first, second);
+      motion.value = motion.change = law.fraction(first, second);
+      Eigen::Matrix<double, 12, 1> V;
+      V << first.w, first.v, second.w, second.v;
+      motion.rate = motion.J.dot(V);
+    }
+    return load.element->respond(sight);
+  }
+
   /// Power of a load on a rotation per rate.
   double torque(const Load& load, std::size_t b, const Vector3d& axis, double t, double angle,
                 double rate, double& size) const {
     const auto body = static_cast<int>(b);
     const auto first = turned(model_, load.first, body, axis, angle, rate);
     const auto second = turned(model_, load.second, body, axis, angle, rate);
-    const loads::Action action = load.element->evaluate(t, first, second);
+    const loads::Action action = probe(load, t, first, second);
     const Vector3d axis_W = model_.placed[b].R() * axis;
     double out = 0.0;
     const auto add = [&](const MarkerId& id, const spatial::MarkerMotion& at,

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/dynamics/circumstances.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::dynamics {
+
+namespace {
+
+// A measured angle jumps at π; without memory nobody knows on which side it is.
+constexpr double kLargestUncounted = 3.0;
+
+/// Force and torque of a joint on its second marker.
+spatial::Wrench reaction_of(const model::Joint& joint, const linalg::Vector& lambda, double t,
+                            const spatial::MarkerMotion& first,
+                            const spatial::MarkerMotion& second) {
+  Eigen::Matrix<double, 1, 6> sum = Eigen::Matrix<double, 1, 6>::Zero();
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    sum += lambda[joint.first_row + static_cast<int>(k)] *
+           joint.rows[k].evaluate(first, second, t).J.tail<6>();
+  }
+  return {sum.head<3>().transpose(), sum.tail<3>().transpose()};
+}
+
+}  // namespace
+
+Circumstances circumstances_of(const model::State& state) {
+  return {&state.inputs, &state.memory, &state.lambda};
+}
+
+loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
+                                          const model::RowMemory* memory,
+                                          const spatial::MarkerMotion& first,
+                                          const spatial::MarkerMotion& second) {
+  const joints::JointCoordinate& law = model.coordinates[coordinate].law;
+  loads::CoordinateMotion out;
+  out.J = law.derivatives(first, second);
+  Eigen::Matrix<double, 12, 1> V;
+  V << first.w, first.v, second.w, second.v;
+  out.rate = out.J.dot(V);
+  const double fraction = law.fraction(first, second);
+  if (memory == nullptr || memory->coordinates.empty()) {
+    const bool is_angle = law.kind() == joints::JointCoordinate::Kind::angle;
+    if (is_angle && std::abs(fraction) > kLargestUncounted) {
+      const auto joint = static_cast<std::size_t>(model.coordinates[coordinate].joint);
+      throw NumericalError(fmt::format(
+          "the angle of joint \"{}\" is {:.4g} rad; static analyses count no turns and measure "
+          "angles up to {} rad; keep the motion within that",
+          model.joints[joint].name, fraction, kLargestUncounted));
+    }
+    out.value = fraction;
+    return out;
+  }
+  const joints::CountedValue& before = memory->coordinates[coordinate];
+  const joints::CountedValue now = law.follow(before, fraction);
+  out.value = now.value();
+  out.change = joints::difference(before, now);
+  return out;
+}
+
+loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
+                      const Circumstances& around, const spatial::MarkerMotion& first,
+                      const spatial::MarkerMotion& second) {
+  const model::Load& own = model.loads[load];
+  loads::Sight sight{t, first, second, {}, {}, nullptr};
+  if (own.coordinate >= 0) {
+    sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate),
+                                         around.memory, first, second);
+  }
+  if (own.joint >= 0 && around.lambda != nullptr && around.lambda->size() > 0) {
+    sight.reaction = reaction_of(model.joints[static_cast<std::size_t>(own.joint)], *around.lambda,
+                                 t, first, second);
+  }
+  if (around.memory != nullptr && around.memory->laws.size() > 0) {
+    sight.states = around.memory->laws.data() + own.first_state;
+  }
+  return sight;
+}
+
+loads::Action action_of(const model::Model& model, std::size_t load, double t,
+                        const Circumstances& around, const spatial::MarkerMotion& first,
+                        const spatial::MarkerMotion& second) {
+  const loads::ForceElement& element = *model.loads[load].element;
+  if (around.inputs != nullptr && !around.inputs->empty() && (*around.inputs)[load]) {
+    return element.act(*(*around.inputs)[load], first);
+  }
+  if (model.loads[load].coordinate < 0 && element.num_states() == 0) {
+    return element.evaluate(t, first, second);
+  }
+  return element.respond(sight_of(model, load, t, around, first, second));
+}
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::dynamics {
+
+/// What force laws see beside time and motions. Nothing of it needs to be known: loads follow their
+/// laws then, joints carry nothing, and states of laws are zero.
+struct Circumstances {
+  const model::LoadInputs* inputs = nullptr;
+  const model::RowMemory* memory = nullptr;  ///< as at the start of the step
+  const linalg::Vector* lambda = nullptr;    ///< multipliers at the instant
+};
+
+/// Those of a state.
+Circumstances circumstances_of(const model::State& state);
+
+/// Motion of a joint coordinate.
+/// @param first,second motions of its markers
+/// @throws NumericalError beyond 3 rad where no memory counts the turns
+loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
+                                          const model::RowMemory* memory,
+                                          const spatial::MarkerMotion& first,
+                                          const spatial::MarkerMotion& second);
+
+/// All that a load may see.
+/// @param load index into Model::loads
+loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
+                      const Circumstances& around, const spatial::MarkerMotion& first,
+                      const spatial::MarkerMotion& second);
+
+/// What one load does: by its law, or by what is given for it.
+/// @param load index into Model::loads
+loads::Action action_of(const model::Model& model, std::size_t load, double t,
+                        const Circumstances& around, const spatial::MarkerMotion& first,
+                        const spatial::MarkerMotion& second);
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/dynamics/row_memory.h"
+
+namespace buckens::dynamics {
+
+namespace {
+
+double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
+                   const std::vector<BodyMotion>& motions) {
+  const model::Joint& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
+  return coordinate.law.fraction(evaluate_marker(model, joint.first, motions).motion,
+                                 evaluate_marker(model, joint.second, motions).motion);
+}
+
+}  // namespace
+
+model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions) {
+  model::RowMemory out;
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    out.coordinates.push_back({0, fraction_of(model, coordinate, motions)});
+  }
+  out.laws = linalg::Vector::Zero(model.num_law_states());
+  for (std::size_t k = 0; k < model.loads.size() && out.laws.size() > 0; ++k) {
+    const model::Load& load = model.loads[k];
+    if (load.element->num_states() == 0) continue;
+    const auto first = evaluate_marker(model, load.first, motions);
+    const auto second = evaluate_marker(model, load.second, motions);
+    load.element->start_states(
+        sight_of(model, k, 0.0, {nullptr, &out, nullptr}, first.motion, second.motion),
+        out.laws.data() + load.first_state);
+  }
+  return out;
+}
+
+void advance_memory(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                    const Circumstances& around, model::RowMemory& out) {
+  const model::RowMemory& before = *around.memory;
+  out.coordinates.resize(before.coordinates.size());
+  for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
+    const model::Coordinate& coordinate = model.coordinates[k];
+    out.coordinates[k] =
+        coordinate.law.follow(before.coordinates[k], fraction_of(model, coordinate, motions));
+  }
+  out.laws.resize(before.laws.size());
+  for (std::size_t k = 0; k < model.loads.size() && before.laws.size() > 0; ++k) {
+    const model::Load& load = model.loads[k];
+    if (load.element->num_states() == 0) continue;
+    const auto first = evaluate_marker(model, load.first, motions);
+    const auto second = evaluate_marker(model, load.second, motions);
+    load.element->find_states(sight_of(model, k, t, around, first.motion, second.motion),
+                              out.laws.data() + load.first_state);
+  }
+}
+
+}  // namespace buckens::dynamics

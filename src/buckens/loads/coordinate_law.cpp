@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/loads/coordinate_law.h"
+
+#include <algorithm>
+
+namespace buckens::loads {
+
+namespace {
+
+/// A force after its projection.
+struct Projected {
+  double bounded = 0;  // of spring and damper
+  double whole = 0;    // with the outer damper
+  double strain = 0;   // after rest has followed
+  bool is_cut = false;
+};
+
+Projected project(const ProjectedForce& law, double rate) {
+  Projected out;
+  out.whole = -law.outer_damping * rate;
+  out.strain = law.is_on ? law.strain : 0.0;
+  if (!law.is_on) return out;
+  const double trial = -law.stiffness * law.strain - law.damping * rate;
+  // The set holds zero, so its ends are in order whatever a bound is made of.
+  out.bounded = std::clamp(trial, std::min(law.lowest, 0.0), std::max(law.highest, 0.0));
+  out.is_cut = out.bounded != trial;
+  out.whole += out.bounded;
+  if (out.is_cut && law.is_yielding) {
+    out.strain = law.stiffness > 0.0 ? -out.bounded / law.stiffness : 0.0;
+  }
+  return out;
+}
+
+int regime_of(const ProjectedForce& law, const Projected& force) {
+  if (!law.is_on) return 2;
+  if (!force.is_cut) return 0;
+  return force.bounded > 0.0 ? 1 : -1;
+}
+
+}  // namespace
+
+Action CoordinateLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
+                               const spatial::MarkerMotion& /*second*/) const {
+  return {};
+}
+
+Action CoordinateLaw::respond(const Sight& sight) const {
+  const ProjectedForce law = force(sight);
+  const double rate = sight.coordinate.rate;
+  const Projected f = project(law, rate);
+  Action out;
+  const spatial::PairRow wrench = f.whole * sight.coordinate.J;
+  out.on_first = {wrench.segment<3>(0).transpose(), wrench.segment<3>(3).transpose()};
+  out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
+  out.along_coordinate = f.whole;
+  out.regime = regime_of(law, f);
+  // Rest that follows leaves the spring as strained as it is: all power is lost.
+  const bool is_straining = law.is_on && !(f.is_cut && law.is_yielding);
+  out.stored_energy = 0.5 * law.stiffness * f.strain * f.strain;
+  const double stored_rate = is_straining ? law.stiffness * f.strain * rate : 0.0;
+  out.active_power = f.whole * rate + stored_rate;
+  out.dissipation = -out.active_power;
+  return out;
+}
+
+void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  const ProjectedForce law = force(sight);
+  const bool is_elastic = law.is_on && !project(law, sight.coordinate.rate).is_cut;
+  SoftRow row;
+  row.J = sight.coordinate.J;
+  row.stiffness = is_elastic ? law.stiffness : 0.0;
+  row.damping = law.outer_damping + (is_elastic ? law.damping : 0.0);
+  rows.push_back(row);
+}
+
+void CoordinateLaw::find_states(const Sight& sight, double* states) const {
+  if (is_yielding()) states[0] = project(force(sight), sight.coordinate.rate).strain;
+}
+
+ProjectedForce CoordinateSpring::force(const Sight& sight) const {
+  ProjectedForce out;
+  out.strain = sight.coordinate.value - free_;
+  out.stiffness = stiffness_;
+  out.damping = damping_;
+  return out;
+}
+
+ProjectedForce CoordinateStop::force(const Sight& sight) const {
+  ProjectedForce out;
+  const double value = sight.coordinate.value;
+  const bool is_above = value > to_;
+  out.is_on = is_above || value < from_;
+  if (!out.is_on) return out;
+  out.strain = value - (is_above ? to_ : from_);
+  out.stiffness = stiffness_;
+  out.damping = damping_;
+  (is_above ? out.highest : out.lowest) = 0.0;
+  return out;
+}
+
+}  // namespace buckens::loads

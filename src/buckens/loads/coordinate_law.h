@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "buckens/loads/force_element.h"
+
+namespace buckens::loads {
+
+/// A spring and damper on one joint coordinate whose force is projected on a set:
+///
+///     f = proj_[lowest, highest](−k x − c ξ̇) − c₀ ξ̇
+///
+/// All forces are admitted by a plain spring, those of one sign by a stop (unilateral), those up to
+/// a bound by friction (bounded). Theory: docs/theory/22-rows.md §2.
+struct ProjectedForce {
+  bool is_on = true;                              ///< off: only c₀ acts
+  double strain = 0;                              ///< x, away from rest [m] or [rad]
+  double stiffness = 0;                           ///< k [N/m] or [N m/rad]
+  double damping = 0;                             ///< c [N s/m] or [N m s/rad]
+  double lowest = -HUGE_VAL, highest = HUGE_VAL;  ///< [N] or [N m]
+  double outer_damping = 0;                       ///< c₀, not bounded by the set
+  /// Where the set cuts the force off, rest follows so that k x becomes the force (return mapping);
+  /// otherwise rest stays where it is.
+  bool is_yielding = false;
+};
+
+/// A law of one joint coordinate. The force acts as Jᵀf on both markers of the joint.
+class CoordinateLaw : public ForceElement {
+ public:
+  /// Nothing: the law needs its coordinate, see respond().
+  Action evaluate(double t, const spatial::MarkerMotion& first,
+                  const spatial::MarkerMotion& second) const final;
+  Action respond(const Sight& sight) const final;
+  int num_soft_rows() const final { return 1; }
+  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const final;
+  int num_states() const final { return is_yielding() ? 1 : 0; }
+  void find_states(const Sight& sight, double* states) const final;
+
+ protected:
+  virtual ProjectedForce force(const Sight& sight) const = 0;
+  /// Whether rest follows: its strain is kept as a state.
+  virtual bool is_yielding() const { return false; }
+};
+
+/// Linear spring and damper on a joint coordinate.
+class CoordinateSpring final : public CoordinateLaw {
+ public:
+  /// @param free value of the coordinate without force [m] or [rad]
+  CoordinateSpring(double stiffness, double damping, double free)
+      : stiffness_(stiffness), damping_(damping), free_(free) {}
+
+ private:
+  ProjectedForce force(const Sight& sight) const override;
+  double stiffness_, damping_, free_;
+};
+
+/// Elastic stops of a joint coordinate: a spring and damper beyond an end, which never pulls.
+class CoordinateStop final : public CoordinateLaw {
+ public:
+  /// @param from,to ends of the free way [m] or [rad]; −HUGE_VAL, HUGE_VAL: none on that side
+  CoordinateStop(double from, double to, double stiffness, double damping)
+      : from_(from), to_(to), stiffness_(stiffness), damping_(damping) {}
+
+ private:
+  ProjectedForce force(const Sight& sight) const override;
+  double from_, to_, stiffness_, damping_;
+};
+
+}  // namespace buckens::loads
