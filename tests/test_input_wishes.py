@@ -37,12 +37,12 @@ def refuse(buckens, tmp_path):
 
 
 @pytest.mark.parametrize("old, new, words", [
-    ("axis: [0, 0, 1]}", "axis: [0, 0, 1], friction: 0.1}", ["model.yaml:10:", "\"friction\"", "not supported yet", "damping"]),
-    ("revolute:", "universal:", ["\"universal\"", "not supported yet", "two `revolute`"]),
-    ("revolute:", "cylindrical:", ["not supported yet", "`prismatic`"]),
+    ("axis: [0, 0, 1]}", "axis: [0, 0, 1], friction: 0.1}", ["model.yaml:10:", "\"friction\"", "`hinge-friction`"]),
+    ("revolute:", "cardan:", ["\"cardan\"", "called `universal`"]),
+    ("revolute:", "helical:", ["\"helical\"", "called `screw`"]),
     ("revolute:", "gear:", ["not supported yet", "`prescribed-rotation`"]),
     ("revolute:", "hinge:", ["\"hinge\"", "called `revolute`"]),
-    ("axis: [0, 0, 1]}", "axis: [0, 0, 1], limits: [0, 1]}", ["limits", "not supported yet"]),
+    ("axis: [0, 0, 1]}", "axis: [0, 0, 1], limits: [0, 1]}", ["limits", "`hinge-stop`"]),
     ("push: {force:", "push: {contact:", ["model.yaml:12:", "contact", "not supported yet", "`spring-damper`"]),
     ("push: {force:", "push: {PID:", ["\"PID\"", "control", "not supported yet", "law of time"]),
     ("simulation:", "controllers: {a: 1}\nsimulation:", ["control", "not supported yet"]),

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-/** Small solids of unit size that stand for joints, frames and mass centres. */
+/** Small solids of unit size that stand for frames, loads and mass centres. */
 
 export const kAxisColors = [0xd8403a, 0x3f9d45, 0x3b74d8] as const;
 
@@ -10,9 +10,9 @@ export function solid(color: THREE.ColorRepresentation): THREE.MeshLambertMateri
 
 /** A cylinder of radius 1 from 0 to 1 along z: stretched between two points by `span`. */
 const kRod = new THREE.CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
-const kCone = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
+export const kCone = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
 const kBall = new THREE.SphereGeometry(1, 24, 16);
-const kZ = new THREE.Vector3(0, 0, 1);
+export const kZ = new THREE.Vector3(0, 0, 1);
 
 export function rod(material: THREE.Material): THREE.Mesh {
   return new THREE.Mesh(kRod, material);
@@ -102,71 +102,6 @@ export function quarteredDisc(color: THREE.ColorRepresentation): THREE.Group {
     disc.add(new THREE.Mesh(sector.rotateX(Math.PI / 2), solid(fields[quarter % 2]!)));
   }
   return disc;
-}
-
-function revolute(material: THREE.Material): THREE.Object3D {
-  const body = new THREE.CylinderGeometry(0.8, 0.8, 1.6, 28).rotateX(Math.PI / 2);
-  const pin = new THREE.CylinderGeometry(0.3, 0.3, 2.3, 18).rotateX(Math.PI / 2);
-  const dark = solid(0x20262e);
-  return new THREE.Group().add(new THREE.Mesh(body, material), new THREE.Mesh(pin, dark));
-}
-
-function fixed(material: THREE.Material): THREE.Object3D {
-  return new THREE.Mesh(new THREE.BoxGeometry(1.5, 1.5, 1.5), material);
-}
-
-function bushing(material: THREE.Material): THREE.Object3D {
-  const rings = new THREE.Group();
-  for (const z of [-0.6, 0, 0.6]) {
-    const ring = new THREE.Mesh(new THREE.TorusGeometry(0.8, 0.25, 10, 28), material);
-    ring.position.z = z;
-    rings.add(ring);
-  }
-  return rings;
-}
-
-/** Three quarters of a circle with an arrow head: a rotation that is driven. */
-function drivenRotation(): THREE.Object3D {
-  const material = solid(0xd8403a);
-  const ring = new THREE.Mesh(new THREE.TorusGeometry(1.9, 0.14, 10, 48, 1.5 * Math.PI), material);
-  const head = new THREE.Mesh(kCone, material);
-  head.scale.set(0.45, 0.45, 0.9);
-  head.position.set(0, -1.9, 0);
-  head.quaternion.setFromUnitVectors(kZ, new THREE.Vector3(1, 0, 0));
-  const turned = new THREE.Group().add(ring, head);
-  // The gap of the circle points to where a support stands.
-  turned.rotation.z = -Math.PI / 4;
-  return new THREE.Group().add(turned);
-}
-
-function drivenTranslation(): THREE.Object3D {
-  const pointer = arrow(0xd8403a, 0.05);
-  pointer.scale.setScalar(4);
-  return pointer;
-}
-
-/** Glyph of a joint by its type, its axis along z; unknown types get an octahedron. */
-export function jointGlyph(type: string, color: THREE.ColorRepresentation): THREE.Object3D {
-  const material = solid(color);
-  switch (type.replaceAll('_', '-').toLowerCase()) {
-    case 'revolute':
-    case 'hinge':
-      return revolute(material);
-    case 'spherical':
-      return new THREE.Group().add(ball(material));
-    case 'prismatic':
-      return new THREE.Mesh(new THREE.BoxGeometry(1.6, 1.6, 3.2), material);
-    case 'fixed':
-      return fixed(material);
-    case 'bushing':
-      return bushing(material);
-    case 'prescribed-rotation':
-      return drivenRotation();
-    case 'prescribed-translation':
-      return drivenTranslation();
-    default:
-      return new THREE.Mesh(new THREE.OctahedronGeometry(1.1), material);
-  }
 }
 
 /** A bearing block: pyramid with its apex at the origin, standing on a plate below, up = +z. */

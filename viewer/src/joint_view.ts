@@ -1,5 +1,6 @@
 import * as THREE from 'three';
-import { jointGlyph, rod, solid, span, spring, support } from './glyphs';
+import { rod, solid, span, spring, support } from './glyphs';
+import { jointGlyph } from './joint_glyphs';
 import { Motion, rotate } from './motion';
 import type { GlyphSize } from './body_view';
 import type { Joint } from './run';

@@ -2,6 +2,7 @@
 #include "buckens/joints/constraint_row.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace buckens::joints {
@@ -9,6 +10,10 @@ namespace buckens::joints {
 using Eigen::Vector3d;
 using spatial::MarkerBias;
 using spatial::MarkerMotion;
+
+namespace {
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
+}  // namespace
 
 ConstraintRow ConstraintRow::point_world(const Vector3d& e) {
   ConstraintRow row;
@@ -46,6 +51,36 @@ ConstraintRow ConstraintRow::turning(const Vector3d& axis_F, const Vector3d& x_F
   return row;
 }
 
+ConstraintRow ConstraintRow::distance(double length) {
+  ConstraintRow row;
+  row.kind_ = Kind::distance;
+  row.offset_ = length;
+  return row;
+}
+
+ConstraintRow ConstraintRow::homokinetic(const Vector3d& x_F, const Vector3d& y_F,
+                                         const Vector3d& x_M, const Vector3d& y_M) {
+  ConstraintRow row;
+  row.kind_ = Kind::homokinetic;
+  row.e_ = x_F;
+  row.c_ = y_M;
+  row.e2_ = y_F;
+  row.c2_ = x_M;
+  return row;
+}
+
+ConstraintRow ConstraintRow::screw(const Vector3d& axis_F, const Vector3d& x_F, const Vector3d& x_M,
+                                   double offset, double pitch) {
+  ConstraintRow row;
+  row.kind_ = Kind::screw;
+  row.axis_ = axis_F;
+  row.e_ = x_F;
+  row.c_ = x_M;
+  row.offset_ = offset;
+  row.pitch_ = pitch;
+  return row;
+}
+
 ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, bool with_acceleration) const {
   TurningVector b{e_, Vector3d::Zero(), Vector3d::Zero()};
   if (!law_) return b;
@@ -58,6 +93,23 @@ ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, bool with_a
   b.rate = rate * ahead;
   if (with_acceleration) b.acceleration = law_->acceleration(t) * ahead - rate * rate * b.value;
   return b;
+}
+
+double ConstraintRow::screw_residual(const Vector3d& axis, const Vector3d& r, const MarkerMotion& F,
+                                     const MarkerMotion& M) const {
+  const Vector3d x = F.R * e_;
+  const Vector3d moved = M.R * c_;
+  const double turn = std::atan2(axis.cross(x).dot(moved), x.dot(moved)) / kWholeTurn;
+  const double turns = (axis.dot(r) - offset_) / pitch_ - turn;
+  return pitch_ * (turns - std::round(turns));
+}
+
+double ConstraintRow::distance_bias(const Vector3d& r, const Vector3d& r_dot,
+                                    const Vector3d& a) const {
+  const double length = r.norm();
+  const Vector3d n = r / length;
+  const double along = n.dot(r_dot);
+  return n.dot(a) + (r_dot.squaredNorm() - along * along) / length;
 }
 
 RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t) const {
@@ -89,8 +141,44 @@ RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, d
       out.J.segment<3>(6) = -b_x_c.transpose();
       break;
     }
+    default:
+      evaluate_coupling(F, M, r, out);
   }
   return out;
+}
+
+void ConstraintRow::evaluate_coupling(const MarkerMotion& F, const MarkerMotion& M,
+                                      const Vector3d& r, RowValue& out) const {
+  switch (kind_) {
+    case Kind::distance: {
+      const double length = r.norm();
+      out.g = length - offset_;
+      // Two points that coincide have no direction; assembly goes another way then.
+      const Vector3d n = length > 0.0 ? Vector3d(r / length) : Vector3d::UnitX();
+      out.J.segment<3>(3) = -n.transpose();
+      out.J.segment<3>(9) = n.transpose();
+      break;
+    }
+    case Kind::homokinetic: {
+      const Vector3d x = F.R * e_, y = F.R * e2_, y_M = M.R * c_, x_M = M.R * c2_;
+      out.g = x.dot(y_M) - y.dot(x_M);
+      const Vector3d arm = x.cross(y_M) - y.cross(x_M);
+      out.J.segment<3>(0) = arm.transpose();
+      out.J.segment<3>(6) = -arm.transpose();
+      break;
+    }
+    case Kind::screw: {
+      const Vector3d axis = F.R * axis_;
+      out.g = screw_residual(axis, r, F, M);
+      out.J.segment<3>(0) = (axis.cross(r) + pitch_ / kWholeTurn * axis).transpose();
+      out.J.segment<3>(3) = -axis.transpose();
+      out.J.segment<3>(6) = -pitch_ / kWholeTurn * axis.transpose();
+      out.J.segment<3>(9) = axis.transpose();
+      break;
+    }
+    default:
+      break;
+  }
 }
 
 double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
@@ -99,12 +187,25 @@ double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const M
   const Vector3d r_dot = M.v - F.v;
   const Vector3d a = bias_M.a - bias_F.a;
   if (kind_ == Kind::point_world) return e_.dot(a);
-  if (kind_ == Kind::point_along) {
-    const Vector3d e = F.R * e_;
+  if (kind_ == Kind::distance) return distance_bias(r, r_dot, a);
+  if (kind_ == Kind::point_along || kind_ == Kind::screw) {
+    const Vector3d e = F.R * (kind_ == Kind::screw ? axis_ : e_);
     const Vector3d e_dot = F.w.cross(e);
     const Vector3d e_bias = bias_F.alpha.cross(e) + F.w.cross(e_dot);
-    const double drive = law_ ? law_->acceleration(t) : 0.0;
-    return e_bias.dot(r) + 2.0 * e_dot.dot(r_dot) + e.dot(a) - drive;
+    const double slide = e_bias.dot(r) + 2.0 * e_dot.dot(r_dot) + e.dot(a);
+    if (kind_ == Kind::point_along) return slide - (law_ ? law_->acceleration(t) : 0.0);
+    const double turn = e.dot(bias_M.alpha - bias_F.alpha) + e_dot.dot(M.w - F.w);
+    return slide - pitch_ / kWholeTurn * turn;
+  }
+  // The rate of a product of two directions b·c, twice.
+  const auto product = [&](const Vector3d& b, const Vector3d& c) {
+    const Vector3d b_dot = F.w.cross(b);
+    const Vector3d c_dot = M.w.cross(c);
+    return (bias_F.alpha.cross(b) + F.w.cross(b_dot)).dot(c) + 2.0 * b_dot.dot(c_dot) +
+           b.dot(bias_M.alpha.cross(c) + M.w.cross(c_dot));
+  };
+  if (kind_ == Kind::homokinetic) {
+    return product(F.R * e_, M.R * c_) - product(F.R * e2_, M.R * c2_);
   }
   const TurningVector b_F = turning_vector(t, true);
   const Vector3d b = F.R * b_F.value;

@@ -22,14 +22,17 @@ struct RowValue {
 
 /// One scalar constraint between marker frames F (first) and M (second).
 ///
-/// Every joint is made of three kinds of rows:
+/// Every joint is made of these kinds of rows:
 ///   - `point_world`: e·(p_M − p_F) = 0 with e fixed in the world;
 ///   - `point_along`: (R_F e)·(p_M − p_F) − s₀ − s(t) = 0 with e fixed in F;
 ///   - `direction`:   (R_F b(t))·(R_M c) = 0, b turning about the axis a of F by the law of time
-///                    where there is one.
+///                    where there is one;
+///   - `distance`:    |p_M − p_F| − L = 0;
+///   - `homokinetic`: (R_F x)·(R_M y′) − (R_F y)·(R_M x′) = 0, x and y across the shafts;
+///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F.
 class ConstraintRow {
  public:
-  enum class Kind { point_world, point_along, direction };
+  enum class Kind { point_world, point_along, direction, distance, homokinetic, screw };
 
   static ConstraintRow point_world(const Eigen::Vector3d& e);
   /// @param offset s₀ [m], @param displacement s(t) [m], zero if absent
@@ -41,6 +44,17 @@ class ConstraintRow {
   static ConstraintRow turning(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
                                const Eigen::Vector3d& c_M, base::TimeLaw angle);
 
+  /// @param length L [m], > 0
+  static ConstraintRow distance(double length);
+  /// Two directions across the shaft of F, and across that of M.
+  static ConstraintRow homokinetic(const Eigen::Vector3d& x_F, const Eigen::Vector3d& y_F,
+                                   const Eigen::Vector3d& x_M, const Eigen::Vector3d& y_M);
+  /// The displacement counts from the offset along the axis, the angle from where x_M lies along a
+  /// direction x_F across the axis. Whole turns are told by the displacement, so none are counted.
+  /// @param pitch p [m], not zero
+  static ConstraintRow screw(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
+                             const Eigen::Vector3d& x_M, double offset, double pitch);
+
   RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t) const;
 
   /// Part of g̈ that does not come from the accelerations of the bodies' coordinates.
@@ -49,7 +63,10 @@ class ConstraintRow {
 
   Kind kind() const { return kind_; }
   /// True for rows whose residual is a length, false for dimensionless ones.
-  bool is_length() const { return kind_ != Kind::direction; }
+  bool is_length() const { return kind_ != Kind::direction && kind_ != Kind::homokinetic; }
+  /// Whether the row takes a moment of the first marker, and of the second.
+  bool turns_first() const { return kind_ != Kind::point_world && kind_ != Kind::distance; }
+  bool turns_second() const { return turns_first() && kind_ != Kind::point_along; }
   bool depends_on_time() const { return law_.has_value(); }
   /// e of a point row; b of a direction row, at angle zero where it turns.
   const Eigen::Vector3d& direction() const { return e_; }
@@ -62,12 +79,22 @@ class ConstraintRow {
     Eigen::Vector3d value, rate, acceleration;
   };
   TurningVector turning_vector(double t, bool with_acceleration) const;
+  /// Rows of distance, homokinetic and screw. @param r from F to M
+  void evaluate_coupling(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                         const Eigen::Vector3d& r, RowValue& out) const;
+  double screw_residual(const Eigen::Vector3d& axis, const Eigen::Vector3d& r,
+                        const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
+  double distance_bias(const Eigen::Vector3d& r, const Eigen::Vector3d& r_dot,
+                       const Eigen::Vector3d& a) const;
 
   Kind kind_ = Kind::point_world;
   Eigen::Vector3d e_ = Eigen::Vector3d::Zero();  // world axis, axis in F, or b at angle zero
   Eigen::Vector3d axis_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d c_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d e2_ = Eigen::Vector3d::Zero();  // y of F of a homokinetic row
+  Eigen::Vector3d c2_ = Eigen::Vector3d::Zero();  // x of M of a homokinetic row
   double offset_ = 0;
+  double pitch_ = 0;
   std::optional<base::TimeLaw> law_;
 };
 

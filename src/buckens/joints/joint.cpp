@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/joints/joint.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 
@@ -15,6 +19,7 @@ namespace {
 
 // Below this sine an axis counts as lying in (or normal to) the plane: about 0.01 degrees.
 constexpr double kAlignment = 2e-4;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct Triad {
   Vector3d x, y, z;  // in F; z along the joint axis
@@ -34,6 +39,11 @@ Triad triad_about(const Vector3d& z, const Placement& placement) {
   const Vector3d y = z.cross(hint).normalized();
   return {y.cross(z), y, z};
 }
+
+// Largest cosine between the arms of a cross that counts as a right angle, and the cosine of the
+// largest bend of a constant-velocity joint as placed.
+constexpr double kRightAngle = 1e-4;
+constexpr double kLargestBend = 0.08715574274765817;  // of 85 degrees
 
 class RowCollector {
  public:
@@ -79,8 +89,34 @@ class RowCollector {
   std::vector<ConstraintRow> rows_;
 };
 
+/// Why a joint has no place in a planar model; empty if it has.
+std::string refusal_in_plane(JointType type) {
+  switch (type) {
+    case JointType::cylindrical:
+    case JointType::screw:
+      return "use a `prismatic` or a `revolute` joint";
+    case JointType::planar:
+    case JointType::parallel:
+      return "all that it holds is held by the plane already; remove it";
+    case JointType::universal:
+    case JointType::constant_velocity:
+      return "use a `revolute` joint";
+    default:
+      return {};
+  }
+}
+
 void check_axis(JointType type, const Placement& placement, const Vector3d& axis) {
-  if (!placement.planar || type == JointType::spherical || type == JointType::fixed) return;
+  if (!placement.planar) return;
+  const std::string instead = refusal_in_plane(type);
+  if (!instead.empty()) {
+    throw ModelError("a " + to_string(type) + " joint has no place in a planar model; " + instead +
+                     ", or leave `planar` out");
+  }
+  if (type == JointType::spherical || type == JointType::fixed || type == JointType::orientation ||
+      type == JointType::distance) {
+    return;
+  }
   const double along_normal =
       std::abs((placement.R_WF * axis).dot(spatial::normal(*placement.planar)));
   const bool turns = type == JointType::revolute || type == JointType::prescribed_rotation;
@@ -95,12 +131,117 @@ void check_axis(JointType type, const Placement& placement, const Vector3d& axis
   }
 }
 
+/// The second axis of a joint, normalised.
+Vector3d unit_second_axis(const Placement& placement, const Vector3d& otherwise) {
+  const Vector3d axis = placement.second_axis_F.value_or(otherwise);
+  if (!(axis.norm() > 0.0) || !axis.allFinite()) {
+    throw ModelError("`second-axis` has no direction; give three numbers, not all zero");
+  }
+  return axis.normalized();
+}
+
+void add_universal(const Triad& f, const Placement& placement, RowCollector& rows) {
+  const Vector3d arm = unit_second_axis(placement, f.x);
+  if (std::abs(arm.dot(f.z)) > kRightAngle) {
+    throw ModelError(fmt::format(
+        "the arms of a universal joint are perpendicular; `axis` and `second-axis` meet at {:.4g} "
+        "degrees; turn one of them",
+        std::acos(std::clamp(arm.dot(f.z), -1.0, 1.0)) * kDegrees));
+  }
+  rows.points_in_world();
+  rows.push(ConstraintRow::direction(f.z, rows.to_M(arm)));
+}
+
+void add_constant_velocity(const Triad& f, const Placement& placement, RowCollector& rows) {
+  const Vector3d shaft = unit_second_axis(placement, f.z);
+  if (shaft.dot(f.z) < kLargestBend) {
+    throw ModelError(
+        fmt::format("the shafts of a constant-velocity joint may bend by less than 85 degrees as "
+                    "placed, not by "
+                    "{:.4g}; `second-axis` is the direction in which the second shaft goes on",
+                    std::acos(std::clamp(shaft.dot(f.z), -1.0, 1.0)) * kDegrees));
+  }
+  // Directions across the second shaft are those across the first, bent with it.
+  const Eigen::Matrix3d bend = Eigen::Quaterniond::FromTwoVectors(f.z, shaft).toRotationMatrix();
+  rows.points_in_world();
+  rows.push(ConstraintRow::homokinetic(f.x, f.y, rows.to_M(bend * f.x), rows.to_M(bend * f.y)));
+}
+
+void add_distance(const Placement& placement, RowCollector& rows) {
+  const double length = placement.length.value_or(placement.r_F.norm());
+  if (!(length > 0.0)) {
+    throw ModelError(
+        "a distance joint has no direction where its markers coincide; place them apart, or use a "
+        "`spherical` joint");
+  }
+  rows.push(ConstraintRow::distance(length));
+}
+
+void add_guide_or_coupling(JointType type, const Triad& f, const Placement& placement,
+                           RowCollector& rows) {
+  const auto parallel = [&] {
+    rows.perpendicular(f.x, f.z);
+    rows.perpendicular(f.y, f.z);
+  };
+  switch (type) {
+    case JointType::cylindrical:
+    case JointType::screw:
+      rows.point_along(f.x);
+      rows.point_along(f.y);
+      parallel();
+      if (type == JointType::screw) {
+        rows.push(ConstraintRow::screw(f.z, f.x, rows.to_M(f.x), f.z.dot(placement.r_F),
+                                       placement.pitch));
+      }
+      break;
+    case JointType::planar:
+      rows.point_along(f.z);
+      parallel();
+      break;
+    case JointType::universal:
+      return add_universal(f, placement, rows);
+    case JointType::constant_velocity:
+      return add_constant_velocity(f, placement, rows);
+    case JointType::point_on_line:
+      rows.point_along(f.x);
+      rows.point_along(f.y);
+      break;
+    case JointType::point_in_plane:
+      rows.point_along(f.z);
+      break;
+    case JointType::parallel:
+      return parallel();
+    case JointType::orientation:
+      rows.perpendicular(f.x, f.y);
+      rows.perpendicular(f.y, f.z);
+      rows.perpendicular(f.z, f.x);
+      break;
+    case JointType::distance:
+      return add_distance(placement, rows);
+    default:
+      break;
+  }
+}
+
 }  // namespace
 
 std::string to_string(JointType type) {
-  static const std::array<const char*, 6> names = {
-      "revolute", "spherical",           "prismatic",
-      "fixed",    "prescribed-rotation", "prescribed-translation"};
+  static const std::array<const char*, 16> names = {"revolute",
+                                                    "spherical",
+                                                    "prismatic",
+                                                    "fixed",
+                                                    "prescribed-rotation",
+                                                    "prescribed-translation",
+                                                    "cylindrical",
+                                                    "planar",
+                                                    "universal",
+                                                    "constant-velocity",
+                                                    "point-on-line",
+                                                    "point-in-plane",
+                                                    "parallel",
+                                                    "orientation",
+                                                    "distance",
+                                                    "screw"};
   return names[static_cast<std::size_t>(type)];
 }
 
@@ -126,7 +267,8 @@ std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement)
   check_axis(type, placement, axis);
   // A weld has no axis of its own. In the plane its one rotation is about the normal, wherever the
   // axes of its markers point.
-  const bool is_planar_weld = type == JointType::fixed && placement.planar;
+  const bool is_planar_weld =
+      (type == JointType::fixed || type == JointType::orientation) && placement.planar;
   const Triad f = triad_about(
       is_planar_weld ? Vector3d(placement.R_WF.transpose() * spatial::normal(*placement.planar))
                      : axis,
@@ -160,6 +302,8 @@ std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement)
     case JointType::prescribed_translation:
       rows.push(ConstraintRow::point_along(f.z, f.z.dot(placement.r_F), placement.law.value()));
       break;
+    default:
+      add_guide_or_coupling(type, f, placement, rows);
   }
   return rows.take();
 }

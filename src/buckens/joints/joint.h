@@ -17,7 +17,17 @@ enum class JointType {
   prismatic,
   fixed,
   prescribed_rotation,
-  prescribed_translation
+  prescribed_translation,
+  cylindrical,
+  planar,
+  universal,
+  constant_velocity,
+  point_on_line,
+  point_in_plane,
+  parallel,
+  orientation,
+  distance,
+  screw
 };
 
 /// Name of the kind as the model file spells it.
@@ -35,14 +45,21 @@ struct Placement {
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();  ///< joint axis in F, any length but zero
   std::optional<spatial::Plane> planar;               ///< keep in-plane rows only
   std::optional<base::TimeLaw> law;                   ///< angle [rad] or displacement [m]
+  std::optional<Eigen::Vector3d> second_axis_F;  ///< of universal, constant velocity, as placed
+  std::optional<double> length;                  ///< of distance [m]; none: as placed
+  double pitch = 0;                              ///< of screw [m] per turn
 };
 
 /// Rows of a joint of the given kind between two marker frames.
 ///
 /// Rows per kind (planar in brackets): revolute 5 (2), spherical 3 (2), prismatic 5 (2), fixed 6
-/// (3), prescribed rotation 1 (1), prescribed translation 1 (1). Cost O(1).
+/// (3), prescribed rotation 1 (1), prescribed translation 1 (1), point on line 2 (1), point in
+/// plane 1 (1), orientation 3 (1), distance 1 (1); in space only: cylindrical 4, planar 3,
+/// universal 4, constant velocity 4, parallel 2, screw 5. Cost O(1).
 /// @throws ModelError if the axis is zero or, in a planar model, neither normal to the plane
-///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation)
+///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation, point on
+///         line, point in plane); if the joint makes no sense in a plane; if its second axis or
+///         its length does not suit it
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);
 
 /// Rows that hold two points together and keep the direction `axis_F` common to both markers: what

@@ -1,44 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <variant>
 
 #include <Eigen/Core>
 
-#include "buckens/base/field.h"
-#include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
+#include "buckens/joints/coupling_specs.h"
+#include "buckens/joints/guide_specs.h"
+#include "buckens/joints/joint_ends.h"
 
 namespace buckens::joints {
-
-/// Two markers; the joint's axes are those of the first.
-struct JointEnds {
-  std::array<base::MarkerRef, 2> between;
-
-  template <class Visitor>
-  void end_fields(Visitor& visit) {
-    visit(base::field("between", between, "the two markers").required().like("[ground, crank]"));
-  }
-};
-
-struct JointEndsAndAxis : JointEnds {
-  std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
-
-  template <class Visitor>
-  void axis_fields(Visitor& visit) {
-    end_fields(visit);
-    visit(base::field("axis", axis, "direction of the axis in the first marker's axes")
-              .like("[0, 0, 1]")
-              .otherwise("planar models: the normal of the plane"));
-  }
-};
 
 struct RevoluteSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "revolute";
   static constexpr const char* kDoc = "hinge: only rotation about the axis is free";
+  static constexpr bool kTurns = true;
   template <class Visitor>
   void fields(Visitor& visit) {
     axis_fields(visit);
@@ -57,6 +36,7 @@ struct SphericalSpec : JointEnds {
 struct PrismaticSpec : JointEnds {
   static constexpr const char* kKey = "prismatic";
   static constexpr const char* kDoc = "slider: only translation along the axis is free";
+  static constexpr bool kSlides = true;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -114,6 +94,7 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kDoc =
       "drives the rotation about the axis; add a joint that "
       "carries the other directions";
+  static constexpr bool kTurns = true;
   // Exactly one of the two is given.
   std::optional<base::TimeLaw> angle;  ///< counted from the position as placed [rad]
   std::optional<base::TimeLaw> speed;  ///< [rad/s]; the angle is its integral from t = 0
@@ -146,6 +127,7 @@ struct PrescribedTranslationSpec : JointEnds {
   static constexpr const char* kDoc =
       "drives the distance along the axis; add a joint that "
       "carries the other directions";
+  static constexpr bool kSlides = true;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
   base::TimeLaw displacement;                      ///< counted from the position as placed [m]
 
@@ -169,8 +151,31 @@ struct JointSpec {
   std::string name;
   SourceLocation where;
   std::variant<RevoluteSpec, SphericalSpec, PrismaticSpec, FixedSpec, BushingSpec,
-               PrescribedRotationSpec, PrescribedTranslationSpec>
+               PrescribedRotationSpec, PrescribedTranslationSpec, CylindricalSpec, PlanarJointSpec,
+               UniversalSpec, ConstantVelocitySpec, PointOnLineSpec, PointInPlaneSpec, ParallelSpec,
+               OrientationSpec, DistanceSpec, ScrewSpec>
       kind;
+
+  /// Key of the kind in the model file.
+  const char* kind_name() const {
+    return std::visit([]<class T>(const T&) { return T::kKey; }, kind);
+  }
+  /// Whether the joint has an angle about its axis as a coordinate.
+  bool turns() const {
+    return std::visit(
+        []<class T>(const T&) {
+          return requires { T::kTurns; };
+        },
+        kind);
+  }
+  /// Whether it has a displacement along its axis as a coordinate.
+  bool slides() const {
+    return std::visit(
+        []<class T>(const T&) {
+          return requires { T::kSlides; };
+        },
+        kind);
+  }
 
   template <class Visitor>
   void fields(Visitor& visit) {

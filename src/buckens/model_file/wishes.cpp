@@ -18,14 +18,18 @@ struct Wish {
 };
 
 constexpr std::string_view kLosses =
-    "friction is not supported yet; instead use damping: of a `bushing`, a `spring-damper` or a "
+    "drag is not supported yet; instead use damping: of a `bushing`, a `spring-damper` or a "
     "`torsional-spring`, or a torque or force as a law of time";
+constexpr std::string_view kFriction =
+    "friction in joints is the load `hinge-friction` (against turning) or `slide-friction` "
+    "(against "
+    "sliding) here";
 constexpr std::string_view kContact =
     "contact is not supported yet; instead hold parts together by a joint, or by a `spring-damper` "
     "or `bushing` of the stiffness of the contact where it stays closed";
 constexpr std::string_view kLimits =
-    "limits of joints are not supported yet; instead keep the motion inside them by a drive, or "
-    "watch it with a `relative` sensor";
+    "ends of the way of a joint are the loads `hinge-stop` (of its angle) and `slide-stop` (of its "
+    "displacement) here";
 constexpr std::string_view kGears =
     "gears and other transmissions are not supported yet; instead drive both shafts by "
     "`prescribed-rotation` with speeds in the ratio of the transmission";
@@ -33,17 +37,7 @@ constexpr std::string_view kControl =
     "control is not supported yet; instead give the motion by `prescribed-rotation` or "
     "`prescribed-translation`, or the torque as a law of time";
 constexpr std::string_view kUniversal =
-    "universal joints are not supported yet; instead put a small rigid body between two `revolute` "
-    "joints with crossing axes";
-constexpr std::string_view kCylindrical =
-    "cylindrical joints are not supported yet; instead put a small rigid body between a `revolute` "
-    "and a `prismatic` joint with the same axis";
-constexpr std::string_view kScrew =
-    "screw joints are not supported yet; instead drive a `prescribed-rotation` and a "
-    "`prescribed-translation` in the ratio of the pitch";
-constexpr std::string_view kPlane =
-    "planar and point-on-surface joints are not supported yet; instead put small rigid bodies "
-    "between two `prismatic` joints";
+    "a joint with a cross between two shafts is called `universal` here";
 constexpr std::string_view kMaterial =
     "nonlinear materials are not supported yet, they are linear elastic: E, nu, rho, or "
     "`orthotropic`";
@@ -54,8 +48,8 @@ constexpr std::string_view kPlace =
     "the position and orientation of a body at the start are those of its key `at`: "
     "bodies: {NAME: {at: {position: [...], orientation: {...}}}}";
 
-constexpr std::array<Wish, 62> kWishes = {{
-    {"friction", "", kLosses},
+constexpr std::array<Wish, 58> kWishes = {{
+    {"friction", "", kFriction},
     {"drag", "loads", kLosses},
     {"contact", "", kContact},
     {"impact", "", kContact},
@@ -77,16 +71,12 @@ constexpr std::array<Wish, 62> kWishes = {{
     {"controller", "", kControl},
     {"controllers", "", kControl},
     {"control", "", kControl},
-    {"universal", "joints", kUniversal},
     {"hooke", "joints", kUniversal},
     {"cardan", "joints", kUniversal},
-    {"constantvelocity", "joints", kUniversal},
-    {"cylindrical", "joints", kCylindrical},
-    {"screw", "joints", kScrew},
-    {"helical", "joints", kScrew},
-    {"planar", "joints", kPlane},
-    {"inplane", "joints", kPlane},
-    {"pointonsurface", "joints", kPlane},
+    {"helical", "joints", "a helical joint is called `screw` here"},
+    {"inplane", "joints", "a point in a plane is called `point-in-plane` here"},
+    {"inline", "joints", "a point on a line is called `point-on-line` here"},
+    {"pointonsurface", "joints", "a point in a plane is called `point-in-plane` here"},
     {"plasticity", "", kMaterial},
     {"yield", "", kMaterial},
     {"hyperelastic", "", kMaterial},

@@ -251,9 +251,10 @@ Geometry model_geometry(const model::Model& model) {
                           to_body(model, joint.first, joint.axis_F)});
   }
   for (const model::Load& load : model.loads) {
-    if (load.element->num_soft_rows() == 0) continue;
+    // What acts on a joint's coordinate is where the joint is drawn.
+    if (load.element->num_soft_rows() == 0 || load.coordinate >= 0) continue;
     out.joints.push_back({load.name,
-                          load.element->num_soft_rows() == 6 ? "bushing" : "spring-damper",
+                          load.is_among_joints ? load.kind : "spring-damper",
                           {side_of(model, load.first), side_of(model, load.second)},
                           Vector3d::UnitZ()});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/joints/constraint_row.h"
 
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,9 @@ std::vector<std::pair<const char*, ConstraintRow>> all_rows() {
           {"point_along", ConstraintRow::point_along(e)},
           {"point_along with law", ConstraintRow::point_along(e, 0.3, some_law())},
           {"direction", ConstraintRow::direction(e, c)},
-          {"turning", ConstraintRow::turning(e, x, c, some_law())}};
+          {"turning", ConstraintRow::turning(e, x, c, some_law())},
+          {"distance", ConstraintRow::distance(0.7)},
+          {"homokinetic", ConstraintRow::homokinetic(x, e.cross(x), c, c.unitOrthogonal())}};
 }
 
 Eigen::Matrix<double, 12, 1> stack(const Vector3d& a, const Vector3d& b, const Vector3d& c,
@@ -98,7 +101,53 @@ TEST(ConstraintRow, AccelerationIsJacobianTimesAccelerationAndBias) {
 
 TEST(ConstraintRow, OnlyPointsAreLengths) {
   for (const auto& [name, row] : all_rows()) {
-    EXPECT_EQ(row.is_length(), std::string(name).rfind("point", 0) == 0) << name;
+    const bool is_length =
+        std::string(name).rfind("point", 0) == 0 || std::string(name) == "distance";
+    EXPECT_EQ(row.is_length(), is_length) << name;
+  }
+}
+
+/// M turns about an axis of F and slides along it, F moves as it likes: a screw's other rows hold.
+struct OnAxis {
+  Vector3d axis_F = Vector3d(0.2, -0.7, 0.4).normalized();
+  double angle(double t) const { return 0.4 + 1.3 * t - 0.8 * t * t; }
+  double slide(double t) const { return 0.2 - 0.6 * t + 0.5 * t * t; }
+  spatial::MarkerMotion at(double t) const {
+    const spatial::MarkerMotion F = kF.at(t);
+    spatial::MarkerMotion M;
+    const Vector3d axis = F.R * axis_F;
+    M.R = Eigen::AngleAxisd(angle(t), axis).toRotationMatrix() * F.R;
+    M.p = F.p + slide(t) * axis;
+    M.w = F.w + (1.3 - 1.6 * t) * axis;
+    M.v = F.v + F.w.cross(M.p - F.p) + (-0.6 + t) * axis;
+    return M;
+  }
+};
+
+TEST(ConstraintRow, ScrewFollowsAngleAndDisplacementOverTurns) {
+  const OnAxis M;
+  const Vector3d x = M.axis_F.unitOrthogonal();
+  for (const double pitch : {0.05, -0.3}) {
+    const auto row = ConstraintRow::screw(M.axis_F, x, x, 0.0, pitch);
+    EXPECT_TRUE(row.is_length() && row.turns_first() && row.turns_second());
+    const auto open = [&](double t) {
+      return M.slide(t) - pitch * M.angle(t) / (2.0 * std::numbers::pi);
+    };
+    // Whole turns are told by the displacement: the residual is what is left of them.
+    EXPECT_NEAR(row.evaluate(kF.at(0), M.at(0), 0).g, open(0) - pitch * std::round(open(0) / pitch),
+                1e-14);
+    const RowValue value = row.evaluate(kF.at(0), M.at(0), 0);
+    const double rate = value.J.dot(stack(kF.w, kF.v, M.at(0).w, M.at(0).v));
+    EXPECT_NEAR(rate, test::derivative([&](double t) { return open(t); }), 1e-10);
+    EXPECT_NEAR(rate,
+                test::derivative([&](double t) { return row.evaluate(kF.at(t), M.at(t), 0).g; }),
+                1e-10);
+    // Along the joint's own motion: M's acceleration is that of its rate.
+    const Vector3d alpha = test::derivative([&](double t) { return M.at(t).w; });
+    const Vector3d a = test::derivative([&](double t) { return M.at(t).v; });
+    const double acceleration =
+        value.J.dot(stack(kF.alpha, kF.a, alpha, a)) + row.bias(kF.at(0), M.at(0), {}, {}, 0);
+    EXPECT_NEAR(acceleration, test::second_derivative([&](double t) { return open(t); }), 1e-7);
   }
 }
 

@@ -32,6 +32,26 @@ class JointBuilder {
       void operator()(const joints::PrescribedTranslationSpec& k) {
         b.add_rows(JointType::prescribed_translation, k, spec);
       }
+      void operator()(const joints::CylindricalSpec& k) {
+        b.add_rows(JointType::cylindrical, k, spec);
+      }
+      void operator()(const joints::PlanarJointSpec& k) { b.add_rows(JointType::planar, k, spec); }
+      void operator()(const joints::UniversalSpec& k) { b.add_rows(JointType::universal, k, spec); }
+      void operator()(const joints::ConstantVelocitySpec& k) {
+        b.add_rows(JointType::constant_velocity, k, spec);
+      }
+      void operator()(const joints::PointOnLineSpec& k) {
+        b.add_rows(JointType::point_on_line, k, spec);
+      }
+      void operator()(const joints::PointInPlaneSpec& k) {
+        b.add_rows(JointType::point_in_plane, k, spec);
+      }
+      void operator()(const joints::ParallelSpec& k) { b.add_rows(JointType::parallel, k, spec); }
+      void operator()(const joints::OrientationSpec& k) {
+        b.add_rows(JointType::orientation, k, spec);
+      }
+      void operator()(const joints::DistanceSpec& k) { b.add_rows(JointType::distance, k, spec); }
+      void operator()(const joints::ScrewSpec& k) { b.add_rows(JointType::screw, k, spec); }
     };
     std::visit(Adder{*this, spec}, spec.kind);
   }
@@ -52,6 +72,9 @@ class JointBuilder {
     }
     if constexpr (requires { kind.law(); }) placement.law = kind.law();
     if constexpr (requires { kind.displacement; }) placement.law = kind.displacement;
+    if constexpr (requires { kind.second_axis; }) placement.second_axis_F = kind.second_axis;
+    if constexpr (requires { kind.length; }) placement.length = kind.length;
+    if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
@@ -59,11 +82,8 @@ class JointBuilder {
       throw ModelError(spec.where, fmt::format("{}: {}", what, error.what()));
     }
     for (const joints::ConstraintRow& row : joint.rows) {
-      if (row.kind() == joints::ConstraintRow::Kind::point_world) continue;
-      find_.require_moment(joint.first, what, spec.where);
-      if (row.kind() == joints::ConstraintRow::Kind::direction) {
-        find_.require_moment(joint.second, what, spec.where);
-      }
+      if (row.turns_first()) find_.require_moment(joint.first, what, spec.where);
+      if (row.turns_second()) find_.require_moment(joint.second, what, spec.where);
     }
     joint.where = spec.where;
     joint.first_row = find_.model().num_constraint_rows();
@@ -84,7 +104,8 @@ class JointBuilder {
         loads::Bushing::Coefficients{kind.stiffness, kind.rotational_stiffness, kind.damping,
                                      kind.rotational_damping},
         p.R_WF.transpose() * p.R_WM, p.r_F);
-    load.kind = "bushing";
+    load.kind = joints::BushingSpec::kKey;
+    load.is_among_joints = true;
     find_.model().loads.push_back(std::move(load));
   }
 

@@ -1,0 +1,187 @@
+import * as THREE from 'three';
+import { arrow, ball, kCone, kZ, solid } from './glyphs';
+
+/** Small solids of unit size that stand for joints. */
+
+function revolute(material: THREE.Material): THREE.Object3D {
+  const body = new THREE.CylinderGeometry(0.8, 0.8, 1.6, 28).rotateX(Math.PI / 2);
+  const pin = new THREE.CylinderGeometry(0.3, 0.3, 2.3, 18).rotateX(Math.PI / 2);
+  const dark = solid(0x20262e);
+  return new THREE.Group().add(new THREE.Mesh(body, material), new THREE.Mesh(pin, dark));
+}
+
+function fixed(material: THREE.Material): THREE.Object3D {
+  return new THREE.Mesh(new THREE.BoxGeometry(1.5, 1.5, 1.5), material);
+}
+
+function bushing(material: THREE.Material): THREE.Object3D {
+  const rings = new THREE.Group();
+  for (const z of [-0.6, 0, 0.6]) {
+    const ring = new THREE.Mesh(new THREE.TorusGeometry(0.8, 0.25, 10, 28), material);
+    ring.position.z = z;
+    rings.add(ring);
+  }
+  return rings;
+}
+
+/** Three quarters of a circle with an arrow head: a rotation that is driven. */
+function drivenRotation(): THREE.Object3D {
+  const material = solid(0xd8403a);
+  const ring = new THREE.Mesh(new THREE.TorusGeometry(1.9, 0.14, 10, 48, 1.5 * Math.PI), material);
+  const head = new THREE.Mesh(kCone, material);
+  head.scale.set(0.45, 0.45, 0.9);
+  head.position.set(0, -1.9, 0);
+  head.quaternion.setFromUnitVectors(kZ, new THREE.Vector3(1, 0, 0));
+  const turned = new THREE.Group().add(ring, head);
+  // The gap of the circle points to where a support stands.
+  turned.rotation.z = -Math.PI / 4;
+  return new THREE.Group().add(turned);
+}
+
+function drivenTranslation(): THREE.Object3D {
+  const pointer = arrow(0xd8403a, 0.05);
+  pointer.scale.setScalar(4);
+  return pointer;
+}
+
+const kDark = 0x20262e;
+
+/** A pin in a bush that is longer than it: turns and slides. */
+function cylindrical(material: THREE.Material): THREE.Object3D {
+  const bush = new THREE.CylinderGeometry(0.8, 0.8, 1.8, 28).rotateX(Math.PI / 2);
+  const pin = new THREE.CylinderGeometry(0.35, 0.35, 4.4, 18).rotateX(Math.PI / 2);
+  return new THREE.Group().add(new THREE.Mesh(bush, material), new THREE.Mesh(pin, solid(kDark)));
+}
+
+/** The pin has a thread: rings along it. */
+function screw(material: THREE.Material): THREE.Object3D {
+  const group = new THREE.Group().add(cylindrical(material));
+  for (const z of [-1.9, -1.6, -1.3, 1.3, 1.6, 1.9]) {
+    const ring = new THREE.Mesh(new THREE.TorusGeometry(0.42, 0.09, 8, 24), solid(kDark));
+    ring.position.z = z;
+    ring.rotation.x = 0.2;
+    group.add(ring);
+  }
+  return group;
+}
+
+/** Two plates face to face. */
+function planar(material: THREE.Material): THREE.Object3D {
+  const lower = new THREE.Mesh(new THREE.BoxGeometry(4, 4, 0.3), material);
+  const upper = new THREE.Mesh(new THREE.BoxGeometry(2, 2, 0.3), solid(kDark));
+  upper.position.z = 0.32;
+  return new THREE.Group().add(lower, upper);
+}
+
+/** A cross of two arms, one of them along z, between two forks. */
+function universal(material: THREE.Material): THREE.Object3D {
+  const along = new THREE.CylinderGeometry(0.25, 0.25, 2.6, 16).rotateX(Math.PI / 2);
+  const across = new THREE.CylinderGeometry(0.25, 0.25, 2.6, 16);
+  const fork = new THREE.TorusGeometry(1.2, 0.22, 10, 28, Math.PI);
+  const first = new THREE.Mesh(fork, material);
+  first.rotation.set(0, Math.PI / 2, 0);
+  first.rotation.order = 'YXZ';
+  const second = new THREE.Mesh(fork, material);
+  second.rotation.z = Math.PI / 2;
+  const dark = solid(kDark);
+  return new THREE.Group().add(
+    new THREE.Mesh(along, dark),
+    new THREE.Mesh(across, dark),
+    first,
+    second,
+  );
+}
+
+/** A ball in a cage of rings: shafts that turn alike. */
+function constantVelocity(material: THREE.Material): THREE.Object3D {
+  const group = new THREE.Group().add(ball(material));
+  for (let k = 0; k < 3; k++) {
+    const ring = new THREE.Mesh(new THREE.TorusGeometry(1.25, 0.1, 8, 32), solid(kDark));
+    ring.rotation.set(Math.PI / 2, (k * Math.PI) / 3, 0);
+    group.add(ring);
+  }
+  return group;
+}
+
+/** A ball on a rod along z. */
+function pointOnLine(material: THREE.Material): THREE.Object3D {
+  const line = new THREE.CylinderGeometry(0.2, 0.2, 5, 14).rotateX(Math.PI / 2);
+  return new THREE.Group().add(ball(material), new THREE.Mesh(line, solid(kDark)));
+}
+
+/** A ball on a plate across z. */
+function pointInPlane(material: THREE.Material): THREE.Object3D {
+  const plate = new THREE.Mesh(new THREE.BoxGeometry(4, 4, 0.2), solid(kDark));
+  return new THREE.Group().add(ball(material), plate);
+}
+
+/** Two rods side by side along z. */
+function parallel(material: THREE.Material): THREE.Object3D {
+  const rods = new THREE.Group();
+  for (const x of [-0.5, 0.5]) {
+    const one = new THREE.CylinderGeometry(0.25, 0.25, 3, 14).rotateX(Math.PI / 2);
+    rods.add(new THREE.Mesh(one.translate(x, 0, 0), material));
+  }
+  return rods;
+}
+
+/** The end of a rod; the line to its other end is drawn where they are apart. */
+function pinEnd(material: THREE.Material): THREE.Object3D {
+  const end = ball(material);
+  end.scale.setScalar(0.7);
+  return new THREE.Group().add(end);
+}
+
+/** Three rods at right angles: directions are held, places are not. */
+function orientation(material: THREE.Material): THREE.Object3D {
+  const rods = new THREE.Group();
+  for (const turn of [[0, 0], [Math.PI / 2, 0], [0, Math.PI / 2]] as const) {
+    const one = new THREE.CylinderGeometry(0.22, 0.22, 2.4, 14).rotateX(turn[0]).rotateZ(turn[1]);
+    rods.add(new THREE.Mesh(one, material));
+  }
+  return rods;
+}
+
+/** Glyph of a joint by its type, its axis along z; unknown types get an octahedron. */
+export function jointGlyph(type: string, color: THREE.ColorRepresentation): THREE.Object3D {
+  const material = solid(color);
+  switch (type.replaceAll('_', '-').toLowerCase()) {
+    case 'revolute':
+    case 'hinge':
+      return revolute(material);
+    case 'spherical':
+      return new THREE.Group().add(ball(material));
+    case 'prismatic':
+      return new THREE.Mesh(new THREE.BoxGeometry(1.6, 1.6, 3.2), material);
+    case 'fixed':
+      return fixed(material);
+    case 'bushing':
+      return bushing(material);
+    case 'cylindrical':
+      return cylindrical(material);
+    case 'screw':
+      return screw(material);
+    case 'planar':
+      return planar(material);
+    case 'universal':
+      return universal(material);
+    case 'constant-velocity':
+      return constantVelocity(material);
+    case 'point-on-line':
+      return pointOnLine(material);
+    case 'point-in-plane':
+      return pointInPlane(material);
+    case 'parallel':
+      return parallel(material);
+    case 'orientation':
+      return orientation(material);
+    case 'distance':
+      return pinEnd(material);
+    case 'prescribed-rotation':
+      return drivenRotation();
+    case 'prescribed-translation':
+      return drivenTranslation();
+    default:
+      return new THREE.Mesh(new THREE.OctahedronGeometry(1.1), material);
+  }
+}
