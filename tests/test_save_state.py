@@ -70,7 +70,17 @@ def model(text, rod="", step=""):
     return text.replace("ROD", rod).replace(", STEP", ", " + step if step else "")
 
 
+# Laws that remember: friction that sticks and slides, a stop, and an angle counted over turns.
+LAWS = SLIDER_CRANK.replace("simulation:", """  rub: {slide-friction: {joint: guide, static: 0.2, dynamic: 0.1, stribeck-velocity: 1 m/s}}
+  drag: {hinge-friction: {joint: big_end, static: 0.3, radius: 10 mm, preload: 0.1 N m}}
+  stop: {slide-stop: {joint: guide, from: -250 mm, stiffness: 1e5 N/m, damping: 20 N s/m}}
+simulation:""", 1).replace("  sensors:", "  sensors:\n    turns: {joint-coordinate: shaft}", 1)
+
+
 CASES = {
+    "laws of joint coordinates": (model(LAWS), 0.0301),
+    "laws, newmark": (model(LAWS, step="method: newmark"), 0.0301),
+    "laws, step control": (model(LAWS, step="tolerance: 1e-4"), 0.03),
     **{f"method {m}": (model(SLIDER_CRANK, step=f"method: {m}"), 0.0301)
        for m in ("generalized-alpha", "newmark", "hht", "wilson")},
     "without projection": (model(SLIDER_CRANK, step="method: newmark, projection: off"), 0.03),

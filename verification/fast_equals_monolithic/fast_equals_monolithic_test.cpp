@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/test/example_models.h"
+#include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/joint_friction.h"
 #include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/stepper.h"
 
@@ -187,6 +189,52 @@ TEST(FastEqualsMonolithic, DrivenSliderCrank) {
 TEST(FastEqualsMonolithic, BushingAndSpringBetweenRigidAndFlexibleBody) {
   // Forces of springs and dampers also weigh the position corrections.
   const model::Model model = test::bushed_beam(soft_damped_beam());
+  const Start start = test::consistent_start(model);
+  for (const Method method : kMethods) {
+    expect_same(model, start, tight(method, 1e-3));
+  }
+}
+
+/// A flexible rod that swings on a hinge with friction and a spring, and a sled on a rough way
+/// between stops, which a spring at the tip of the rod draws about.
+model::Model rubbing_rod() {
+  test::Mechanism m;
+  m.set_gravity({2.0, -9.81, -4.0});
+  const test::BeamConstants beam = soft_damped_beam();
+  m.set_length(beam.L);
+  const int rod = m.add_flexible(test::straight_beam(beam), body::CouplingLevel::full, {});
+  const int sled = m.add_rigid(0.8, Eigen::Vector3d(0.02, 0.03, 0.04).asDiagonal(), {});
+  m.add_joint(joints::JointType::revolute, test::Mechanism::ground({0, 0, 0}),
+              m.node_marker(rod, 0), Vector3d::UnitZ());
+  const joints::JointCoordinate angle =
+      joints::JointCoordinate::angle(Vector3d::UnitZ(), Eigen::Matrix3d::Identity());
+  loads::FrictionData pin;
+  pin.static_coefficient = 0.2;
+  pin.dynamic_coefficient = 0.15;
+  pin.stribeck_rate = 0.5;
+  pin.radius = 0.02;
+  pin.slip = 1e-3;
+  pin.inertia = 0.05;
+  m.add_law(std::make_unique<loads::JointFriction>(pin, Vector3d::UnitZ()), angle);
+  m.add_law(std::make_unique<loads::CoordinateSpring>(30.0, 0.1, 0.3), angle);
+  m.add_joint(joints::JointType::prismatic, test::Mechanism::ground({0, 1, 0}),
+              m.rigid_marker(sled, {0.1, 0, 0}), Vector3d::UnitX());
+  const joints::JointCoordinate way =
+      joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d(0.1, -1, 0));
+  loads::FrictionData bed;
+  bed.static_coefficient = bed.dynamic_coefficient = 0.1;
+  bed.radius = 1.0;
+  bed.slip = 1e-3;
+  bed.inertia = 0.8;
+  m.add_law(std::make_unique<loads::JointFriction>(bed, Vector3d::UnitX()), way);
+  m.add_law(std::make_unique<loads::CoordinateStop>(-0.02, 0.01, 2e3, 5.0), way);
+  m.add_load(std::make_unique<loads::SpringDamper>(200.0, 1.5, 1.2, std::nullopt),
+             m.rigid_marker(sled, {0, 0.1, 0}), m.node_marker(rod, beam.elements));
+  return m.take();
+}
+
+TEST(FastEqualsMonolithic, FrictionStopsAndSpringsOnJointCoordinates) {
+  const model::Model model = rubbing_rod();
   const Start start = test::consistent_start(model);
   for (const Method method : kMethods) {
     expect_same(model, start, tight(method, 1e-3));

@@ -12,6 +12,7 @@
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
 #include "buckens/loads/distributed_load_spec.h"
+#include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/load_axes.h"
 #include "buckens/loads/load_fields.h"
 
@@ -118,7 +119,8 @@ struct LoadSpec {
   std::string name;
   SourceLocation where;
   std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec, PressureSpec,
-               TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec>
+               TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
+               SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -14,6 +14,7 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/fem/assembly/recovery.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/results/coordinate_sensor.h"
 #include "buckens/results/deflection_sensor.h"
 #include "buckens/results/divided_body.h"
 #include "buckens/results/load_sensor.h"
@@ -195,7 +196,10 @@ class JointSensor final : public Sensor {
     const model::Load& load = now.model.loads[static_cast<std::size_t>(load_)];
     const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
     const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    spatial::Wrench out = load.element->evaluate(now.state.t, first, second).on_second;
+    spatial::Wrench out =
+        dynamics::action_of(now.model, static_cast<std::size_t>(load_), now.state.t,
+                            dynamics::circumstances_of(now.state), first, second)
+            .on_second;
     if (load.element->is_applied()) {
       out.force *= now.load_factor;
       out.torque *= now.load_factor;
@@ -372,6 +376,13 @@ class Maker {
   }
   std::unique_ptr<Sensor> operator()(const model::JointTorqueSensor& s) const {
     return joint(s, true);
+  }
+  std::unique_ptr<Sensor> operator()(const model::JointCoordinateSensor& s) const {
+    if (place_.coordinate < 0) {
+      throw InputError(spec_.where, fmt::format("sensor \"{}\": joint \"{}\" has no coordinate",
+                                                spec_.name, s.joint));
+    }
+    return make_coordinate_sensor(built_, spec_, static_cast<std::size_t>(place_.coordinate));
   }
   std::unique_ptr<Sensor> operator()(const model::SectionForceSensor&) const {
     if (place_.element < 0) {

@@ -9,6 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
+#include "buckens/dynamics/circumstances.h"
 #include "buckens/loads/bushing.h"
 #include "buckens/loads/spring_damper.h"
 
@@ -22,7 +23,7 @@ namespace {
 /// first.
 class SpringSensor final : public Sensor {
  public:
-  enum class Part { along_line, about_axis, force, torque };
+  enum class Part { along_line, about_axis, force, torque, coordinate };
 
   /// @param axis_F of Part::about_axis, unit vector in the first marker
   SpringSensor(Channel channel, std::size_t load, Part part, const Vector3d& axis_F)
@@ -33,7 +34,8 @@ class SpringSensor final : public Sensor {
     const model::Load& load = now.model.loads[load_];
     const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
     const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    const loads::Action action = load.element->evaluate(now.state.t, first, second);
+    const loads::Action action = dynamics::action_of(
+        now.model, load_, now.state.t, dynamics::circumstances_of(now.state), first, second);
     const Vector3d force = first.R.transpose() * action.on_first.force;
     // About the second marker: that on the first carries the lever of the force, too.
     const Vector3d torque = -(first.R.transpose() * action.on_second.torque);
@@ -42,6 +44,8 @@ class SpringSensor final : public Sensor {
         const Vector3d line = first.R.transpose() * (second.p - first.p);
         return values.push_back(line.isZero(0.0) ? 0.0 : force.dot(line.normalized()));
       }
+      case Part::coordinate:
+        return values.push_back(-action.along_coordinate);
       case Part::about_axis:
         return values.push_back(torque.dot(axis_F_));
       case Part::force:
@@ -61,8 +65,15 @@ class SpringSensor final : public Sensor {
 };
 
 /// Which part of an element is asked for, if it has that.
-std::optional<SpringSensor::Part> part_of(const loads::ForceElement& element, bool torque) {
+std::optional<SpringSensor::Part> part_of(const model::Model& model, const model::Load& load,
+                                          bool torque) {
   using Part = SpringSensor::Part;
+  const loads::ForceElement& element = *load.element;
+  if (load.coordinate >= 0) {
+    const auto kind = model.coordinates[static_cast<std::size_t>(load.coordinate)].law.kind();
+    const bool is_torque = kind == joints::JointCoordinate::Kind::angle;
+    return torque == is_torque ? std::optional(Part::coordinate) : std::nullopt;
+  }
   if (dynamic_cast<const loads::Bushing*>(&element) != nullptr) {
     return torque ? Part::torque : Part::force;
   }
@@ -83,17 +94,18 @@ std::unique_ptr<Sensor> make_spring_sensor(const model::BuiltModel& built,
   std::vector<std::string> known;
   for (std::size_t k = 0; k < built.model.loads.size(); ++k) {
     const model::Load& load = built.model.loads[k];
-    const auto part = part_of(*load.element, torque);
+    const auto part = part_of(built.model, load, torque);
     if (part) known.push_back(load.name);
     if (load.name != spring || !part) continue;
     const bool is_scalar =
-        *part == SpringSensor::Part::along_line || *part == SpringSensor::Part::about_axis;
-    Channel channel{"sensors/" + spec.name,
-                    torque ? "N m" : "N",
-                    {},
-                    fmt::format("{} of {} {}, tension positive", torque ? "torque" : "force",
-                                load.kind, load.name),
-                    {}};
+        *part != SpringSensor::Part::force && *part != SpringSensor::Part::torque;
+    Channel channel{
+        "sensors/" + spec.name,
+        torque ? "N m" : "N",
+        {},
+        fmt::format("{} of {} {}, {}", torque ? "torque" : "force", load.kind, load.name,
+                    load.coordinate < 0 ? "tension positive" : "positive against its coordinate"),
+        {}};
     if (!is_scalar) {
       channel.shape = {3};
       channel.components = {"x", "y", "z"};

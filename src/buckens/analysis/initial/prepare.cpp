@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/initial/displacement.h"
+#include "buckens/analysis/initial/friction_start.h"
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/initial/quasi_static_start.h"
 #include "buckens/analysis/initial/velocity.h"
@@ -14,6 +15,7 @@
 #include "buckens/analysis/statics/equilibrium.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/row_memory.h"
 
 namespace buckens::analysis {
 
@@ -80,7 +82,11 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
     out.notes.push_back(std::move(text));
   }
+  out.state.memory = dynamics::start_memory(model, dynamics::motions_of(model, out.state));
   settle_accelerations(model, metric, out.rows_in_use, out.state);
+  const bool sees_reactions = std::any_of(model.loads.begin(), model.loads.end(),
+                                          [](const model::Load& load) { return load.joint >= 0; });
+  if (sees_reactions) settle_friction(model, metric, out.rows_in_use, out.state);
   return out;
 }
 

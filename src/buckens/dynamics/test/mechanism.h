@@ -11,6 +11,7 @@
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/mass_metric.h"
+#include "buckens/dynamics/row_memory.h"
 #include "buckens/fem/assembly/assemble.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
@@ -126,6 +127,19 @@ class Mechanism {
     model_.loads.push_back(std::move(load));
   }
 
+  /// Law on the coordinate of the joint added last.
+  void add_law(std::unique_ptr<loads::ForceElement> element, joints::JointCoordinate coordinate) {
+    const model::Joint& joint = model_.joints.back();
+    add_load(std::move(element), joint.first, joint.second);
+    model::Load& load = model_.loads.back();
+    load.joint = static_cast<int>(model_.joints.size()) - 1;
+    load.coordinate = static_cast<int>(model_.coordinates.size());
+    load.first_state = model_.loads.size() > 1 ? model_.loads.end()[-2].first_state +
+                                                     model_.loads.end()[-2].element->num_states()
+                                               : 0;
+    model_.coordinates.push_back({load.joint, std::move(coordinate)});
+  }
+
   /// Pose of an undeformed marker as placed.
   spatial::Pose world_pose(const model::MarkerId& marker) const {
     if (marker.body == model::kGround) return marker.X_WF;
@@ -176,6 +190,7 @@ Start consistent_start(const model::Model& model, GiveVelocities give_velocities
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, start.state), 0.0, constraints);
   start.rows_in_use = metric.split(constraints.rows).independent;
+  start.state.memory = dynamics::start_memory(model, dynamics::motions_of(model, start.state));
   analysis::compute_accelerations(model, metric, start.rows_in_use, start.state);
   return start;
 }

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/model/build/add_distributed_load.h"
 #include "buckens/model/build/add_joint.h"
+#include "buckens/model/build/add_joint_law.h"
 #include "buckens/model/build/add_load.h"
 #include "buckens/model/build/add_ties.h"
 #include "buckens/model/build/eliminate_links.h"
@@ -55,7 +56,7 @@ class Builder {
     }
     for (const joints::JointSpec& joint : d.joints) add_joint(joint, find);
     for (const loads::LoadSpec& load : d.loads) {
-      if (!DistributedLoads::takes(load)) add_load(load, find);
+      if (!DistributedLoads::takes(load) && !is_joint_law(load)) add_load(load, find);
     }
     for (const OwnForce& force : d.own_forces) add_own_force(force, find);
     add_distributed_loads();
@@ -70,6 +71,10 @@ class Builder {
     const Eigen::AlignedBox3d box = extent();
     const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
     model_.length = size > 0.0 ? size : 1.0;
+    for (const loads::LoadSpec& load : d.loads) {
+      if (is_joint_law(load)) add_joint_law(load, find, model_.length);
+    }
+    number_states();
     if (size > 0.0) move_origin(box.center());
     settle_massless_rotations(model_, d.simulation ? d.simulation->duration : 0.0);
     reduce_bodies(out_->description, model_, bases_);
@@ -239,9 +244,30 @@ class Builder {
     }
   }
 
+  /// The coordinate that a sensor of a joint means.
+  joints::JointCoordinate::Kind kind_of(const JointCoordinateSensor& sensor) const {
+    const auto* joint = base::find_named(out_->description.joints, sensor.joint);
+    const bool is_angle =
+        sensor.choice(joint != nullptr && joint->turns()) == CoordinateKind::angle;
+    return is_angle ? joints::JointCoordinate::Kind::angle
+                    : joints::JointCoordinate::Kind::displacement;
+  }
+
+  /// Places of the states of force laws, one law after the other.
+  void number_states() {
+    int next = 0;
+    for (Load& load : model_.loads) {
+      load.first_state = next;
+      next += load.element->num_states();
+    }
+  }
+
   // ---- sensors and drawing
   void add_sensor(const SensorSpec& spec, MarkerFinder& find) {
     SensorPlace found;
+    if (const auto* seen = std::get_if<JointCoordinateSensor>(&spec.kind)) {
+      found.coordinate = find_coordinate(seen->joint, kind_of(*seen), find);
+    }
     const auto look = [&](const base::MarkerRef& ref) {
       found.markers.push_back(find.marker(ref, false));
     };

@@ -16,8 +16,9 @@ namespace buckens::model {
 struct SensorPlace {
   std::vector<MarkerId> markers;  ///< in the order in which the spec names them
   int body = kGround;             ///< of section forces and stresses, index into Model::bodies
-  int element = -1;  ///< line element of that body; −1 without `solids`: all, other parts, too
-  int end = 0;       ///< 0 its first end, 1 its second
+  int element = -1;     ///< line element of that body; −1 without `solids`: all, other parts, too
+  int end = 0;          ///< 0 its first end, 1 its second
+  int coordinate = -1;  ///< of joint coordinates, index into Model::coordinates
   std::vector<int> solids;  ///< solid elements of that body at which stresses are averaged
 };
 

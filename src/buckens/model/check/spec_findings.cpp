@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/model/check/joint_findings.h"
 #include "buckens/model/check/marker_names.h"
 
 namespace buckens::model {
@@ -88,7 +89,7 @@ Found spring_problem(const std::string& name, bool torque, const ModelDescriptio
   for (const loads::LoadSpec& load : model.loads) {
     const bool has_it = torque ? std::holds_alternative<loads::TorsionalSpringSpec>(load.kind)
                                : std::holds_alternative<loads::SpringDamperSpec>(load.kind);
-    if (has_it) known.push_back(load.name);
+    if (has_it || acts_on_coordinate(load, torque)) known.push_back(load.name);
   }
   for (const joints::JointSpec& joint : model.joints) {
     if (std::holds_alternative<joints::BushingSpec>(joint.kind)) known.push_back(joint.name);
@@ -98,21 +99,6 @@ Found spring_problem(const std::string& name, bool torque, const ModelDescriptio
   return Finding{"spring", fmt::format("there is no {} \"{}\".{}", what, name,
                                        known.empty() ? " The model has none."
                                                      : base::suggestion(name, known))};
-}
-
-/// Users look for the force of a spring at a joint sensor, too.
-Found joint_problem(const std::string& name, const ModelDescription& model) {
-  if (base::find_named(model.joints, name) != nullptr) return std::nullopt;
-  if (const auto* load = base::find_named(model.loads, name)) {
-    const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind);
-    const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind);
-    return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
-                                        turns       ? "spring-torque"
-                                        : is_spring ? "spring-force"
-                                                    : "load-force")};
-  }
-  return Finding{"joint", fmt::format("unknown joint \"{}\".{}", name,
-                                      base::suggestion(name, names_of(model.joints)))};
 }
 
 /// A rotation is driven by its angle or its speed.
@@ -134,7 +120,9 @@ struct AlternativeRules {
     if constexpr (requires { spec.between; }) {
       if (Found found = ends_problem(spec.between, is_joint)) return found;
     }
-    if constexpr (std::is_same_v<T, RelativeSensor>) {
+    if constexpr (requires { own_joint_problem(spec, model); }) {
+      return own_joint_problem(spec, model);
+    } else if constexpr (std::is_same_v<T, RelativeSensor>) {
       return spec.quantity == RelativeQuantity::angle ? needed_axis_problem(spec.axis, model)
                                                       : std::nullopt;
     } else if constexpr (std::is_same_v<T, joints::PrescribedRotationSpec>) {

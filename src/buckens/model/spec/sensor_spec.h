@@ -155,6 +155,35 @@ struct JointTorqueSensor : JointForceSensor {
   static constexpr const char* kDoc = "torque of a joint on its second marker";
 };
 
+enum class CoordinateKind { angle, displacement };
+
+constexpr std::array<const char*, 2> choice_names(CoordinateKind) {
+  return {"angle", "displacement"};
+}
+
+/// Coordinate of a joint, and its rate.
+struct JointCoordinateSensor {
+  static constexpr const char* kKey = "joint-coordinate";
+  static constexpr const char* kDoc =
+      "angle of a joint about its axis, counted over turns, or displacement along it, from the "
+      "position as placed; with its rate";
+  std::string joint;
+  std::optional<CoordinateKind> which;
+
+  /// The coordinate that is meant: the one asked for, or the only one.
+  CoordinateKind choice(bool turns) const {
+    return which.value_or(turns ? CoordinateKind::angle : CoordinateKind::displacement);
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("joint", joint, "name of the joint").required().shorthand().like("hinge"));
+    visit(base::field("which", which, "of joints that turn and slide")
+              .like("displacement")
+              .otherwise("the angle of joints that turn"));
+  }
+};
+
 /// Resultant of a load on all bodies that it acts on.
 struct LoadForceSensor {
   static constexpr const char* kKey = "load-force";
@@ -197,7 +226,8 @@ struct SpringForceSensor {
       "force of a spring-damper or bushing on its first marker: of a spring-damper the tension "
       "between its markers, positive where it pulls them together; of a bushing three components "
       "in "
-      "the axes of its first marker, positive where the second marker is pulled back";
+      "the axes of its first marker, positive where the second marker is pulled back; of a "
+      "slide-spring, slide-stop or slide-friction the force against the displacement of its joint";
   std::string spring;
 
   template <class Visitor>
@@ -214,7 +244,8 @@ struct SpringTorqueSensor {
       "torque of a torsional-spring or bushing: of a torsional spring about its axis, positive "
       "where "
       "it turns the second marker back against a positive angle; of a bushing three components in "
-      "the axes of its first marker, with the same sign";
+      "the axes of its first marker, with the same sign; of a hinge-spring, hinge-stop or "
+      "hinge-friction the torque against the angle of its joint";
   std::string spring;
 
   template <class Visitor>
@@ -300,7 +331,7 @@ struct SensorSpec {
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
                SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
-               EnergySensor>
+               EnergySensor, JointCoordinateSensor>
       kind;
 
   template <class Visitor>

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "buckens/base/field.h"
+
+namespace buckens::loads {
+
+// Laws on the coordinate of a joint: its angle, counted over turns, or its displacement. Both are
+// zero as placed.
+
+/// What all of them begin with.
+struct JointLaw {
+  std::string joint;
+
+  template <class Visitor>
+  void joint_fields(Visitor& visit, bool turns) {
+    visit(base::field("joint", joint,
+                      turns ? "name of a joint that turns about an axis"
+                            : "name of a joint that slides along an axis")
+              .required()
+              .like(turns ? "hinge" : "slide"));
+  }
+};
+
+struct HingeSpringSpec : JointLaw {
+  static constexpr const char* kKey = "hinge-spring";
+  static constexpr const char* kDoc =
+      "linear torsional spring and damper on the angle of a joint, over any number of turns";
+  static constexpr bool kTurns = true;
+  double stiffness = 0;  ///< [N m/rad]
+  double damping = 0;    ///< [N m s/rad]
+  double angle = 0;      ///< without torque [rad]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    joint_fields(visit, kTurns);
+    visit(base::field("stiffness", stiffness, "spring rate")
+              .in(base::kRotationalStiffness)
+              .non_negative()
+              .like("20 N m/rad"));
+    visit(base::field("damping", damping, "damper rate")
+              .in(base::kRotationalDamping)
+              .non_negative()
+              .like("0.1 N m s/rad"));
+    visit(base::field("angle", angle, "angle at which the spring is free of torque")
+              .in(base::kAngle)
+              .like("10 deg"));
+  }
+};
+
+struct SlideSpringSpec : JointLaw {
+  static constexpr const char* kKey = "slide-spring";
+  static constexpr const char* kDoc = "linear spring and damper on the displacement of a joint";
+  static constexpr bool kTurns = false;
+  double stiffness = 0;     ///< [N/m]
+  double damping = 0;       ///< [N s/m]
+  double displacement = 0;  ///< without force [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    joint_fields(visit, kTurns);
+    visit(base::field("stiffness", stiffness, "spring rate")
+              .in(base::kStiffness)
+              .non_negative()
+              .like("2 kN/m"));
+    visit(base::field("damping", damping, "damper rate")
+              .in(base::kDamping)
+              .non_negative()
+              .like("5 N s/m"));
+    visit(base::field("displacement", displacement,
+                      "displacement at which the spring is free of force")
+              .in(base::kLength)
+              .like("10 mm"));
+  }
+};
+
+/// Ends of the free way of a joint.
+struct JointStop : JointLaw {
+  std::optional<double> from, to;  ///< [rad] or [m]
+  double stiffness = 0;            ///< [N m/rad] or [N/m]
+  double damping = 0;              ///< [N m s/rad] or [N s/m]
+
+  template <class Visitor>
+  void stop_fields(Visitor& visit, bool turns) {
+    joint_fields(visit, turns);
+    visit(
+        base::field("from", from, "where the free way begins, counted from the position as placed")
+            .in(turns ? base::kAngle : base::kLength)
+            .like(turns ? "-30 deg" : "-20 mm")
+            .otherwise("no stop on this side"));
+    visit(base::field("to", to, "where the free way ends, counted from the position as placed")
+              .in(turns ? base::kAngle : base::kLength)
+              .like(turns ? "90 deg" : "50 mm")
+              .otherwise("no stop on this side"));
+    visit(base::field("stiffness", stiffness, "of the stops")
+              .in(turns ? base::kRotationalStiffness : base::kStiffness)
+              .required()
+              .positive()
+              .like(turns ? "1e4 N m/rad" : "1e6 N/m"));
+    visit(base::field("damping", damping, "of the stops, as long as they push")
+              .in(turns ? base::kRotationalDamping : base::kDamping)
+              .non_negative()
+              .like(turns ? "10 N m s/rad" : "100 N s/m"));
+  }
+};
+
+struct HingeStopSpec : JointStop {
+  static constexpr const char* kKey = "hinge-stop";
+  static constexpr const char* kDoc = "elastic stops of the angle of a joint, which never pull";
+  static constexpr bool kTurns = true;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    stop_fields(visit, kTurns);
+  }
+};
+
+struct SlideStopSpec : JointStop {
+  static constexpr const char* kKey = "slide-stop";
+  static constexpr const char* kDoc =
+      "elastic stops of the displacement of a joint, which never pull";
+  static constexpr bool kTurns = false;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    stop_fields(visit, kTurns);
+  }
+};
+
+/// Dry friction, from the joint's own reaction.
+struct JointFrictionBase : JointLaw {
+  double coefficient = 0;          ///< of sticking, μ_s
+  std::optional<double> dynamic;   ///< of sliding, μ_d; default: the same
+  std::optional<double> stribeck;  ///< [rad/s] or [m/s]
+  double viscous = 0;              ///< [N m s/rad] or [N s/m]
+  double preload = 0;              ///< [N m] or [N]
+  std::optional<double> slip;      ///< [rad] or [m]
+  std::optional<double> length;    ///< of the bearing [m]
+
+  template <class Visitor>
+  void law_fields(Visitor& visit, bool turns) {
+    visit(base::field("static", coefficient, "coefficient of friction while it sticks")
+              .non_negative()
+              .like("0.15"));
+    visit(base::field("dynamic", dynamic, "coefficient of friction while it slides")
+              .non_negative()
+              .like("0.1")
+              .otherwise("the same as `static`"));
+    visit(base::field("stribeck-velocity", stribeck,
+                      "rate at which the coefficient has come down from `static` to `dynamic` by "
+                      "63 %; needed where they differ")
+              .in(turns ? base::kAngularVelocity : base::kVelocity)
+              .positive()
+              .like(turns ? "0.1 rad/s" : "10 mm/s")
+              .otherwise("none"));
+    visit(base::field("viscous", viscous, "damper rate beside the dry friction")
+              .in(turns ? base::kRotationalDamping : base::kDamping)
+              .non_negative()
+              .like(turns ? "0.01 N m s/rad" : "1 N s/m"));
+    visit(base::field("preload", preload, "resistance without any reaction, of seals and the like")
+              .in(turns ? base::kTorque : base::kForce)
+              .non_negative()
+              .like(turns ? "0.2 N m" : "5 N"));
+    visit(base::field("slip", slip, "elastic displacement at which it breaks away")
+              .in(turns ? base::kAngle : base::kLength)
+              .positive()
+              .like(turns ? "1e-5 rad" : "1 um")
+              .otherwise(turns ? "1e-5 rad" : "1e-6 of the size of the model"));
+    visit(base::field("bearing-length", length,
+                      "length over which bending moments are carried by two opposite forces")
+              .in(base::kLength)
+              .positive()
+              .like("40 mm")
+              .otherwise("bending moments cause no friction"));
+  }
+};
+
+struct HingeFrictionSpec : JointFrictionBase {
+  static constexpr const char* kKey = "hinge-friction";
+  static constexpr const char* kDoc =
+      "dry friction against turning, from the reaction of the joint; sticks without creep";
+  static constexpr bool kTurns = true;
+  double radius = 0;        ///< of the pin [m]
+  double axial_radius = 0;  ///< [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    joint_fields(visit, kTurns);
+    law_fields(visit, kTurns);
+    visit(base::field("radius", radius, "of the pin, on which forces across the axis rub")
+              .in(base::kLength)
+              .non_negative()
+              .like("8 mm"));
+    visit(base::field("axial-radius", axial_radius,
+                      "mean radius of the collar on which forces along the axis rub")
+              .in(base::kLength)
+              .non_negative()
+              .like("12 mm"));
+  }
+};
+
+struct SlideFrictionSpec : JointFrictionBase {
+  static constexpr const char* kKey = "slide-friction";
+  static constexpr const char* kDoc =
+      "dry friction against sliding, from the reaction of the joint; sticks without creep";
+  static constexpr bool kTurns = false;
+  std::optional<double> torque_radius;  ///< [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    joint_fields(visit, kTurns);
+    law_fields(visit, kTurns);
+    visit(base::field("torque-radius", torque_radius,
+                      "distance from the axis at which the torque about it is carried")
+              .in(base::kLength)
+              .positive()
+              .like("15 mm")
+              .otherwise("the torque about the axis causes no friction"));
+  }
+};
+
+}  // namespace buckens::loads

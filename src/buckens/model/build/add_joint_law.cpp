@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/add_joint_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/joint_friction.h"
+
+namespace buckens::model {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+using Kind = joints::JointCoordinate::Kind;
+
+// Elastic slip before friction breaks away: of the model's length, and as an angle.
+constexpr double kSlip = 1e-6;
+constexpr double kSlipAngle = 1e-5;
+// Rotary inertia below this share of m L² is none.
+constexpr double kNoInertia = 1e-12;
+
+/// Inertia that a force along a coordinate moves, with both bodies free of all else [kg], [kg m²].
+double moved_inertia(const Model& model, const Coordinate& coordinate, MarkerFinder& find) {
+  const Joint& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
+  const auto motion = [&](const MarkerId& id) {
+    const spatial::Pose X = find.placed(id);
+    spatial::MarkerMotion out;
+    out.p = X.p;
+    out.R = X.R();
+    return out;
+  };
+  const spatial::MarkerMotion first = motion(joint.first);
+  const spatial::MarkerMotion second = motion(joint.second);
+  const spatial::PairRow J = coordinate.law.derivatives(first, second);
+  double inverse = 0.0;
+  const auto add = [&](const MarkerId& id, const Vector3d& place, const Vector3d& torque,
+                       const Vector3d& force) {
+    if (id.body == kGround) return;
+    const auto b = static_cast<std::size_t>(id.body);
+    const body::Body& body = model.bodies[b];
+    inverse += force.squaredNorm() / body.mass;
+    const Matrix3d R = model.placed[b].R();
+    const Vector3d arm = place - model.placed[b].p;
+    const Vector3d moment = R.transpose() * (torque + arm.cross(force));
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(body.J0);
+    for (int k = 0; k < 3; ++k) {
+      const double own = principal.eigenvalues()[k];
+      if (own <= kNoInertia * body.mass * arm.squaredNorm() || own <= 0.0) continue;
+      inverse += std::pow(principal.eigenvectors().col(k).dot(moment), 2) / own;
+    }
+  };
+  add(joint.first, first.p, J.segment<3>(0).transpose(), J.segment<3>(3).transpose());
+  add(joint.second, second.p, J.segment<3>(6).transpose(), J.segment<3>(9).transpose());
+  return inverse > 0.0 ? 1.0 / inverse : 0.0;
+}
+
+class JointLawBuilder {
+ public:
+  JointLawBuilder(const loads::LoadSpec& spec, MarkerFinder& find, double length)
+      : spec_(spec), find_(find), length_(length) {}
+
+  template <class Spec>
+  void add(const Spec& kind) {
+    Model& model = find_.model();
+    const Kind asked = Spec::kTurns ? Kind::angle : Kind::displacement;
+    const int index = find_coordinate(kind.joint, asked, find_);
+    if (index < 0) {
+      throw ModelError(spec_.where, fmt::format("load \"{}\": there is no joint \"{}\"", spec_.name,
+                                                kind.joint));
+    }
+    const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
+    const Joint& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
+    const std::string what = fmt::format("load \"{}\"", spec_.name);
+    find_.require_moment(joint.first, what, spec_.where);
+    if (Spec::kTurns) find_.require_moment(joint.second, what, spec_.where);
+    Load load;
+    load.name = spec_.name;
+    load.kind = Spec::kKey;
+    load.first = joint.first;
+    load.second = joint.second;
+    load.coordinate = index;
+    load.joint = coordinate.joint;
+    load.element = make(kind, coordinate);
+    model.loads.push_back(std::move(load));
+  }
+
+ private:
+  using Element = std::shared_ptr<const loads::ForceElement>;
+
+  static Element make(const loads::HingeSpringSpec& kind, const Coordinate&) {
+    return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping, kind.angle);
+  }
+  static Element make(const loads::SlideSpringSpec& kind, const Coordinate&) {
+    return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping,
+                                                     kind.displacement);
+  }
+  static Element make(const loads::JointStop& kind, const Coordinate&) {
+    return std::make_shared<loads::CoordinateStop>(
+        kind.from.value_or(-HUGE_VAL), kind.to.value_or(HUGE_VAL), kind.stiffness, kind.damping);
+  }
+  loads::FrictionData common(const loads::JointFrictionBase& kind,
+                             const Coordinate& coordinate) const {
+    loads::FrictionData out;
+    out.static_coefficient = kind.coefficient;
+    out.dynamic_coefficient = kind.dynamic.value_or(kind.coefficient);
+    out.stribeck_rate = kind.stribeck.value_or(0.0);
+    out.viscous = kind.viscous;
+    out.preload = kind.preload;
+    out.bearing_length = kind.length.value_or(0.0);
+    out.inertia = moved_inertia(find_.model(), coordinate, find_);
+    return out;
+  }
+  Element make(const loads::HingeFrictionSpec& kind, const Coordinate& coordinate) const {
+    loads::FrictionData data = common(kind, coordinate);
+    data.slip = kind.slip.value_or(kSlipAngle);
+    data.radius = kind.radius;
+    data.axial_radius = kind.axial_radius;
+    return std::make_shared<loads::JointFriction>(data, coordinate.law.axis());
+  }
+  Element make(const loads::SlideFrictionSpec& kind, const Coordinate& coordinate) const {
+    loads::FrictionData data = common(kind, coordinate);
+    data.slip = kind.slip.value_or(kSlip * length_);
+    data.radius = 1.0;
+    data.torque_radius = kind.torque_radius.value_or(0.0);
+    return std::make_shared<loads::JointFriction>(data, coordinate.law.axis());
+  }
+
+  const loads::LoadSpec& spec_;
+  MarkerFinder& find_;
+  double length_;
+};
+
+}  // namespace
+
+int find_coordinate(const std::string& joint, Kind kind, MarkerFinder& find) {
+  Model& model = find.model();
+  const auto owner = std::find_if(model.joints.begin(), model.joints.end(),
+                                  [&](const Joint& j) { return j.name == joint && !j.is_tie; });
+  if (owner == model.joints.end()) return -1;
+  const auto index = static_cast<int>(owner - model.joints.begin());
+  for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
+    const Coordinate& known = model.coordinates[k];
+    if (known.joint == index && known.law.kind() == kind) return static_cast<int>(k);
+  }
+  const joints::Placement placed = find.placement(owner->first, owner->second);
+  model.coordinates.push_back(
+      {index,
+       kind == Kind::angle
+           ? joints::JointCoordinate::angle(owner->axis_F, placed.R_WF.transpose() * placed.R_WM)
+           : joints::JointCoordinate::displacement(owner->axis_F, placed.r_F)});
+  return static_cast<int>(model.coordinates.size()) - 1;
+}
+
+bool is_joint_law(const loads::LoadSpec& spec) {
+  return std::visit(
+      []<class T>(const T&) {
+        return requires { T::kTurns; };
+      },
+      spec.kind);
+}
+
+void add_joint_law(const loads::LoadSpec& spec, MarkerFinder& find, double length) {
+  JointLawBuilder builder(spec, find, length);
+  std::visit(
+      [&]<class T>(const T& kind) {
+        if constexpr (requires { T::kTurns; }) builder.add(kind);
+      },
+      spec.kind);
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/check/joint_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/model/check/marker_names.h"
+#include "buckens/model/check/spec_findings.h"
+
+namespace buckens::model {
+
+/// Whether a load is a law on the angle (or the displacement) of a joint.
+bool acts_on_coordinate(const loads::LoadSpec& load, bool turns) {
+  return std::visit(
+      [&]<class T>(const T&) {
+        if constexpr (requires { T::kTurns; }) return T::kTurns == turns;
+        return false;
+      },
+      load.kind);
+}
+
+/// Users look for the force of a spring at a joint sensor, too.
+Found joint_problem(const std::string& name, const ModelDescription& model) {
+  if (base::find_named(model.joints, name) != nullptr) return std::nullopt;
+  if (const auto* load = base::find_named(model.loads, name)) {
+    const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind) ||
+                       acts_on_coordinate(*load, true);
+    const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind) ||
+                           acts_on_coordinate(*load, false);
+    return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
+                                        turns       ? "spring-torque"
+                                        : is_spring ? "spring-force"
+                                                    : "load-force")};
+  }
+  return Finding{"joint", fmt::format("unknown joint \"{}\".{}", name,
+                                      base::suggestion(name, names_of(model.joints)))};
+}
+
+namespace {
+
+/// A law or sensor of a joint's angle or displacement needs a joint that has it.
+Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model) {
+  if (Found found = joint_problem(name, model)) return found;
+  const joints::JointSpec& joint = *base::find_named(model.joints, name);
+  if (turns ? joint.turns() : joint.slides()) return std::nullopt;
+  std::vector<std::string> fitting;
+  for (const joints::JointSpec& other : model.joints) {
+    if (turns ? other.turns() : other.slides()) fitting.push_back(other.name);
+  }
+  return Finding{"joint",
+                 fmt::format("joint \"{}\" is a {}, which has no {}; name one that {}{}", name,
+                             joint.kind_name(), turns ? "angle" : "displacement",
+                             turns ? "turns about an axis" : "slides along an axis",
+                             fitting.empty() ? std::string(" (the model has none)")
+                                             : fmt::format(": {}", fmt::join(fitting, ", ")))};
+}
+
+Found stop_problem(const loads::JointStop& spec, const char* unit) {
+  if (!spec.from && !spec.to) {
+    return Finding{"", "at least one of the keys from and to is needed: a stop without an end"};
+  }
+  if (spec.from && spec.to && *spec.from >= *spec.to) {
+    return Finding{"to", fmt::format("the free way ends at {:g} {} before it begins at {:g} {}; "
+                                     "exchange from and to",
+                                     *spec.to, unit, *spec.from, unit)};
+  }
+  // The coordinate is zero as placed.
+  if (spec.from.value_or(0.0) > 0.0 || spec.to.value_or(0.0) < 0.0) {
+    return Finding{
+        spec.from.value_or(0.0) > 0.0 ? "from" : "to",
+        fmt::format("the joint starts at 0 {0}, as placed, outside of its stops from {1} "
+                    "to {2} {0}; place the bodies within them",
+                    unit, spec.from ? fmt::format("{:g}", *spec.from) : "-infinity",
+                    spec.to ? fmt::format("{:g}", *spec.to) : "infinity")};
+  }
+  return std::nullopt;
+}
+
+Found friction_problem(const loads::JointFrictionBase& spec) {
+  if (spec.dynamic && *spec.dynamic > spec.coefficient) {
+    return Finding{"dynamic",
+                   fmt::format("friction is {:g} while it slides, more than {:g} while it sticks; "
+                               "exchange `static` and `dynamic`",
+                               *spec.dynamic, spec.coefficient)};
+  }
+  if (spec.dynamic && *spec.dynamic < spec.coefficient && !spec.stribeck) {
+    return Finding{
+        "stribeck-velocity",
+        "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ it "
+        "says how fast the one becomes the other"};
+  }
+  if (spec.coefficient == 0.0 && spec.preload == 0.0 && spec.viscous == 0.0) {
+    return Finding{"static",
+                   "friction without `static`, `preload` or `viscous` has no effect; give "
+                   "one of them"};
+  }
+  return std::nullopt;
+}
+
+Found friction_problem(const loads::HingeFrictionSpec& spec) {
+  if (Found found = friction_problem(static_cast<const loads::JointFrictionBase&>(spec)))
+    return found;
+  if (spec.coefficient == 0.0 || spec.radius > 0.0 || spec.axial_radius > 0.0) return std::nullopt;
+  return Finding{
+      "radius",
+      "forces on a pin without radius cause no torque; give the `radius` of the pin, the "
+      "`axial-radius` of its collar, or a `preload`"};
+}
+
+/// Both arms of a cross are given in the same axes.
+Found arms_problem(const joints::UniversalSpec& spec) {
+  const double size = spec.axis.norm() * spec.second_axis.norm();
+  if (size == 0.0) {
+    return Finding{"second-axis", "an axis cannot be [0, 0, 0]; give its direction"};
+  }
+  const double cosine = spec.axis.dot(spec.second_axis) / size;
+  if (std::abs(cosine) <= 1e-4) return std::nullopt;
+  return Finding{
+      "second-axis",
+      fmt::format("the arms of a universal joint are perpendicular, these meet at {:.4g} "
+                  "degrees; turn one of them",
+                  std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi)};
+}
+
+}  // namespace
+
+Found own_joint_problem(const loads::HingeSpringSpec& spec, const ModelDescription& model) {
+  return coordinate_problem(spec.joint, true, model);
+}
+
+Found own_joint_problem(const loads::SlideSpringSpec& spec, const ModelDescription& model) {
+  return coordinate_problem(spec.joint, false, model);
+}
+
+Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription& model) {
+  if (Found found = coordinate_problem(spec.joint, true, model)) return found;
+  return stop_problem(spec, "rad");
+}
+
+Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription& model) {
+  if (Found found = coordinate_problem(spec.joint, false, model)) return found;
+  return stop_problem(spec, "m");
+}
+
+Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model) {
+  if (Found found = coordinate_problem(spec.joint, true, model)) return found;
+  return friction_problem(spec);
+}
+
+Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model) {
+  if (Found found = coordinate_problem(spec.joint, false, model)) return found;
+  return friction_problem(static_cast<const loads::JointFrictionBase&>(spec));
+}
+
+Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model) {
+  const auto* joint = base::find_named(model.joints, spec.joint);
+  const bool turns = spec.choice(joint != nullptr && joint->turns()) == CoordinateKind::angle;
+  return coordinate_problem(spec.joint, turns, model);
+}
+
+Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription&) {
+  if (Found found = axis_problem(spec.axis)) return found;
+  return arms_problem(spec);
+}
+
+Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription&) {
+  if (spec.pitch == 0.0) {
+    return Finding{"pitch",
+                   "a screw without pitch does not move along its axis; give one, or use a "
+                   "`revolute` joint"};
+  }
+  return axis_problem(spec.axis);
+}
+
+}  // namespace buckens::model

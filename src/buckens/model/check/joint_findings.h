@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "buckens/model/check/finding.h"
+#include "buckens/model/spec/model_description.h"
+
+namespace buckens::model {
+
+/// Whether a load is a law on the angle (or the displacement) of a joint.
+bool acts_on_coordinate(const loads::LoadSpec& load, bool turns);
+
+/// Whether the joint that a sensor names does not exist.
+Found joint_problem(const std::string& name, const ModelDescription& model);
+
+// What is wrong with joints, laws and sensors of joints beyond their ends and axes.
+
+Found own_joint_problem(const loads::HingeSpringSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::SlideSpringSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);
+
+}  // namespace buckens::model
