@@ -43,6 +43,7 @@ RIGHT = [re.compile(text) for text in (
     r"turned inside out", r"is a mechanism in itself",
     r"no element of this deck can be part of a flexible body", r"plane and no part of a body in space",
     r"and there is no \*NODE|the file has no \*NODE",
+    r"there is no solid, only", r"has no solid and no faces",
 )]
 
 

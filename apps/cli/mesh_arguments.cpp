@@ -43,7 +43,7 @@ double length(const char* option, const std::string& text) {
 bool MeshArguments::is_step() const {
   std::string ending = std::filesystem::path(file).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".step" || ending == ".stp";
+  return ending == ".step" || ending == ".stp" || ending == ".p21";
 }
 
 fem::LengthUnit MeshArguments::unit_of_length() const {
@@ -58,15 +58,12 @@ fem::MassUnit MeshArguments::unit_of_mass() const {
 
 fem::ImportedMesh MeshArguments::read() const {
   if (!is_step()) return mesh_io::read_mesh_file(file, {{}, skip, only});
-  if (size.empty()) {
-    throw InputError({file, 0, 0},
-                     "a STEP file has no elements; give their size, for example "
-                     "--size \"5 mm\"");
-  }
   if (!length_unit.empty()) {
     throw InputError({file, 0, 0}, "a STEP file says its units itself; leave --length-unit out");
   }
-  return mesh_io::mesh_step(file, length("--size", size), order);
+  mesh_io::StepRequest request{{}, order, solid};
+  if (!size.empty()) request.size = length("--size", size);
+  return mesh_io::mesh_step(file, request);
 }
 
 void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {
@@ -87,8 +84,13 @@ void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {
       ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb.add_option("--size", arguments.size, "Of a STEP file: length of the edges of the elements")
+  verb.add_option(
+          "--size", arguments.size,
+          "Of a STEP file: length of the edges of the elements; without it a twentieth of the\n"
+          "part's diagonal, less where walls are thin")
       ->type_name("LENGTH");
+  verb.add_option("--solid", arguments.solid,
+                  "Of a STEP file: the one solid that is meant, by name or number; without it all");
   verb.add_option("--order", arguments.order, "Of a STEP file: order of the elements, 1 or 2")
       ->check(CLI::Range(1, 2));
 }

@@ -14,7 +14,8 @@ namespace buckens::cli {
 struct MeshArguments {
   std::string file;
   std::string length_unit, mass_unit;  ///< empty: not given
-  std::string size;                    ///< of elements, for STEP files
+  std::string size;                    ///< of elements, for STEP files; empty: chosen
+  std::string solid;                   ///< of a STEP file; empty: all
   int order = 2;
   std::vector<std::string> only, skip;  ///< see fem::MeshWishes
 

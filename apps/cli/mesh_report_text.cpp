@@ -162,7 +162,8 @@ std::string note_text(const fem::ImportNote& note) {
 }
 
 std::string mesh_report_text(const fem::ImportedMesh& mesh, const MeshReport& report) {
-  std::string out = fmt::format("{}: {}\n", mesh.file, mesh.format);
+  std::string out = fmt::format("{}: {}{}{}\n", mesh.file, mesh.format,
+                                mesh.making.empty() ? "" : "; ", mesh.making);
   Entries entries = {
       {"nodes", fmt::to_string(report.nodes)},
       {"elements", kinds_text(report)},
@@ -250,9 +251,10 @@ MeshNotes mesh_notes(const body::BodySpec& body) {
   if (mesh == nullptr) return {};
   const MeshReport report = fem::report_mesh(*mesh, units_given);
   MeshNotes out;
-  out.summary = fmt::format("body \"{}\": {} ({}): {} nodes, {}, {}, worst aspect ratio {:.3g}",
-                            body.name, mesh->file, mesh->format, report.nodes, kinds_text(report),
-                            box_text(report), report.worst_aspect);
+  out.summary = fmt::format("body \"{}\": {} ({}{}{}): {} nodes, {}, {}, worst aspect ratio {:.3g}",
+                            body.name, mesh->file, mesh->format, mesh->making.empty() ? "" : ", ",
+                            mesh->making, report.nodes, kinds_text(report), box_text(report),
+                            report.worst_aspect);
   for (const std::string& text : complaints(report)) {
     out.complaints.push_back(fmt::format("body \"{}\": {}", body.name, text));
   }

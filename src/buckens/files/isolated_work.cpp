@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/files/isolated_work.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -79,6 +80,14 @@ std::string received(int pipe) {
 }
 
 }  // namespace
+
+void limit_time_from_now(double seconds) {
+  rusage used = {};
+  ::getrusage(RUSAGE_SELF, &used);
+  const double so_far = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+  const auto until = static_cast<unsigned>(std::clamp(so_far + seconds + 1, 1.0, 1e9));
+  limit_time(until);
+}
 
 IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds) {
   std::array<int, 2> ends;

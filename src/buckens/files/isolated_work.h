@@ -24,4 +24,8 @@ struct IsolatedResult {
 /// @throws IoError if the system grants no further process
 IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds = 0);
 
+/// Ends this process by SIGXCPU after so many seconds of computing from now on; meant for the work
+/// itself once it knows how much there is to do.
+void limit_time_from_now(double seconds);
+
 }  // namespace buckens::files

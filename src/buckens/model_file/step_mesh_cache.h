@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,15 @@ namespace buckens::model_file {
 /// faces.
 ///
 /// The last kKept meshes are held. A mesh is taken again if the file has the same name and
-/// contents, and the elements the same size and order.
+/// contents, and solid, size and order are the same.
 class StepMeshCache {
  public:
   static constexpr std::size_t kKept = 4;
 
+  /// @param spec whose size is set to that which was chosen where it has none
   /// @throws as mesh_step() and with_face_names()
   std::shared_ptr<const fem::ImportedMesh> mesh(const std::filesystem::path& path,
-                                                const fem::GeometrySpec& spec);
+                                                fem::GeometrySpec& spec);
   /// How often a part was really meshed.
   int num_meshed() const { return num_meshed_; }
 
@@ -33,8 +35,9 @@ class StepMeshCache {
   struct Entry {
     std::string file;
     std::size_t length, hash;  // of the contents
-    double size;
+    std::optional<double> size;
     int order;
+    std::string solid;
     std::shared_ptr<const mesh_io::StepMesh> part;
   };
 

@@ -129,7 +129,7 @@ MeshRefinement refine_meshes(model::ModelDescription& description, MeshChange ch
   for (body::BodySpec& spec : description.bodies) {
     if (spec.is_rigid()) continue;
     if (const auto* part = std::get_if<fem::GeometrySpec>(&spec.kind)) {
-      out.geometries.emplace_back(spec.name, part->size);
+      if (part->size) out.geometries.emplace_back(spec.name, *part->size);
       continue;
     }
     const std::vector<int> before = line_elements(spec);

@@ -142,6 +142,7 @@ struct ImportNote {
 struct ImportedMesh {
   std::string file;
   std::string format;                  ///< "Gmsh 4.1 binary", "Abaqus", "Nastran"
+  std::string making;                  ///< how long what took where a mesh was made; else empty
   std::vector<std::int64_t> node_ids;  ///< numbers in the file
   std::vector<Eigen::Vector3d> positions;
   std::vector<ImportedBlock> blocks;

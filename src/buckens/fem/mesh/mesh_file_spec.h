@@ -193,8 +193,9 @@ struct GeometrySpec : GroupMaterials {
   static constexpr const char* kDoc = "flexible body: a part from a STEP file, meshed with Gmsh";
   SourceLocation where;
   std::string step;
-  double size = 0;  ///< of the elements [m]
+  std::optional<double> size;  ///< of the elements [m]; chosen when the part is meshed if not given
   int order = 2;
+  std::string solid;  ///< name or number of one solid; empty: all
   std::vector<GeometryFaceSpec> faces;
 
   template <class Visitor>
@@ -202,12 +203,17 @@ struct GeometrySpec : GroupMaterials {
     visit(base::field("step", step, "name of the STEP file, relative to the model file")
               .required()
               .like("rod.step"));
-    visit(base::field("size", size, "length of the edges of the elements")
+    visit(base::field("size", size,
+                      "length of the edges of the elements; without it a twentieth of the part's "
+                      "diagonal, less where walls are thin")
               .in(base::kLength)
-              .required()
               .positive()
               .like("5 mm"));
     visit(base::field("order", order, "1: tet4; 2: tet10 with mid-side nodes on the true surface"));
+    visit(base::field("solid", solid,
+                      "the one solid of the file that is meant, by its name or number; without it "
+                      "all, glued where they touch")
+              .like("shaft"));
     visit(base::field("faces", faces,
                       "names for faces, used as `face:` of interfaces and loads; by label, colour, "
                       "number or place")

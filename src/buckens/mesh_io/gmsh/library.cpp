@@ -19,6 +19,12 @@ std::vector<int> flat(const std::vector<GmshEntity>& entities) {
   return out;
 }
 
+std::vector<GmshEntity> pairs(const int* found, std::size_t count) {
+  std::vector<GmshEntity> out;
+  for (std::size_t i = 0; i + 1 < count; i += 2) out.emplace_back(found[i], found[i + 1]);
+  return out;
+}
+
 }  // namespace
 
 /// The function of the library with its type from gmshc.h.
@@ -113,15 +119,42 @@ void GmshLibrary::fragment(const std::vector<GmshEntity>& volumes) {
   check(error);
 }
 
+void GmshLibrary::remove(const std::vector<GmshEntity>& volumes) {
+  int error = 0;
+  std::vector<int> tags = flat(volumes);
+  BUCKENS_GMSH(gmshModelOccRemove)(tags.data(), tags.size(), 1, &error);
+  check(error);
+  BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
+  check(error);
+}
+
+void GmshLibrary::heal(double tolerance) {
+  int error = 0;
+  int* out = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshModelOccHealShapes)(&out, &count, nullptr, 0, tolerance, 1, 1, 1, 1, 1, &error);
+  check(error);
+  BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
+  check(error);
+}
+
+std::vector<GmshEntity> GmshLibrary::boundary(const std::vector<GmshEntity>& entities) const {
+  int error = 0;
+  std::vector<int> tags = flat(entities);
+  int* found = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshModelGetBoundary)(tags.data(), tags.size(), &found, &count, 1, 0, 0, &error);
+  check(error);
+  return pairs(found, count);
+}
+
 std::vector<GmshEntity> GmshLibrary::entities(int dimension) const {
   int error = 0;
   int* found = nullptr;
   std::size_t count = 0;
   BUCKENS_GMSH(gmshModelGetEntities)(&found, &count, dimension, &error);
   check(error);
-  std::vector<GmshEntity> out;
-  for (std::size_t i = 0; i + 1 < count; i += 2) out.emplace_back(found[i], found[i + 1]);
-  return out;
+  return pairs(found, count);
 }
 
 std::string GmshLibrary::name(const GmshEntity& entity) const {
@@ -182,6 +215,18 @@ void GmshLibrary::mesh(int dimension) {
   check(error);
 }
 
+void GmshLibrary::set_order(int order) {
+  int error = 0;
+  BUCKENS_GMSH(gmshModelMeshSetOrder)(order, &error);
+  check(error);
+}
+
+void GmshLibrary::optimize_order() {
+  int error = 0;
+  BUCKENS_GMSH(gmshModelMeshOptimize)("HighOrder", 0, 1, nullptr, 0, &error);
+  check(error);
+}
+
 void GmshLibrary::write(const std::string& file) {
   int error = 0;
   BUCKENS_GMSH(gmshWrite)(file.c_str(), &error);
@@ -199,6 +244,14 @@ std::vector<std::string> GmshLibrary::messages() const {
     if (line.starts_with("Warning") || line.starts_with("Error")) out.push_back(line);
   }
   return out;
+}
+
+std::vector<GmshEntity> GmshLibrary::entities_at_fault() const {
+  int error = 0;
+  int* found = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshModelMeshGetLastEntityError)(&found, &count, &error);
+  return error == 0 ? pairs(found, count) : std::vector<GmshEntity>();
 }
 
 #undef BUCKENS_GMSH

@@ -32,6 +32,13 @@ class GmshLibrary {
   void import_shapes(const std::string& file);
   /// Cuts volumes that overlap or touch, so that they share faces.
   void fragment(const std::vector<GmshEntity>& volumes);
+  /// Takes volumes away with the faces that nothing else has.
+  void remove(const std::vector<GmshEntity>& volumes);
+  /// Mends wires and small faces, sews faces whose edges are no farther apart than the tolerance,
+  /// and makes a solid of them. All entities get new numbers.
+  void heal(double tolerance);
+  /// What bounds all these entities together: the curves that an odd number of faces has.
+  std::vector<GmshEntity> boundary(const std::vector<GmshEntity>& entities) const;
   std::vector<GmshEntity> entities(int dimension) const;
   /// "" or a path of labels, "Shapes/rod".
   std::string name(const GmshEntity& entity) const;
@@ -46,9 +53,15 @@ class GmshLibrary {
   std::array<double, 6> box(const GmshEntity& entity) const;
   void add_group(int dimension, std::vector<int> entities, const std::string& name);
   void mesh(int dimension);
+  /// Nodes in the middle of edges, on the true surface; 2 for the second order.
+  void set_order(int order);
+  /// Moves nodes where elements of higher order are badly shaped.
+  void optimize_order();
   void write(const std::string& file);
   /// Warnings and errors so far.
   std::vector<std::string> messages() const;
+  /// Where the mesher has failed, as far as it says.
+  std::vector<GmshEntity> entities_at_fault() const;
 
  private:
   template <class Function>

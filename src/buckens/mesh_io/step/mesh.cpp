@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <map>
 #include <sstream>
 #include <system_error>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -16,20 +17,16 @@
 #include "buckens/files/isolated_work.h"
 #include "buckens/files/output_file.h"
 #include "buckens/files/text_file.h"
-#include "buckens/mesh_io/gmsh/library.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/step/faces.h"
-#include "buckens/mesh_io/step/shapes.h"
 #include "buckens/mesh_io/step/text.h"
+#include "buckens/mesh_io/step/trial.h"
 
 namespace buckens::mesh_io {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kMostElements = 2e7;
-constexpr double kTetrahedron = 0.1179;  // volume of a regular one with edges of length 1
 
 /// A directory that vanishes with the object.
 class TemporaryDirectory {
@@ -55,105 +52,11 @@ class TemporaryDirectory {
   fs::path path_;
 };
 
-struct Order {
-  std::string step, named_copy, mesh;
-  double size;
-  int order;
-  std::size_t num_names;
-};
-
-/// The last part of "Shapes/assembly/rod", in a form that model files can write.
-std::string label_of(const std::string& path, int number) {
-  std::string out = path.substr(path.rfind('/') + 1);
-  return out.empty() ? fmt::format("volume_{}", number) : out;
-}
-
-void set_mesh_options(GmshLibrary& gmsh, const Order& order) {
-  gmsh.set_text("Geometry.OCCTargetUnit", "M");
-  gmsh.set_number("Mesh.MeshSizeMax", order.size);
-  gmsh.set_number("Mesh.MeshSizeMin", 0.25 * order.size);
-  gmsh.set_number("Mesh.MeshSizeFromCurvature", 8);
-  gmsh.set_number("Mesh.ElementOrder", order.order);
-  gmsh.set_number("Mesh.HighOrderOptimize", order.order > 1 ? 1 : 0);
-  gmsh.set_number("Mesh.MaxNumThreads1D", 1);
-  gmsh.set_number("Mesh.MaxNumThreads2D", 1);
-  gmsh.set_number("Mesh.MaxNumThreads3D", 1);
-  gmsh.set_number("Mesh.Binary", 1);
-  gmsh.set_number("Mesh.MshFileVersion", 4.1);
-  gmsh.set_number("Mesh.SaveAll", 0);
-}
-
-std::string lost_text(const GluedShapes& shapes, const char* what) {
-  if (shapes.lost == 0) return {};
-  return fmt::format(
-      "note {} of {} faces are lost where solids cut them; choose these faces by "
-      "numbers or place\n",
-      what, shapes.lost);
-}
-
-/// Colours of the copy in which they stand for names, one line per face.
-std::string labels(GmshLibrary& gmsh, const Order& order, std::size_t num_faces) {
-  const GluedShapes shapes = load_glued(gmsh, "names", order.named_copy);
-  std::string out;
-  if (gmsh.entities(2).size() == num_faces) {
-    for (const ColoredShape& face : shapes.colors) {
-      const auto& color = face.color;
-      const int name = name_of_color({color.red, color.green, color.blue}, order.num_names);
-      if (name >= 0) out += fmt::format("label {} {}\n", face.face, name);
-    }
-  }
-  gmsh.use_model("part");
-  return out + lost_text(shapes, "names");
-}
-
-/// What is done in the other process. @return one line per message, colour or label
-std::string mesh_with_gmsh(const Order& order) {
-  try {
-    GmshLibrary gmsh;
-    set_mesh_options(gmsh, order);
-    const GluedShapes shapes = load_glued(gmsh, "part", order.step);
-    const auto volumes = gmsh.entities(3);
-    if (volumes.empty()) {
-      return fmt::format("error the file has no solid, only {} faces; export the part as a solid",
-                         gmsh.entities(2).size());
-    }
-    std::string out = lost_text(shapes, "colours");
-    if (shapes.overlap) {
-      out +=
-          "note solids overlap: what they have in common is counted once and is a solid of its "
-          "own, named after one of them or volume_<number>\n";
-    }
-    for (const auto& [face, color] : shapes.colors) {
-      out += fmt::format("color {} {} {} {}\n", face, color.red, color.green, color.blue);
-    }
-    if (order.num_names > 0) out += labels(gmsh, order, gmsh.entities(2).size());
-    double volume = 0;
-    for (const GmshEntity& solid : volumes) volume += std::abs(gmsh.size(solid));
-    const double expected = volume / (kTetrahedron * std::pow(order.size, 3));
-    if (!(expected < kMostElements)) {
-      return fmt::format(
-          "error elements of {:g} m in a volume of {:g} m^3 would be {:.2g}; give a larger size",
-          order.size, volume, expected);
-    }
-    std::map<std::string, std::vector<int>> solids;
-    for (const GmshEntity& solid : volumes) {
-      solids[label_of(gmsh.name(solid), solid.second)].push_back(solid.second);
-    }
-    for (const auto& [name, tags] : solids) gmsh.add_group(3, tags, name);
-    for (const GmshEntity& face : gmsh.entities(2)) {
-      gmsh.add_group(2, {face.second}, fmt::format("face_{}", face.second));
-    }
-    gmsh.mesh(3);
-    gmsh.write(order.mesh);
-    for (std::string message : gmsh.messages()) {
-      std::replace(message.begin(), message.end(), '\n', ' ');
-      out += fmt::format("message {}\n", message);
-    }
-    return out;
-  } catch (const std::exception& error) {
-    return fmt::format("error {}", error.what());
-  }
-}
+constexpr unsigned kSeconds = 120;  // of computing, to read the file and glue its solids
+constexpr int kMostTimeouts = 2;    // after which no further trial begins
+// Chords of coarse meshes lose volume at curved faces, a third at four elements to a turn; what is
+// beyond is a face that is missing or turned.
+constexpr double kLeastVolume = 0.6, kMostVolume = 1.1;
 
 void check_step(const std::string& text, const std::string& file) {
   if (text.find("ISO-10303-21;") > 200) {
@@ -165,27 +68,47 @@ void check_step(const std::string& text, const std::string& file) {
                    "the STEP file is cut off: END-ISO-10303-21 is missing at its end");
 }
 
-/// Colours and labels out of the lines of the other process.
-std::vector<StepFace> read_faces(const std::string& lines, const std::vector<std::string>& names,
-                                 fem::ImportedMesh& mesh) {
-  std::map<int, StepFace> faces;
-  for (const fem::ImportedFaceSet& set : mesh.face_sets) {
-    const int number = std::atoi(set.name.c_str() + 5);  // face_12
-    faces[number].number = number;
+/// What the lines of the other process say.
+class Told {
+ public:
+  Told(const std::string& lines, const std::vector<std::string>& names, StepMesh& out)
+      : names_(names), out_(out) {
+    for (const fem::ImportedFaceSet& set : out.mesh.face_sets) {
+      const int number = std::atoi(set.name.c_str() + 5);  // face_12
+      faces_[number].number = number;
+    }
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) take(line);
+    for (const auto& [number, face] : faces_) out.faces.push_back(face);
   }
-  std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) {
+
+  double volume() const { return volume_; }
+  /// Seconds of each part of the work.
+  const std::string& times() const { return times_; }
+
+ private:
+  void take(const std::string& line) {
     std::istringstream words(line);
     std::string word;
-    int number = 0;
     words >> word;
     if (word == "message" || word == "note") {
-      mesh.notes.push_back({word == "note" ? line.substr(5) : "Gmsh: " + line.substr(8), 0, 1});
-      continue;
+      out_.mesh.notes.push_back({word == "note" ? line.substr(5) : "Gmsh: " + line.substr(8)});
+    } else if (word == "size") {
+      words >> out_.size >> volume_;
+    } else if (word == "time") {
+      double seconds = 0;
+      words >> word >> seconds;
+      times_ += fmt::format("{}{} {:.2f} s", times_.empty() ? "" : ", ", word, seconds);
+    } else {
+      take_face(word, words);
     }
+  }
+
+  void take_face(const std::string& word, std::istringstream& words) {
+    int number = 0;
     words >> number;
-    const auto face = faces.find(number);
-    if (face == faces.end()) continue;
+    const auto face = faces_.find(number);
+    if (face == faces_.end()) return;
     if (word == "color") {
       std::array<int, 3> color{};
       words >> color[0] >> color[1] >> color[2];
@@ -193,22 +116,121 @@ std::vector<StepFace> read_faces(const std::string& lines, const std::vector<std
     } else if (word == "label") {
       std::size_t name = 0;
       words >> name;
-      if (name < names.size()) face->second.labels.push_back(names[name]);
+      if (name < names_.size()) face->second.labels.push_back(names_[name]);
     }
   }
-  std::vector<StepFace> out;
-  for (const auto& [number, face] : faces) out.push_back(face);
+
+  const std::vector<std::string>& names_;
+  StepMesh& out_;
+  std::map<int, StepFace> faces_;
+  double volume_ = 0;
+  std::string times_;
+};
+
+/// The trials of one part.
+class Trials {
+ public:
+  Trials(const StepTask& task, std::string file) : task_(task), file_(std::move(file)) {}
+
+  /// @return the lines of the first that came to a mesh
+  std::string run() {
+    for (const StepTrial& trial : step_trials()) {
+      if (!try_it(trial)) continue;
+      return *trial.what == '\0' ? output_
+                                 : output_ + fmt::format(
+                                                 "note meshed {}, for the usual way failed: "
+                                                 "{}\n",
+                                                 trial.what, first_);
+    }
+    if (is_open_) {
+      for (const StepTrial& trial : sewing_trials()) {
+        if (try_it(trial)) return output_;
+      }
+      refuse(fmt::format(
+          "{}. Gaps of up to {:g} of the part's diagonal are closed by sewing, after "
+          "which {}. Close it in the CAD program, or export the part as a solid",
+          first_, sewing_trials().back().tolerance, output_.substr(output_.find(' ') + 1)));
+    }
+    refuse(
+        fmt::format("{}. {} other ways were tried, smaller elements among them. Look at this "
+                    "place in the CAD program: faces that touch or cut each other, slivers; or "
+                    "try another size{}",
+                    first_, count_ - 1,
+                    task_.request.solid.empty() ? ", or one solid of several by `solid`" : ""));
+  }
+
+ private:
+  [[noreturn]] void refuse(std::string reason) const {
+    const std::size_t at = reason.find(task_.step);  // the copy is nothing to the user
+    if (at != std::string::npos) {
+      reason.replace(at, task_.step.size(), fs::path(file_).filename().string());
+    }
+    throw InputError({file_, 0, 0}, "cannot be meshed: " + reason);
+  }
+
+  bool try_it(const StepTrial& trial) {
+    if (has_no_solid_ && trial.tolerance == 0) return false;
+    if (timeouts_ == kMostTimeouts) return false;
+    ++count_;
+    const files::IsolatedResult result =
+        files::do_isolated([&] { return mesh_in_trial(task_, trial); }, kSeconds);
+    output_ = result.output;
+    if (!result.is_complete && result.signal == SIGXCPU) {
+      output_ = "failed Gmsh came to no end within minutes of computing";
+      ++timeouts_;
+    } else if (!result.is_complete) {
+      output_ = fmt::format(
+          "failed Gmsh's library crashed on this file (signal {}), whose geometry may be broken",
+          result.signal);
+    }
+    const std::size_t word = output_.find(' ');
+    const std::string kind = output_.substr(0, word);
+    if (kind == "error") refuse(output_.substr(word + 1));
+    if (kind != "failed" && kind != "open") return true;
+    is_open_ = is_open_ || kind == "open";
+    has_no_solid_ = has_no_solid_ || output_.starts_with("open there is no solid");
+    if (first_.empty()) first_ = output_.substr(word + 1);
+    return false;
+  }
+
+  const StepTask& task_;
+  std::string file_, output_, first_;
+  int count_ = 0, timeouts_ = 0;
+  bool is_open_ = false, has_no_solid_ = false;
+};
+
+double volume_of(const fem::ImportedMesh& mesh) {
+  double out = 0;
+  for (const fem::ImportedBlock& block : mesh.blocks) {
+    const int count = block.num_elements();
+    const auto width = count > 0 ? block.nodes.size() / static_cast<std::size_t>(count) : 0;
+    for (std::size_t first = 0; width >= 4 && first < block.nodes.size(); first += width) {
+      const auto at = [&](std::size_t k) {
+        return mesh.positions[static_cast<std::size_t>(block.nodes[first + k])];
+      };
+      out += (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6;
+    }
+  }
   return out;
+}
+
+void straighten(fem::ImportedMesh& mesh) {
+  const int count = fem::straighten_inverted(mesh);
+  if (count == 0) return;
+  mesh.notes.push_back(
+      {fmt::format("elements (of {}) that the curved surface would invert have straight edges",
+                   mesh.num_elements()),
+       0, count});
 }
 
 }  // namespace
 
-StepMesh mesh_step(const fs::path& path, const std::string& text, double size, int order) {
+StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequest& request) {
   const std::string file = path.string();
   check_step(text, file);
-  if (order != 1 && order != 2) {
-    throw InputError({file, 0, 0},
-                     fmt::format("elements of order {} cannot be made; give 1 or 2", order));
+  if (request.order != 1 && request.order != 2) {
+    throw InputError({file, 0, 0}, fmt::format("elements of order {} cannot be made; give 1 or 2",
+                                               request.order));
   }
   const TemporaryDirectory directory;
   // Gmsh sees copies with plain names: it would interpret the user's.
@@ -217,35 +239,27 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, double size, i
   const ColoredStep copy = color_named_faces(text);
   files::replace_text_file(step, text);
   if (!copy.names.empty()) files::replace_text_file(named, copy.text);
-  const Order task{step.string(), named.string(), mesh.string(), size, order, copy.names.size()};
-  const files::IsolatedResult result = files::do_isolated([&] { return mesh_with_gmsh(task); });
-  if (!result.is_complete) {
-    throw InputError({file, 0, 0},
-                     fmt::format("Gmsh's library crashed on this file (signal {}); is the geometry "
-                                 "broken? Try another size, or export the part again",
-                                 result.signal));
-  }
-  if (result.output.starts_with("error ")) {
-    std::string reason = result.output.substr(6);
-    const std::size_t at = reason.find(task.step);  // the copy is nothing to the user
-    if (at != std::string::npos) reason.replace(at, task.step.size(), path.filename().string());
-    throw InputError({file, 0, 0}, fmt::format("cannot be meshed: {}", reason));
-  }
+  const StepTask task{step.string(), named.string(), mesh.string(), copy.names.size(), request};
+  const std::string lines = Trials(task, file).run();
   StepMesh out{read_gmsh_mesh(mesh), {}};
   out.mesh.file = file;
   out.mesh.format = "STEP, meshed by Gmsh";
-  out.faces = read_faces(result.output, copy.names, out.mesh);
+  const Told told(lines, copy.names, out);
   add_face_names(out.mesh, out.faces);
-  const int straightened = order == 2 ? fem::straighten_inverted(out.mesh) : 0;
-  if (straightened > 0) {
+  const double volume = volume_of(out.mesh);
+  if (!(volume > kLeastVolume * told.volume() && volume < kMostVolume * told.volume())) {
     out.mesh.notes.push_back(
-        {"elements that the curved surface would invert have straight edges", 0, straightened});
+        {fmt::format("the elements fill {:.3g} m^3, the solids of the file {:.3g} m^3: is the mesh "
+                     "too coarse, or the surface wrong?",
+                     volume, told.volume())});
   }
+  if (request.order == 2) straighten(out.mesh);
+  out.mesh.making = fmt::format("size {:.4g} m; {}", out.size, told.times());
   return out;
 }
 
-fem::ImportedMesh mesh_step(const fs::path& path, double size, int order) {
-  return mesh_step(path, files::read_text_file(path, "STEP file"), size, order).mesh;
+fem::ImportedMesh mesh_step(const fs::path& path, const StepRequest& request) {
+  return mesh_step(path, files::read_text_file(path, "STEP file"), request).mesh;
 }
 
 fem::ImportedMesh with_face_names(StepMesh part, const std::vector<fem::GeometryFaceSpec>& names) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,21 @@
 
 namespace buckens::mesh_io {
 
+/// How a part is to be meshed.
+struct StepRequest {
+  std::optional<double> size;  ///< upper bound for the edges of the elements [m]; else chosen
+  int order = 2;               ///< 1 or 2
+  std::string solid;           ///< name or number of the one solid that is meant; empty: all
+};
+
 /// A meshed part and what the file says about its faces.
 struct StepMesh {
   fem::ImportedMesh mesh;
   std::vector<StepFace> faces;
+  double size = 0;  ///< that was asked for or chosen [m]
 };
 
-/// Meshes all solids of a STEP file with tetrahedra by the library of Gmsh, in a process of its
+/// Meshes the solids of a STEP file with tetrahedra by the library of Gmsh, in a process of its
 /// own.
 ///
 /// Lengths are in metres. Solids that touch are glued: they share faces and nodes there. Where
@@ -28,16 +37,19 @@ struct StepMesh {
 /// where an element would be turned inside out; `notes` then say so. Small radii get smaller
 /// elements, eight to a full turn but none below a quarter of `size`.
 ///
+/// A size that is not given is chosen_size(). Parts that cannot be meshed so are tried in the ways
+/// of step_trials() one after the other; faces that are no solid are sewn together. `notes` say
+/// what was done. The outcome does not depend on the machine as long as no trial runs out of time.
+///
 /// @param text contents of the file
-/// @param size upper bound for the edges of the elements [m]
-/// @param order 1 or 2
-/// @throws InputError if the file is no STEP file, has no solid, or cannot be meshed; IoError if it
-/// cannot be read or the library is missing
-StepMesh mesh_step(const std::filesystem::path& path, const std::string& text, double size,
-                   int order);
+/// @throws InputError if the file is no STEP file, has no solid and none can be made, or cannot be
+/// meshed: with the reason, the place and what to do; IoError if it cannot be read or the library
+/// is missing
+StepMesh mesh_step(const std::filesystem::path& path, const std::string& text,
+                   const StepRequest& request);
 
 /// The same without what is known of the faces; reads the file.
-fem::ImportedMesh mesh_step(const std::filesystem::path& path, double size, int order);
+fem::ImportedMesh mesh_step(const std::filesystem::path& path, const StepRequest& request);
 
 /// The mesh with the names that a specification gives to faces.
 /// @throws InputError where a name has no face

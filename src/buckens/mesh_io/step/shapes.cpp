@@ -5,6 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+
 namespace buckens::mesh_io {
 
 namespace {
@@ -63,12 +67,38 @@ std::vector<const Face*> pieces_of(const Face& whole, const std::vector<Face>& f
   return is_whole ? out : std::vector<const Face*>();
 }
 
+/// Takes away all solids but one. @return what is wrong; empty: nothing
+std::string keep_only(GmshLibrary& gmsh, const std::string& wanted) {
+  const auto solids = gmsh.entities(3);
+  std::vector<std::string> names;
+  std::vector<GmshEntity> others;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    names.push_back(label_of_solid(gmsh, solids[k]));
+    if (names.back() != wanted && std::to_string(k + 1) != wanted) others.push_back(solids[k]);
+  }
+  if (others.size() == solids.size()) {
+    return fmt::format("the file has no solid \"{}\", but {}, counted from 1.{}", wanted,
+                       solids.size(), base::suggestion(wanted, names));
+  }
+  if (!others.empty()) gmsh.remove(others);
+  return {};
+}
+
 }  // namespace
 
-GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file) {
+std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid) {
+  const std::string path = gmsh.name(solid);
+  std::string out = path.substr(path.rfind('/') + 1);
+  return out.empty() ? fmt::format("volume_{}", solid.second) : out;
+}
+
+GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file,
+                       const std::string& solid) {
   gmsh.new_model(model);
   gmsh.import_shapes(file);
   GluedShapes out;
+  if (!solid.empty()) out.problem = keep_only(gmsh, solid);
+  if (!out.problem.empty()) return out;
   const auto add = [&out](int face, const GmshLibrary::Color& color) {
     const bool is_known =
         std::any_of(out.colors.begin(), out.colors.end(), [&](const ColoredShape& known) {

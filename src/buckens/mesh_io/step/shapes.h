@@ -19,12 +19,19 @@ struct GluedShapes {
   std::vector<ColoredShape> colors;  ///< a face between two solids may have two
   int lost = 0;                      ///< coloured faces of which no pieces could be found
   bool overlap = false;              ///< solids have volume in common
+  std::string problem;               ///< why there is nothing to mesh; empty: there is
 };
+
+/// The last part of a name such as "Shapes/assembly/rod", or volume_<number>.
+std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid);
 
 /// Loads a file into a new model and gives solids that touch common faces.
 ///
 /// The library forgets colours of faces that it cuts. Their pieces are found by place: they lie in
 /// the box of the face and have together its area and its centre.
-GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file);
+///
+/// @param solid name or number (by their order in the file) of the one that stays; empty: all
+GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file,
+                       const std::string& solid);
 
 }  // namespace buckens::mesh_io

@@ -212,10 +212,10 @@ class Doubts {
     const double extent = body_extent(body);
     if (extent == 0.0) return;
     const auto* part = std::get_if<fem::GeometrySpec>(&body.kind);
-    if (part != nullptr && part->size > extent) {
+    if (part != nullptr && part->size && *part->size > extent) {
       add("geometry.size",
-          fmt::format("elements of {:g} m in a part of {:.4g} m", part->size, extent),
-          part->size * 1e-3 < extent ? fmt::format("{:g} mm", part->size) : "");
+          fmt::format("elements of {:g} m in a part of {:.4g} m", *part->size, extent),
+          *part->size * 1e-3 < extent ? fmt::format("{:g} mm", *part->size) : "");
     }
     if (extent >= kLeastExtent && extent <= kLargestExtent) return;
     const bool is_large = extent > kLargestExtent;

@@ -89,7 +89,7 @@ TEST(StepMesh, MeshesInMetresAndNamesFaces) {
 TEST(StepMesh, GluesSolidsThatTouchAndKeepsNamesOfFacesThatAreCut) {
   const std::filesystem::path file =
       std::filesystem::path(buckens::test::kSourceDirectory) / "tests/parts/assembly.step";
-  const fem::ImportedMesh mesh = mesh_io::mesh_step(file, 0.006, 1);
+  const fem::ImportedMesh mesh = mesh_io::mesh_step(file, {0.006, 1, ""});
   const fem::MeshReport report = fem::report_mesh(mesh, true);
   EXPECT_EQ(report.pieces, 2);
   EXPECT_THAT(report.duplicate_nodes, testing::IsEmpty());
@@ -136,7 +136,7 @@ std::string message_of(const std::string& step, double size = 0.01) {
   std::ofstream(path) << step;
   std::string out;
   try {
-    mesh_io::mesh_step(path, size, 2);
+    mesh_io::mesh_step(path, {size, 2, ""});
   } catch (const InputError& error) {
     out = error.what();
   }

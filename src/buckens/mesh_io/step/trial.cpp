@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/mesh_io/step/trial.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/fem/mesh/straighten.h"
+#include "buckens/files/isolated_work.h"
+#include "buckens/mesh_io/gmsh/library.h"
+#include "buckens/mesh_io/gmsh/mesh.h"
+#include "buckens/mesh_io/step/shapes.h"
+#include "buckens/mesh_io/step/text.h"
+
+namespace buckens::mesh_io {
+
+namespace {
+
+constexpr double kMostElements = 5e6;
+constexpr double kTetrahedron = 0.1179;  // volume of a regular one with edges of length 1
+constexpr double kTriangle = 0.433;      // area of a regular one
+// Passes in which Gmsh moves nodes of badly shaped elements of second order. What two do not reach,
+// twenty-five (its own number) have not reached in any of 60 parts from outside.
+constexpr int kPasses = 2;
+// Elements turned inside out for which Gmsh moves nodes at all: a thousand take it a minute, and
+// most of them stay as they are.
+constexpr int kMostMoved = 300;
+// Of computing, for the mesh itself. Parts take up to 1e-4 s an element; 200 000 elements at many
+// holes where a hundred were expected took 20 s. What takes longer usually never ends.
+constexpr double kMeshSeconds = 60, kSecondsPerElement = 1e-3;
+
+/// Times of the parts of the work, for those who wait.
+class Watch {
+ public:
+  std::string lap(const char* what) {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return fmt::format("time {} {:.3f}\n", what, seconds);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// What the file holds, in metres.
+struct Extent {
+  double diagonal = 0, volume = 0, area = 0;
+};
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Meshes one part in one way.
+class Trial {
+ public:
+  Trial(const StepTask& task, const StepTrial& trial)
+      : task_(task), trial_(trial), metre_(trial.in_millimetres ? 1e3 : 1.0) {}
+
+  std::string run() {
+    gmsh_.set_text("Geometry.OCCTargetUnit", trial_.in_millimetres ? "MM" : "M");
+    const GluedShapes shapes = load_glued(gmsh_, "part", task_.step, task_.request.solid);
+    if (!shapes.problem.empty()) return "error " + shapes.problem;
+    std::string out = watch_.lap("read");
+    if (trial_.tolerance > 0) out += sew();
+    const std::string open = gap();
+    if (gmsh_.entities(3).empty()) return open;
+    measure();
+    if (trial_.tolerance == 0) out += told(shapes);
+    out += loose_faces() + watch_.lap("names");
+    const double wanted = task_.request.size ? *task_.request.size : chosen();
+    const double used = trial_.size * (trial_.size < 1 ? std::min(wanted, chosen()) : wanted);
+    const double expected = expected_elements(used, part_.volume, part_.area);
+    if (!(expected < kMostElements)) {
+      return fmt::format(
+          "error elements of {:g} m in a volume of {:g} m^3 would be about {:.2g}, more than a "
+          "body "
+          "can have; give a larger size",
+          wanted, part_.volume, expected);
+    }
+    files::limit_time_from_now(kMeshSeconds + expected * kSecondsPerElement);
+    out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume);
+    set_options(used * metre_);
+    add_groups();
+    gmsh_.mesh(3);
+    if (const std::string reason = failure(); !reason.empty()) {
+      return open.empty() ? "failed " + reason : fmt::format("{}; {}", open, reason);
+    }
+    out += messages() + watch_.lap("mesh");
+    if (task_.request.order == 2) curve();
+    gmsh_.write(task_.mesh);
+    return out + watch_.lap("second-order");
+  }
+
+ private:
+  double chosen() const { return chosen_size(part_.diagonal, part_.volume, part_.area); }
+
+  std::string place(const std::array<double, 6>& box) const {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", (box[0] + box[3]) / (2 * metre_),
+                       (box[1] + box[4]) / (2 * metre_), (box[2] + box[5]) / (2 * metre_));
+  }
+
+  double diagonal() const {
+    const auto box = gmsh_.box({-1, -1});
+    return std::hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
+  }
+
+  std::string sew() {
+    const bool was_open = !gap().empty();
+    const std::size_t before = gmsh_.entities(2).size();
+    const double tolerance = trial_.tolerance * diagonal();
+    gmsh_.heal(tolerance);
+    return fmt::format(
+        "note {}: {} faces became {}, gaps of up to {:.2g} mm were closed; faces are numbered anew "
+        "and have neither names nor colours\n",
+        was_open ? "the surface was not closed and was sewn together" : "the surface was mended",
+        before, gmsh_.entities(2).size(), tolerance / metre_ * 1e3);
+  }
+
+  /// Why elements may have nothing that bounds them; empty if they have. Seams and edges of more
+  /// than two faces can look like gaps: with solids this is a suspicion only.
+  std::string gap() const {
+    const auto solids = gmsh_.entities(3);
+    const auto faces = gmsh_.entities(2);
+    if (faces.empty())
+      return "error the file has no solid and no faces; export the part as a solid";
+    std::vector<GmshEntity> free;
+    for (const GmshEntity& solid : solids) {
+      const auto edges = gmsh_.boundary(gmsh_.boundary({solid}));
+      free.insert(free.end(), edges.begin(), edges.end());
+    }
+    if (solids.empty()) free = gmsh_.boundary(faces);
+    std::string where;
+    if (!free.empty()) {
+      where = fmt::format(": {} edges belong to one face only, the first near {}", free.size(),
+                          place(gmsh_.box(free.front())));
+    }
+    if (solids.empty()) {
+      return fmt::format("open there is no solid, only {} faces{}", faces.size(), where);
+    }
+    return free.empty() ? "" : "open the surface of the part is not closed" + where;
+  }
+
+  /// Walls without thickness and the like.
+  std::string loose_faces() const {
+    std::set<GmshEntity> loose;
+    for (const GmshEntity& face : gmsh_.entities(2)) loose.insert(face);
+    for (const GmshEntity& solid : gmsh_.entities(3)) {
+      for (const GmshEntity& face : gmsh_.boundary({solid})) loose.erase(face);
+    }
+    if (loose.empty()) return {};
+    return fmt::format(
+        "note {} faces bound no solid and get no elements (walls without thickness?), the first, "
+        "face_{}, near {}\n",
+        loose.size(), loose.begin()->second, place(gmsh_.box(*loose.begin())));
+  }
+
+  void measure() {
+    part_.diagonal = diagonal() / metre_;
+    for (const GmshEntity& solid : gmsh_.entities(3)) {
+      part_.volume += std::abs(gmsh_.size(solid)) / std::pow(metre_, 3);
+    }
+    for (const GmshEntity& face : gmsh_.entities(2)) {
+      part_.area += std::abs(gmsh_.size(face)) / std::pow(metre_, 2);
+    }
+  }
+
+  static std::string lost(const GluedShapes& shapes, const char* what) {
+    if (shapes.lost == 0) return {};
+    return fmt::format(
+        "note {} of {} faces are lost where solids cut them; choose these faces by "
+        "numbers or place\n",
+        what, shapes.lost);
+  }
+
+  /// Notes on solids that overlap, colours and labels of faces.
+  std::string told(const GluedShapes& shapes) {
+    std::string out = lost(shapes, "colours");
+    if (shapes.overlap) {
+      out +=
+          "note solids overlap: what they have in common is counted once and is a solid of its "
+          "own, named after one of them or volume_<number>\n";
+    }
+    for (const auto& [face, color] : shapes.colors) {
+      out += fmt::format("color {} {} {} {}\n", face, color.red, color.green, color.blue);
+    }
+    if (task_.num_names > 0) out += labels();
+    return out;
+  }
+
+  /// Colours of the copy in which they stand for names.
+  std::string labels() {
+    const std::size_t num_faces = gmsh_.entities(2).size();
+    const GluedShapes shapes = load_glued(gmsh_, "names", task_.named_copy, task_.request.solid);
+    std::string out;
+    if (gmsh_.entities(2).size() == num_faces) {
+      for (const ColoredShape& face : shapes.colors) {
+        const auto& color = face.color;
+        const int name = name_of_color({color.red, color.green, color.blue}, task_.num_names);
+        if (name >= 0) out += fmt::format("label {} {}\n", face.face, name);
+      }
+    }
+    gmsh_.use_model("part");
+    return out + lost(shapes, "names");
+  }
+
+  void set_options(double size) {
+    gmsh_.set_number("Mesh.MeshSizeMax", size);
+    gmsh_.set_number("Mesh.MeshSizeMin", trial_.smallest * size);
+    gmsh_.set_number("Mesh.MeshSizeFromCurvature", trial_.in_a_turn);
+    gmsh_.set_number("Mesh.Algorithm", trial_.algorithm);
+    gmsh_.set_number("Mesh.HighOrderPassMax", kPasses);
+    gmsh_.set_number("Mesh.MaxNumThreads1D", 1);
+    gmsh_.set_number("Mesh.MaxNumThreads2D", 1);
+    gmsh_.set_number("Mesh.MaxNumThreads3D", 1);
+    gmsh_.set_number("Mesh.Binary", 1);
+    gmsh_.set_number("Mesh.MshFileVersion", 4.1);
+    gmsh_.set_number("Mesh.SaveAll", 0);
+    gmsh_.set_number("Mesh.ScalingFactor", 1 / metre_);
+    // The mesher stops at an error but does not throw, which it cannot do from parallel loops.
+    gmsh_.set_number("General.AbortOnError", 1);
+  }
+
+  void add_groups() {
+    std::map<std::string, std::vector<int>> solids;
+    for (const GmshEntity& solid : gmsh_.entities(3)) {
+      solids[label_of_solid(gmsh_, solid)].push_back(solid.second);
+    }
+    for (const auto& [name, tags] : solids) gmsh_.add_group(3, tags, name);
+    for (const GmshEntity& face : gmsh_.entities(2)) {
+      gmsh_.add_group(2, {face.second}, fmt::format("face_{}", face.second));
+    }
+  }
+
+  /// The first error says what has happened, later ones what came of it.
+  std::string failure() const {
+    const auto said = gmsh_.messages();
+    const auto error = std::find_if(said.begin(), said.end(), [](const std::string& line) {
+      return line.starts_with("Error");
+    });
+    if (error == said.end()) return {};
+    std::vector<std::string> places;
+    for (const GmshEntity& entity : gmsh_.entities_at_fault()) {
+      const char* kind = entity.first == 2 ? "face" : entity.first == 1 ? "curve" : "solid";
+      places.push_back(
+          fmt::format("{} {} around {}", kind, entity.second, place(gmsh_.box(entity))));
+      if (places.size() == 4) break;
+    }
+    std::string out = "Gmsh: " + one_line(error->substr(error->find(':') + 2));
+    if (trial_.in_millimetres) out += " (in mm)";
+    if (!places.empty()) out += fmt::format("; {}", fmt::join(places, ", "));
+    return out;
+  }
+
+  std::string messages() {
+    constexpr std::size_t kShown = 3;
+    const auto said = gmsh_.messages();
+    std::string out;
+    for (std::size_t k = 0; k < std::min(kShown, said.size()); ++k) {
+      out += fmt::format("message {}\n", one_line(said[k]));
+    }
+    if (said.size() > kShown)
+      out += fmt::format("message and {} more", said.size() - kShown) + '\n';
+    return out;
+  }
+
+  /// Elements that stay turned inside out are straightened later: no error of Gmsh ends this.
+  void curve() {
+    gmsh_.set_number("General.AbortOnError", 0);
+    gmsh_.set_order(2);
+    gmsh_.write(task_.mesh);
+    fem::ImportedMesh unmoved = read_gmsh_mesh(task_.mesh);
+    if (fem::straighten_inverted(unmoved) <= kMostMoved) gmsh_.optimize_order();
+  }
+
+  const StepTask& task_;
+  const StepTrial& trial_;
+  double metre_;
+  GmshLibrary gmsh_;
+  Watch watch_;
+  Extent part_;
+};
+
+}  // namespace
+
+const std::vector<StepTrial>& step_trials() {
+  static const std::vector<StepTrial> trials = {
+      {},
+      {"in millimetres", true},
+      {"faces by another algorithm (MeshAdapt)", false, 1},
+      {"with elements that fit the walls", true, 5, 0.9, 0.25},
+      {"with smaller elements, on faces by another algorithm (Delaunay)", true, 5, 0.6, 0.15},
+      {"with smaller elements, 32 to a turn of curved faces", true, 6, 0.5, 0.02, 32},
+      {"after mending edges and small faces", true, 6, 0.7, 0.15, 8, 1e-6},
+  };
+  return trials;
+}
+
+const std::vector<StepTrial>& sewing_trials() {
+  static const std::vector<StepTrial> trials = {
+      {"sewn", true, 6, 1, 0.25, 8, 1e-6},
+      {"sewn", true, 6, 1, 0.25, 8, 1e-5},
+      {"sewn", true, 6, 1, 0.25, 8, 1e-4},
+      {"sewn", true, 6, 1, 0.25, 8, 4e-4},
+  };
+  return trials;
+}
+
+std::string mesh_in_trial(const StepTask& task, const StepTrial& trial) {
+  try {
+    return Trial(task, trial).run();
+  } catch (const std::exception& error) {
+    const std::string text = one_line(error.what());
+    const bool is_hopeless =
+        text.starts_with("Could not read file") || text.find("library") != std::string::npos;
+    return (is_hopeless ? "error " : "failed ") + text;
+  }
+}
+
+double chosen_size(double diagonal, double volume, double area) {
+  const double wall = area > 0 ? 2 * volume / area : diagonal;
+  return std::clamp(2 * wall, diagonal / 30, diagonal / 20);
+}
+
+double expected_elements(double size, double volume, double area) {
+  return std::max(volume / (kTetrahedron * std::pow(size, 3)),
+                  1.5 * area / (kTriangle * size * size));
+}
+
+}  // namespace buckens::mesh_io

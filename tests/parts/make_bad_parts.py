@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes STEP parts with the faults that drawings have, by the library of Gmsh: make_bad_parts.py DIRECTORY.
+
+The tests make them anew each time. Lengths are in millimetres; the box has edges of 100, 60 and 40."""
+
+import ctypes
+import ctypes.util
+import math
+import pathlib
+import sys
+
+BOX = (100.0, 60.0, 40.0)
+
+
+class Kernel:
+    """The few functions of gmshc.h that are needed."""
+
+    def __init__(self):
+        name = next((n for n in ("libgmsh.so", "libgmsh.so.4.8", ctypes.util.find_library("gmsh")) if n), None)
+        self.library = ctypes.CDLL(name)
+        self.call("gmshInitialize", 0, None, 0)
+        self.call("gmshOptionSetNumber", b"General.Terminal", ctypes.c_double(0))
+
+    def call(self, function, *arguments):
+        error = ctypes.c_int(0)
+        result = getattr(self.library, function)(*arguments, ctypes.byref(error))
+        if error.value:
+            raise RuntimeError(f"{function}: error {error.value}")
+        return result
+
+    def box(self, corner, size):
+        return self.call("gmshModelOccAddBox", *map(ctypes.c_double, (*corner, *size)), -1)
+
+    def face(self, corners):
+        """A plane face of its own: it shares no edge with others."""
+        points = [self.call("gmshModelOccAddPoint", *map(ctypes.c_double, (*p, 0.0)), -1) for p in corners]
+        lines = [self.call("gmshModelOccAddLine", a, b, -1) for a, b in zip(points, points[1:] + points[:1])]
+        array = ctypes.c_int * len(lines)
+        loop = self.call("gmshModelOccAddCurveLoop", array(*lines), ctypes.c_size_t(len(lines)), -1)
+        return self.call("gmshModelOccAddPlaneSurface", (ctypes.c_int * 1)(loop), ctypes.c_size_t(1), -1)
+
+    def part(self, path, build):
+        self.call("gmshModelAdd", path.stem.encode())
+        build(self)
+        self.call("gmshModelOccSynchronize")
+        self.call("gmshWrite", str(path).encode())
+
+
+def shell_with_gap(gap):
+    """Six faces of the box, the uppermost farther up than the walls reach."""
+    def build(kernel):
+        x, y, z = BOX
+        low = [(0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0)]
+        high = [(a, b, z) for a, b, _ in low]
+        kernel.face(low)
+        kernel.face([(a, b, c + gap) for a, b, c in high])
+        for k in range(4):
+            n = (k + 1) % 4
+            kernel.face([low[k], low[n], high[n], high[k]])
+    return build
+
+
+def boxes(*places):
+    return lambda kernel: [kernel.box(corner, size) for corner, size in places]
+
+
+def solid_with_fin(kernel):
+    """A wall without thickness stands on the box."""
+    kernel.box((0, 0, 0), BOX)
+    kernel.face([(20, 30, 40), (80, 30, 40), (80, 30, 70), (20, 30, 70)])
+
+
+def tube(wall):
+    """A wall around a bore of 20: elements that are larger than the wall reach through it."""
+    def build(kernel):
+        outer, bore = (kernel.call("gmshModelOccAddCylinder",
+                                   *map(ctypes.c_double, (0, 0, 0, 0, 0, 60, radius)), -1,
+                                   ctypes.c_double(2 * math.pi)) for radius in (10 + wall, 10))
+        pair, size = ctypes.c_int * 2, ctypes.c_size_t
+        out, table = ctypes.POINTER(ctypes.c_int)(), ctypes.POINTER(ctypes.POINTER(ctypes.c_int))()
+        lengths, counts = ctypes.POINTER(size)(), [size(0), size(0)]
+        kernel.call("gmshModelOccCut", pair(3, outer), size(2), pair(3, bore), size(2),
+                    ctypes.byref(out), ctypes.byref(counts[0]), ctypes.byref(table), ctypes.byref(lengths),
+                    ctypes.byref(counts[1]), -1, 1, 1)
+    return build
+
+
+PARTS = {
+    "tube": tube(0.6),
+    "thin_tube": tube(0.3),
+    "gap_small": shell_with_gap(0.01),
+    "gap_wide": shell_with_gap(1.0),
+    "overlap": boxes(((0, 0, 0), BOX), ((90, 0, 0), BOX)),
+    "touching": boxes(((0, 0, 0), BOX), ((100, 0, 0), BOX)),
+    "along_an_edge": boxes(((0, 0, 0), BOX), ((100, 60, 0), BOX)),
+    "in_metres": boxes(((0, 0, 0), (140e3, 60e3, 40e3))),
+    "fin": solid_with_fin,
+}
+
+
+def make(directory, *names):
+    """@return the files, in the order of the names; without names all"""
+    kernel = Kernel()
+    paths = [pathlib.Path(directory) / f"{name}.step" for name in names or PARTS]
+    for path in paths:
+        kernel.part(path, PARTS[path.stem])
+    return paths
+
+
+if __name__ == "__main__":
+    for made in make(sys.argv[1]):
+        print(made)
