@@ -71,6 +71,16 @@ std::vector<std::string> complaints(const MeshReport& report) {
                               report.inverted.size() == 1 ? "an element is" : "elements are",
                               some_of(report.inverted)));
   }
+  if (!report.inverted_at_nodes.empty()) {
+    out.push_back(fmt::format(
+        "{} inverted or flat at a corner, though not where {} integrated: {}; a body is made of "
+        "{}, but stresses near such corners mean little",
+        report.inverted_at_nodes.size() == 1
+            ? "an element is"
+            : fmt::format("{} elements are", report.inverted_at_nodes.size()),
+        report.inverted_at_nodes.size() == 1 ? "it is" : "they are",
+        some_of(report.inverted_at_nodes), report.inverted_at_nodes.size() == 1 ? "it" : "them"));
+  }
   if (report.worst_aspect > kSliver && report.inverted.empty()) {
     out.push_back(fmt::format(
         "element {} at {} m is a sliver: its aspect ratio is {:.3g}, and stresses there "
@@ -228,6 +238,7 @@ Json mesh_report_json(const fem::ImportedMesh& mesh, const MeshReport& report) {
           {"worst_element", report.worst_element},
           {"worst_centre", json_of(report.worst_centre)},
           {"inverted", report.inverted},
+          {"inverted_at_nodes", report.inverted_at_nodes},
           {"duplicate_nodes", std::move(duplicates)},
           {"pieces", report.pieces},
           {"free_nodes", report.free_nodes},

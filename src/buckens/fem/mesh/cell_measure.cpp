@@ -128,7 +128,11 @@ double aspect_ratio(CellKind kind, const Points& x) {
 }
 
 bool is_inverted(CellKind kind, const Points& x) {
-  if (dimension_of(kind) < 3) return false;
+  const auto solid = solid_kind(kind);
+  return solid && !(solid_least_volume(*solid, columns(x)) > 0.0);
+}
+
+bool is_inverted_at_node(CellKind kind, const Points& x) {
   if (kind == CellKind::pyramid5) {
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector3d &here = x[k], &next = x[(k + 1) % 4], &last = x[(k + 3) % 4];
@@ -137,7 +141,7 @@ bool is_inverted(CellKind kind, const Points& x) {
     return false;
   }
   const auto solid = solid_kind(kind);
-  return solid && solid_least_volume(*solid, columns(x)) <= 0.0;
+  return solid && !(solid_least_node_volume(*solid, columns(x)) > 0.0);
 }
 
 }  // namespace buckens::fem

@@ -28,8 +28,12 @@ CellMeasure cell_measure(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 /// Infinite for flat ones. 1 for lines and points.
 double aspect_ratio(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 
-/// Whether a volume is turned inside out or flat at a node or integration point; of
-/// pyramids at a corner of the base.
+/// Whether a volume is turned inside out or flat where it is integrated, see solid_least_volume():
+/// no body can be made of it.
 bool is_inverted(CellKind kind, const std::vector<Eigen::Vector3d>& x);
+
+/// Whether a volume is turned inside out or flat at one of its nodes; of pyramids at a corner of
+/// the base.
+bool is_inverted_at_node(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 
 }  // namespace buckens::fem

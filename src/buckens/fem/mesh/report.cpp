@@ -153,7 +153,11 @@ class Reporter {
       out_.worst_centre = Vector3d::Zero();
       for (const Vector3d& node : x) out_.worst_centre += node / static_cast<double>(x.size());
     }
-    if (is_inverted(block.kind, x)) out_.inverted.push_back(number);
+    if (is_inverted(block.kind, x)) {
+      out_.inverted.push_back(number);
+    } else if (is_inverted_at_node(block.kind, x)) {
+      out_.inverted_at_nodes.push_back(number);
+    }
   }
 
   void add_masses() {

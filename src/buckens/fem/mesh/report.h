@@ -54,8 +54,10 @@ struct MeshReport {
   int without_density = 0;                            ///< elements
   double worst_aspect = 1;
   std::int64_t worst_element = 0;
-  Eigen::Vector3d worst_centre = Eigen::Vector3d::Zero();              ///< mean of its nodes [m]
-  std::vector<std::int64_t> inverted;                                  ///< numbers of elements
+  Eigen::Vector3d worst_centre = Eigen::Vector3d::Zero();  ///< mean of its nodes [m]
+  std::vector<std::int64_t> inverted;  ///< numbers of elements that no body can be made of
+  /// Numbers of those that are inverted or flat at a node, not where they are integrated.
+  std::vector<std::int64_t> inverted_at_nodes;
   std::vector<std::pair<std::int64_t, std::int64_t>> duplicate_nodes;  ///< numbers of nodes
   int pieces = 0;                        ///< parts that nothing connects
   std::vector<std::int64_t> free_nodes;  ///< that nothing uses

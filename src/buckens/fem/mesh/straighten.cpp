@@ -35,7 +35,10 @@ int straighten_inverted(ImportedMesh& mesh) {
       for (int e = 0; e < block.num_elements(); ++e) {
         const int* nodes = block.nodes.data() + static_cast<std::ptrdiff_t>(e) * 10;
         const NodeVectors x = positions_of(mesh, nodes);
-        if (solid_least_volume(SolidKind::tet10, x) > 0.0) continue;
+        if (solid_least_volume(SolidKind::tet10, x) > 0.0 &&
+            solid_least_node_volume(SolidKind::tet10, x) > 0.0) {
+          continue;
+        }
         straighten(mesh, nodes);
         if (positions_of(mesh, nodes) == x) continue;  // its corners are at fault
         ++count;

@@ -64,7 +64,7 @@ int SolidBlock::add(const SolidForm& form, std::span<const int> nodes, int mater
                     "full",
                     num_elements() + 1, kind));
   }
-  elements_.push_back({form, nodes_.size(), material});
+  elements_.push_back({form, nodes_.size(), material, num_elements() + 1});
   nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
   return num_elements() - 1;
 }
@@ -95,36 +95,53 @@ SolidBlock SolidBlock::subset(const std::vector<int>& elements,
     if (number[material] < 0) number[material] = out.add_material(materials_[material]);
     std::vector<int> own;
     for (const int node : nodes(e)) own.push_back(node_numbers.at(static_cast<std::size_t>(node)));
-    out.add(form(e), own, number[material]);
+    out.set_number(out.add(form(e), own, number[material]), at(e).number);
   }
   return out;
 }
 
 void SolidBlock::check(const MeshView& mesh) const {
+  struct Inverted {
+    int element;
+    double volume;
+  };
+  std::vector<Inverted> inverted;
+  const auto where = [&](int e) {
+    const SolidTopology& topology = solid_topology(form(e).kind);
+    const auto opposite =
+        static_cast<std::size_t>(topology.is_hexahedron() ? 6 : topology.num_corners - 1);
+    return fmt::format("solid element {} ({}) between {} and {}", at(e).number,
+                       choice_names(form(e).kind)[static_cast<std::size_t>(form(e).kind)],
+                       node_label(mesh.nodes, nodes(e)[0]),
+                       node_label(mesh.nodes, nodes(e)[opposite]));
+  };
   for (int e = 0; e < num_elements(); ++e) {
-    const SolidKind kind = form(e).kind;
-    const SolidTopology& topology = solid_topology(kind);
     const NodeVectors x = positions(mesh.nodes, e);
     const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
-    const double least = solid_least_volume(kind, x);
-    const auto where = [&] {
-      const auto opposite =
-          static_cast<std::size_t>(topology.is_hexahedron() ? 6 : topology.num_corners - 1);
-      return fmt::format("solid element {} ({}) between {} and {}", e + 1,
-                         choice_names(kind)[static_cast<std::size_t>(kind)],
-                         node_label(mesh.nodes, nodes(e)[0]),
-                         node_label(mesh.nodes, nodes(e)[opposite]));
-    };
-    refuse_collapsed(where, nodes(e), mesh.nodes);
+    refuse_collapsed([&] { return where(e); }, nodes(e), mesh.nodes);
+    const double least = solid_least_volume(form(e).kind, x);
     // Jacobians are eighths of volumes (hexahedra) up to six volumes; one part in 1e12 of the
     // bounding cube is flat.
-    if (!(8.0 * least > 1e-12 * size * size * size)) {
-      throw ModelError(fmt::format(
-          "{}: its Jacobian falls to {:.3g} m³, so it is inverted or flat; {}, or move a node",
-          where(), least, order_of_nodes(topology)));
-    }
-    check_solid_material(where(), *material(e));
+    if (!(8.0 * least > 1e-12 * size * size * size)) inverted.push_back({e, least});
+    check_solid_material(where(e), *material(e));
   }
+  if (inverted.empty()) return;
+  constexpr std::size_t kMostNamed = 10;
+  std::vector<std::string> others;
+  for (std::size_t k = 1; k < inverted.size() && k < kMostNamed; ++k) {
+    others.push_back(fmt::to_string(at(inverted[k].element).number));
+  }
+  if (inverted.size() > kMostNamed) {
+    others.push_back(fmt::format("{} more", inverted.size() - kMostNamed));
+  }
+  const auto& [first, volume] = inverted.front();
+  throw ModelError(
+      fmt::format("{}: its Jacobian falls to {:.3g} m³ where it is integrated, so it is inverted "
+                  "or flat{}; {}, "
+                  "or move a node",
+                  where(first), volume,
+                  others.empty() ? "" : fmt::format(", and so are {}", fmt::join(others, ", ")),
+                  order_of_nodes(solid_topology(form(first).kind))));
 }
 
 void SolidBlock::add_mass(const std::vector<Node>& nodes, MassMoment& sum) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,11 @@ class SolidBlock final : public ElementBlock {
   int add(const SolidForm& form, std::span<const int> nodes, int material);
   /// A hex8 with full integration.
   int add(const std::array<int, 8>& nodes, int material);
+
+  /// Names an element in messages by its number in a file rather than by its index + 1.
+  void set_number(int element, std::int64_t number) {
+    elements_.at(static_cast<std::size_t>(element)).number = number;
+  }
 
   int num_elements() const override { return static_cast<int>(elements_.size()); }
   std::span<const int> nodes(int element) const override;
@@ -64,6 +70,7 @@ class SolidBlock final : public ElementBlock {
     SolidForm form;
     std::size_t first;  // of its nodes
     int material;
+    std::int64_t number;  // in messages
   };
 
   const Element& at(int element) const { return elements_.at(static_cast<std::size_t>(element)); }

@@ -2,6 +2,7 @@
 #include "buckens/fem/solid/element.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -73,6 +74,14 @@ Matrix3d jacobian(const NodeVectors& x, const SolidShape& shape) {
   return x.lazyProduct(shape.slope.transpose());  // ∂x/∂ξ
 }
 
+double least_volume(const ShapeRule& rule, const NodeVectors& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& point : rule.points) {
+    least = std::min(least, jacobian(x, point.shape).determinant());
+  }
+  return least;
+}
+
 template <int nodes>
 using Rows = Eigen::Matrix<double, 6, 3 * nodes>;
 
@@ -95,13 +104,31 @@ Rows<nodes> strain_rows(const Matrix3d& inverse, const SolidShape& shape) {
   return B;
 }
 
+/// The rule of the stiffness of an element. Fourteen points of a tetrahedron lie so near to its
+/// corners that those bent by a node on an edge may have some of them turned over; four points,
+/// with which other programs integrate, are enough then: they leave no motion without energy,
+/// either.
+const ShapeRule& stiffness_rule(SolidKind kind, const NodeVectors& x) {
+  static const ShapeRule four = [] {
+    const double b = (5.0 - std::sqrt(5.0)) / 20.0;
+    QuadratureRule rule(4, {Vector3d::Constant(b), 1.0 / 24.0});
+    for (int a = 0; a < 3; ++a) {
+      rule[static_cast<std::size_t>(a) + 1].natural[a] = 1.0 - 3.0 * b;
+    }
+    return ShapeRule(SolidKind::tet10, rule);
+  }();
+  const ShapeRule& usual = stiffness_rule(kind);
+  if (kind != SolidKind::tet10 || least_volume(usual, x) > 0.0) return usual;
+  return least_volume(four, x) > 0.0 ? four : usual;
+}
+
 /// Fixed sizes let the compiler unroll: assembly is most of what a large mesh costs before its
 /// factor.
 template <int nodes>
 SolidStiffness full_stiffness(SolidKind kind, const NodeVectors& x, const Elasticity& D) {
   Eigen::Matrix<double, 3 * nodes, 3 * nodes> K;
   K.setZero();
-  for (const auto& point : stiffness_rule(kind).points) {
+  for (const auto& point : stiffness_rule(kind, x).points) {
     const Matrix3d J = jacobian(x, point.shape);
     const Rows<nodes> B = strain_rows<nodes>(J.inverse(), point.shape);
     const Rows<nodes> stress = (point.weight * J.determinant()) * (D * B);
@@ -148,13 +175,17 @@ SolidPoint solid_point(SolidKind kind, const NodeVectors& x, const Vector3d& nat
 }
 
 double solid_least_volume(SolidKind kind, const NodeVectors& x) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto* rule : {&stiffness_rule(kind), &mass_rule(kind), &node_rule(kind)}) {
-    for (const auto& point : rule->points) {
-      least = std::min(least, jacobian(x, point.shape).determinant());
-    }
-  }
-  return least;
+  const double in_stiffness = least_volume(stiffness_rule(kind, x), x);
+  if (!(in_stiffness > 0.0)) return in_stiffness;
+  const double in_mass = least_volume(mass_rule(kind), x);
+  // Points near a corner may lie outside as long as what they take away leaves every motion a mass.
+  const bool has_mass =
+      in_mass > 0.0 || solid_volume_products(kind, x).llt().info() == Eigen::Success;
+  return has_mass ? in_stiffness : in_mass;
+}
+
+double solid_least_node_volume(SolidKind kind, const NodeVectors& x) {
+  return least_volume(node_rule(kind), x);
 }
 
 StrainRows solid_strain(const NodeVectors& gradient) {

@@ -29,8 +29,12 @@ using NodeProducts =
 /// @param x positions of the nodes [m]
 SolidPoint solid_point(SolidKind kind, const NodeVectors& x, const Eigen::Vector3d& natural);
 
-/// Smallest Jacobian determinant over nodes and integration points [m³].
+/// Smallest Jacobian determinant where an element is integrated [m³]: over the points of its
+/// stiffness, and over those of its mass, too, if some of these make the mass indefinite. An
+/// element with a positive one can be used, whatever happens at its corners.
 double solid_least_volume(SolidKind kind, const NodeVectors& x);
+/// The same over its nodes; 0 at the apex of a pyramid.
+double solid_least_node_volume(SolidKind kind, const NodeVectors& x);
 
 /// Strain ε = B q at a point, from the gradients of the shape functions.
 StrainRows solid_strain(const NodeVectors& gradient);
@@ -38,7 +42,8 @@ StrainRows solid_strain(const NodeVectors& gradient);
 /// ∫ Bᵀ D B dV [N/m] by 2×2×2 (hex8), 3×3×3 (hex20), one (tet4), fourteen (tet10), 3×2
 /// (wedge6), 6×3 (wedge15) or 2×2×2 points (pyramid5): exact for parallelepipeds, tetrahedra with
 /// straight edges, straight prisms and pyramids over a parallelogram; no zero-energy modes beyond
-/// rigid motion.
+/// rigid motion. A tet10 whose fourteen points do not all have a positive Jacobian takes four, if
+/// these have.
 ///
 /// Incompatible modes (hex8): inner displacements 1 − ξ_a² times three components, condensed out.
 /// Their gradients are taken with the Jacobian of the centre and scaled by its determinant, so that

@@ -123,9 +123,7 @@ TEST_P(Solids, InertiaIntegralsMatchQuadrature) {
 
 TEST_P(Solids, RefuseElementsInsideOut) {
   Structure s = distorted_block(GetParam());
-  const auto nodes = s.solids.nodes(0);
-  std::swap(s.nodes[static_cast<std::size_t>(nodes[0])].position,
-            s.nodes[static_cast<std::size_t>(nodes[1])].position);
+  for (Node& node : s.nodes) node.position.z() = -node.position.z();
   const std::string kind = choice_names(SolidKind())[static_cast<std::size_t>(GetParam().kind)];
   EXPECT_THAT([&] { assemble(s); }, ThrowsMessage<ModelError>(AllOf(
                                         HasSubstr("solid element 1 (" + kind + ")"),
@@ -133,6 +131,78 @@ TEST_P(Solids, RefuseElementsInsideOut) {
   Structure flat = distorted_block(GetParam());
   for (Node& node : flat.nodes) node.position.z() = 0;
   EXPECT_THAT([&] { assemble(flat); }, ThrowsMessage<ModelError>(HasSubstr("inverted or flat")));
+}
+
+// A corner of the unit cube moved along the diagonal to (t, t, t): the Jacobian is
+// 1 + (t − 1)(XY + YZ + ZX), 3t − 2 in that corner, and the volume 1 + ¾ (t − 1).
+TEST(SolidCorners, MayBeBentAsLongAsTheIntegralsAreSound) {
+  const auto cube = [](double t) {
+    Structure s;
+    std::vector<int> nodes;
+    for (const Vector3d& place : std::vector<Vector3d>{{0, 0, 0},
+                                                       {1, 0, 0},
+                                                       {1, 1, 0},
+                                                       {0, 1, 0},
+                                                       {0, 0, 1},
+                                                       {1, 0, 1},
+                                                       {t, t, t},
+                                                       {0, 1, 1}}) {
+      nodes.push_back(add_node(s, "", place));
+    }
+    const int steel = s.solids.add_material(test::steel());
+    const int element =
+        s.solids.add(SolidForm{SolidKind::hex8, SolidIntegration::full}, nodes, steel);
+    s.solids.set_number(element, 4711);
+    return s;
+  };
+  const Structure bent = cube(0.6);
+  const NodeVectors x = bent.solids.positions(bent.nodes, 0);
+  EXPECT_NEAR(solid_least_node_volume(SolidKind::hex8, x), (3 * 0.6 - 2) / 8, 1e-15);
+  const FeModel fe = assemble(bent);
+  EXPECT_NEAR(fe.shape.mass, 0.7 * test::steel().rho, 1e-12 * test::steel().rho);
+  const Eigen::SelfAdjointEigenSolver<Matrix> stiffness{Matrix(fe.K)}, mass{Matrix(fe.M)};
+  EXPECT_GT(mass.eigenvalues()[0], 0);
+  EXPECT_GT(stiffness.eigenvalues()[6], 1e-3 * stiffness.eigenvalues()[23]);
+  EXPECT_LE(std::abs(stiffness.eigenvalues()[0]), 1e-13 * stiffness.eigenvalues()[23]);
+  // At t = 0.3 an integration point of the stiffness has 1 − 0.7 · 1.866 = −0.306.
+  EXPECT_THAT([&] { assemble(cube(0.3)); },
+              ThrowsMessage<ModelError>(
+                  AllOf(HasSubstr("solid element 4711 (hex8)"), HasSubstr("-0.0383 m³"))));
+}
+
+// The node on the edge 0–1 moved along it to the place 0.5 − d: ∂x/∂ξ on the edge is
+// 1 − 4 d (1 − 2 ξ), negative at corner 0 from d = ¼ on.
+TEST(SolidCorners, OfTetrahedraMayTakeFourPoints) {
+  const auto bent = [](double d) {
+    Structure s;
+    std::vector<int> nodes;
+    const std::vector<Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const Vector3d& corner : corners) nodes.push_back(add_node(s, "", corner));
+    for (const auto& [a, b] : solid_topology(SolidKind::tet10).edges) {
+      Vector3d middle =
+          0.5 * (corners[static_cast<std::size_t>(a)] + corners[static_cast<std::size_t>(b)]);
+      if (nodes.size() == 4) middle.x() -= d;
+      nodes.push_back(add_node(s, "", middle));
+    }
+    s.solids.add(SolidForm{SolidKind::tet10, SolidIntegration::full}, nodes,
+                 s.solids.add_material(test::steel()));
+    return s;
+  };
+  // At (ξ, η, ζ) the determinant is 1 − 4 d (1 − 2 ξ − η − ζ): 1 − 4 d · 0.64 next to corner 0
+  // among fourteen points, 1 − 4 d · 0.447 among four.
+  for (const double d : {0.2, 0.4}) {
+    const FeModel fe = assemble(bent(d));
+    const Eigen::SelfAdjointEigenSolver<Matrix> stiffness{Matrix(fe.K)};
+    EXPECT_LE(std::abs(stiffness.eigenvalues()[0]), 1e-12 * stiffness.eigenvalues()[29]) << d;
+    EXPECT_GT(stiffness.eigenvalues()[6], 1e-5 * stiffness.eigenvalues()[29]) << d;
+    // Uniform strain has the energy of the volume, which is ∫ 1 − 4 d (1 − 2 ξ − η − ζ) = 1/6.
+    const Vector stretch = test::nodal_values(fe, [](const Vector3d& x) { return 1e-3 * x; });
+    const double E = test::steel().E, nu = test::steel().nu;
+    const double energy = 0.5 * 3e-6 * E / (1 - 2 * nu) / 6;
+    EXPECT_NEAR(0.5 * stretch.dot(fe.K * stretch), energy, 1e-12 * energy) << d;
+  }
+  EXPECT_THAT([&] { assemble(bent(0.45)); },
+              ThrowsMessage<ModelError>(HasSubstr("where it is integrated")));
 }
 
 TEST_P(Solids, KeepTheirMatricesInParts) {

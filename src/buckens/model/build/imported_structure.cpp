@@ -70,7 +70,8 @@ class Import {
  private:
   void number_nodes();
   void add_block(const fem::ImportedBlock& block);
-  void add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
+  void add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element,
+                 std::int64_t id);
   void add_line(const fem::ImportedBlock& block, int in_block, const std::vector<int>& nodes,
                 int element);
   void add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
@@ -134,7 +135,7 @@ void Import::add_block(const fem::ImportedBlock& block) {
     }
     places_.emplace_back();
     if (fem::dimension_of(block.kind) == 3) {
-      add_solid(block, nodes, element);
+      add_solid(block, nodes, element, block.ids[static_cast<std::size_t>(k)]);
     } else if (block.kind == CellKind::line2) {
       add_line(block, k, nodes, element);
     } else if (block.kind == CellKind::tri3 || block.kind == CellKind::quad4) {
@@ -146,8 +147,8 @@ void Import::add_block(const fem::ImportedBlock& block) {
   }
 }
 
-void Import::add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes,
-                       int element) {
+void Import::add_solid(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element,
+                       std::int64_t id) {
   const auto kind = solid_kind(block.kind);
   if (!kind) {
     refuse(fmt::format("elements {} ({}) cannot be used in a body", block.source,
@@ -161,6 +162,7 @@ void Import::add_solid(const fem::ImportedBlock& block, const std::vector<int>& 
   if (*kind == fem::SolidKind::hex8)
     form.integration = given_.integration.value_or(form.integration);
   places_.back() = {Place::Block::solids, solids.add(form, nodes, known->second)};
+  solids.set_number(places_.back().index, id);
 }
 
 void Import::refuse_without_section(const fem::ImportedBlock& block, const char* what,
