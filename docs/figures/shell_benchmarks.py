@@ -38,7 +38,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tests", default="build/release/test/fem_test")
     found = measure(parser.parse_args().tests)
-    figure, panels = plt.subplots(1, 2, figsize=(8, 3), sharey=True)
+    figure, panels = plt.subplots(1, 4, figsize=(12, 3), sharey=True)
     for panel, (element, problems) in zip(panels, found.items()):
         for name, points in problems.items():
             panel.plot(*zip(*points), "o-", markersize=3, label=name)

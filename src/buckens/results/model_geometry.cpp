@@ -141,6 +141,19 @@ fem::CellKind cell_kind(fem::SolidKind kind) {
   return static_cast<fem::CellKind>(at - names.begin());
 }
 
+fem::CellKind shell_cell_kind(std::size_t num_nodes) {
+  switch (num_nodes) {
+    case 3:
+      return fem::CellKind::tri3;
+    case 6:
+      return fem::CellKind::tri6;
+    case 8:
+      return fem::CellKind::quad8;
+    default:
+      return fem::CellKind::quad4;
+  }
+}
+
 void add_cells(const fem::FeModel& mesh, GeometryBody& shape) {
   for (const auto& block : mesh.blocks) {
     const auto* solids = dynamic_cast<const fem::SolidBlock*>(block.get());
@@ -153,7 +166,7 @@ void add_cells(const fem::FeModel& mesh, GeometryBody& shape) {
   for (const auto& block : mesh.blocks) {
     for (int e = 0; block->is_shell() && e < block->num_elements(); ++e) {
       const auto nodes = block->nodes(e);
-      shape.cell_kinds.push_back(nodes.size() == 3 ? fem::CellKind::tri3 : fem::CellKind::quad4);
+      shape.cell_kinds.push_back(shell_cell_kind(nodes.size()));
       shape.cell_nodes.insert(shape.cell_nodes.end(), nodes.begin(), nodes.end());
     }
   }

@@ -9,6 +9,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "buckens/fem/shell/shares.h"
+
 namespace buckens::fem {
 
 using Eigen::Matrix3d;
@@ -89,15 +91,25 @@ Eigen::VectorXd areas_of(const Structure& structure, const std::vector<ElementFa
 /// Shares the area of a shell among its nodes, all of which are among the given ones.
 void add_shell_area(const Structure& structure, int element, const std::vector<int>& nodes,
                     Eigen::VectorXd& areas) {
+  const auto own = structure.shells.nodes(element);
+  const auto add = [&](std::size_t k, double share) {
+    areas[std::lower_bound(nodes.begin(), nodes.end(), own[k]) - nodes.begin()] += share;
+  };
   const ShellVectors x = structure.shells.positions(structure.nodes, element);
+  if (is_shell_quadratic(x.cols())) {
+    const FaceIntegrals face =
+        shell_side_integrals(structure.shells, structure.nodes, {element, false});
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      add(k, face.positive_area[static_cast<Eigen::Index>(k)]);
+    }
+    return;
+  }
   const bool is_triangle = x.cols() == 3;
   const Vector3d along = x.col(is_triangle ? 1 : 2) - x.col(0);
   const Vector3d across =
       is_triangle ? Vector3d(x.col(2) - x.col(0)) : Vector3d(x.col(3) - x.col(1));
   const double share = 0.5 * along.cross(across).norm() / static_cast<double>(x.cols());
-  for (const int node : structure.shells.nodes(element)) {
-    areas[std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()] += share;
-  }
+  for (std::size_t k = 0; k < own.size(); ++k) add(k, share);
 }
 
 /// The shells all of whose nodes are among the given ones.

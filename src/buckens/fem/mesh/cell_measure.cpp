@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "buckens/fem/mesh/cell_faces.h"
+#include "buckens/fem/shell/shape.h"
 #include "buckens/fem/solid/element.h"
 
 namespace buckens::fem {
@@ -69,6 +70,25 @@ CellMeasure surface_measure(const Points& x) {
   return out;
 }
 
+/// Of a surface with nodes on its sides, by the points that integrate its mass.
+CellMeasure curved_measure(const Points& x) {
+  const auto count = static_cast<Eigen::Index>(x.size());
+  CellMeasure out;
+  for (const ShellRulePoint& at : shell_mass_rule(count)) {
+    const ShellShape shape = shell_shape(count, at.r, at.s);
+    Vector3d place = Vector3d::Zero(), along_r = Vector3d::Zero(), along_s = Vector3d::Zero();
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Vector3d& node = x[static_cast<std::size_t>(k)];
+      place += shape.N[k] * node;
+      along_r += shape.slope(0, k) * node;
+      along_s += shape.slope(1, k) * node;
+    }
+    const double area = at.weight * along_r.cross(along_s).norm();
+    out.add({area, area * place, area * place * place.transpose()});
+  }
+  return out;
+}
+
 double determinant(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   return a.cross(b).dot(c);
 }
@@ -86,6 +106,7 @@ CellMeasure cell_measure(CellKind kind, const Points& x) {
   const auto corners = static_cast<std::size_t>(num_corners(kind));
   if (kind == CellKind::point1) return {};
   if (dimension_of(kind) == 1) return simplex_measure({x[0], x[1]}, (x[1] - x[0]).norm());
+  if (kind == CellKind::tri6 || kind == CellKind::quad8) return curved_measure(x);
   if (dimension_of(kind) == 2) {
     return surface_measure({x.begin(), x.begin() + static_cast<std::ptrdiff_t>(corners)});
   }

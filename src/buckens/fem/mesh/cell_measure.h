@@ -19,7 +19,8 @@ struct CellMeasure {
   CellMeasure& add(const CellMeasure& other, double factor = 1.0);
 };
 
-/// Volumes exactly, surfaces and lines by their corners.
+/// Volumes and surfaces with nodes on their sides exactly, other surfaces and lines by their
+/// corners.
 /// @param x places of all nodes
 CellMeasure cell_measure(CellKind kind, const std::vector<Eigen::Vector3d>& x);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/mesh/plate_mesh.h"
 
+#include <algorithm>
+#include <map>
 #include <utility>
 
 namespace buckens::fem {
@@ -25,6 +27,41 @@ constexpr std::array<GridName, 9> kNames = {{{"corner_00", {0, 0}},
 bool is_node(const GridName& place, const std::array<int, 2>& divisions) {
   return place.half[0] * divisions[0] % 2 == 0 && place.half[1] * divisions[1] % 2 == 0;
 }
+
+/// The nodes on the sides of elements, each once.
+class MidSides {
+ public:
+  explicit MidSides(Structure& structure) : structure_(structure) {}
+
+  /// Adds the nodes on the sides of an element behind its corners.
+  void append(std::vector<int>& corners) {
+    const std::size_t count = corners.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const int a = corners[k], b = corners[(k + 1) % count];
+      const auto [known, is_new] =
+          between_.try_emplace(std::minmax(a, b), static_cast<int>(structure_.nodes.size()));
+      if (is_new) structure_.nodes.push_back({"", 0.5 * (place(a) + place(b))});
+      corners.push_back(known->second);
+    }
+  }
+
+  /// Adds to corners that follow one another along a line the nodes between them.
+  void add_between(std::vector<int>& corners) const {
+    const std::size_t count = corners.size();
+    for (std::size_t k = 1; k < count; ++k) {
+      const auto found = between_.find(std::minmax(corners[k - 1], corners[k]));
+      if (found != between_.end()) corners.push_back(found->second);
+    }
+  }
+
+ private:
+  const Eigen::Vector3d& place(int node) const {
+    return structure_.nodes[static_cast<std::size_t>(node)].position;
+  }
+
+  Structure& structure_;
+  std::map<std::pair<int, int>, int> between_;
+};
 
 }  // namespace
 
@@ -54,14 +91,17 @@ GeneratedMesh add_plate(Structure& structure, const PlateMeshSpec& spec,
       if (j == ny) edges[3].nodes.push_back(node(i, j));
     }
   }
-  for (NodeSet& edge : edges) structure.node_sets.push_back(std::move(edge));
   const int number = structure.shells.add_section(section);
   const int first = structure.shells.num_elements();
-  const auto add = [&](const std::vector<int>& nodes) { structure.shells.add(nodes, number); };
+  MidSides mid_sides(structure);
+  const auto add = [&](std::vector<int> nodes) {
+    if (is_quadratic(spec.element)) mid_sides.append(nodes);
+    structure.shells.add(nodes, number);
+  };
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
       const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
-      if (spec.element == ShellShapeKind::quad4) {
+      if (spec.element == ShellShapeKind::quad4 || spec.element == ShellShapeKind::quad8) {
         add({a, b, c, d});
       } else if ((i + j) % 2 == 0) {
         add({a, b, c});
@@ -71,6 +111,10 @@ GeneratedMesh add_plate(Structure& structure, const PlateMeshSpec& spec,
         add({b, c, d});
       }
     }
+  }
+  for (NodeSet& edge : edges) {
+    mid_sides.add_between(edge.nodes);
+    structure.node_sets.push_back(std::move(edge));
   }
   FaceSet top{"top", {}, {}}, bottom{"bottom", {}, {}};
   for (int e = first; e < structure.shells.num_elements(); ++e) {

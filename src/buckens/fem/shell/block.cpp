@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -23,25 +24,58 @@ namespace {
 
 // Cosine of the angle up to which the shells at a node have one director: 25°.
 constexpr double kSmooth = 0.9063;
+// Cosine between normals of one element, below which it is folded.
+constexpr double kFolded = 0.2;
 
-/// The element's own normal at a corner, its length the sine there.
-Vector3d corner_normal(const ShellVectors& x, Eigen::Index corner) {
+/// The element's own normal at a node, its length the sine of the angle between the sides there.
+Vector3d own_normal(const ShellVectors& x, Eigen::Index node) {
   const Eigen::Index n = x.cols();
-  const Vector3d next = (x.col((corner + 1) % n) - x.col(corner)).normalized();
-  const Vector3d last = (x.col((corner + n - 1) % n) - x.col(corner)).normalized();
+  if (is_shell_quadratic(n)) {
+    const auto [r, s] = shell_node_places(n)[static_cast<std::size_t>(node)];
+    const Eigen::Matrix<double, 3, 2> tangents = x * shell_shape(n, r, s).slope.transpose();
+    return tangents.col(0).normalized().cross(tangents.col(1).normalized());
+  }
+  const Vector3d next = (x.col((node + 1) % n) - x.col(node)).normalized();
+  const Vector3d last = (x.col((node + n - 1) % n) - x.col(node)).normalized();
   return next.cross(last);
 }
 
-double corner_angle(const ShellVectors& x, Eigen::Index corner) {
-  const Eigen::Index n = x.cols();
-  const Vector3d next = x.col((corner + 1) % n) - x.col(corner);
-  const Vector3d last = x.col((corner + n - 1) % n) - x.col(corner);
+/// The angle of an element at a node; half a turn at nodes on its sides.
+double own_angle(const ShellVectors& x, Eigen::Index node) {
+  const Eigen::Index n = num_shell_corners(x.cols());
+  if (node >= n) return std::numbers::pi;
+  const Vector3d next = x.col((node + 1) % n) - x.col(node);
+  const Vector3d last = x.col((node + n - 1) % n) - x.col(node);
   return std::atan2(next.cross(last).norm(), next.dot(last));
 }
 
 ShellVectors own_normals(const ShellVectors& x) {
   ShellVectors out(3, x.cols());
-  for (Eigen::Index k = 0; k < x.cols(); ++k) out.col(k) = corner_normal(x, k).normalized();
+  for (Eigen::Index k = 0; k < x.cols(); ++k) out.col(k) = own_normal(x, k).normalized();
+  if (!is_shell_quadratic(x.cols())) return out;
+  // Nodes near a quarter of their sides turn a corner over, or leave it without tangents.
+  const double centre = is_shell_triangle(x.cols()) ? 1.0 / 3 : 0.0;
+  const Eigen::Matrix<double, 3, 2> tangents =
+      x * shell_shape(x.cols(), centre, centre).slope.transpose();
+  const Vector3d normal = tangents.col(0).cross(tangents.col(1)).normalized();
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    if (!(out.col(k).dot(normal) > kFolded)) out.col(k) = normal;
+  }
+  return out;
+}
+
+/// The normals where an element is integrated, their lengths the sines between the natural
+/// coordinates: of an element with nodes on its sides, these say whether it can be used.
+Eigen::Matrix3Xd inner_normals(const ShellVectors& x) {
+  const bool is_triangle = is_shell_triangle(x.cols());
+  const auto rule = is_triangle ? triangle_rule_of_degree_4() : shell_rule(false, 3);
+  Eigen::Matrix3Xd out(3, static_cast<Eigen::Index>(rule.size()));
+  Eigen::Index column = 0;
+  for (const ShellRulePoint& at : rule) {
+    const Eigen::Matrix<double, 3, 2> tangents =
+        x * shell_shape(x.cols(), at.r, at.s).slope.transpose();
+    out.col(column++) = tangents.col(0).normalized().cross(tangents.col(1).normalized());
+  }
   return out;
 }
 
@@ -56,17 +90,19 @@ int ShellBlock::add_section(const ShellSection& section) {
 }
 
 int ShellBlock::add(std::span<const int> nodes, int section) {
-  if (nodes.size() != 3 && nodes.size() != 4) {
-    throw ModelError(fmt::format("shell element {} has {} nodes; it needs three or four",
-                                 num_elements() + 1, nodes.size()));
+  if (nodes.size() != 3 && nodes.size() != 4 && nodes.size() != 6 && nodes.size() != 8) {
+    throw ModelError(fmt::format(
+        "shell element {} has {} nodes; it needs three or four, or six or eight with those on its "
+        "sides",
+        num_elements() + 1, nodes.size()));
   }
   if (section < 0 || section >= static_cast<int>(sections_.size())) {
     throw ModelError(fmt::format("shell: there is no section number {}", section));
   }
-  const bool is_quad = nodes.size() == 4;
-  elements_.push_back({{nodes[0], nodes[1], nodes[2], is_quad ? nodes[3] : -1},
-                       static_cast<int>(nodes.size()),
-                       section});
+  Element element{{}, static_cast<int>(nodes.size()), section, num_elements() + 1};
+  element.nodes.fill(-1);
+  std::copy(nodes.begin(), nodes.end(), element.nodes.begin());
+  elements_.push_back(element);
   return num_elements() - 1;
 }
 
@@ -95,7 +131,7 @@ void ShellBlock::choose_directors(const std::vector<Node>& nodes) {
     normals.push_back(own_normals(x));
     for (Eigen::Index k = 0; k < x.cols(); ++k) {
       const auto node = static_cast<std::size_t>(at(e).nodes[static_cast<std::size_t>(k)]);
-      at_node[node].push_back({normals.back().col(k), corner_angle(x, k)});
+      at_node[node].push_back({normals.back().col(k), own_angle(x, k)});
     }
   }
   for (auto e = static_cast<int>(directors_.size()); e < num_elements(); ++e) {
@@ -124,7 +160,7 @@ ShellBlock ShellBlock::subset(const std::vector<int>& elements,
     if (number[section] < 0) number[section] = out.add_section(sections_[section]);
     std::vector<int> own;
     for (const int node : nodes(e)) own.push_back(node_numbers.at(static_cast<std::size_t>(node)));
-    out.add(own, number[section]);
+    out.set_number(out.add(own, number[section]), at(e).number);
     const auto index = static_cast<std::size_t>(e);
     if (index < directors_.size()) out.directors_.push_back(directors_[index]);
   }
@@ -133,37 +169,43 @@ ShellBlock ShellBlock::subset(const std::vector<int>& elements,
 
 void ShellBlock::check(const MeshView& mesh) const {
   for (int e = 0; e < num_elements(); ++e) {
-    const std::string where =
-        fmt::format("shell element {} between {} and {}", e + 1,
-                    node_label(mesh.nodes, nodes(e)[0]), node_label(mesh.nodes, nodes(e)[2]));
-    check_shell_section(where, shell_section(e));
+    const auto where = [&] {
+      return fmt::format("shell element {} between {} and {}", at(e).number,
+                         node_label(mesh.nodes, nodes(e)[0]), node_label(mesh.nodes, nodes(e)[2]));
+    };
+    check_shell_section(where(), shell_section(e));
     const ShellVectors x = positions(mesh.nodes, e);
-    const ShellVectors own = own_normals(x);
+    Eigen::Matrix3Xd normals;
+    if (is_shell_quadratic(x.cols())) {
+      normals = inner_normals(x);
+    } else {
+      normals.resize(3, x.cols());
+      for (Eigen::Index k = 0; k < x.cols(); ++k) normals.col(k) = own_normal(x, k);
+    }
+    double least = 1.0, cosine = 1.0;
     Vector3d mean = Vector3d::Zero();
-    double least = 1.0;
-    for (Eigen::Index k = 0; k < x.cols(); ++k) {
-      const double sine = corner_normal(x, k).norm();
+    for (const auto& normal : normals.colwise()) {
+      const double sine = normal.norm();
       least = std::min(least, std::isfinite(sine) ? sine : 0.0);
-      mean += own.col(k);
+      mean += normal.normalized();
+    }
+    for (const auto& normal : normals.colwise()) {
+      cosine = std::min(cosine, normal.normalized().dot(mean.normalized()));
     }
     // Below a thousandth of a right angle the inverse of the Jacobian is rounding.
     const bool is_flat = !(least > 1e-3);
-    double cosine = 1.0;
-    for (Eigen::Index k = 0; k < x.cols(); ++k) {
-      cosine = std::min(cosine, own.col(k).dot(mean.normalized()));
-    }
-    if (is_flat || !(cosine > 0.2)) {
+    if (is_flat || !(cosine > kFolded)) {
       throw ModelError(fmt::format(
           "{}: it is {}; list its nodes around it, and move one if two of them are at one place or "
           "three on one line",
-          where, is_flat ? "flat at a corner" : "folded or inverted"));
+          where(), is_flat ? "flat at a corner" : "folded or inverted"));
     }
     if (const auto& direction = shell_section(e).direction) {
       const double across = direction->normalized().cross(mean.normalized()).norm();
       if (across > 2e-3) continue;
       throw ModelError(fmt::format(
           "{}: the direction ({:g}, {:g}, {:g}) of its x axis is normal to it; give another one",
-          where, direction->x(), direction->y(), direction->z()));
+          where(), direction->x(), direction->y(), direction->z()));
     }
   }
 }
@@ -183,7 +225,7 @@ void ShellBlock::add_inertia(const MeshView& mesh, const Vector3d& com, InertiaS
     const ShellMoments moments(element, com);
     const Eigen::Index n = element.nodes.cols();
     const std::vector<int> dofs = element_dofs<6>(mesh.dofs, nodes(e));
-    scatter_square(moments.products[0].topLeftCorner(n, n), nodes(e), 1.0, sum.nodal);
+    scatter_square(moments.products[0], nodes(e), 1.0, sum.nodal);
     for (std::size_t k = 0; k < sum.W.size(); ++k) {
       scatter_square(moments.second_moment(element.directors, k), dofs, 1.0, sum.W[k]);
     }
@@ -231,7 +273,7 @@ void ShellBlock::add_stress_rows(const MeshView& mesh, int first_element,
     for (int side = 0; side < 2; ++side) {
       const double z = (side == 0 ? 0.5 : -0.5) * section.thickness();
       const ShellLayer& layer = side == 0 ? section.layers.back() : section.layers.front();
-      const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 24> stress =
+      const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6 * kMostShellNodes> stress =
           layer_elasticity(layer).in_plane *
           (strain.rows.topRows<3>() + z * strain.rows.middleRows<3>(3));
       for (Eigen::Index j = 0; j < stress.cols(); ++j) {
@@ -253,6 +295,16 @@ void ShellBlock::add_stress_rows(const MeshView& mesh, int first_element,
   }
 }
 
-std::vector<std::array<int, 4>> ShellBlock::faces(int element) const { return {at(element).nodes}; }
+std::vector<std::array<int, 4>> ShellBlock::faces(int element) const {
+  const std::span<const int> own = nodes(element);
+  const auto pieces = shell_pieces(static_cast<Eigen::Index>(own.size()));
+  std::vector<std::array<int, 4>> out(pieces.begin(), pieces.end());
+  for (auto& piece : out) {
+    for (int& node : piece) {
+      if (node >= 0) node = own[static_cast<std::size_t>(node)];
+    }
+  }
+  return out;
+}
 
 }  // namespace buckens::fem

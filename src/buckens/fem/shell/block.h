@@ -2,19 +2,18 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/shell/section.h"
+#include "buckens/fem/shell/shape.h"
 
 namespace buckens::fem {
 
-/// Places and directors of the nodes of a shell element, 3 or 4 columns each.
-using ShellVectors = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;
-
-/// Shells with three or four nodes, thin or moderately thick, six variables per node.
+/// Shells with three, four, six or eight nodes, thin or moderately thick, six variables per node.
 ///
 /// A material point moves by u = Σ N_i (u_i + θ_i × z n_i), z from the nodes along the director
 /// n_i; inertia follows from that field, stiffness from shell/element.h. Theory:
@@ -23,10 +22,16 @@ class ShellBlock final : public ElementBlock {
  public:
   /// @return number to give to add()
   int add_section(const ShellSection& section);
-  /// @param nodes three or four, counter-clockwise seen from the side the normal points to
+  /// @param nodes three or four corners, counter-clockwise seen from the side the normal points to,
+  /// and the nodes on all sides or none, that between the first two corners first
   /// @return index of the element in this block
   /// @throws ModelError for another number of nodes
   int add(std::span<const int> nodes, int section);
+
+  /// Names an element in messages by its number in a file rather than by its index + 1.
+  void set_number(int element, std::int64_t number) {
+    elements_.at(static_cast<std::size_t>(element)).number = number;
+  }
 
   int num_elements() const override { return static_cast<int>(elements_.size()); }
   std::span<const int> nodes(int element) const override {
@@ -75,9 +80,10 @@ class ShellBlock final : public ElementBlock {
 
  private:
   struct Element {
-    std::array<int, 4> nodes;  // the fourth −1 for triangles
+    std::array<int, kMostShellNodes> nodes;  // −1 behind the last
     int count;
     int section;
+    std::int64_t number;  // in messages
   };
 
   const Element& at(int element) const { return elements_.at(static_cast<std::size_t>(element)); }

@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include "buckens/fem/element/quadrature.h"
+#include "buckens/fem/shell/quadratic.h"
 #include "buckens/fem/shell/strain.h"
 
 namespace buckens::fem {
@@ -31,26 +31,33 @@ Elastic elasticity(const ShellStiffness& s) {
   return C;
 }
 
-ShellStrainField strain_field(const ShellElement& element, bool with_corners = false) {
+ShellStrainField strain_field(const ShellElement& element,
+                              ShellStrainPlaces places = ShellStrainPlaces::none) {
+  if (element.is_quadratic()) return quadratic_strain(element, places);
+  const bool with_corners = places == ShellStrainPlaces::nodes;
   return element.is_triangle() ? triangle_strain(element, with_corners)
                                : quadrilateral_strain(element, with_corners);
 }
 
+/// Inner rows over the nodal variables.
+using InnerRows =
+    Eigen::Matrix<double, kMostInner, Eigen::Dynamic, 0, kMostInner, 6 * kMostShellNodes>;
+
 /// Stiffness over outer and inner variables.
 struct FullStiffness {
   ShellMatrix outer;
-  Eigen::Matrix<double, 4, 4> inner;
-  Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 24> mixed;  // inner rows
+  Eigen::Matrix<double, kMostInner, kMostInner> inner;
+  InnerRows mixed;
 };
 
 FullStiffness full_stiffness(const ShellElement& element, const ShellStrainField& field) {
   const Eigen::Index n = element.num_variables();
-  FullStiffness K{ShellMatrix::Zero(n, n), Eigen::Matrix4d::Zero(),
-                  Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 24>::Zero(4, n)};
+  FullStiffness K{ShellMatrix::Zero(n, n), Eigen::Matrix<double, kMostInner, kMostInner>::Zero(),
+                  InnerRows::Zero(kMostInner, n)};
   const Elastic C = elasticity(*element.stiffness);
   for (const ShellStrainPoint& at : field.points) {
     const ShellStrain stress = at.area * C * at.outer;
-    const Eigen::Matrix<double, 8, 4> inner_stress = at.area * C * at.inner;
+    const Eigen::Matrix<double, 8, kMostInner> inner_stress = at.area * C * at.inner;
     K.outer.noalias() += at.outer.transpose() * stress;
     K.mixed.noalias() += at.inner.transpose() * stress;
     K.inner.noalias() += at.inner.transpose() * inner_stress;
@@ -64,10 +71,8 @@ FullStiffness full_stiffness(const ShellElement& element, const ShellStrainField
 }
 
 /// Inner variables at rest per outer ones.
-Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 24> inner_motion(const FullStiffness& K,
-                                                                Eigen::Index count) {
-  Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 24> out(4, K.outer.cols());
-  out.setZero();
+InnerRows inner_motion(const FullStiffness& K, Eigen::Index count) {
+  InnerRows out = InnerRows::Zero(kMostInner, K.outer.cols());
   const Eigen::MatrixXd inner = K.inner.topLeftCorner(count, count);
   out.topRows(count) = -inner.llt().solve(Eigen::MatrixXd(K.mixed.topRows(count)));
   return out;
@@ -79,53 +84,6 @@ ShellElement shell_element(const ShellBlock& block, const std::vector<Node>& nod
   const ShellSection& section = block.shell_section(element);
   return {block.positions(nodes, element), block.directors(nodes, element), section.offset,
           &section, &block.stiffness(element)};
-}
-
-ShellShape shell_shape(bool is_triangle, double r, double s) {
-  ShellShape out;
-  if (is_triangle) {
-    out.N.resize(3);
-    out.N << 1 - r - s, r, s;
-    out.slope.resize(2, 3);
-    out.slope << -1, 1, 0, -1, 0, 1;
-    return out;
-  }
-  out.N.resize(4);
-  out.N << (1 - r) * (1 - s), (1 + r) * (1 - s), (1 + r) * (1 + s), (1 - r) * (1 + s);
-  out.N *= 0.25;
-  out.slope.resize(2, 4);
-  out.slope << -(1 - s), 1 - s, 1 + s, -(1 + s), -(1 - r), -(1 + r), 1 + r, 1 - r;
-  out.slope *= 0.25;
-  return out;
-}
-
-std::vector<ShellRulePoint> shell_rule(bool is_triangle, int n) {
-  const LineRule first = gauss_jacobi(n, is_triangle ? 1 : 0), second = gauss_jacobi(n, 0);
-  std::vector<ShellRulePoint> out;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const double weight = first.weight[i] * second.weight[j];
-      if (is_triangle) {
-        const double r = 0.5 * (1 + first.place[i]);
-        out.push_back({r, 0.5 * (1 + second.place[j]) * (1 - r), weight / 8});
-      } else {
-        out.push_back({first.place[i], second.place[j], weight});
-      }
-    }
-  }
-  return out;
-}
-
-std::vector<ShellRulePoint> triangle_rule_of_degree_4() {
-  std::vector<ShellRulePoint> out;
-  const auto add = [&out](double b, double weight) {  // area coordinates 1 − 2b, b, b
-    out.push_back({b, b, 0.5 * weight});
-    out.push_back({1 - 2 * b, b, 0.5 * weight});
-    out.push_back({b, 1 - 2 * b, 0.5 * weight});
-  };
-  add(0.44594849091596488632, 0.22338158967801146570);
-  add(0.09157621350977074346, 0.10995174365532186764);
-  return out;
 }
 
 Matrix3d shell_axes(const ShellElement& element, const Tangents& tangents) {
@@ -162,14 +120,14 @@ ShellMatrix shell_stiffness_matrix(const ShellElement& element) {
 }
 
 ShellStrainRows shell_centre_strain(const ShellElement& element) {
-  const ShellStrainField field = strain_field(element);
+  const ShellStrainField field = strain_field(element, ShellStrainPlaces::centre);
   const FullStiffness K = full_stiffness(element, field);
   return {field.centre.outer + field.centre.inner * inner_motion(K, field.num_inner),
           field.centre_axes};
 }
 
 std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element) {
-  const ShellStrainField field = strain_field(element, true);
+  const ShellStrainField field = strain_field(element, ShellStrainPlaces::nodes);
   const auto inner = inner_motion(full_stiffness(element, field), field.num_inner);
   std::vector<ShellStrainRows> out;
   for (std::size_t k = 0; k < field.corners.size(); ++k) {
@@ -179,12 +137,9 @@ std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element) {
 }
 
 std::vector<Matrix3d> shell_corner_axes(const ShellElement& element) {
-  constexpr std::array<std::array<double, 2>, 4> square = {
-      {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
   std::vector<Matrix3d> out;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(element.nodes.cols()); ++k) {
-    // The tangents of a triangle are the same everywhere.
-    const ShellShape shape = shell_shape(element.is_triangle(), square[k][0], square[k][1]);
+  for (const auto& [r, s] : shell_node_places(element.nodes.cols())) {
+    const ShellShape shape = shell_shape(element.nodes.cols(), r, s);
     const Tangents tangents = element.middle() * shape.slope.transpose();
     out.push_back(shell_axes(element, tangents));
   }
@@ -200,11 +155,11 @@ ShellMatrix shell_drilling_inertia(const ShellElement& element) {
   const auto add = [&](const ShellRow& row, double area) {
     M.noalias() += (inertia * area) * row.transpose() * row;
   };
-  if (element.is_triangle()) {
+  if (element.nodes.cols() == 3) {
     const TriangleDrilling drilling = triangle_drilling(element);
     for (const ShellRow& row : drilling.rows) add(row, drilling.area / 3);
   } else {
-    for (const ShellStrainPoint& at : quadrilateral_strain(element).points) {
+    for (const ShellStrainPoint& at : strain_field(element).points) {
       add(at.drilling, at.area);
     }
   }

@@ -9,12 +9,13 @@
 namespace buckens::fem {
 
 /// Square in the nodal variables of a shell element, six per node, node by node.
-using ShellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24>;
+using ShellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 * kMostShellNodes,
+                                  6 * kMostShellNodes>;
 /// A row of the nodal variables.
-using ShellRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 24>;
+using ShellRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6 * kMostShellNodes>;
 /// Strain of the middle surface ε_x, ε_y, γ_xy, curvature κ_x, κ_y, κ_xy, transverse shear γ_xz,
 /// γ_yz per nodal variables.
-using ShellStrain = Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, 24>;
+using ShellStrain = Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, 6 * kMostShellNodes>;
 
 /// One element with all it needs for its integrals.
 struct ShellElement {
@@ -24,29 +25,14 @@ struct ShellElement {
   const ShellSection* section = nullptr;
   const ShellStiffness* stiffness = nullptr;
 
-  bool is_triangle() const { return nodes.cols() == 3; }
+  bool is_triangle() const { return is_shell_triangle(nodes.cols()); }
+  bool is_quadratic() const { return is_shell_quadratic(nodes.cols()); }
   Eigen::Index num_variables() const { return 6 * nodes.cols(); }
   /// Places of the middle surface at the nodes.
   ShellVectors middle() const { return nodes + offset * directors; }
 };
 
 ShellElement shell_element(const ShellBlock& block, const std::vector<Node>& nodes, int element);
-
-/// Shape functions of the nodes, and their slopes along the natural coordinates: [−1, 1]² of
-/// quadrilaterals, r, s ≥ 0 with r + s ≤ 1 of triangles.
-struct ShellShape {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> N;
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4> slope;
-};
-ShellShape shell_shape(bool is_triangle, double r, double s);
-
-struct ShellRulePoint {
-  double r = 0, s = 0, weight = 0;
-};
-/// Quadrilateral: n×n Gauss points. Triangle: degree 2n − 1 by collapsing a square.
-std::vector<ShellRulePoint> shell_rule(bool is_triangle, int n);
-/// Six points of degree 4 with positive weights (Strang, Fix).
-std::vector<ShellRulePoint> triangle_rule_of_degree_4();
 
 /// Axes of the shell at a point: columns x, y, normal.
 /// @param tangents ∂X/∂r, ∂X/∂s
@@ -56,10 +42,11 @@ Eigen::Matrix3d shell_axes(const ShellElement& element,
 /// Area per natural coordinates at a point of the middle surface [m²].
 double shell_area(const ShellElement& element, const ShellShape& shape);
 
-/// ∫ strain energy, 24×24 or 18×18. Quadrilateral: MITC4 (Dvorkin, Bathe, 1984) with incompatible
-/// membrane modes and the drilling rotation tied to the rotation of the surface (Hughes, Brezzi,
-/// 1989). Triangle: MITC3+ (Lee, Lee, Bathe, 2014) with Felippa's optimal membrane triangle with
-/// drilling rotations (2003).
+/// ∫ strain energy, six variables per node. With straight sides, quadrilateral: MITC4 (Dvorkin,
+/// Bathe, 1984) with incompatible membrane modes and the drilling rotation tied to the rotation of
+/// the surface (Hughes, Brezzi, 1989). Triangle: MITC3+ (Lee, Lee, Bathe, 2014) with Felippa's
+/// optimal membrane triangle with drilling rotations (2003). With nodes on the sides: see
+/// quadratic_strain().
 ShellMatrix shell_stiffness_matrix(const ShellElement& element);
 
 /// Strains at the centre, and the axes they are given in.
@@ -68,7 +55,7 @@ struct ShellStrainRows {
   Eigen::Matrix3d axes;
 };
 ShellStrainRows shell_centre_strain(const ShellElement& element);
-/// The same at the corners, one after the other.
+/// The same at the nodes, one after the other.
 std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element);
 /// The axes alone.
 std::vector<Eigen::Matrix3d> shell_corner_axes(const ShellElement& element);

@@ -20,17 +20,19 @@ ShellMoments::ShellMoments(const ShellElement& element, const Vector3d& origin) 
   const double e = element.offset;
   const std::array<double, 3> per_area = {I0, I1 + e * I0, I2 + 2 * e * I1 + e * e * I0};
   const Eigen::Index n = element.nodes.cols();
-  for (const ShellRulePoint& at : shell_rule(element.is_triangle(), 3)) {
-    const ShellShape shape = shell_shape(element.is_triangle(), at.r, at.s);
+  products.fill(Products::Zero(n, n));
+  with_translation = with_rotation = ShellVectors::Zero(3, n);
+  for (const ShellRulePoint& at : shell_mass_rule(n)) {
+    const ShellShape shape = shell_shape(n, at.r, at.s);
     const double area = at.weight * shell_area(element, shape);
     const double m0 = area * per_area[0], m1 = area * per_area[1], m2 = area * per_area[2];
     const Vector3d y = element.nodes * shape.N - origin;
     const Vector3d d = element.directors * shape.N;
     for (std::size_t k = 0; k < 3; ++k) {
-      products[k].topLeftCorner(n, n) += area * per_area[k] * shape.N * shape.N.transpose();
+      products[k] += area * per_area[k] * shape.N * shape.N.transpose();
     }
-    with_translation.leftCols(n) += (m0 * y + m1 * d) * shape.N.transpose();
-    with_rotation.leftCols(n) += (m1 * y + m2 * d) * shape.N.transpose();
+    with_translation += (m0 * y + m1 * d) * shape.N.transpose();
+    with_rotation += (m1 * y + m2 * d) * shape.N.transpose();
     mass += m0;
     first += m0 * y + m1 * d;
     const Matrix3d mixed = y * d.transpose();

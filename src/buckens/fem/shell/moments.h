@@ -10,10 +10,11 @@ namespace buckens::fem {
 /// Moments of the mass of a shell element over its displacement field: products of shape functions
 /// times ∫ρ zᵏ dz, z from the nodes, and first moments of the material points per node.
 struct ShellMoments {
-  std::array<Eigen::Matrix4d, 3> products = {Eigen::Matrix4d::Zero(), Eigen::Matrix4d::Zero(),
-                                             Eigen::Matrix4d::Zero()};
-  Eigen::Matrix<double, 3, 4> with_translation = Eigen::Matrix<double, 3, 4>::Zero();
-  Eigen::Matrix<double, 3, 4> with_rotation = Eigen::Matrix<double, 3, 4>::Zero();
+  /// Square in the nodes.
+  using Products =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostShellNodes, kMostShellNodes>;
+  std::array<Products, 3> products;
+  ShellVectors with_translation, with_rotation;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();   ///< ∫ s dm
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< ∫ s sᵀ dm
   double mass = 0;

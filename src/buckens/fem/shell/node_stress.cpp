@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "buckens/fem/shell/element.h"
+#include "buckens/fem/shell/turn.h"
 #include "buckens/fem/solid/recovery.h"
 
 namespace buckens::fem {
@@ -38,20 +39,6 @@ bool same_section(const ShellSection& a, const ShellSection& b) {
 bool has_direction(const ShellSection& section) {
   return std::any_of(section.layers.begin(), section.layers.end(),
                      [](const ShellLayer& layer) { return layer.material.orthotropy.has_value(); });
-}
-
-/// Angle of an x axis in other axes, after the normal has been turned into the other one.
-double turn_between(const Matrix3d& from, const Matrix3d& to) {
-  const Vector3d x = Eigen::Quaterniond::FromTwoVectors(from.col(2), to.col(2)) * from.col(0);
-  return std::atan2(x.dot(to.col(1)), x.dot(to.col(0)));
-}
-
-/// Strains ε_x, ε_y, γ_xy from axes that are turned by an angle against the new ones.
-Matrix3d turned_back(double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  Matrix3d T;
-  T << c * c, s * s, -c * s, s * s, c * c, c * s, 2 * c * s, -2 * c * s, c * c - s * s;
-  return T;
 }
 
 Eigen::Matrix<double, 6, 1> tensor_in_model_axes(const Matrix3d& axes, const Matrix3d& local,
@@ -151,9 +138,11 @@ class ShellNodeStresses::Grouping {
     for (std::size_t m = 0; m < members.size(); ++m) {
       const Shell& shell = shells[static_cast<std::size_t>(members[m].at.shell)];
       const auto nodes = shell.block->nodes(shell.index);
-      const std::size_t k = members[m].at.corner, n = nodes.size();
-      out[nodes[(k + 1) % n]].push_back(m);
-      out[nodes[(k + n - 1) % n]].push_back(m);
+      const auto rim = shell_rim(static_cast<Eigen::Index>(nodes.size()));
+      const auto at = std::find(rim.begin(), rim.end(), static_cast<int>(members[m].at.corner));
+      const auto k = static_cast<std::size_t>(at - rim.begin()), n = rim.size();
+      out[nodes[static_cast<std::size_t>(rim[(k + 1) % n])]].push_back(m);
+      out[nodes[static_cast<std::size_t>(rim[(k + n - 1) % n])]].push_back(m);
     }
     return out;
   }
@@ -186,7 +175,7 @@ Matrix3d mean_axes(const Members& members) {
   return out;
 }
 
-using SurfaceRows = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 24>;
+using SurfaceRows = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6 * kMostShellNodes>;
 
 /// Rows over the six variables of each node as entries of a sparse matrix.
 void add_rows(const SurfaceRows& rows, const DofMap& dofs, std::span<const int> nodes,
@@ -209,9 +198,10 @@ ShellNodeStresses::ShellNodeStresses(const FeModel& fe, const std::vector<int>& 
   for (const ShellSection* section : grouping.sections) {
     sides_.push_back({side_of(*section, true), side_of(*section, false)});
   }
-  corner_place_.assign(grouping.shells.size(), {-1, -1, -1, -1});
+  constexpr std::array<int, kMostShellNodes> kNone = {-1, -1, -1, -1, -1, -1, -1, -1};
+  corner_place_.assign(grouping.shells.size(), kNone);
   for (const Grouping::Shell& shell : grouping.shells) {
-    corner_node_.push_back({-1, -1, -1, -1});
+    corner_node_.push_back(kNone);
     const auto own = shell.block->nodes(shell.index);
     std::copy(own.begin(), own.end(), corner_node_.back().begin());
   }
@@ -238,7 +228,8 @@ ShellNodeStresses::ShellNodeStresses(const FeModel& fe, const std::vector<int>& 
       if (own[corner] < 0) continue;
       const auto place = static_cast<std::size_t>(own[corner]);
       const auto& [rows, axes] = strains[corner];
-      const Matrix3d turn = shares[place] * turned_back(turn_between(axes, places_[place].axes));
+      const Matrix3d turn =
+          shares[place] * strain_in_other_axes(turn_between(axes, places_[place].axes));
       SurfaceRows turned(6, rows.cols());
       turned << turn * rows.topRows<3>(), turn * rows.middleRows<3>(3);
       add_rows(turned, fe.dofs, shell.block->nodes(shell.index), 6 * own[corner], entries);

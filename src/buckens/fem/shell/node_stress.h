@@ -17,7 +17,7 @@ struct ShellPlace {
 
 /// Stresses on the surfaces of shells at nodes.
 ///
-/// Strains are taken at the corners of the elements and averaged over neighbours, each counting
+/// Strains are taken at the nodes of the elements and averaged over neighbours, each counting
 /// alike. Two elements are neighbours if they share a side with no third shell, have the same
 /// section, their normals there differ by less than 25°, and, with layers that have a direction,
 /// their x axes by less than 10°. Where plates of different thickness, a branch or an edge meet a
@@ -57,10 +57,10 @@ class ShellNodeStresses {
   static Side side_of(const ShellSection& section, bool is_top);
 
   std::vector<ShellPlace> places_;
-  std::vector<std::size_t> sections_;             // of each place, into sides_
-  std::vector<Sides> sides_;                      // of each different section
-  std::vector<std::array<int, 4>> corner_place_;  // of each shell
-  std::vector<std::array<int, 4>> corner_node_;   // of each shell, −1 behind triangles
+  std::vector<std::size_t> sections_;  // of each place, into sides_
+  std::vector<Sides> sides_;           // of each different section
+  // Of each shell, node by node, −1 behind the last.
+  std::vector<std::array<int, kMostShellNodes>> corner_place_, corner_node_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
 };
 

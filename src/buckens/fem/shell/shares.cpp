@@ -12,7 +12,6 @@ using Eigen::Vector3d;
 FaceIntegrals shell_side_integrals(const ShellBlock& shells, const std::vector<Node>& nodes,
                                    const ShellSide& side) {
   const ShellVectors x = shells.positions(nodes, side.element);
-  const bool is_triangle = x.cols() == 3;
   const auto own = shells.nodes(side.element);
   const Eigen::Index count = x.cols();
   FaceIntegrals out{{own.begin(), own.end()},
@@ -20,8 +19,8 @@ FaceIntegrals shell_side_integrals(const ShellBlock& shells, const std::vector<N
                     Eigen::Matrix3Xd::Zero(3, count),
                     Eigen::MatrixXd::Zero(count, count),
                     Eigen::VectorXd::Zero(count)};
-  for (const ShellRulePoint& at : shell_rule(is_triangle, 3)) {
-    const ShellShape shape = shell_shape(is_triangle, at.r, at.s);
+  for (const ShellRulePoint& at : shell_mass_rule(x.cols())) {
+    const ShellShape shape = shell_shape(x.cols(), at.r, at.s);
     const Eigen::Matrix<double, 3, 2> tangents = x * shape.slope.transpose();
     const Vector3d normal = at.weight * tangents.col(0).cross(tangents.col(1));
     out.area += normal.norm() * shape.N;
@@ -42,8 +41,8 @@ ShellShares shell_shares(const ShellBlock& shells, const std::vector<Node>& node
   ShellShares out{{own.begin(), own.end()},
                   Eigen::VectorXd::Zero(shell.nodes.cols()),
                   Eigen::Matrix3Xd::Zero(3, shell.nodes.cols())};
-  for (const ShellRulePoint& at : shell_rule(shell.is_triangle(), 3)) {
-    const ShellShape shape = shell_shape(shell.is_triangle(), at.r, at.s);
+  for (const ShellRulePoint& at : shell_mass_rule(shell.nodes.cols())) {
+    const ShellShape shape = shell_shape(shell.nodes.cols(), at.r, at.s);
     out.translation += at.weight * shell_area(shell, shape) * shape.N;
   }
   for (Eigen::Index i = 0; i < shell.nodes.cols(); ++i) {

@@ -75,11 +75,13 @@ struct ShellMemberSpec : ShellPropertySpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("nodes", nodes,
-                      "three or four nodes, counter-clockwise seen from the side the normal points "
-                      "to")
-              .required()
-              .like("[a, b, c, d]"));
+    visit(
+        base::field("nodes", nodes,
+                    "three or four corners, counter-clockwise seen from the side the normal "
+                    "points to; behind them the nodes on all sides, if there are any, that between "
+                    "the first two corners first")
+            .required()
+            .like("[a, b, c, d]"));
     visit(base::field("material", material, "material: a name from `materials` or written in place")
               .required()
               .like("steel"));
@@ -88,9 +90,14 @@ struct ShellMemberSpec : ShellPropertySpec {
 };
 
 /// Shells of a generated mesh.
-enum class ShellShapeKind { quad4, tri3 };
+enum class ShellShapeKind { quad4, tri3, quad8, tri6 };
 
-constexpr std::array<const char*, 2> choice_names(ShellShapeKind) { return {"quad4", "tri3"}; }
+constexpr std::array<const char*, 4> choice_names(ShellShapeKind) {
+  return {"quad4", "tri3", "quad8", "tri6"};
+}
+constexpr bool is_quadratic(ShellShapeKind kind) {
+  return kind == ShellShapeKind::quad8 || kind == ShellShapeKind::tri6;
+}
 
 /// A rectangular plate in the x–y plane, divided regularly.
 struct PlateMeshSpec : ShellPropertySpec {
@@ -119,8 +126,10 @@ struct PlateMeshSpec : ShellPropertySpec {
               .required()
               .positive()
               .like("[16, 16]"));
-    visit(base::field("element", element,
-                      "shell element: one `quad4` or two triangles `tri3` per field"));
+    visit(base::field(
+        "element", element,
+        "shell element: one `quad4` or two triangles `tri3` per field; `quad8` and `tri6` "
+        "have nodes on their sides, too"));
     shell_fields(visit);
   }
 };

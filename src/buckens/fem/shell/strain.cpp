@@ -9,7 +9,7 @@ namespace buckens::fem {
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Slope = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>;
+using Slope = ShellSlope;
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
 void set_curvature(const ShellElement& element, const Matrix3d& axes, const Slope& slope,
@@ -32,7 +32,7 @@ void set_curvature(const ShellElement& element, const Matrix3d& axes, const Slop
 
 ShellShearRows covariant_shear(const ShellElement& element, double r, double s) {
   const ShellRowBuilder build{element};
-  const ShellShape shape = shell_shape(element.is_triangle(), r, s);
+  const ShellShape shape = shell_shape(element.nodes.cols(), r, s);
   const Tangents tangents = element.middle() * shape.slope.transpose();
   const Vector3d director = element.directors * shape.N;
   ShellShearRows rows = ShellShearRows::Zero(2, element.num_variables());
@@ -60,7 +60,7 @@ struct QuadPoint {
   double area;       // per natural coordinates
   Slope slope;       // ∂N/∂x, ∂N/∂y
 
-  QuadPoint(const ShellElement& element, double r, double s) : shape(shell_shape(false, r, s)) {
+  QuadPoint(const ShellElement& element, double r, double s) : shape(shell_shape(4, r, s)) {
     const Tangents tangents = element.middle() * shape.slope.transpose();
     axes = shell_axes(element, tangents);
     const Matrix2d jacobian = axes.leftCols<2>().transpose() * tangents;

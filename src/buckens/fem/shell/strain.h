@@ -8,15 +8,19 @@
 
 namespace buckens::fem {
 
+/// Most inner variables of a shell element.
+inline constexpr int kMostInner = 5;
+
 /// Strains at one point per outer (nodal) and inner variables.
 struct ShellStrainPoint {
   double area = 0;  ///< weight times area [m²]
   ShellStrain outer;
-  Eigen::Matrix<double, 8, 4> inner = Eigen::Matrix<double, 8, 4>::Zero();
+  Eigen::Matrix<double, 8, kMostInner> inner = Eigen::Matrix<double, 8, kMostInner>::Zero();
   /// Drilling rotation against the rotation of the surface; empty where the membrane strains hold
   /// it.
   ShellRow drilling;
-  Eigen::Matrix<double, 1, 4> inner_drilling = Eigen::Matrix<double, 1, 4>::Zero();
+  Eigen::Matrix<double, 1, kMostInner> inner_drilling =
+      Eigen::Matrix<double, 1, kMostInner>::Zero();
 };
 
 /// The strains of an element at its integration points and its centre.
@@ -26,7 +30,7 @@ struct ShellStrainField {
   double drilling_share = 1;  ///< of the stiffness of ShellStrainPoint::drilling
   ShellStrainPoint centre;
   Eigen::Matrix3d centre_axes = Eigen::Matrix3d::Identity();
-  std::vector<ShellStrainPoint> corners;  ///< none unless asked for
+  std::vector<ShellStrainPoint> corners;  ///< at all nodes; none unless asked for
   std::vector<Eigen::Matrix3d> corner_axes;
 };
 
@@ -68,11 +72,10 @@ struct ShellRowBuilder {
 /// Curvature rows 3…5 of the nodal variables: κ_ab = e_a·W,b + D,a·U,b, symmetrised.
 /// @param slope ∂N/∂x, ∂N/∂y in the axes of the point
 void set_curvature(const ShellElement& element, const Eigen::Matrix3d& axes,
-                   const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>& slope,
-                   ShellStrain& rows);
+                   const ShellSlope& slope, ShellStrain& rows);
 
 /// Covariant transverse shear X,α·W + D·U,α at a point, rows r and s.
-using ShellShearRows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 24>;
+using ShellShearRows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 6 * kMostShellNodes>;
 ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
 
 /// Share of its stiffness against drilling rotations that a curved element keeps,

@@ -12,7 +12,7 @@ namespace buckens::fem {
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Slope = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 4>;
+using Slope = ShellSlope;
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
 namespace {
@@ -29,7 +29,7 @@ struct Plane {
   Eigen::Matrix<double, 9, 18> map;  // u_x, u_y, θ_z from the nodal variables
 
   explicit Plane(const ShellElement& element) {
-    const ShellShape shape = shell_shape(true, 0, 0);
+    const ShellShape shape = shell_shape(3, 0, 0);
     const ShellVectors X = element.middle();
     const Tangents tangents = X * shape.slope.transpose();
     axes = shell_axes(element, tangents);

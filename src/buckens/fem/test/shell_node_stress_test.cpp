@@ -128,10 +128,13 @@ TEST_P(ShellStresses, OfLayersAreThoseOfTheirDirections) {
 
 TEST_P(ShellStresses, AtNodesAreExactInConstantStates) {
   const Matrix3d R = some_axes();
-  const ShellGrid grid(GetParam(), 3, 3, plate(), [&R](double x, double y) {
-    const double bump = x * (1 - x) * y * (1 - y);
-    return Vector3d(R * Vector3d(x + bump, 0.7 * y - 0.8 * bump, 0));
-  });
+  const ShellGrid grid(
+      GetParam(), 3, 3, plate(),
+      [&R](double x, double y) {
+        const double bump = x * (1 - x) * y * (1 - y);
+        return Vector3d(R * Vector3d(x + bump, 0.7 * y - 0.8 * bump, 0));
+      },
+      test::Sides::straight);
   const FeModel fe = assemble(grid.structure);
   const Vector3d strain(2e-5, -1e-5, 3e-5), bend(1e-2, -4e-3, 6e-3);
   const Vector d = stretched_and_bent(fe, R, strain, bend);
@@ -165,7 +168,9 @@ TEST_P(ShellStresses, AtNodesAreExactInConstantStates) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ShellStresses, testing::Values(ShellKind::quad4, ShellKind::tri3),
+INSTANTIATE_TEST_SUITE_P(Kinds, ShellStresses,
+                         testing::Values(ShellKind::quad4, ShellKind::tri3, ShellKind::quad8,
+                                         ShellKind::tri6),
                          [](const auto& kind) { return test::shell_name(kind.param); });
 
 /// Two squares side by side along x with a common side x = 1; the second one is turned about it.

@@ -74,7 +74,8 @@ class Import {
                  std::int64_t id);
   void add_line(const fem::ImportedBlock& block, int in_block, const std::vector<int>& nodes,
                 int element);
-  void add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element);
+  void add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element,
+                 std::int64_t id);
   fem::ShellSection shell_section(const fem::ImportedBlock& block, int element);
   fem::ShellSection given_shell_section(const fem::GroupSectionSpec& section,
                                         const fem::ImportedBlock& block, int element) const;
@@ -138,8 +139,8 @@ void Import::add_block(const fem::ImportedBlock& block) {
       add_solid(block, nodes, element, block.ids[static_cast<std::size_t>(k)]);
     } else if (block.kind == CellKind::line2) {
       add_line(block, k, nodes, element);
-    } else if (block.kind == CellKind::tri3 || block.kind == CellKind::quad4) {
-      add_shell(block, nodes, element);
+    } else if (fem::dimension_of(block.kind) == 2) {
+      add_shell(block, nodes, element, block.ids[static_cast<std::size_t>(k)]);
     } else {
       refuse(fmt::format("elements {} ({}) cannot be used in a body", block.source,
                          fem::name_of(block.kind)));
@@ -252,20 +253,23 @@ fem::ShellSection Import::shell_section(const fem::ImportedBlock& block, int ele
   return out;
 }
 
-void Import::add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes,
-                       int element) {
+void Import::add_shell(const fem::ImportedBlock& block, const std::vector<int>& nodes, int element,
+                       std::int64_t id) {
   const fem::GroupSectionSpec* given = sections_.of(element);
   const fem::MaterialSpec* material = materials_.find(block, element);
   fem::ShellBlock& shells = out_.structure.shells;
   const auto [known, is_new] = shell_sections_.try_emplace({given, block.property, material}, -1);
   if (is_new) known->second = shells.add_section(shell_section(block, element));
   places_.back() = {Place::Block::shells, shells.add(nodes, known->second)};
+  shells.set_number(places_.back().index, id);
 }
 
 /// The side from which the corners run counter-clockwise.
 fem::ShellSide Import::shell_side(const fem::ImportedFace& face) const {
   const int element = places_.at(static_cast<std::size_t>(face.element)).index;
-  const auto own = out_.structure.shells.nodes(element);
+  const auto all = out_.structure.shells.nodes(element);
+  const auto num_corners = fem::num_shell_corners(static_cast<Eigen::Index>(all.size()));
+  const auto own = all.first(static_cast<std::size_t>(num_corners));
   const auto first = std::find(own.begin(), own.end(), node(face.corners.at(0)));
   const auto next = first == own.end() || first + 1 == own.end() ? own.begin() : first + 1;
   return {element, *next != node(face.corners.at(1))};

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace buckens::fem {
+
+/// Angle of an x axis in other axes, after the normal has been turned into the other one [rad].
+/// @param from, to columns x, y, normal
+double turn_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to);
+
+/// ε_x, ε_y, γ_xy in axes from those in axes that are turned by an angle against them.
+Eigen::Matrix3d strain_in_other_axes(double angle);
+
+}  // namespace buckens::fem
