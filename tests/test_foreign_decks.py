@@ -197,6 +197,14 @@ def test_ties_join_meshes_that_do_not_meet(buckens, model):
     # Meshes that meet are tied exactly: equal but for rounding of eigenvalues.
     same = frequencies(buckens, model(tied(((10, 2, 2), (10, 2, 2)), tie)), 5)
     assert same == pytest.approx(whole, rel=1e-8)
+    # Contact that cannot open is the same, in the words of CalculiX and of Abaqus.
+    tied_contact = ("*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE\nSF,SE\n"
+                    "*SURFACE INTERACTION,NAME=i\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TIED\n1e9\n")
+    for contact in (tied_contact, "*CONTACT PAIR,TIED\nSF,SE\n"):
+        same = frequencies(buckens, model(tied(((10, 2, 2), (10, 2, 2)), contact)), 5)
+        assert same == pytest.approx(whole, rel=1e-8)
+    open_contact = model(tied(((10, 2, 2), (10, 2, 2)), tied_contact.replace("TIED", "HARD")))
+    buckens("check", open_contact).must(3, "nothing holds together")
     untied = model(tied(((10, 2, 2), (10, 3, 3)), ""))
     buckens("check", untied).must(3, "nothing holds together")
 

@@ -21,6 +21,7 @@ struct AbaqusReading {
   Eigen::Matrix3d system_axes = Eigen::Matrix3d::Identity();
   Eigen::Vector3d system_origin = Eigen::Vector3d::Zero();
   std::int64_t num_generated = 0;  ///< nodes and elements by *NGEN and its kin
+  std::string interaction;         ///< of the last *SURFACE INTERACTION, in capitals
   AbaqusLink* coupling = nullptr;  ///< of the last *COUPLING, until its kind is known
   std::map<std::string, fem::ImportNote> repeated;  ///< notes that are counted, by their text
 
@@ -84,6 +85,11 @@ void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword);
 void read_mpc(AbaqusReading& in, const DeckKeyword& keyword);
 void read_equation(AbaqusReading& in, const DeckKeyword& keyword);
 void read_tie(AbaqusReading& in, const DeckKeyword& keyword);
+void read_surface_interaction(AbaqusReading& in, const DeckKeyword& keyword);
+void read_surface_behavior(AbaqusReading& in, const DeckKeyword& keyword);
+void read_contact_pair(AbaqusReading& in, const DeckKeyword& keyword);
+/// Makes ties of the contact pairs that cannot open, once all interactions are known.
+void add_tied_contacts(AbaqusReading& in);
 void read_distributing_coupling(AbaqusReading& in, const DeckKeyword& keyword);
 
 /// The set with this name in a map of sets, made if it is not there.

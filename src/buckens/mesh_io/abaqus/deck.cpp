@@ -59,6 +59,9 @@ constexpr NamedCard kCards[] = {
     {"MPC", read_mpc},
     {"EQUATION", read_equation},
     {"TIE", read_tie},
+    {"SURFACEINTERACTION", read_surface_interaction},
+    {"SURFACEBEHAVIOR", read_surface_behavior},
+    {"CONTACTPAIR", read_contact_pair},
     {"NODALTHICKNESS", read_nodal_thickness},
     {"DISTRIBUTINGCOUPLING", read_distributing_coupling},
 };
@@ -235,6 +238,7 @@ class DeckReader {
                      "*DISTRIBUTING");
     }
     if (in_.deck.instances.empty()) place_parts();
+    add_tied_contacts(in_);
     const bool has_nodes =
         !in_.deck.root.nodes.ids.empty() ||
         std::any_of(in_.deck.instances.begin(), in_.deck.instances.end(),

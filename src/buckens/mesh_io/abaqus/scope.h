@@ -160,6 +160,13 @@ struct AbaqusTie {
   DeckPlace place;
 };
 
+/// A line of *CONTACT PAIR, as a tie if it cannot open.
+struct AbaqusContact {
+  std::string interaction;  ///< in capitals
+  bool is_tied = false;
+  AbaqusTie tie;
+};
+
 /// A *COUPLING, *KINEMATIC COUPLING, *RIGID BODY or a line of *MPC.
 struct AbaqusLink {
   AbaqusLinkKind kind = AbaqusLinkKind::kinematic;
@@ -199,6 +206,7 @@ struct AbaqusScope {
   std::vector<AbaqusLink> links;
   std::vector<AbaqusEquation> equations;
   std::vector<AbaqusTie> ties;
+  std::vector<AbaqusContact> contacts;
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusThickness> thicknesses;
 };
@@ -226,6 +234,7 @@ struct AbaqusDeck {
   std::map<std::string, AbaqusScope> parts;
   std::vector<AbaqusInstance> instances;
   std::map<std::string, fem::MaterialSpec> materials;  ///< by name in capitals
+  std::set<std::string> tied_interactions;             ///< of contact, in capitals
   std::set<std::string> laminae;  ///< those by their constants in a plane, in capitals
   std::vector<fem::ImportNote> notes;
 };
