@@ -99,3 +99,13 @@ def test_pins_release_in_the_axes_of_the_beam(body):
     assert tied[0] < 0.9 * stiff[0]
     for turn in (0.0, 0.7):
         assert body(frame(turn, "", 1, "5"))["frequencies"] == pytest.approx(tied, rel=1e-8)
+
+
+def test_a_deck_of_nastran_may_end_as_those_of_abaqus(buckens, tmp_path):
+    """NASTRAN-95 names its decks so; pipes and directories are no decks of either kind."""
+    (tmp_path / "deck.inp").write_text("SOL 1,0\nCEND\nBEGIN BULK\n" + CUBE
+                                       + "CHEXA1,1,1,1,2,3,4,5,6\n,7,8\nMAT1,1,1.E7,,0.3,0.1\nENDDATA\n")
+    told = buckens("mesh-info", "deck.inp", "--json").must(0).json
+    assert told["format"] == "Nastran"
+    assert told["mass"] == pytest.approx(0.1, rel=1e-12)
+    buckens("mesh-info", "none.inp").must(5, "none.inp")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,7 @@
 #include "buckens/fem/mesh/part_selection.h"
 #include "buckens/mesh_io/abaqus/deck.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
+#include "buckens/mesh_io/nastran/control.h"
 #include "buckens/mesh_io/nastran/deck.h"
 #include "buckens/mesh_io/skip_list.h"
 
@@ -23,10 +25,23 @@ struct Format {
   fem::ImportedMesh (*read)(const std::filesystem::path&, const fem::MeshWishes&, SkipList&);
 };
 
+/// Decks of NASTRAN-95 end in .inp, too. A deck of Abaqus is known by its first star.
+bool is_of_nastran(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  constexpr std::streamsize kHead = 1 << 16;
+  std::ifstream stream(path, std::ios::binary);
+  std::string head(static_cast<std::size_t>(kHead), '\0');
+  stream.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && head[first] != '*' && has_nastran_bulk_data(head);
+}
+
 /// Decks say of every element what it is.
 fem::ImportedMesh abaqus_deck(const std::filesystem::path& path, const fem::MeshWishes&,
                               SkipList& skip) {
-  return read_abaqus_deck(path, skip);
+  return is_of_nastran(path) ? read_nastran_deck(path, skip) : read_abaqus_deck(path, skip);
 }
 
 fem::ImportedMesh nastran_deck(const std::filesystem::path& path, const fem::MeshWishes&,

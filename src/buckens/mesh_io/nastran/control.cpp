@@ -164,6 +164,8 @@ void read_parameter(const std::vector<std::string>& words, const NastranLine& li
 
 }  // namespace
 
+bool has_nastran_bulk_data(std::string_view text) { return has_begin_line(text); }
+
 NastranControl read_nastran_control(NastranSource& source,
                                     std::optional<NastranLine>& first_bulk_line) {
   constexpr std::size_t kMostLength = 4096;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "buckens/mesh_io/nastran/source.h"
@@ -34,6 +35,9 @@ struct NastranControl {
   std::optional<double> weight_to_mass;  ///< PARAM,WTMASS
   std::vector<NastranControlSet> sets;
 };
+
+/// Whether a text is a deck of Nastran whatever its file is called: BEGIN BULK stands in it.
+bool has_nastran_bulk_data(std::string_view text);
 
 /// Reads what stands before BEGIN BULK, if the deck has such a part: if its main file has a line
 /// BEGIN BULK or starts with an executive or case control statement.
