@@ -63,8 +63,6 @@ bool is_unknown_element(std::string_view name) {
 /// Cards without which the structure would be another one.
 std::string reason_to_refuse(std::string_view name) {
   static const std::map<std::string_view, const char*> reasons = {
-      {"CQUAD8", "shells with mid-side nodes are not supported; mesh with CQUAD4"},
-      {"CTRIA6", "shells with mid-side nodes are not supported; mesh with CTRIA3"},
       {"CQUAD", "hyperelastic shells are not supported; mesh with CQUAD4"},
       {"CSHEAR", "shear panels are not supported; use CQUAD4"},
       {"CBEND", "curved beams are not supported; use a chain of CBEAM"},

@@ -23,6 +23,8 @@ enum class NastranElementKind {
   triar,
   quad4,
   quadr,
+  tria6,
+  quad8,
   bar,
   beam,
   rod,
@@ -31,9 +33,9 @@ enum class NastranElementKind {
 };
 
 constexpr const char* name_of(NastranElementKind kind) {
-  constexpr std::array<const char*, 13> names = {"CTETRA", "CPYRAM", "CPENTA", "CHEXA", "CTRIA3",
-                                                 "CTRIAR", "CQUAD4", "CQUADR", "CBAR",  "CBEAM",
-                                                 "CROD",   "CTUBE",  "CONROD"};
+  constexpr std::array<const char*, 15> names = {"CTETRA", "CPYRAM", "CPENTA", "CHEXA",  "CTRIA3",
+                                                 "CTRIAR", "CQUAD4", "CQUADR", "CTRIA6", "CQUAD8",
+                                                 "CBAR",   "CBEAM",  "CROD",   "CTUBE",  "CONROD"};
   return names[static_cast<std::size_t>(kind)];
 }
 

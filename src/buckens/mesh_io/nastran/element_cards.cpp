@@ -106,35 +106,65 @@ void read_solid(const NastranCard& card, NastranBulk& bulk, NastranElement& elem
   for (std::size_t i = 0; i < 20; ++i) nodes[static_cast<std::ptrdiff_t>(i)] = written[kOrder[i]];
 }
 
+/// Where a shell card has what, counted behind its name.
+struct ShellFields {
+  int corners, nodes;
+  int theta;      ///< angle or system, the offset behind it
+  int flag;       ///< TFLAG
+  int thickness;  ///< at the first corner
+};
+
+ShellFields shell_fields(Kind kind) {
+  switch (kind) {
+    case Kind::tria6:
+      return {3, 6, 8, 13, 10};
+    case Kind::quad8:
+      return {4, 8, 14, 16, 10};
+    case Kind::tria3:
+      return {3, 3, 5, 9, 10};
+    default:
+      return {4, 4, 6, 9, 10};
+  }
+}
+
 void read_shell(const NastranCard& card, NastranBulk& bulk, NastranElement& element,
                 NastranNotes& notes) {
-  const int count = element.kind == Kind::tria3 || element.kind == Kind::triar ? 3 : 4;
   if (element.kind == Kind::triar || element.kind == Kind::quadr) {
-    notes.add(fmt::format("{}: taken as {}", card.name, count == 3 ? "CTRIA3" : "CQUAD4"),
-              element.place);
-    element.kind = count == 3 ? Kind::tria3 : Kind::quad4;
+    element.kind = element.kind == Kind::triar ? Kind::tria3 : Kind::quad4;
+    notes.add(fmt::format("{}: taken as {}", card.name, name_of(element.kind)), element.place);
   }
-  add_nodes(card, 2, count, bulk, element);
+  const ShellFields at = shell_fields(element.kind);
+  int given = 0;
+  for (int i = at.corners; i < at.nodes; ++i) given += card.blank(2 + i) ? 0 : 1;
+  if (at.nodes > at.corners && given == 0) {  // all sides are straight
+    element.kind = element.kind == Kind::tria6 ? Kind::tria3 : Kind::quad4;
+    notes.add(
+        fmt::format("{} without mid-side nodes: taken as {}", card.name, name_of(element.kind)),
+        element.place);
+  } else if (given != at.nodes - at.corners) {
+    card.fail(fmt::format("{} of {} mid-side nodes are given; give all or none of them", given,
+                          at.nodes - at.corners));
+  }
+  add_nodes(card, 2, given == 0 ? at.corners : at.nodes, bulk, element);
   NastranShellDetails details;
-  const int theta = 2 + count;
-  if (!card.blank(theta)) {
-    details.has_system = card.is_integer(theta);
-    if (details.has_system) details.system = card.integer(theta);
-    if (!details.has_system) details.theta = card.real(theta);
-    if (details.system < 0) card.fail(theta, "there are no such coordinate systems");
+  if (!card.blank(at.theta)) {
+    details.has_system = card.is_integer(at.theta);
+    if (details.has_system) details.system = card.integer(at.theta);
+    if (!details.has_system) details.theta = card.real(at.theta);
+    if (details.system < 0) card.fail(at.theta, "there are no such coordinate systems");
   }
-  details.offset = card.real(theta + 1, 0.0);
-  // TFLAG and T1… stand in the second line: fields 3 to 7 of the manuals.
-  details.relative = card.integer(9, 0) == 1;
+  details.offset = card.real(at.theta + 1, 0.0);
+  details.relative = card.integer(at.flag, 0) == 1;
   bool any = false;
-  for (int i = 0; i < count; ++i) any = any || !card.blank(10 + i);
-  for (int i = 0; any && i < count; ++i) {
-    if (card.blank(10 + i)) card.fail(10 + i, "is blank; give the thickness at all corners");
-    const double thickness = card.real(10 + i);
-    if (thickness < 0) card.fail(10 + i, fmt::format("the thickness {:g} is negative", thickness));
+  for (int i = 0; i < at.corners; ++i) any = any || !card.blank(at.thickness + i);
+  for (int i = 0; any && i < at.corners; ++i) {
+    const int field = at.thickness + i;
+    if (card.blank(field)) card.fail(field, "is blank; give the thickness at all corners");
+    const double thickness = card.real(field);
+    if (thickness < 0) card.fail(field, fmt::format("the thickness {:g} is negative", thickness));
     details.thickness.push_back(thickness);
   }
-  if (card.blank(theta) && card.blank(theta + 1) && !any) return;
+  if (card.blank(at.theta) && card.blank(at.theta + 1) && !any) return;
   element.details = static_cast<std::int32_t>(bulk.shells.size());
   bulk.shells.push_back(std::move(details));
 }
@@ -228,6 +258,8 @@ bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes&
     case Kind::triar:
     case Kind::quad4:
     case Kind::quadr:
+    case Kind::tria6:
+    case Kind::quad8:
       element.property = card.id(1, element.id);
       read_shell(card, bulk, element, notes);
       break;

@@ -48,6 +48,10 @@ CellKind cell_kind(const NastranElement& element) {
     case Kind::quad4:
     case Kind::quadr:
       return CellKind::quad4;
+    case Kind::tria6:
+      return CellKind::tri6;
+    case Kind::quad8:
+      return CellKind::quad8;
     default:
       return CellKind::line2;
   }

@@ -50,6 +50,8 @@ int NastranProperties::of(const NastranElement& element,
     case NastranElementKind::triar:
     case NastranElementKind::quad4:
     case NastranElementKind::quadr:
+    case NastranElementKind::tria6:
+    case NastranElementKind::quad8:
       return shell(element, nodes);
     case NastranElementKind::bar:
       return line(element, Family::bar);

@@ -82,7 +82,7 @@ TEST(NastranMalformed, circles_of_coordinate_systems) {
 TEST(NastranMalformed, what_is_refused_says_why) {
   expect_words(refusal(kTetra + "CSHEAR,9\n"), {"deck.bdf:8:1", "shear panels", "skip: [CSHEAR]"});
   expect_words(refusal(kTetra + "CNEW,9\n"), {"deck.bdf:8:1", "CNEW 9", "skip: [CNEW]"});
-  expect_words(refusal(kTetra + "CQUAD8,9,1\n"), {"mesh with CQUAD4", "mid-side"});
+  expect_words(refusal(kTetra + "CQUAD8,9,1,1,2,3,4,5\n"), {"1 of 4 mid-side nodes are given"});
   expect_words(refusal(kTetra + "GRID,5,,1.,1.\nCTETRA,2,1,1,2,3,4,5\n"),
                {"deck.bdf:9:1", "1 of 6 mid-side nodes"});
   expect_words(refusal(kTetra + "PBAR,2,1,1.,1.,1.,1.\nCBAR,2,2,1,2,1.,0.,0.\n"),
