@@ -205,6 +205,7 @@ void Selection::spread_over_links(Node from, Node other) {
 void Selection::fill() {
   out_.file = mesh_.file;
   out_.format = mesh_.format;
+  out_.making = mesh_.making;
   out_.materials = mesh_.materials;
   out_.notes = mesh_.notes;
   fill_nodes();

@@ -18,11 +18,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-enum class Shape { line, triangle, quadrilateral };
+enum class FaceShape { line, triangle, quadrilateral };
 
-Shape shape_of(Eigen::Index nodes, bool is_edge) {
-  if (is_edge) return Shape::line;
-  return nodes == 3 || nodes == 6 ? Shape::triangle : Shape::quadrilateral;
+FaceShape shape_of(Eigen::Index nodes, bool is_edge) {
+  if (is_edge) return FaceShape::line;
+  return nodes == 3 || nodes == 6 ? FaceShape::triangle : FaceShape::quadrilateral;
 }
 
 /// Weights of the nodes at a place in the parameters, and their derivatives.
@@ -94,21 +94,21 @@ Weights quadrilateral_weights(Eigen::Index nodes, double r, double s) {
   return out;
 }
 
-Weights weights_at(Shape shape, Eigen::Index nodes, const Vector2d& at) {
-  if (shape == Shape::line) return line_weights(nodes, at[0]);
-  if (shape == Shape::triangle) return triangle_weights(nodes, at[0], at[1]);
+Weights weights_at(FaceShape shape, Eigen::Index nodes, const Vector2d& at) {
+  if (shape == FaceShape::line) return line_weights(nodes, at[0]);
+  if (shape == FaceShape::triangle) return triangle_weights(nodes, at[0], at[1]);
   return quadrilateral_weights(nodes, at[0], at[1]);
 }
 
 /// The places in the parameters from which the search starts: the middle and the corners.
-std::vector<Vector2d> starts_of(Shape shape) {
-  if (shape == Shape::line) return {{0, 0}, {-1, 0}, {1, 0}};
-  if (shape == Shape::triangle) return {{1.0 / 3, 1.0 / 3}, {0, 0}, {1, 0}, {0, 1}};
+std::vector<Vector2d> starts_of(FaceShape shape) {
+  if (shape == FaceShape::line) return {{0, 0}, {-1, 0}, {1, 0}};
+  if (shape == FaceShape::triangle) return {{1.0 / 3, 1.0 / 3}, {0, 0}, {1, 0}, {0, 1}};
   return {{0, 0}, {-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 }
 
 /// The nearest point along one straight side of the parameters, or of a line, by Gauss-Newton.
-Vector2d search(Shape shape, const Matrix3Xd& nodes, const Vector3d& x, Vector2d from,
+Vector2d search(FaceShape shape, const Matrix3Xd& nodes, const Vector3d& x, Vector2d from,
                 const Vector2d& along, double length) {
   const Vector2d start = from;
   double t = 0.5 * length;
@@ -125,17 +125,17 @@ Vector2d search(Shape shape, const Matrix3Xd& nodes, const Vector3d& x, Vector2d
   return start + t * along;
 }
 
-bool is_within(Shape shape, const Vector2d& at) {
+bool is_within(FaceShape shape, const Vector2d& at) {
   // A point on an edge may come out beside it by rounding.
   constexpr double kSlack = 1e-12;
-  if (shape == Shape::triangle) {
+  if (shape == FaceShape::triangle) {
     return at.minCoeff() >= -kSlack && at.sum() <= 1 + kSlack;
   }
   return at.cwiseAbs().maxCoeff() <= 1 + kSlack;
 }
 
 /// Gauss-Newton in both parameters without bounds; false if it leaves the face or does not settle.
-bool search_inside(Shape shape, const Matrix3Xd& nodes, const Vector3d& x, Vector2d& at) {
+bool search_inside(FaceShape shape, const Matrix3Xd& nodes, const Vector3d& x, Vector2d& at) {
   for (int step = 0; step < 30; ++step) {
     const Weights w = weights_at(shape, nodes.cols(), at);
     const Eigen::Matrix<double, 3, 2> tangents = nodes * w.slope;
@@ -152,9 +152,9 @@ bool search_inside(Shape shape, const Matrix3Xd& nodes, const Vector3d& x, Vecto
 }  // namespace
 
 FacePoint nearest_on_face(const Matrix3Xd& nodes, bool is_edge, const Vector3d& x) {
-  const Shape shape = shape_of(nodes.cols(), is_edge);
+  const FaceShape shape = shape_of(nodes.cols(), is_edge);
   std::vector<Vector2d> found;
-  if (shape == Shape::line) {
+  if (shape == FaceShape::line) {
     found.push_back(search(shape, nodes, x, {-1, 0}, {1, 0}, 2));
   } else {
     const std::vector<Vector2d> starts = starts_of(shape);

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::int64_t kMostCopies = 50'000'000;
+constexpr std::int64_t kMostMade = 50'000'000;
 constexpr int kDeepestCopied = 100;
 constexpr std::int64_t kLargestCopy = 999'999'999;
 
@@ -39,10 +39,10 @@ void check_label(AbaqusReading& in, std::int64_t label, DeckPlace place) {
 /// Counts what all generating keywords make.
 void count_generated(AbaqusReading& in, std::int64_t more, DeckPlace place) {
   in.num_generated += more;
-  if (in.num_generated <= kMostCopies) return;
+  if (in.num_generated <= kMostMade) return;
   in.lines.fail(place, fmt::format("more than {} nodes and elements would be generated; is a digit "
                                    "too many here?",
-                                   kMostCopies));
+                                   kMostMade));
 }
 
 /// Products of shifts and counts must stay integers.
@@ -377,7 +377,7 @@ void read_elgen(AbaqusReading& in, const DeckKeyword& keyword) {
       for (std::size_t k = 0; k < 3; ++k) {
         grid[d][k] = integer_or(in, row, 1 + 3 * d + k, 1, "number of *ELGEN");
       }
-      if (grid[d][0] < 1 || grid[d][0] > kMostCopies) {
+      if (grid[d][0] < 1 || grid[d][0] > kMostMade) {
         in.lines.fail(row.place, fmt::format("{} elements in a row cannot be", grid[d][0]));
       }
       total *= grid[d][0];
