@@ -133,7 +133,9 @@ void ElementBuilder::add(const NastranElement& element) {
   }
   corners_.clear();
   if (fem::dimension_of(kind) == 2) {
-    for (const int node : nodes_) corners_.push_back(position(node));
+    const bool is_curved = kind == CellKind::tri6 || kind == CellKind::quad8;
+    const std::size_t count = is_curved ? nodes_.size() / 2 : nodes_.size();
+    for (std::size_t i = 0; i < count; ++i) corners_.push_back(position(nodes_[i]));
   }
   const int property = properties_.of(element, corners_);
   fem::ImportedBlock& block = block_of(element, kind, property);
@@ -258,16 +260,14 @@ void ElementBuilder::spread_mass(const NastranElement& element, int property) {
   const double mass = properties_.nonstructural_mass(property);
   if (mass == 0.0) return;
   double size = 0;
-  if (nodes_.size() == 2) {
+  const std::size_t count = nodes_.size() == 2 ? 2 : corners_.size();
+  if (count == 2) {
     size = (position(nodes_[1]) - position(nodes_[0])).norm();
   } else {
-    const std::size_t last = nodes_.size() - 1;
-    size = 0.5 * (position(nodes_[2]) - position(nodes_[0]))
-                     .cross(position(nodes_[last]) - position(nodes_[1]))
-                     .norm();
+    size = 0.5 * (corners_[2] - corners_[0]).cross(corners_[count - 1] - corners_[1]).norm();
   }
-  for (const int node : nodes_) {
-    masses_[node] += mass * size * bulk_.weight_to_mass / static_cast<double>(nodes_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    masses_[nodes_[i]] += mass * size * bulk_.weight_to_mass / static_cast<double>(count);
   }
   notes_.add("non-structural mass NSM becomes point masses at the nodes", element.place);
 }

@@ -112,6 +112,28 @@ TEST(NastranCards, nonstructural_mass_goes_to_the_nodes) {
   EXPECT_EQ(mesh.masses.size(), 3u);
 }
 
+TEST(NastranCards, shells_with_mid_side_nodes) {
+  std::string nodes = "MAT1,1,1.,,.3\nPSHELL,1,1,.1,1,,,,3.\nPSHELL,2,1,.1,1\n";
+  const char* const places[] = {"0.,0.", "2.,0.", "2.,2.", "0.,2.", "1.,0.",
+                                "2.,1.", "1.,2.", "0.,1.", "1.,1."};
+  for (int i = 0; i < 9; ++i) nodes += "GRID," + std::to_string(i + 1) + ",," + places[i] + "\n";
+  const auto mesh = read_deck(nodes +
+                              "CQUAD8,1,1,1,2,3,4,5,6\n,7,8\n"
+                              "CTRIA6,2,2,1,2,3,5,6,9\n,30.,.5,.2,.2,.2\n"
+                              "CQUAD8,3,2,1,2,3,4\n");
+  ASSERT_EQ(mesh.blocks.size(), 3u);
+  EXPECT_EQ(mesh.blocks[0].kind, fem::CellKind::quad8);
+  EXPECT_THAT(mesh.blocks[0].nodes, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  EXPECT_EQ(mesh.blocks[1].kind, fem::CellKind::tri6);
+  EXPECT_THAT(mesh.blocks[1].nodes, testing::ElementsAre(0, 1, 2, 4, 5, 8));
+  EXPECT_NEAR(mesh.properties.at(1).thickness.value_or(0), 0.2, 1e-15);
+  EXPECT_EQ(mesh.properties[1].offset, 0.5);
+  EXPECT_EQ(mesh.blocks[2].kind, fem::CellKind::quad4);
+  double nonstructural = 0;
+  for (const auto& mass : mesh.masses) nonstructural += mass.mass;
+  EXPECT_NEAR(nonstructural, 3 * 4, 1e-14);
+}
+
 TEST(NastranCards, thickness_at_corners_is_averaged) {
   const auto mesh = read_deck(kTetra +
                               "PSHELL,2,1,.1,1\nCTRIA3,2,2,1,2,3\n,,,.1,.2,.3\n"
