@@ -76,12 +76,14 @@ class Runner:
 
 
 class Model:
-    """A model file of one body; grows by what the program's messages ask for, as a user would write it."""
+    """A model file of one body; grows by what the program's messages ask for, as a user would write it. Shells and
+    beams become as thick as a hundredth of the body."""
 
     def __init__(self, path, ending):
         self.path, self.ending = str(path), ending
         self.mesh = {"file": self.path, "length-unit": "m", "mass-unit": "kg"}
         self.skipped = []
+        self.thickness = "1 mm"
         if ending in MESHES:
             self.mesh["material"] = MATERIAL
 
@@ -114,9 +116,9 @@ class Model:
         if self.skip(text):
             return True
         if "have no thickness" in text:
-            return self.add_section(text, {"thickness": "1 mm"})
+            return self.add_section(text, {"thickness": self.thickness})
         if "have no cross-section" in text:
-            return self.add_section(text, {"beam": {"circle": {"diameter": "10 mm"}}})
+            return self.add_section(text, {"beam": {"circle": {"diameter": self.thickness}}})
         if re.search(r"no mass|no material|elastic constants|`materials?`", text) and "materials" not in self.mesh:
             self.mesh["materials"] = {name: MATERIAL for name in properties}
             self.mesh.setdefault("material", MATERIAL)
@@ -151,7 +153,10 @@ def examine(runner, path):
         if code:
             out.update(code=code, reason=text)
             return out
-        properties = sorted({entry["name"] for entry in json.loads(told)["properties"]})
+        told = json.loads(told)
+        properties = sorted({entry["name"] for entry in told["properties"]})
+        low, high = told["box"]
+        model.thickness = f"{max(b - a for a, b in zip(low, high)) / 100:.3g} m"
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "model.yaml")
         for attempt in range(MOST_ATTEMPTS):
