@@ -321,3 +321,18 @@ def test_parts_without_an_assembly_are_where_they_were_drawn(buckens, model):
     told = report(buckens)
     assert told["mass"] == pytest.approx(2 * 7800) and told["box"][1][0] == pytest.approx(4)
     assert report(buckens, "--only", "Q")["mass_centre"][0] == pytest.approx(3.5)
+
+
+def test_lines_in_no_group_that_hang_on_solids_need_a_section(buckens, tmp_path):
+    # A tetrahedron in no group, one of its edges, a chain of two lines that hangs on it, and a line apart.
+    (tmp_path / "part.msh").write_text(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 2 0 0\n6 3 0 0\n"
+        "7 0 0 5\n8 0 0 6\n$EndNodes\n$Elements\n5\n1 4 0 1 2 3 4\n2 1 0 1 2\n3 1 0 2 5\n4 1 0 5 6\n5 1 0 7 8\n"
+        "$EndElements\n")
+    told = buckens("mesh-info", "part.msh", "--json").must(0).json
+    assert {kind["kind"]: kind["count"] for kind in told["kinds"]} == {"tet4": 1, "line2": 2}
+    assert [note for note in told["notes"] if "hang on nodes" in note and "(2 times)" in note]
+    (tmp_path / "part.yaml").write_text(
+        "buckens: 1\nmaterials: {steel: {E: 2.1e11, nu: 0.3, rho: 7800}}\n"
+        "bodies: {b: {mesh: {file: part.msh, material: steel}}}\n")
+    buckens("check", "part.yaml").must(2, "no cross-section", "section:")

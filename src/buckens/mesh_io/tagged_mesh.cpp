@@ -79,6 +79,7 @@ class GroupMesh {
   void add_volumes();
   void add_surfaces();
   void add_lines();
+  TaggedCells joining_lines(const TaggedCells& cells) const;
   void add_sides(const TaggedCells& cells, bool is_shell);
   void add_shell_sides(const TaggedCells& cells, int first);
   void note_left_out(const TaggedCells& cells, std::size_t count);
@@ -294,6 +295,55 @@ void GroupMesh::add_surfaces() {
   }
 }
 
+/// Lines in no group that are no edges, but that hang on nodes of elements, directly or by way of
+/// others: beams and bars whose section the model file has to give. To leave them out would change
+/// the stiffness without a word.
+TaggedCells GroupMesh::joining_lines(const TaggedCells& cells) const {
+  std::vector<bool> is_reached(tagged_.positions.size(), false);
+  for (const fem::ImportedBlock& block : mesh_.blocks) {
+    if (fem::dimension_of(block.kind) < 2) continue;
+    for (const int node : block.nodes) is_reached[static_cast<std::size_t>(node)] = true;
+  }
+  const int count = fem::num_nodes(cells.kind);
+  std::vector<std::size_t> waiting;
+  std::map<int, std::vector<std::size_t>> lines_at;
+  std::vector<bool> joins(cells.ids.size(), false);
+  const auto take = [&](std::size_t e) {
+    joins[e] = true;
+    waiting.push_back(e);
+  };
+  for (std::size_t e = 0; e < cells.ids.size(); ++e) {
+    if (edges_.at(corner_key(cells, e))) continue;
+    bool hangs = false;
+    for (const int node : nodes_of(cells, e, count)) {
+      hangs = hangs || is_reached[static_cast<std::size_t>(node)];
+      lines_at[node].push_back(e);
+    }
+    if (hangs) take(e);
+  }
+  while (!waiting.empty()) {
+    const std::size_t e = waiting.back();
+    waiting.pop_back();
+    for (const int node : nodes_of(cells, e, count)) {
+      if (is_reached[static_cast<std::size_t>(node)]) continue;
+      is_reached[static_cast<std::size_t>(node)] = true;
+      for (const std::size_t next : lines_at[node]) {
+        if (!joins[next]) take(next);
+      }
+    }
+  }
+  TaggedCells out;
+  out.kind = cells.kind;
+  out.source = cells.source;
+  for (std::size_t e = 0; e < cells.ids.size(); ++e) {
+    if (!joins[e]) continue;
+    out.ids.push_back(cells.ids[e]);
+    const std::vector<int> nodes = nodes_of(cells, e, count);
+    out.nodes.insert(out.nodes.end(), nodes.begin(), nodes.end());
+  }
+  return out;
+}
+
 void GroupMesh::add_lines() {
   const bool is_alone = mesh_.blocks.empty();
   for (const TaggedCells& cells : tagged_.cells) {
@@ -306,9 +356,17 @@ void GroupMesh::add_lines() {
         is_alone || (!cells.groups.empty() && edges == 0) || has_member_group(cells);
     if (is_beam) {
       add_elements(cells, fem::PropertyKind::beam);
-    } else {
-      note_left_out(cells, cells.ids.size() - edges);
+      continue;
     }
+    const TaggedCells joining = cells.groups.empty() ? joining_lines(cells) : TaggedCells();
+    if (!joining.ids.empty()) {
+      add_elements(joining, fem::PropertyKind::beam);
+      mesh_.notes.push_back(
+          {"lines in no group that hang on nodes of other elements are beams or bars; the model "
+           "file gives their `section`",
+           0, static_cast<int>(joining.ids.size())});
+    }
+    note_left_out(cells, cells.ids.size() - edges - joining.ids.size());
   }
 }
 
