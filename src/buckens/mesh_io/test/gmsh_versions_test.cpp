@@ -12,7 +12,9 @@ namespace {
 
 using testing::ElementsAre;
 
-fem::ImportedMesh read(const std::string& text) { return read_gmsh_bytes(text, "mesh.msh"); }
+fem::ImportedMesh read_mesh_text(const std::string& text) {
+  return read_gmsh_bytes(text, "mesh.msh");
+}
 
 template <class T>
 std::string bytes(T value) {
@@ -32,7 +34,7 @@ void expect_tetrahedron(const fem::ImportedMesh& mesh, const std::string& group)
 }
 
 TEST(GmshVersions, one) {
-  const auto mesh = read(
+  const auto mesh = read_mesh_text(
       "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n"
       "$ELM\n2\n1 2 7 1 3 1 3 2\n2 4 8 1 4 1 2 3 4\n$ENDELM\n");
   EXPECT_EQ(mesh.format, "Gmsh 1.0 text");
@@ -42,11 +44,11 @@ TEST(GmshVersions, one) {
 TEST(GmshVersions, two_with_names_without_dimension_and_comments) {
   for (const char* version : {"2", "2.0", "2.1"}) {
     const auto mesh =
-        read(std::string("$Comments\nby hand\n$EndComments\n$MeshFormat\n") + version +
-             " 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n8 \"solid\"\n"
-             "-1 7 \"floor\" of another program\n$EndPhysicalNames\n"
-             "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-             "$Elements\n2\n1 2 2 7 1 1 3 2\n2 4 2 8 1 1 2 3 4\n$EndElements\n");
+        read_mesh_text(std::string("$Comments\nby hand\n$EndComments\n$MeshFormat\n") + version +
+                       " 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n8 \"solid\"\n"
+                       "-1 7 \"floor\" of another program\n$EndPhysicalNames\n"
+                       "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+                       "$Elements\n2\n1 2 2 7 1 1 3 2\n2 4 2 8 1 1 2 3 4\n$EndElements\n");
     expect_tetrahedron(mesh, "solid");
     EXPECT_EQ(mesh.face_sets.at(0).name, "floor");
   }
@@ -58,10 +60,11 @@ constexpr char kEntities40[] =
     "2\n$EndEntities\n";
 
 TEST(GmshVersions, four_point_zero) {
-  const auto mesh = read(std::string(kEntities40) +
-                         "$Nodes\n2 4\n1 0 0 1\n1 0 0 0\n2 2 1 3\n2 1 0 0 0.5 0.5\n3 0 1 0 1 2\n"
-                         "4 0 0 1 3 4\n$EndNodes\n"
-                         "$Elements\n2 2\n2 2 2 1\n1 1 3 2\n3 3 4 1\n2 1 2 3 4\n$EndElements\n");
+  const auto mesh =
+      read_mesh_text(std::string(kEntities40) +
+                     "$Nodes\n2 4\n1 0 0 1\n1 0 0 0\n2 2 1 3\n2 1 0 0 0.5 0.5\n3 0 1 0 1 2\n"
+                     "4 0 0 1 3 4\n$EndNodes\n"
+                     "$Elements\n2 2\n2 2 2 1\n1 1 3 2\n3 3 4 1\n2 1 2 3 4\n$EndElements\n");
   EXPECT_EQ(mesh.format, "Gmsh 4.0 text");
   expect_tetrahedron(mesh, "solid");
 }
@@ -88,11 +91,11 @@ TEST(GmshVersions, four_point_zero_in_binary) {
   for (const int value : {1, 1, 3, 2, 3, 3, 4}) text += bytes(value);
   text += bytes(Long{1});
   for (const int value : {2, 1, 2, 3, 4}) text += bytes(value);
-  expect_tetrahedron(read(text + "\n$EndElements\n"), "volume_8");
+  expect_tetrahedron(read_mesh_text(text + "\n$EndElements\n"), "volume_8");
 }
 
 TEST(GmshVersions, parts_of_a_divided_mesh_keep_their_groups) {
-  const auto mesh = read(
+  const auto mesh = read_mesh_text(
       "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 8 \"solid\"\n$EndPhysicalNames\n"
       "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 8 0\n$EndEntities\n"
       "$PartitionedEntities\n2\n1\n9 2\n1 0 0 2\n5 3 1 1 1 0 0 0 0\n"
@@ -115,11 +118,11 @@ TEST(GmshVersions, marks_may_follow_binary_data_directly) {
   text += "$EndNodes\n$Elements\n1\n";
   for (const int value : {4, 1, 0, 1, 1, 2, 3, 4}) text += bytes(value);
   text += "$EndElements\n$ElementData\n1\n\"color\"\n1\n0.0\n3\n0\n1\n1\n" + bytes(1) + bytes(0.5);
-  EXPECT_EQ(read(text + "$EndElementData\n").num_elements(), 1);
+  EXPECT_EQ(read_mesh_text(text + "$EndElementData\n").num_elements(), 1);
 }
 
 TEST(GmshVersions, groups_without_members) {
-  const auto mesh = read(
+  const auto mesh = read_mesh_text(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 8 \"solid\"\n2 9 \"empty\"\n"
       "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
       "$Elements\n1\n2 4 2 8 1 1 2 3 4\n$EndElements\n");
