@@ -133,7 +133,7 @@ materials:
     (lambda deck: deck[:deck.index("CHEXA,7") + 20], ["block.bdf:", "CHEXA 7", "is blank"]),
     (lambda deck: deck[:deck.index("CHEXA,1")], ["block.bdf", "no elements", "complete"]),
     (lambda deck: deck.replace("ENDDATA", "INCLUDE 'block.bdf'"), ["block.bdf:", "circle"]),
-    (lambda deck: deck.replace("ENDDATA", "SPOINT,99"), ["block.bdf:", "scalar points"]),
+    (lambda deck: deck.replace("ENDDATA", "CSHEAR,99"), ["block.bdf:", "shear panels", "skip: [CSHEAR]"]),
     (lambda deck: "\x00\x01\x02" + deck, ["block.bdf:1:1", "zero byte"]),
     (lambda deck: "", ["block.bdf", "no nodes"]),
 ], ids=["missing node", "nan", "truncated", "without elements", "cycle", "refused card", "binary", "empty"])
