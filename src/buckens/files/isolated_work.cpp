@@ -41,12 +41,6 @@ void limit_memory() {
 #endif
 }
 
-void limit_time(unsigned seconds) {
-  if (seconds == 0) return;
-  const rlimit time = {seconds, seconds + 1};
-  ::setrlimit(RLIMIT_CPU, &time);
-}
-
 void keep_to_itself() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGSEGV, SIGFPE, SIGABRT, SIGXCPU}) {
@@ -83,10 +77,14 @@ std::string received(int pipe) {
 
 void limit_time_from_now(double seconds) {
   rusage used = {};
+  rlimit limit = {};
   ::getrusage(RUSAGE_SELF, &used);
-  const double so_far = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
-  const auto until = static_cast<unsigned>(std::clamp(so_far + seconds + 1, 1.0, 1e9));
-  limit_time(until);
+  ::getrlimit(RLIMIT_CPU, &limit);
+  const auto so_far = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+  const auto until = static_cast<rlim_t>(std::clamp(so_far + seconds + 1, 1.0, 1e9));
+  // The hard limit stays: who has lowered it may not raise it again.
+  limit.rlim_cur = std::min(until, limit.rlim_max);
+  ::setrlimit(RLIMIT_CPU, &limit);
 }
 
 IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds) {
@@ -98,7 +96,7 @@ IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned se
   if (child == 0) {
     ::close(ends[0]);
     keep_to_itself();
-    limit_time(seconds);
+    if (seconds > 0) limit_time_from_now(seconds);
     try {
       send(ends[1], work() + kEnd);
     } catch (...) {
