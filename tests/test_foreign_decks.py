@@ -111,11 +111,26 @@ def test_beams_weigh_what_the_deck_says(buckens, model):
         told["mass"], rel=1e-12)
 
 
+def test_beams_of_i_section_and_rigid_tools_beside_them(buckens, model):
+    h, b, t, web = 0.2, 0.1, 0.01, 0.006
+    deck = ("*NODE\n1,0,0,0\n2,1,0,0\n3,2,0,0\n101,5,0,0\n102,6,0,0\n103,6,1,0\n"
+            "*ELEMENT,TYPE=B31,ELSET=E\n1,1,2\n2,2,3\n*ELEMENT,TYPE=R3D3,ELSET=TOOL\n9,101,102,103\n" +
+            STEEL + "*BEAM SECTION,ELSET=E,MATERIAL=ST,SECTION=I\n"
+            f"{h / 2},{h},{b},{b},{t},{t},{web}\n0,0,-1\n"
+            "*RIGID BODY,REF NODE=101,ELSET=TOOL\n*RIGID BODY,ANALYTICAL SURFACE=ROLL,REF NODE=102\n")
+    body = model(deck)
+    mass = buckens("check", body, "--json").must(0).json["bodies"]["b"]["mass"]
+    assert mass == pytest.approx(7800 * 2 * (2 * b * t + (h - 2 * t) * web), rel=1e-9)
+    assert "without mass or stiffness is left out" in " ".join(report(buckens)["notes"])
+
+
 def test_surfaces_of_nodes_and_of_faces_may_share_a_name(buckens, model):
     deck, _ = block((1, 1, 1))
-    model(deck + "*SURFACE,NAME=S,TYPE=NODE\n1,\n*SURFACE,NAME=S,TYPE=ELEMENT\n1,S1\n")
+    model(deck + "*SURFACE,NAME=S,TYPE=NODE\n1,\n*SURFACE,NAME=S,TYPE=ELEMENT\n1,S1\n"
+          "*SURFACE,NAME=T\n1,S3\n*SURFACE,NAME=BOTH,COMBINE=UNION\nS,T\n")
     told = report(buckens)
     assert told["node_sets"]["S"] == 1
+    assert told["face_sets"]["BOTH"]["faces"] == 2
     assert told["face_sets"]["S"]["faces"] == 1 and told["face_sets"]["S"]["area"] == pytest.approx(1)
 
 

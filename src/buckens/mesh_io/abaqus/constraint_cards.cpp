@@ -132,6 +132,11 @@ void read_kinematic_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
 }
 
 void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword) {
+  if (keyword.has("ANALYTICALSURFACE")) {
+    in.note(keyword.place,
+            "*RIGID BODY, ANALYTICAL SURFACE is ignored: it is a tool of contact without mass",
+            true);
+  }
   const std::string reference = in.parameter(keyword, "REFNODE");
   AbaqusLink& link = add_link(in, AbaqusLinkKind::rigid_body, keyword.place);
   link.reference = reference;
@@ -143,6 +148,10 @@ void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword) {
   if (!elements.empty()) link.element_sets.push_back(elements);
   const bool has_none = link.node_sets.empty() && link.element_sets.empty();
   const std::string pinned = in.optional_parameter(keyword, "PINNSET");
+  if (has_none && pinned.empty() && keyword.has("ANALYTICALSURFACE")) {
+    in.scope->links.pop_back();
+    return;
+  }
   if (has_none && pinned.empty()) {
     in.lines.fail(keyword.place, "*RIGID BODY needs ELSET, NSET, TIE NSET or PIN NSET");
   }

@@ -90,7 +90,9 @@ class LinkMaker {
                                   .norm();
       return entry.first == reference || (link.radius && distance > *link.radius);
     });
-    if (nodes.empty()) lines_.fail(link.place, "no node follows the reference node");
+    if (nodes.empty() && link.kind != AbaqusLinkKind::rigid_body) {
+      lines_.fail(link.place, "no node follows the reference node");
+    }
     return nodes;
   }
 
@@ -146,6 +148,11 @@ class LinkMaker {
     for (const auto& [node, weight] : followers(link, reference)) {
       nodes.push_back(node);
       weights.push_back(weight);
+    }
+    if (nodes.empty()) {
+      out_.notes.push_back({"*RIGID BODY of elements without mass or stiffness is left out",
+                            link.place.file == 0 ? link.place.line : 0, 1});
+      return;
     }
     check_axes(link);
     count_linked(nodes.size(), link.place);

@@ -233,9 +233,39 @@ void read_element_set(AbaqusReading& in, const DeckKeyword& keyword) {
   read_set_rows(in, keyword, "number of an element", part);
 }
 
+namespace {
+
+/// A surface of the faces of others that stand above it.
+void unite_surfaces(AbaqusReading& in, const DeckKeyword& keyword, const std::string& name) {
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    for (const std::string_view cell : row.cells) {
+      if (cell.empty()) continue;
+      const auto found = in.scope->surfaces.find(upper(cell));
+      if (found == in.scope->surfaces.end()) {
+        in.lines.fail(row.place, fmt::format("there is no surface \"{}\" above this line",
+                                             std::string(cell.substr(0, 80))));
+      }
+      const std::vector<AbaqusSurface::Item> items = found->second.items;
+      AbaqusSurface& surface = in.scope->surfaces[upper(name)];
+      surface.name = name;
+      surface.place = keyword.place;
+      if (surface.items.size() + items.size() > 10'000'000) {
+        in.lines.fail(row.place, "the surface has more than 10000000 lines");
+      }
+      surface.items.insert(surface.items.end(), items.begin(), items.end());
+    }
+  }
+}
+
+}  // namespace
+
 void read_surface(AbaqusReading& in, const DeckKeyword& keyword) {
   const std::string& name = in.parameter(keyword, "NAME");
   const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
+  if (upper(in.optional_parameter(keyword, "COMBINE")) == "UNION") {
+    return unite_surfaces(in, keyword, name);
+  }
   if (keyword.has("COMBINE") || (!type.empty() && type != "ELEMENT" && type != "NODE")) {
     in.note(keyword.place, fmt::format("*SURFACE, NAME={}: surfaces that are combined, cut or "
                                        "analytical are left out; list the faces of elements",

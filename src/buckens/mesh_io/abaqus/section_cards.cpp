@@ -10,6 +10,7 @@
 #include "buckens/files/deck_number.h"
 #include "buckens/mesh_io/abaqus/cards.h"
 #include "buckens/mesh_io/box_section.h"
+#include "buckens/mesh_io/nastran/section_shapes.h"
 
 namespace buckens::mesh_io {
 
@@ -116,6 +117,36 @@ fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
   return box_section({a, b, t[0], t[1]});
 }
 
+/// Origin above the bottom, height, widths and thicknesses of the lower and upper flange, web. The
+/// height is along direction 2.
+fem::SectionSpec read_i_section(AbaqusReading& in, const DeckRow& row) {
+  std::array<double, 7> v;
+  for (std::size_t k = 0; k < v.size(); ++k)
+    v[k] = positive(in, row, k, "measure of the I section");
+  const auto& [origin, h, b1, b2, t1, t2, web] = v;
+  // Numbers of a deck have six digits.
+  const auto differ = [height = h](double a, double b) { return std::abs(a - b) > 1e-5 * height; };
+  if (differ(b1, b2) || differ(t1, t2) || differ(origin, 0.5 * h)) {
+    in.lines.fail(row.place,
+                  "an I section needs like flanges and its origin at half of the height, since "
+                  "beams run through centroid and shear centre; give others as SECTION=GENERAL");
+  }
+  const NastranShapeConstants own = nastran_shape("I", {h, b1, b2, web, t1, t2});
+  if (!(own.A > 0.0))
+    in.lines.fail(row.place, "the flanges of the I section leave no room for a web");
+  fem::GeneralSectionSpec shape;
+  shape.A = own.A;
+  shape.Iy = own.I1;
+  shape.Iz = own.I2;
+  shape.J = own.J;
+  shape.shear_factor_z = own.K1;
+  shape.shear_factor_y = own.K2;
+  for (const auto& corner : own.corners) shape.stress_points.push_back({corner[1], corner[0]});
+  fem::SectionSpec out;
+  out.shape = std::move(shape);
+  return out;
+}
+
 /// A, I11, I12, I22, J.
 fem::SectionSpec read_general(AbaqusReading& in, const DeckRow& row) {
   fem::GeneralSectionSpec shape;
@@ -170,11 +201,13 @@ fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const De
     }
   } else if (name == "BOX") {
     out = read_box(in, row);
+  } else if (name == "I") {
+    out = read_i_section(in, row);
   } else if (name == "GENERAL") {
     out = read_general(in, row);
   } else {
-    in.lines.fail(row.place, fmt::format("SECTION={} is not supported; RECT, CIRC, PIPE, BOX and "
-                                         "GENERAL are. Give its constants as SECTION=GENERAL",
+    in.lines.fail(row.place, fmt::format("SECTION={} is not supported; RECT, CIRC, PIPE, BOX, I "
+                                         "and GENERAL are. Give its constants as SECTION=GENERAL",
                                          name));
   }
   return out;

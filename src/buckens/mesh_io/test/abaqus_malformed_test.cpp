@@ -252,7 +252,11 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
            note.text.find("STEEL") != std::string::npos;
   }));
   refuses(shell + "*SHELL SECTION, ELSET=E, ORIENTATION=O\n1\n", {"no orientation \"O\""});
-  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=I\n1,2,3\n", {"SECTION=I is not supported"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=L\n1,2,3\n", {"SECTION=L is not supported"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=I\n1,2,1,2,.1,.1,.1\n0,0,1\n",
+          {"deck.inp:13:1", "like flanges"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=I\n.5,1,1,1,.6,.6,.1\n0,0,1\n",
+          {"no room for a web"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1\n1,0,0\n",
           {"deck.inp:11:1", "lies along the beam"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=PIPE\n1, 2\n", {"thicker than the radius"});
