@@ -73,7 +73,7 @@ def model(text, rod="", step=""):
 # Laws that remember: friction that sticks and slides, a stop, and an angle counted over turns.
 LAWS = SLIDER_CRANK.replace("simulation:", """  rub: {slide-friction: {joint: guide, static: 0.2, dynamic: 0.1, stribeck-velocity: 1 m/s}}
   drag: {hinge-friction: {joint: big_end, static: 0.3, radius: 10 mm, preload: 0.1 N m}}
-  stop: {slide-stop: {joint: guide, from: -250 mm, stiffness: 1e5 N/m, damping: 20 N s/m}}
+  stop: {slide-stop: {joint: guide, from: -290 mm, stiffness: 2e4 N/m, damping: 20 N s/m}}
 simulation:""", 1).replace("  sensors:", "  sensors:\n    turns: {joint-coordinate: shaft}", 1)
 
 
