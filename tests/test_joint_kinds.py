@@ -60,8 +60,9 @@ def test_a_cross_joint_turns_the_second_shaft_unevenly(sensors, bend):
     assert second == pytest.approx(expected, abs=1e-9)
     ratio = math.cos(b) / (1 - (math.sin(b) * numpy.cos(first)) ** 2)
     assert out["two.rate"] == pytest.approx(10 * ratio, abs=1e-7)
-    if bend == 30:
-        assert math.degrees(second[numpy.argmin(abs(first - math.pi / 4))]) == pytest.approx(49.1, abs=0.5)
+    # The largest lead, 4.11719427 degrees at 30; records every 0.05 rad miss it by 2e-3 of itself at most.
+    lead = math.atan((1 - math.cos(b)) / (2 * math.sqrt(math.cos(b))))
+    assert numpy.abs(second - first).max() == pytest.approx(lead, rel=3e-3)
 
 
 @pytest.mark.parametrize("bend", [0, 40, 75])
@@ -217,7 +218,7 @@ def test_a_plane_has_no_place_for_some(buckens, tmp_path, joint, words):
     old = "point-on-line: {between: [ground, bead], axis: [\"cos(pi/6)\", \"-sin(pi/6)\", 0]}"
     assert old in PLANE
     (tmp_path / "model.yaml").write_text(PLANE.replace(old, joint).replace("line: {joint-coordinate: line}, ", ""))
-    buckens("check", "model.yaml").must(2, "model.yaml:11:", "joint \"line\"", *words)
+    buckens("check", "model.yaml").must(3, "model.yaml:11:", "joint \"line\"", *words)
 
 
 SPACE = """
@@ -229,15 +230,15 @@ simulation: {duration: 1 ms, step: 1 ms}
 """
 
 
-@pytest.mark.parametrize("joint, words", [
-    ("universal: {between: [ground, disc], axis: [1, 0, 0], second-axis: [1, 1, 0]}", ["meet at 45 degrees", "perpendicular"]),
-    ("universal: {between: [ground, disc], axis: [1, 0, 0], second-axis: [0, 0, 0]}", ["[0, 0, 0]"]),
-    ("universal: {between: [ground, disc], axis: [1, 0, 0]}", ["second-axis"]),
-    ("constant-velocity: {between: [ground, disc], axis: [1, 0, 0], second-axis: [0, 1, 0]}", ["85 degrees", "by 90"]),
-    ("distance: {between: [ground, disc]}", ["no direction", "coincide", "`spherical`"]),
-    ("screw: {between: [ground, disc], axis: [1, 0, 0], pitch: 0}", ["without pitch", "`revolute`"]),
-    ("cylindrical: {between: [ground, disc], axis: [0, 0, 0]}", ["[0, 0, 0]", "direction"]),
+@pytest.mark.parametrize("joint, code, words", [
+    ("universal: {between: [ground, disc], axis: [1, 0, 0], second-axis: [1, 1, 0]}", 2, ["meet at 45 degrees", "perpendicular"]),
+    ("universal: {between: [ground, disc], axis: [1, 0, 0], second-axis: [0, 0, 0]}", 2, ["[0, 0, 0]"]),
+    ("universal: {between: [ground, disc], axis: [1, 0, 0]}", 2, ["second-axis"]),
+    ("constant-velocity: {between: [ground, disc], axis: [1, 0, 0], second-axis: [0, 1, 0]}", 3, ["85 degrees", "by 90"]),
+    ("distance: {between: [ground, disc]}", 3, ["no direction", "coincide", "`spherical`"]),
+    ("screw: {between: [ground, disc], axis: [1, 0, 0], pitch: 0}", 2, ["without pitch", "`revolute`"]),
+    ("cylindrical: {between: [ground, disc], axis: [0, 0, 0]}", 2, ["[0, 0, 0]", "direction"]),
 ])
-def test_joints_that_make_no_sense_are_refused(buckens, tmp_path, joint, words):
+def test_joints_that_make_no_sense_are_refused(buckens, tmp_path, joint, code, words):
     (tmp_path / "model.yaml").write_text(SPACE.replace("JOINT", joint))
-    buckens("check", "model.yaml").must(2, "model.yaml:5:", *words)
+    buckens("check", "model.yaml").must(code, "model.yaml:5:", *words)
