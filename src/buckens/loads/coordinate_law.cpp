@@ -13,6 +13,7 @@ struct Projected {
   double whole = 0;    // with the outer damper
   double strain = 0;   // after rest has followed
   bool is_cut = false;
+  int damper_limit = 0;  // 1: the damper pushes with the force of the spring, −1: against it
 };
 
 Projected project(const ProjectedForce& law, double rate) {
@@ -20,7 +21,13 @@ Projected project(const ProjectedForce& law, double rate) {
   out.whole = -law.outer_damping * rate;
   out.strain = law.is_on ? law.strain : 0.0;
   if (!law.is_on) return out;
-  const double trial = -law.stiffness * law.strain - law.damping * rate;
+  const double elastic = law.stiffness * law.strain;
+  double viscous = law.damping * rate;
+  if (law.is_damper_limited && std::abs(viscous) > std::abs(elastic)) {
+    out.damper_limit = (viscous > 0.0) == (elastic > 0.0) ? 1 : -1;
+    viscous = out.damper_limit * elastic;
+  }
+  const double trial = -elastic - viscous;
   // The set holds zero, so its ends are in order whatever a bound is made of.
   out.bounded = std::clamp(trial, std::min(law.lowest, 0.0), std::max(law.highest, 0.0));
   out.is_cut = out.bounded != trial;
@@ -33,7 +40,7 @@ Projected project(const ProjectedForce& law, double rate) {
 
 int regime_of(const ProjectedForce& law, const Projected& force) {
   if (!law.is_on) return 2;
-  if (!force.is_cut) return 0;
+  if (!force.is_cut) return 10 * force.damper_limit;
   return force.bounded > 0.0 ? 1 : -1;
 }
 
@@ -65,11 +72,13 @@ Action CoordinateLaw::respond(const Sight& sight) const {
 
 void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
   const ProjectedForce law = force(sight);
-  const bool is_elastic = law.is_on && !project(law, sight.coordinate.rate).is_cut;
+  const Projected f = project(law, sight.coordinate.rate);
+  const bool is_elastic = law.is_on && !f.is_cut;
+  const bool is_limited = f.damper_limit != 0;
   SoftRow row;
   row.J = sight.coordinate.J;
-  row.stiffness = is_elastic ? law.stiffness : 0.0;
-  row.damping = law.outer_damping + (is_elastic ? law.damping : 0.0);
+  row.stiffness = is_elastic ? (1 + f.damper_limit) * law.stiffness : 0.0;
+  row.damping = law.outer_damping + (is_elastic && !is_limited ? law.damping : 0.0);
   rows.push_back(row);
 }
 
@@ -94,6 +103,7 @@ ProjectedForce CoordinateStop::force(const Sight& sight) const {
   out.strain = value - (is_above ? to_ : from_);
   out.stiffness = stiffness_;
   out.damping = damping_;
+  out.is_damper_limited = true;
   (is_above ? out.highest : out.lowest) = 0.0;
   return out;
 }

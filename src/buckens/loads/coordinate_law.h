@@ -20,6 +20,8 @@ struct ProjectedForce {
   double damping = 0;                             ///< c [N s/m] or [N m s/rad]
   double lowest = -HUGE_VAL, highest = HUGE_VAL;  ///< [N] or [N m]
   double outer_damping = 0;                       ///< c₀, not bounded by the set
+  /// The force of c is at most that of k: a contact begins and ends without a jump.
+  bool is_damper_limited = false;
   /// Where the set cuts the force off, rest follows so that k x becomes the force (return mapping);
   /// otherwise rest stays where it is.
   bool is_yielding = false;
@@ -55,7 +57,9 @@ class CoordinateSpring final : public CoordinateLaw {
   double stiffness_, damping_, free_;
 };
 
-/// Elastic stops of a joint coordinate: a spring and damper beyond an end, which never pulls.
+/// Elastic stops of a joint coordinate: a spring and damper beyond an end, which never pulls. Its
+/// damper is limited by its spring: a force that sets in with the speed of approach would leave a
+/// step without solution, on either side of the end.
 class CoordinateStop final : public CoordinateLaw {
  public:
   /// @param from,to ends of the free way [m] or [rad]; −HUGE_VAL, HUGE_VAL: none on that side

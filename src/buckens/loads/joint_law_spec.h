@@ -100,7 +100,8 @@ struct JointStop : JointLaw {
               .required()
               .positive()
               .like(turns ? "1e4 N m/rad" : "1e6 N/m"));
-    visit(base::field("damping", damping, "of the stops, as long as they push")
+    visit(base::field("damping", damping,
+                      "of the stops; its force is at most that of their stiffness")
               .in(turns ? base::kRotationalDamping : base::kDamping)
               .non_negative()
               .like(turns ? "10 N m s/rad" : "100 N s/m"));

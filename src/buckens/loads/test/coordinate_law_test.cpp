@@ -63,6 +63,16 @@ TEST(CoordinateLaw, StopPushesBeyondItsEndsAndNeverPulls) {
   EXPECT_NE(released.regime, stop.respond(sled.at(0.21, 0.1)).regime);
 }
 
+TEST(CoordinateLaw, StopSetsInWithoutAJumpAtAnySpeed) {
+  // A damper that set in at once would push by 50 N at 1 m/s: no end of a step near 0.2 would fit.
+  Sled sled;
+  const CoordinateStop stop(-0.1, 0.2, 1000, 50);
+  EXPECT_NEAR(stop.respond(sled.at(0.2 + 1e-9, 1)).along_coordinate, -2e-6, 1e-12);
+  EXPECT_NEAR(stop.respond(sled.at(0.21, 1)).along_coordinate, -20, 1e-12);
+  EXPECT_DOUBLE_EQ(stop.respond(sled.at(0.21, 1)).dissipation, 1000 * (0.21 - 0.2) * 1);
+  EXPECT_DOUBLE_EQ(stiffness(stop, sled.at(0.21, 1)), 2000);
+}
+
 TEST(CoordinateLaw, PowerIsWhatIsStoredAndLost) {
   Sled sled;
   const CoordinateSpring spring(200, 3, 0.1);
