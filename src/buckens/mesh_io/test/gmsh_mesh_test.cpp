@@ -197,8 +197,8 @@ TEST(GmshMesh, GroupsOfOneNameBelongTogether) {
 ImportedMesh one_of_each() {
   ImportedMesh mesh;
   mesh.file = "all.msh";
-  mesh.properties = {{"first", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, false, 0},
-                     {"second", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, false, 0}};
+  mesh.properties = {{"first", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, false, "", 0},
+                     {"second", fem::PropertyKind::solid, "", {}, 0, {}, {}, {}, {}, false, "", 0}};
   std::int64_t id = 100;
   for (const CellKind kind : {CellKind::tet4, CellKind::tet10, CellKind::pyramid5, CellKind::wedge6,
                               CellKind::wedge15, CellKind::hex8, CellKind::hex20}) {

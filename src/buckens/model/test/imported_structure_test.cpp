@@ -140,7 +140,7 @@ TEST(ImportedStructure, SaysWhatIsMissing) {
   EXPECT_EQ(imported(mesh, given).structure.solids.material(1)->rho, 7850);
   given.materials = {group("HOUSIN", material("al", 70e9, 2700))};
   EXPECT_EQ(message(mesh, given),
-            "model.yaml:7:3: part.inp has neither a property nor an element set \"HOUSIN\". Did "
+            "model.yaml:7:3: part.inp has no property, element set or material \"HOUSIN\". Did "
             "you mean \"HOUSING\"?");
   mesh = two_cubes();
   mesh.face_sets[0].faces[0].corners = {0, 1, 2, 8};
