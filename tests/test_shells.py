@@ -292,7 +292,7 @@ bodies:
     ("layers=[{thickness: 1 mm}]", 2, ["exactly one of the keys thickness and layers"]),
     ("direction=[0, 0, 1]", 3, ["\"plate\"", "is normal to it"]),
     ("direction=[0, 0, 0]", 2, ["direction", "cannot be zero"]),
-    ("element=quad8", 2, ["element", "quad4"]),
+    ("element=quad9", 2, ["element", "quad4"]),
     ("divisions=[4, 0]", 2, ["divisions.1", "must be positive"]),
 ])
 def test_bad_plates_are_refused(buckens, tmp_path, change, code, words):
