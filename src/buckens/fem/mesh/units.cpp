@@ -25,15 +25,17 @@ constexpr char kRemedy[] =
 std::vector<std::string> unit_warnings(const ImportedMesh& mesh, const Eigen::AlignedBox3d& box,
                                        bool units_given) {
   std::vector<std::string> out;
+  const bool has_unit = mesh.format.starts_with("STEP");
+  const char* given = has_unit ? "is the unit of the file right?" : "check `length-unit`";
   const double size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
   if (size > kLargest) {
     out.push_back(fmt::format("the mesh is {:.4g} m wide; its lengths are probably in mm: {}", size,
-                              units_given ? "check `length-unit`" : kRemedy));
+                              units_given ? given : kRemedy));
   } else if (size > 0 && size < kSmallest) {
-    out.push_back(fmt::format(
-        "the mesh is only {:.4g} mm wide; its lengths are probably in m "
-        "already: {}",
-        1e3 * size, units_given ? "check `length-unit`" : "check the units of the file"));
+    out.push_back(
+        fmt::format("the mesh is only {:.4g} mm wide; its lengths are probably in m "
+                    "already: {}",
+                    1e3 * size, units_given ? given : "check the units of the file"));
   }
   for (const MaterialSpec& material : mesh.materials) {
     const double E = material.orthotropic
