@@ -49,7 +49,7 @@ def test_a_stick_model_with_a_rigid_bar(body):
     with_offset = body(stick("CONM2,14,2,,1.,0.,0.,0.2\n"))
     assert with_bar["mass"] == pytest.approx(31, rel=1e-12)
     # 10 kg at (0,0,0), (1,0,0), (1,1,0), 1 kg at (1,0,0.2).
-    assert with_bar["mass_centre"] == pytest.approx([21 / 31, 10 / 31, 0.2 / 31], rel=1e-12)
+    assert with_bar["com"] == pytest.approx([21 / 31, 10 / 31, 0.2 / 31], rel=1e-12)
     # Equal but for rounding, which condensation of the massless rotations multiplies by 1e4 or so.
     assert with_bar["frequencies"] == pytest.approx(with_offset["frequencies"], rel=1e-9)
 
@@ -96,7 +96,7 @@ def test_pins_release_in_the_axes_of_the_beam(body):
     """The same hinge by a second node that follows in all but the rotation about the normal, which is the beam's y."""
     stiff = body(frame(0, "", 1, ""))["frequencies"]
     tied = body(frame(0, "RBE2,9,1,12345,5\n", 5, ""))["frequencies"]
-    assert tied[0] < 0.9 * stiff[0]
+    assert max(abs(a / b - 1) for a, b in zip(tied, stiff)) > 0.05
     for turn in (0.0, 0.7):
         assert body(frame(turn, "", 1, "5"))["frequencies"] == pytest.approx(tied, rel=1e-8)
 

@@ -23,7 +23,7 @@ const Names& kept_names() {
       "MAT2",   "MAT3",   "MAT8",   "MAT9",    "MAT10",   "CONM1",  "SPOINT", "CELAS1", "CELAS2",
       "CELAS3", "CELAS4", "PELAS",  "CMASS1",  "CMASS2",  "CMASS3", "CMASS4", "PMASS",  "CONM2",
       "CBUSH",  "RBE2",   "RBE3",   "RBAR",    "RBE1",    "RTRPLT", "RROD",   "CRIGD1", "CRIGD2",
-      "MPC",    "MPCADD", "SET1",   "SET3"};
+      "CRIGD3", "MPC",    "MPCADD", "SET1",    "SET3"};
   return names;
 }
 

@@ -93,7 +93,7 @@ void NastranCardReader::gather() {
   while (const auto line = from_source()) {
     if (has_sign(*line)) {
       const std::string_view mark = bare_mark(split_nastran_line(*line).head);
-      if (!mark.empty()) marks_[std::string(mark)].push_back(ahead_.size());
+      if (!mark.empty()) marks_[upper_case(mark)].push_back(ahead_.size());
     }
     ahead_.push_back({*line});
   }
@@ -104,7 +104,7 @@ std::optional<NastranLine> NastranCardReader::find_continuation(std::string_view
   if (bare_mark(announced).empty()) return std::nullopt;
   if (!has_gathered_) gather();
   for (const std::string_view mark : {bare_mark(announced), trimmed(announced.substr(1))}) {
-    const auto places = marks_.find(std::string(mark));
+    const auto places = marks_.find(upper_case(mark));
     if (places == marks_.end()) continue;
     for (const std::size_t place : places->second) {
       if (place < place_ || ahead_[place].used) continue;

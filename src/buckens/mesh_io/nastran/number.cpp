@@ -35,9 +35,10 @@ std::optional<double> nastran_real(std::string_view text) {
   if (text.empty() || text.size() > kLongestReal) return std::nullopt;
   std::string joined;
   if (const std::size_t blank = text.find(' '); blank != std::string_view::npos) {
-    // NASTRAN-95 has blanks before an exponent: "20.0 E+7".
+    // NASTRAN-95 has blanks before an exponent: "20.0 E+7", "10.4  +6".
     const std::string_view exponent = trimmed(text.substr(blank));
-    if (exponent.empty() || std::string_view("eEdD").find(exponent[0]) == std::string_view::npos) {
+    if (exponent.empty() ||
+        std::string_view("eEdD+-").find(exponent[0]) == std::string_view::npos) {
       return std::nullopt;
     }
     joined = text.substr(0, blank);

@@ -178,14 +178,15 @@ void RigidBuilder::add_rigid(const NastranCard& card, int num_nodes) {
   add_body(card, std::move(members));
 }
 
-/// Pairs of node and components: the independent ones, UM, the dependent ones.
+/// Pairs of node and components: the independent ones, UM, the dependent ones. CRIGD3 of NASTRAN-95
+/// has MSET in place of UM.
 void RigidBuilder::add_rbe1(const NastranCard& card) {
   card.id(0);
   std::vector<Member> members;
   bool leads = true;
   for (int field = 1; field < card.size(); ++field) {
     if (card.blank(field)) continue;
-    if (card.word(field) == "UM") {
+    if (card.word(field) == "UM" || card.word(field) == "MSET") {
       leads = false;
       continue;
     }
@@ -297,6 +298,7 @@ void add_nastran_rigid_elements(const NastranBulk& bulk, const NastranCoordinate
   for (const NastranCard& card : bulk.cards_named("RBAR")) builder.add_rigid(card, 2);
   for (const NastranCard& card : bulk.cards_named("RTRPLT")) builder.add_rigid(card, 3);
   for (const NastranCard& card : bulk.cards_named("RBE1")) builder.add_rbe1(card);
+  for (const NastranCard& card : bulk.cards_named("CRIGD3")) builder.add_rbe1(card);
   for (const NastranCard& card : bulk.cards_named("CRIGD1")) builder.add_crigd1(card);
   for (const NastranCard& card : bulk.cards_named("CRIGD2")) builder.add_crigd2(card);
   for (const NastranCard& card : bulk.cards_named("RROD")) builder.add_rrod(card);

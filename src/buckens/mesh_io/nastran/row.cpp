@@ -60,7 +60,10 @@ bool is_mark(std::string_view field) {
 /// What stands between two commas: one field, or several with blanks between.
 void add_fields(std::string_view text, Fields& out) {
   text = trimmed(text);
-  if (std::none_of(text.begin(), text.end(), is_gap) || nastran_real(text)) {
+  // "1. -1" is two numbers, "1. E-1" is one.
+  const bool is_one_number =
+      text.find_first_of("eEdD") != std::string_view::npos && nastran_real(text).has_value();
+  if (std::none_of(text.begin(), text.end(), is_gap) || is_one_number) {
     out.push_back(text);
     return;
   }
@@ -167,9 +170,9 @@ std::string_view bare_mark(std::string_view mark) {
 }
 
 bool is_same_mark(std::string_view announced, std::string_view found) {
-  const std::string_view wanted = bare_mark(found);
-  return bare_mark(announced) == wanted ||
-         (!announced.empty() && trimmed(announced.substr(1)) == wanted);
+  const std::string wanted = upper_case(bare_mark(found)), own = upper_case(announced);
+  return bare_mark(own) == wanted ||
+         (!own.empty() && trimmed(std::string_view(own).substr(1)) == wanted);
 }
 
 }  // namespace buckens::mesh_io

@@ -331,8 +331,6 @@ TEST(GmshMesh, SaysWhatIsWrongAndWhere) {
               HasSubstr("has 4 nodes"));
   EXPECT_THAT(gmsh_message(test::replaced(four, "3 1 4 1\n", "2 1 4 1\n")),
               HasSubstr("of dimension 2"));
-  EXPECT_THAT(gmsh_message(test::replaced(four, "$Entities", "$PartitionedEntities")),
-              HasSubstr("partitions"));
   EXPECT_THAT(gmsh_message(two + "$Data\n1 2 3\n"), HasSubstr("has no end"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "0 1 \"tip\"", "0 1 \"tip")),
               HasSubstr("closing quotation mark"));

@@ -73,9 +73,9 @@ TEST(NastranScalar, a_rigid_mass_matrix_is_a_mass_with_offset) {
 }
 
 TEST(NastranRigid, six_components_lead_whichever_they_are) {
-  for (const char* card :
-       {"RBAR,9,1,2,123,456", "RBE1,9,1,123,2,456\n,UM,1,456,2,123",
-        "RBE1,9,1,123456\n,UM,2,123456", "CRIGD1,9,1,2", "CRIGD2,9,1,2,123456"}) {
+  for (const char* card : {"RBAR,9,1,2,123,456", "RBE1,9,1,123,2,456\n,UM,1,456,2,123",
+                           "RBE1,9,1,123456\n,UM,2,123456", "CRIGD1,9,1,2",
+                           "CRIGD3,9,1,123456\n,MSET,2,123456", "CRIGD2,9,1,2,123456"}) {
     const auto mesh = read_deck(kTetra + card + "\n");
     ASSERT_EQ(mesh.rigid_links.size(), 1u) << card;
     EXPECT_EQ(mesh.rigid_links[0].reference, 0) << card;

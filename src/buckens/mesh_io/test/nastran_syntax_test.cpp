@@ -102,6 +102,7 @@ TEST(NastranSyntax, a_dmap_program_begins_before_the_bulk_data) {
 TEST(NastranSyntax, blanks_before_an_exponent) {
   EXPECT_EQ(nastran_real("20.0 E+7"), 2e8);
   EXPECT_EQ(nastran_real(".50  E+6"), 5e5);
+  EXPECT_EQ(nastran_real("10.4  +6"), 1.04e7);
   EXPECT_FALSE(nastran_real("20.0 7").has_value());
 }
 
@@ -115,11 +116,11 @@ TEST(NastranSyntax, elements_of_nastran_95) {
                               "CQUAD2,1,1,1,2,3,4\nCTRIA2,2,1,1,2,3\n"
                               "CHEXA1,3,3,1,2,3,4,5,6\n,7,8\n"
                               "CTETRA,4,3,1,2,4,5\n");
-  ASSERT_EQ(mesh.properties.size(), 4u);
-  // Each card of NASTRAN-95 has numbers of its own.
+  // Each card of NASTRAN-95 has numbers of its own; solids of one material are one property.
+  ASSERT_EQ(mesh.properties.size(), 3u);
   EXPECT_EQ(mesh.properties[0].thickness.value_or(0), 0.5);
   EXPECT_EQ(mesh.properties[1].thickness.value_or(0), 0.25);
-  for (const std::size_t solid : {2, 3}) EXPECT_EQ(mesh.properties[solid].material, "MAT1 3");
+  EXPECT_EQ(mesh.properties[2].material, "MAT1 3");
   EXPECT_TRUE(has_note(mesh, "CQUAD2: taken as CQUAD4"));
 }
 
