@@ -138,7 +138,7 @@ def test_what_has_mass_or_stiffness_is_left_out_on_request_only(buckens, model, 
     deck, _ = block((1, 0.1, 0.1), divisions=(4, 1, 1))
     deck += ("*SOLID SECTION,ELSET=E,MATERIAL=ST\n" + STEEL +
              "*PLASTIC\n200e6,0\n*SURFACE INTERACTION,NAME=I\n*FRICTION\n.1\n"
-             "*ELEMENT,TYPE=M3D4,ELSET=M\n101,1,5,6,2\n*MEMBRANE SECTION,ELSET=M,MATERIAL=ST\n1e-3\n"
+             "*ELEMENT,TYPE=M3D4,ELSET=M\n101,1,5,6,2,\n*MEMBRANE SECTION,ELSET=M,MATERIAL=ST\n1e-3\n"
              "*NONSTRUCTURAL MASS,ELSET=E,UNITS=TOTAL MASS\n3.\n")
     body = model(deck)
     buckens("check", body).must(2, "deck.inp:", "M3D4", "membranes", "mesh: {skip: [M3D4]}")

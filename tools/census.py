@@ -154,7 +154,7 @@ def examine(runner, path):
             out.update(code=code, reason=text)
             return out
         told = json.loads(told)
-        properties = sorted({entry["name"] for entry in told["properties"]})
+        properties = sorted({entry["name"] for entry in told["properties"] if entry["name"]})
         low, high = told["box"]
         model.thickness = f"{max(b - a for a, b in zip(low, high)) / 100:.3g} m"
     with tempfile.TemporaryDirectory() as folder:

@@ -43,10 +43,12 @@ bool element_cells(AbaqusReading& in, const AbaqusElementType& type,
   const auto needed = static_cast<std::size_t>(type.num_nodes + 1);
   for (;;) {
     cells.insert(cells.end(), row.cells.begin(), row.cells.end());
+    // Of any number of nodes only full lines go on: many decks have a comma behind each line.
     const bool goes_on =
-        type.num_nodes >= 0 ? cells.size() < needed && row.continues : row.continues;
+        row.continues && (type.num_nodes >= 0 ? cells.size() < needed : row.cells.size() > 9);
     if (!goes_on) return true;
     if (in.lines.next_row(row)) continue;
+    if (type.num_nodes < 0) return true;
     in.lines.fail(place, fmt::format("the element goes on after the comma, but the data end here; "
                                      "{} of its {} nodes are there",
                                      cells.size() - 1, type.num_nodes));
