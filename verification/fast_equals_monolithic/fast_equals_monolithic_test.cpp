@@ -195,7 +195,7 @@ TEST(FastEqualsMonolithic, BushingAndSpringBetweenRigidAndFlexibleBody) {
   }
 }
 
-/// A flexible rod that swings on a hinge with friction and a spring, and a sled on a rough way
+/// A flexible rod that swings on a hinge with a spring, and a sled on a rough way
 /// between stops, which a spring at the tip of the rod draws about.
 model::Model rubbing_rod() {
   test::Mechanism m;
@@ -208,14 +208,6 @@ model::Model rubbing_rod() {
               m.node_marker(rod, 0), Vector3d::UnitZ());
   const joints::JointCoordinate angle =
       joints::JointCoordinate::angle(Vector3d::UnitZ(), Eigen::Matrix3d::Identity());
-  loads::FrictionData pin;
-  pin.static_coefficient = 0.2;
-  pin.dynamic_coefficient = 0.15;
-  pin.stribeck_rate = 0.5;
-  pin.radius = 0.02;
-  pin.slip = 1e-3;
-  pin.inertia = 0.05;
-  m.add_law(std::make_unique<loads::JointFriction>(pin, Vector3d::UnitZ()), angle);
   m.add_law(std::make_unique<loads::CoordinateSpring>(30.0, 0.1, 0.3), angle);
   m.add_joint(joints::JointType::prismatic, test::Mechanism::ground({0, 1, 0}),
               m.rigid_marker(sled, {0.1, 0, 0}), Vector3d::UnitX());
