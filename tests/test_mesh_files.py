@@ -231,7 +231,7 @@ BROKEN = {
     "missing.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n"
                     b"1 4 2 0 1 1 2 3 4\n$EndElements\n", "missing.msh:10:"),
     "nan.msh": (b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "nan.msh:6:5"),
-    "old.msh": (b"$NOD\n1\n1 0 0 0\n$ENDNOD\n", "not a Gmsh mesh"),
+    "old.msh": (b"$NOD\n1\n1 0 0 0\n$ENDNOD\n", "old.msh:4:1: the file has no section $ELM"),
 }
 
 
