@@ -30,8 +30,8 @@ constexpr double kTriangle = 0.433;      // area of a regular one
 // of a dozen printer parts where that did not reach the aim, after 1 to 20 s, each kept all of its
 // inverted elements.
 constexpr int kPasses = 2;
-// Elements turned inside out for which Gmsh moves nodes at all: 1059 in a thin tube took it a minute
-// on a busy machine, and all stayed as they were.
+// Elements turned inside out for which Gmsh moves nodes at all: 1059 in a thin tube took it a
+// minute on a busy machine, and all stayed as they were.
 constexpr int kMostMoved = 300;
 // Of computing, for the mesh and again for its second order. Parts take up to 1e-4 s an element;
 // 350 000 elements where a few thousand were expected took 20 s. What takes much longer usually
