@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/mesh_io/nastran/card.h"
 
+#include <algorithm>
 #include <functional>
 
 #include <fmt/format.h>
@@ -93,6 +94,12 @@ void NastranCard::fail(int i, const std::string& text) const {
 
 void NastranCard::fail(const std::string& text) const {
   throw InputError(where(), fmt::format("{}: {}", label(), text));
+}
+
+NastranCard NastranCard::second_half() const {
+  NastranCard out = *this;
+  out.fields.erase(out.fields.begin(), out.fields.begin() + std::min<std::ptrdiff_t>(4, size()));
+  return out;
 }
 
 std::string NastranCard::label() const {

@@ -56,6 +56,8 @@ class NastranCard {
   /// @throws InputError: first line, name and number of the card
   [[noreturn]] void fail(const std::string& text) const;
   SourceLocation where() const { return {file->name, line, 1}; }
+  /// The second of two elements on one card, as NASTRAN-95 writes those of four fields.
+  NastranCard second_half() const;
   /// Name and number: "CQUAD4 17".
   std::string label() const;
 

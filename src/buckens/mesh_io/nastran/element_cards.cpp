@@ -281,6 +281,8 @@ bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes&
       break;
   }
   bulk.elements.push_back(element);
+  const bool is_rod = *kind == Kind::rod || *kind == Kind::tube;
+  if (is_rod && !card.blank(4)) read_element_card(card.second_half(), bulk, notes);
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 
@@ -306,11 +307,21 @@ void ScalarBuilder::finish() {
 void add_nastran_scalar_elements(const NastranBulk& bulk, NastranCoordinates& coordinates,
                                  NastranNotes& notes, fem::ImportedMesh& mesh) {
   ScalarBuilder builder(bulk, coordinates, notes, mesh);
+  std::deque<NastranCard> second_halves;  // the builder keeps their addresses
+  const auto visit = [&](const std::string& name, void (ScalarBuilder::*add)(const NastranCard&)) {
+    for (const NastranCard& card : bulk.cards_named(name)) {
+      (builder.*add)(card);
+      const bool may_have_two = name.back() == '3' || name.back() == '4';
+      if (may_have_two && !card.blank(4)) {
+        (builder.*add)(second_halves.emplace_back(card.second_half()));
+      }
+    }
+  };
   for (const char* name : {"CELAS1", "CELAS2", "CELAS3", "CELAS4"}) {
-    for (const NastranCard& card : bulk.cards_named(name)) builder.add_spring(card);
+    visit(name, &ScalarBuilder::add_spring);
   }
   for (const char* name : {"CMASS1", "CMASS2", "CMASS3", "CMASS4"}) {
-    for (const NastranCard& card : bulk.cards_named(name)) builder.add_mass(card);
+    visit(name, &ScalarBuilder::add_mass);
   }
   builder.finish();
 }

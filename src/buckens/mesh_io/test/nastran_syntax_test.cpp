@@ -124,6 +124,19 @@ TEST(NastranSyntax, elements_of_nastran_95) {
   EXPECT_TRUE(has_note(mesh, "CQUAD2: taken as CQUAD4"));
 }
 
+TEST(NastranSyntax, two_short_elements_on_one_card) {
+  const auto mesh = read_deck(kTetra +
+                              "PROD,5,1,1.\nCROD,11,5,1,2,12,5,2,3\nCONM2,9,1,,1.\n"
+                              "CELAS2,20,6.,1,3,101,0\n"
+                              "CELAS4,21,6.,101,102,22,6.,102,103\n"
+                              "CELAS2,23,6.,103,,4,3\nSPOINT,101,102,103\n");
+  EXPECT_THAT(mesh.blocks.at(1).ids, ElementsAre(11, 12));
+  EXPECT_THAT(mesh.blocks[1].nodes, ElementsAre(0, 1, 1, 2));
+  // Four springs of 6 in a row.
+  ASSERT_EQ(mesh.springs.size(), 1u);
+  EXPECT_NEAR(mesh.springs[0].stiffness(2, 2), 1.5, 1e-14);
+}
+
 TEST(NastranSyntax, defaults_of_beams) {
   const std::string nodes =
       "GRID,1\nGRID,2,,1.\nGRID,3,,0.,1.\nMAT1,1,1.,,.3\n"
