@@ -50,6 +50,7 @@ PICTURES = (
     Picture("connecting_rod", (("run", "examples/connecting_rod/connecting_rod.yaml"),), time=0.94),
     Picture("tumbling_block", (("run", "examples/tumbling_block/tumbling_block.yaml"),), time=0.13,
             view=("--scale", "5")),
+    Picture("rough_lid", (("run", "examples/rough_lid/rough_lid.yaml"),), time=0.65),
     Picture("tube_modes", (("modes", "examples/tube_modes/tube_modes.yaml", "--count", "8"),), time=0.25),
     Picture("page_side_by_side", (("run", CRANK), ("run", CRANK, "--set", "bodies.rod.beam.elements=4")),
             folders=("fine", "coarse"), time=0.055),
