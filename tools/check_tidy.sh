@@ -26,7 +26,7 @@ if [ ${#files[@]} -eq 0 ]; then
   exit 0
 fi
 # Sources are compiled in pieces, which the list of commands names: flags are given here instead.
-flags=(-std=c++20 -Isrc -Iapps "-I$build/generated" -isystem /usr/include/eigen3
+flags=(-std=c++20 -DBUCKENS_GMSH_LIBRARY=\"libgmsh.so\" -Isrc -Iapps "-I$build/generated" -isystem /usr/include/eigen3
   -isystem /usr/include/hdf5/serial -isystem /usr/include/suitesparse
   -isystem "/usr/include/$(gcc -print-multiarch)/openblas-openmp")
 if ! printf '%s\0' "${files[@]}" |
