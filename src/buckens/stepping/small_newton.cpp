@@ -35,9 +35,6 @@ constexpr double kRounding = 1e-15;
 // A change that no longer falls is rounding if it is below these shares of the same lengths.
 constexpr double kStalled = 1e-11;
 constexpr double kStalledFarAway = 1e-14;
-// Iterations in which corrections of positions are taken back where a force law changes its regime.
-// Later on laws that rounding moves to and fro across a border of theirs keep what is corrected.
-constexpr int kFollowed = 12;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
@@ -234,9 +231,7 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   std::swap(soft_.damping, soft_now_.damping);
   std::swap(soft_.regimes, soft_now_.regimes);
   set_soft_rows();
-  if (report.newton_iterations <= kFollowed) {
-    for (BodyStep& body : bodies) body.drop_correction();
-  }
+  for (BodyStep& body : bodies) body.drop_correction();
   if (!condensation_->factorise(compliance_, soft_compliance_)) {
     fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
   }
@@ -376,17 +371,12 @@ SmallNewton::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, V
 void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda, Change change,
                          StepReport& report) {
   Change before;
-  bool was_settled = false;
   for (int iteration = 1;; ++iteration) {
     evaluate(bodies, t, lambda);
     record_residuals(report);
     if (before.size > 0.0) contraction_ = change.size / before.size;
-    const bool is_settled = settled(change, before);
-    const bool is_followed = regimes_hold(bodies, t, report);
-    // On the border of two regimes, what neither of their tangents moves any more is settled.
-    if (is_settled && (is_followed || was_settled)) break;
-    was_settled = is_settled;
-    if (is_followed || report.newton_iterations > kFollowed) {
+    if (regimes_hold(bodies, t, report)) {
+      if (settled(change, before)) break;
       before = change;
     } else {
       evaluate(bodies, t, lambda);
