@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calling the program the way a user does, and models to call it with."""
 
+import csv
 import ctypes
 import json
 import os
@@ -8,6 +9,7 @@ import pathlib
 import signal
 import subprocess
 
+import numpy
 import pytest
 
 SOURCE = pathlib.Path(os.environ.get("BUCKENS_SOURCE_DIR", pathlib.Path(__file__).parents[1]))
@@ -65,6 +67,21 @@ def buckens(tmp_path):
         options.setdefault("stdout", subprocess.PIPE)
         return Result(subprocess.run([PROGRAM, *map(str, arguments)], text=True,
                                      stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, **options))
+
+    return call
+
+
+@pytest.fixture
+def sensors(buckens, tmp_path):
+    """Runs a model and returns the columns of sensors.csv."""
+
+    def call(text, *arguments):
+        (tmp_path / "model.yaml").write_text(text)
+        buckens("run", "model.yaml", "-o", "out", *arguments).must(0)
+        with open(tmp_path / "out" / "sensors.csv") as file:
+            rows = list(csv.reader(line for line in file if not line.startswith("#")))
+        return {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]])
+                for i, name in enumerate(rows[0])}
 
     return call
 

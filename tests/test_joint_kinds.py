@@ -1,28 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joints with exact motions: each kind in a model of its own parts, several parts in one run."""
 
-import csv
 import math
 
 import numpy
 import pytest
 
 G = 9.81
-
-
-@pytest.fixture
-def sensors(buckens, tmp_path):
-    """Runs a model and returns the columns of sensors.csv."""
-
-    def call(text, *arguments):
-        (tmp_path / "model.yaml").write_text(text)
-        buckens("run", "model.yaml", "-o", "out", *arguments).must(0)
-        with open(tmp_path / "out" / "sensors.csv") as file:
-            rows = list(csv.reader(line for line in file if not line.startswith("#")))
-        return {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]])
-                for i, name in enumerate(rows[0])}
-
-    return call
 
 
 # Two shafts that meet at the origin under an angle, held by bearings; the first one is driven.

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Friction, stops and springs on the coordinates of joints; coordinates as sensors."""
 
-import csv
 import math
 
 import numpy
@@ -10,21 +9,6 @@ import pytest
 from conftest import SOURCE
 
 G = 9.81
-
-
-@pytest.fixture
-def sensors(buckens, tmp_path):
-    """Runs a model and returns the columns of sensors.csv."""
-
-    def call(text, *arguments):
-        (tmp_path / "model.yaml").write_text(text)
-        buckens("run", "model.yaml", "-o", "out", *arguments).must(0)
-        with open(tmp_path / "out" / "sensors.csv") as file:
-            rows = list(csv.reader(line for line in file if not line.startswith("#")))
-        return {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]])
-                for i, name in enumerate(rows[0])}
-
-    return call
 
 
 # ---- friction

@@ -10,7 +10,7 @@ import numpy
 import pytest
 import vtk
 
-from conftest import SOURCE
+from conftest import MODELS, SOURCE
 from test_page_shapes import page_of, view  # noqa: F401
 
 FV12 = [1.622, 2.360, 2.922, 4.190, 4.190, 7.356, 7.356, 7.668]  # NAFEMS, free plate [Hz]
@@ -123,28 +123,9 @@ def test_one_s8r_of_a_deck_is_a_body(buckens, tmp_path):
     assert frequencies(buckens, "model.yaml", 1)[0] == pytest.approx(lowest, rel=0.1)
 
 
-STRIP = """
-buckens: 1
-gravity: [0, 0, 0]
-bodies:
-  strip:
-    mesh:
-      plate: {size: [1 m, 0.1 m], divisions: [8, 1], thickness: 10 mm, element: quad8}
-      material: {E: 210 GPa, nu: 0, rho: 7850}
-    interfaces: {root: {set: [x0]}, tip: {set: [x1]}}
-joints: {wall: {fixed: {between: [ground, strip/root]}}}
-loads:
-  pull: {force: {on: strip/tip, value: [20 N, 0, 0]}}
-  bend: {torque: {on: strip/tip, value: [0, 0.01 N m, 0]}}
-initial: {start: static}
-simulation: {duration: 1 us, step: 1 us}
-output: {fields: {record: [von-mises, stress]}}
-"""
-
-
 @pytest.mark.parametrize("kind, nodes, cell, pieces", [("quad8", 18 + 25, 23, 5), ("tri6", 18 + 33, 22, 4)])
 def test_a_strip_has_the_stresses_of_a_beam(buckens, page_of, tmp_path, kind, nodes, cell, pieces):
-    (tmp_path / "model.yaml").write_text(STRIP.replace("quad8", kind))
+    (tmp_path / "model.yaml").write_text((MODELS / "strip.yaml").read_text().replace("quad4", kind))
     buckens("run", "model.yaml", "-o", "out", "-q").must(0)
     with h5py.File(tmp_path / "out" / "results.h5", "r", swmr=True) as file:
         force = file["fields/bodies/strip/shells/section_force"][-1]

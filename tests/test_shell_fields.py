@@ -5,24 +5,9 @@ import h5py
 import numpy
 import pytest
 
-# A strip held at its root under a moment and a pull at its tip; with nu = 0 a beam.
-STRIP = """
-buckens: 1
-gravity: [0, 0, 0]
-bodies:
-  strip:
-    mesh:
-      plate: {size: [1 m, 0.1 m], divisions: [8, 1], thickness: 10 mm, element: quad4}
-      material: {E: 210 GPa, nu: 0, rho: 7850}
-    interfaces: {root: {set: [x0]}, tip: {set: [x1]}}
-joints: {wall: {fixed: {between: [ground, strip/root]}}}
-loads:
-  pull: {force: {on: strip/tip, value: [20 N, 0, 0]}}
-  bend: {torque: {on: strip/tip, value: [0, 0.01 N m, 0]}}
-initial: {start: static}
-simulation: {duration: 1 us, step: 1 us}
-output: {fields: {record: [von-mises, stress, strain, strain-energy-density]}}
-"""
+from conftest import MODELS
+
+STRIP = (MODELS / "strip.yaml").read_text()
 N, M, T = 20 / 0.1, 0.01 / 0.1, 0.01  # forces and moments per length, thickness
 # Fields have single precision. The pull acts on the deflected tip: it takes N w/M = N L^2/(2 D) of the moment.
 CLOSE = 1e-5

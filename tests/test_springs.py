@@ -2,27 +2,11 @@
 """Forces of springs, dampers and bushings as sensors; drives by their speed; deflections from chords and
 markers; bodies that start deformed."""
 
-import csv
 import math
 import pathlib
 
 import numpy
 import pytest
-
-
-@pytest.fixture
-def sensors(buckens, tmp_path):
-    """Runs a model and returns the columns of sensors.csv."""
-
-    def call(text, *arguments):
-        (tmp_path / "model.yaml").write_text(text)
-        buckens("run", "model.yaml", "-o", "out", *arguments).must(0)
-        with open(tmp_path / "out" / "sensors.csv") as file:
-            rows = list(csv.reader(line for line in file if not line.startswith("#")))
-        return {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]])
-                for i, name in enumerate(rows[0])}
-
-    return call
 
 
 # ---- springs
