@@ -9,9 +9,9 @@ namespace buckens::base {
 /// Derivative of order 1 or 2 of f at t by central differences, extrapolated in the square of their
 /// distance (Ridders, Adv. Eng. Software 4, 1982).
 ///
-/// Distances grow from a tenth of a microsecond up to minutes. A wider difference is believed only
+/// Distances grow from a tenth of a microsecond up to minutes. A wider difference is accepted only
 /// if it agrees with the narrower ones within their own error estimate, so kinks, pulses and
-/// periods beyond the nearest neighbourhood of t do no harm; on smooth functions the error is a few
+/// short periods away from t do no harm; on smooth functions the error is a few
 /// rounding errors of f over its own time scale. Values of f that are not finite end the widening.
 /// Cost at most about 90 evaluations of f.
 /// @return empty if f is not finite in the nearest neighbourhood of t

@@ -47,15 +47,15 @@ inline constexpr Dimension kDamping{0, 1, -1, 0};
 inline constexpr Dimension kRotationalStiffness{2, 1, -2, -1};
 inline constexpr Dimension kRotationalDamping{2, 1, -1, -1};
 
-/// True if a quantity of dimension `given` may stand where `expected` is asked for: the same
-/// exponents; the angle's may differ only where a mass is involved (N m for N m/rad).
+/// True if a quantity of dimension `given` is acceptable where `expected` is required: the same
+/// exponents; that of the angle may differ only where a mass is involved (N m for N m/rad).
 constexpr bool accepts(const Dimension& expected, const Dimension& given) {
   if (expected == given) return true;
   return expected.mass != 0 && expected.length == given.length && expected.mass == given.mass &&
          expected.time == given.time;
 }
 
-/// SI unit as messages print it: "kg m^2", "N/m", "rad/s"; empty for pure numbers.
+/// SI unit as printed in messages: "kg m^2", "N/m", "rad/s"; empty for pure numbers.
 std::string si_unit(const Dimension& dimension);
 
 /// What users call it: "a length", "a force"; "a quantity in kg m" where there is no name.

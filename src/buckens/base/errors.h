@@ -8,8 +8,8 @@
 
 namespace buckens {
 
-/// Base of everything the library throws at its user. Messages say what, where, with which value,
-/// and what to do about it.
+/// Base of all exceptions the library throws. Messages say what is wrong, where, the value, and
+/// what to do about it.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
@@ -20,7 +20,7 @@ class Error : public std::runtime_error {
 
   /// Empty if the place is not known.
   const SourceLocation& where() const { return where_; }
-  /// The message without the place, for messages that go on to say more.
+  /// The message without the place, for building longer messages.
   std::string text() const {
     return where_.empty() ? what() : std::string(what()).substr(where_.text().size() + 2);
   }
@@ -29,7 +29,7 @@ class Error : public std::runtime_error {
   SourceLocation where_;
 };
 
-/// The input says something that cannot be: syntax, unknown names, units, ranges.
+/// The input is invalid: syntax, unknown names, units, ranges.
 class InputError : public Error {
   using Error::Error;
 };
@@ -54,7 +54,7 @@ class IoError : public Error {
 
 }  // namespace buckens
 
-/// For mistakes of this library itself, never for a user's: checked in builds with assertions.
+/// For bugs in this library, never for user errors: checked in builds with assertions.
 #ifdef BUCKENS_ASSERTIONS
 #define BUCKENS_ASSERT(condition)         \
   (static_cast<bool>(condition) ? void(0) \

@@ -36,10 +36,10 @@ class Expression {
   ///         is not finite
   double operator()(std::initializer_list<double> values) const;
 
-  /// The same, but hands out infinities and not-a-numbers as they are.
+  /// The same, but returns infinities and NaNs as they are.
   double unchecked(std::initializer_list<double> values) const;
 
-  /// True if no variable occurs in it.
+  /// True if it contains no variable.
   bool is_constant() const;
   const std::string& text() const;
   const SourceLocation& where() const;
@@ -49,10 +49,10 @@ class Expression {
   std::shared_ptr<const Parsed> parsed_;
 };
 
-/// True if `name` can be a parameter: letters, digits and _, no digit first.
+/// True if `name` can be a parameter: letters, digits and _, not starting with a digit.
 bool is_identifier(const std::string& name);
 
-/// Functions and constants that every expression knows, and the variables t, x, y, z: names that
+/// Functions and constants available in every expression, and the variables t, x, y, z: names that
 /// parameters cannot have.
 const std::vector<std::string>& reserved_names();
 

@@ -12,19 +12,19 @@ namespace buckens::base {
 /// Which numbers a field takes.
 enum class Range { any, positive, non_negative, fraction /* 0 … 1 */, poisson /* −1 … ½ */ };
 
-/// What is said about a field besides its member.
+/// What a field list says about a field besides its member.
 struct FieldNote {
-  std::string name;  ///< key in the model file; empty: the value stands in place of the struct
+  std::string name;  ///< key in the model file; empty: the value replaces the struct
   std::string doc;   ///< one sentence
   Dimension dimension;
   Range range = Range::any;
   bool is_required = false;
-  bool is_shorthand = false;   ///< a struct given as a single value means this field
-  bool is_switch = false;      ///< a truth value written on | off
-  bool any_dimension = false;  ///< the unit may be anything
+  bool is_shorthand = false;   ///< a struct given as a single value sets this field
+  bool is_switch = false;      ///< a boolean written on | off
+  bool any_dimension = false;  ///< any unit is accepted
   std::string example;         ///< YAML, for messages and the reference page
   std::string standard;  ///< what happens if left out, where the member's default says too little
-  std::string word;      ///< may stand in place of the number, which is 0 then
+  std::string word;      ///< accepted instead of the number, which is then 0
 };
 
 /// One line of a field list: a key of the model file, the member it fills, and the rules.
@@ -58,14 +58,14 @@ Field<T> field(std::string name, T& member, std::string doc) {
       {std::move(name), std::move(doc), {}, Range::any, false, false, false, false, {}, {}, {}}};
 }
 
-/// The value stands in place of the struct: a variant's alternatives become keys next to the other
+/// The value replaces the struct: a variant's alternatives become keys next to the other
 /// fields (exactly one of them), any other member is the struct's whole content.
 template <class T>
 Field<T> inlined(T& member, std::string doc) {
   return field<T>("", member, std::move(doc));
 }
 
-/// Something that is given by the name of an entry elsewhere or written out in place.
+/// Something given either by the name of an entry elsewhere or written out in place.
 template <class T>
 struct Reference {
   std::string name;  ///< empty if written in place

@@ -11,7 +11,7 @@
 
 #include "buckens/base/field.h"
 
-/// What the visitors of field lists ask about the types of members.
+/// Type traits that visitors of field lists need.
 namespace buckens::base {
 
 struct AnyVisitor {

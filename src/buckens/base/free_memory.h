@@ -3,8 +3,8 @@
 
 namespace buckens::base {
 
-/// Gives memory that is free but still held by the allocator back to the system, where it can be
-/// asked to (glibc). Factorisations leave a tenth of their size behind in freed blocks. Takes some
+/// Returns memory that is free but still held by the allocator to the system, where that is
+/// possible (glibc). Factorisations leave a tenth of their size behind in freed blocks. Takes a few
 /// milliseconds: for the end of a set-up, not for steps.
 void return_free_memory();
 

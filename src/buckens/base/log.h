@@ -8,7 +8,7 @@ namespace buckens::base {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Takes what the library has to say; called under a lock, so it must not log itself.
+/// Receives the library's messages; called under a lock, so it must not log itself.
 using LogSink = std::function<void(LogLevel level, const std::string& message)>;
 
 /// Sets where messages go, for the whole process; an empty sink (the default) drops them. The

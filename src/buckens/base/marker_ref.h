@@ -14,7 +14,7 @@ namespace buckens::base {
 struct MarkerRef {
   std::string body;  ///< "ground" or the name of a body
   /// What follows the slash; empty means the body's frame (its mass centre). "origin", "com",
-  /// "start", "mid" and "end" are predefined, then come the body's nodes and markers.
+  /// "start", "mid" and "end" are predefined, followed by the body's nodes and markers.
   std::string marker;
   std::optional<Eigen::Vector3d> point;  ///< on the ground: place in the world [m]
   SourceLocation where;

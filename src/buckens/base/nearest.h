@@ -8,10 +8,10 @@
 namespace buckens::base {
 
 /// Number of single-character edits (insert, delete, change, swap of neighbours) between two words,
-/// upper and lower case being the same. Cost O(|a| |b|).
+/// ignoring case. Cost O(|a| |b|).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word`, or "" if none is near enough to be a slip of the pen.
+/// The candidate nearest to `word`, or "" if none is close enough to be a typing error.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Ending of a message about an unknown word: ` Did you mean "x"?` where a candidate is near, else

@@ -7,14 +7,14 @@
 
 namespace buckens::base {
 
-/// ∫₀ᵗ f(s) ds for ever new t, to about 1e-13 of ∫|f|.
+/// ∫₀ᵗ f(s) ds for successive t, to about 1e-13 of ∫|f|.
 ///
 /// Goes from 0 upwards in panels of 15 Gauss–Kronrod points that adapt to f, and keeps their sums.
 /// Panels depend on f alone and never reach beyond the largest t asked for, so the same t gives the
-/// same number whatever was asked before. Safe for several threads.
+/// same number whatever was asked before. Thread-safe.
 class RunningIntegral {
  public:
-  /// @param f may throw, which to() passes on
+  /// @param f may throw; to() lets the exception through
   /// @param breaks times at which f or its derivative jumps; panels end there. Ascending
   explicit RunningIntegral(std::function<double(double)> f, std::vector<double> breaks = {});
 

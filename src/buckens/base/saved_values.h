@@ -22,10 +22,10 @@ struct SavedValues {
   bool operator==(const SavedValues&) const = default;
 };
 
-/// Goes through the members of an object that are to be saved, in either direction: each member is
-/// named once, so that writing and reading cannot differ.
+/// Visits the members of an object to be saved, for writing or reading: each member is named once,
+/// so that the two cannot differ.
 ///
-/// Restoring checks every length and range before anything is taken over.
+/// When restoring, every length and range is checked before anything is changed.
 /// @throws InputError naming the value that is missing or does not fit
 class SaveVisit {
  public:
@@ -33,13 +33,13 @@ class SaveVisit {
   static SaveVisit restoring(const SavedValues& from) { return {nullptr, &from, ""}; }
 
   bool is_restoring() const { return from_ != nullptr; }
-  /// The same below a name.
+  /// The same, under a name.
   SaveVisit inside(const std::string& name) const;
   SaveVisit inside(std::size_t index) const { return inside(std::to_string(index)); }
 
   void number(const std::string& name, double& value) const;
   void flag(const std::string& name, bool& value) const;
-  /// @param least,most range of the value, both included
+  /// @param least,most range of the value, inclusive
   void count(const std::string& name, long& value, long least, long most) const;
   void count(const std::string& name, int& value, int least, int most) const;
   /// As many numbers as there are.
@@ -55,9 +55,9 @@ class SaveVisit {
   /// The same for a vector that may also be empty.
   void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
   void list(const std::string& name, std::vector<double>& values, std::size_t size) const;
-  /// The same for a list that may also be empty, or hold not-a-number where there is nothing.
+  /// The same for a list that may also be empty, or hold NaN where there is no value.
   void list_or_none(const std::string& name, std::vector<double>& values, std::size_t size) const;
-  /// A list of any length. @param least,most range of the entries, both included
+  /// A list of any length. @param least,most range of the entries, inclusive
   void counts(const std::string& name, std::vector<int>& values, int least, int most) const;
   void counts(const std::string& name, std::vector<long>& values, long least, long most) const;
   /// A list of any length.

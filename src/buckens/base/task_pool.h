@@ -6,13 +6,13 @@
 
 namespace buckens {
 
-/// Threads that wait, asleep, for tasks that may run at the same time.
+/// Threads that sleep until there are tasks to run concurrently.
 ///
-/// run() allocates nothing. Tasks must not depend on who carries them out, so that results are the
-/// same with any number of threads.
+/// run() allocates nothing. Tasks must not depend on which thread runs them, so that results are
+/// the same with any number of threads.
 class TaskPool {
  public:
-  /// @param threads ≥ 1, the caller of run() included: `threads` − 1 are started here
+  /// @param threads ≥ 1, including the caller of run(): `threads` − 1 are started here
   explicit TaskPool(int threads);
   ~TaskPool();
   TaskPool(const TaskPool&) = delete;
@@ -20,9 +20,9 @@ class TaskPool {
 
   int threads() const;
 
-  /// Carries out task(0) … task(count − 1), each once, and returns when all have ended. A call from
-  /// inside a task carries its tasks out one after the other.
-  /// @throws what a task threw, the first by number
+  /// Runs task(0) … task(count − 1), each once, and returns when all have finished. A call from
+  /// inside a task runs its tasks one after the other.
+  /// @throws the exception of the task with the lowest number that threw
   template <class Task>
   void run(int count, Task&& task) {
     run_each(

@@ -17,12 +17,12 @@ enum class Interpolation { linear, spline };
 
 constexpr std::array<const char*, 2> choice_names(Interpolation) { return {"linear", "spline"}; }
 
-/// What a table says outside of the range of its times: nothing, or its first and last value.
+/// What a table gives outside the range of its times: an error, or its first and last value.
 enum class Extrapolation { refuse, hold };
 
 constexpr std::array<const char*, 2> choice_names(Extrapolation) { return {"refuse", "hold"}; }
 
-/// Times for which a law is known, and where the model file gives it.
+/// Times for which a law is defined, and where the model file gives it.
 struct TimeRange {
   double first = 0, last = 0;  ///< [s]
   SourceLocation where;
@@ -30,8 +30,8 @@ struct TimeRange {
 
 /// Something that varies with time in a prescribed way: f(t) with its first two derivatives.
 ///
-/// Copies are cheap and share what they are made of. Evaluation is const, gives the same number for
-/// the same time always, and may run in several threads at once.
+/// Copies are cheap and share their data. Evaluation is const, always gives the same number for the
+/// same time, and may run in several threads at once.
 class TimeLaw {
  public:
   /// What a law is made of; see time_law.cpp.
@@ -51,7 +51,7 @@ class TimeLaw {
 
   /// Through the points (times[i], values[i]), times strictly increasing, at least one point.
   /// A linear table has piecewise constant rate (at a corner that of the interval to the right) and
-  /// zero acceleration; the spline is the natural cubic one. Outside of the range evaluation throws
+  /// zero acceleration; the spline is the natural cubic one. Outside the range, evaluation throws
   /// NumericalError, or the law is held at the first and last value with zero derivatives. A single
   /// point is a constant.
   /// @param where in the model file, for messages
@@ -61,7 +61,7 @@ class TimeLaw {
                        Extrapolation extrapolation = Extrapolation::refuse,
                        SourceLocation where = {});
 
-  /// ∫₀ᵗ rate(s) ds: the angle of a drive that is given by its speed. Exact for constants, else by
+  /// ∫₀ᵗ rate(s) ds: the angle of a drive given by its speed. Exact for constants, else by
   /// quadrature (RunningIntegral); the rate is that law itself and the acceleration its rate.
   static TimeLaw integral(const TimeLaw& rate);
 
@@ -74,14 +74,14 @@ class TimeLaw {
   /// d²f/dt²
   double acceleration(double t) const;
 
-  /// True if the law has the same value at all times.
+  /// True if the law is constant.
   bool is_constant() const;
 
   /// Where the rate jumps because a table is linear: the times of its corners. Expressions are not
   /// searched.
   std::vector<double> corners() const;
 
-  /// Range of a table that refuses to go on beyond it; empty for laws known at all times.
+  /// Range of a table that refuses times outside it; empty for laws defined at all times.
   std::optional<TimeRange> range() const;
 
   /// For messages: the expression, "a table", or the number.

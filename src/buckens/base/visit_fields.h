@@ -7,9 +7,9 @@
 
 namespace buckens::base {
 
-/// Visits the field list of a spec that stays as it is: the visitor gets a Field<const T> per line.
+/// Visits the field list of a spec without changing it: the visitor gets a Field<const T> per line.
 ///
-/// For whatever reads specs rather than fills them: writing a model back to YAML, comparing two.
+/// For code that reads specs rather than fills them: writing a model back to YAML, comparing two.
 /// @param spec has the member template fields(visit), see Field
 template <class Spec, class Visitor>
 void visit_fields(const Spec& spec, Visitor&& visitor) {

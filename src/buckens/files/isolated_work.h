@@ -6,26 +6,26 @@
 
 namespace buckens::files {
 
-/// What became of work in a process of its own.
+/// Outcome of work done in a separate process.
 struct IsolatedResult {
-  std::string output;  ///< what the work has returned; empty if it did not come to its end
-  int signal = 0;      ///< that ended the process: 11 for a wrong access to memory
+  std::string output;  ///< what the work returned; empty if it did not finish
+  int signal = 0;      ///< that ended the process: 11 for a segmentation fault
   bool is_complete = false;
 };
 
-/// Does something in a copy of this process. Whatever happens there, be it that a foreign library
-/// follows a wild pointer, prints, ends the process or takes all memory, this process lives on and
-/// keeps its streams. The copy dies with this process, may not use more memory than the machine
-/// has, and can be ended from the keyboard.
+/// Runs work in a forked copy of this process. Whatever happens there (a foreign library follows a
+/// wild pointer, prints, exits or uses up all memory), this process survives and keeps its streams.
+/// The copy dies with this process, cannot use more memory than the machine has, and can be
+/// interrupted from the keyboard.
 ///
-/// The copy has one thread; the work must not wait for others that ran before.
-/// @param work in the copy; an exception ends it without a result
-/// @param seconds of computing after which the copy is ended by SIGXCPU; 0: no limit
-/// @throws IoError if the system grants no further process
+/// The copy has one thread; the work must not wait for threads of this process.
+/// @param work run in the copy; an exception ends it without a result
+/// @param seconds of processor time after which SIGXCPU ends the copy; 0: no limit
+/// @throws IoError if the system cannot start another process
 IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds = 0);
 
-/// Ends this process by SIGXCPU after so many seconds of computing from now on; meant for the work
-/// itself once it knows how much there is to do.
+/// Ends this process by SIGXCPU after so many more seconds of processor time; for the work itself
+/// to call once it knows how much there is to do.
 void limit_time_from_now(double seconds);
 
 }  // namespace buckens::files

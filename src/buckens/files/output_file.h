@@ -7,14 +7,14 @@
 
 namespace buckens::files {
 
-/// A file written piece by piece, each piece handed to the system at once: what was written
-/// survives the death of the program.
+/// A file written piece by piece, each piece passed to the system at once: what was written
+/// survives if the program dies.
 class OutputFile {
  public:
   enum class Start {
-    empty,    ///< an old file is emptied; through a symbolic link, the file it leads to
-    anew,     ///< an old file or link is removed first: see open_anew()
-    as_it_is  ///< goes on behind what is there; symbolic links are refused
+    empty,    ///< an existing file is truncated; symbolic links are followed
+    anew,     ///< an existing file or link is removed first: see open_anew()
+    as_it_is  ///< appends to an existing file; symbolic links are refused
   };
 
   OutputFile() = default;
@@ -29,8 +29,8 @@ class OutputFile {
   void write(std::string_view text);
   /// Empties the file. @throws IoError
   void clear();
-  /// Takes the file for this process until it is closed or the process ends.
-  /// @return false if another process holds it; true also where the file system knows no locks
+  /// Locks the file for this process until it is closed or the process ends.
+  /// @return false if another process holds it; true also where the file system has no locks
   bool try_lock();
   /// @throws IoError if the system reports a late write error
   void close();
@@ -45,24 +45,25 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-/// Creates a file of this name where nobody else's is written to: an old file or symbolic link goes
-/// first, and one that somebody puts there in between is an error. Devices and pipes are opened.
+/// Creates a file of this name without ever writing to someone else's: an existing file or symbolic
+/// link is removed first, and one that appears in between is an error. Devices and pipes are
+/// opened.
 /// @param flags of open() besides those for creation
-/// @return the descriptor, −1 with errno as open() has it
+/// @return the descriptor, or −1 with errno as open() sets it
 int open_anew(const char* path, int flags);
 
-/// What the system says about an error number, and what a user can do about it; ends in a full
+/// The system's text for an error number, and what a user can do about it; ends with a full
 /// stop.
 std::string system_reason(int error);
 
-/// The whole content of a file. @throws IoError
+/// The whole contents of a file. @throws IoError
 std::string read_text_file(const std::filesystem::path& path);
 
-/// Writes a file so that readers see the old content or the new one, never a part of it.
-/// @throws IoError; the old content then stays
+/// Writes a file atomically: readers see the old contents or the new, never a part.
+/// @throws IoError; the old contents are then kept
 void replace_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// Seconds-exact time of day, "2026-01-31T12:00:00Z".
+/// Date and time to the second, "2026-01-31T12:00:00Z".
 std::string utc_now();
 
 }  // namespace buckens::files

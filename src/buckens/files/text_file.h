@@ -10,15 +10,15 @@
 
 namespace buckens::files {
 
-/// The whole content of a file.
+/// The whole contents of a file.
 /// @param kind what the file is to the user: "model file", "table"
-/// @param largest size that is read [bytes]
+/// @param largest maximum size to read [bytes]
 /// @throws IoError saying whether it is missing, a directory, not readable or too large
 std::string read_text_file(const std::filesystem::path& path, const std::string& kind,
                            std::size_t largest = std::size_t{200} << 20);
 
-/// Notes what read_text_file() reads on this thread while the object lives: decks include other
-/// files, so only the reading itself knows all of them.
+/// Records what read_text_file() reads on this thread while the object lives: decks include other
+/// files, so only reading them reveals the full list.
 class FilesRead {
  public:
   FilesRead();

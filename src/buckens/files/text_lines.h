@@ -10,16 +10,16 @@
 
 namespace buckens::files {
 
-/// The text without the three bytes with which some editors begin UTF-8.
+/// The text without the UTF-8 byte order mark that some editors write.
 inline std::string without_byte_order_mark(std::string text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;
 }
 
-/// The lines of a text, one after the other, with their numbers.
+/// Iterates over the lines of a text with their numbers.
 class TextLines {
  public:
-  /// @param text must outlive this and stay as it is
+  /// @param text must outlive this and not change
   explicit TextLines(const std::string& text) : text_(text) {}
 
   /// The next line without blanks around it; false at the end.
@@ -39,7 +39,7 @@ class TextLines {
   int number_ = 0;
 };
 
-/// Cuts a line at blanks or at commas with blanks around.
+/// Splits a line at blanks, or at commas with optional blanks around them.
 inline void split_words(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
   std::size_t begin = line.find_first_not_of(", \t");

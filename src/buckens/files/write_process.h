@@ -11,12 +11,12 @@ namespace buckens::files {
 /// A second process that writes into a file on behalf of this one.
 ///
 /// The kernel ends a process that receives SIGKILL in the middle of a large write, page by page. A
-/// write ordered here is carried out wholly or, if this process is killed while it hands the bytes
-/// over, not at all. The second process ends when the object is destroyed or when this process
-/// dies, whichever way.
+/// write requested here is done completely or, if this process is killed while it passes the bytes
+/// on, not at all. The second process ends when the object is destroyed or when this process dies,
+/// however that happens.
 ///
-/// It starts as a copy of this process: start it before large memory is in use. It holds no file
-/// of this process but the one that it was given, and does not react to signals from a terminal.
+/// It starts as a copy of this process: start it before large memory is in use. It keeps no file of
+/// this process open except the one it was given, and ignores signals from the terminal.
 class WriteProcess {
  public:
   /// @throws IoError if the system grants no further process
@@ -25,7 +25,7 @@ class WriteProcess {
   WriteProcess(const WriteProcess&) = delete;
   WriteProcess& operator=(const WriteProcess&) = delete;
 
-  /// Later writes go into this open file; the caller keeps and closes its own descriptor.
+  /// Subsequent writes go to this open file; the caller keeps and closes its own descriptor.
   /// @return 0 or the error number
   int take_file(int descriptor);
   /// Returns when the bytes have reached the system.

@@ -9,17 +9,17 @@
 
 namespace buckens::linalg {
 
-/// LU factors of a sparse matrix made of small dense blocks, as joints along chains and trees give
-/// it.
+/// LU factors of a sparse matrix of small dense blocks, as joints along chains and trees
+/// produce.
 ///
 /// The pattern of blocks is symmetric and never changes; the values need not be symmetric. Blocks
-/// are eliminated in the order of least degree, found once: a chain or a tree of blocks fills
-/// nothing, so that a factorisation and a solve cost O(number of blocks). Pivots are taken from the
-/// diagonal: enough near a positive definite matrix. Elsewhere pivot_ratio() says that it was not,
-/// and whoever owns the values turns to a general factor (SparseLu).
+/// are eliminated in minimum-degree order, found once: a chain or a tree of blocks has no fill-in,
+/// so that a factorisation and a solve cost O(number of blocks). Pivots are taken from the
+/// diagonal, which suffices near a positive definite matrix. Elsewhere pivot_ratio() shows that it
+/// did not, and the caller switches to a general factor (SparseLu).
 ///
-/// Values lie in the order in which the elimination reads them. Blocks of unlike size are stored as
-/// large as the largest, filled up by the identity, unless that takes more than twice the memory.
+/// Values are stored in the order in which the elimination reads them. Blocks of different sizes
+/// are padded to the largest with the identity, unless that takes more than twice the memory.
 class BlockLu {
  public:
   static constexpr int kLargestBlock = 6;
@@ -28,9 +28,9 @@ class BlockLu {
   /// @param couples pairs of blocks with entries off the diagonal; any order, repetitions allowed
   BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples);
 
-  /// Where a block of the pattern is kept. @param i,j equal, or a pair of the constructor
+  /// Where a block of the pattern is stored. @param i,j equal, or a pair of the constructor
   int place(int i, int j) const;
-  /// Begins a new matrix: all values become zero.
+  /// Starts a new matrix: all values become zero.
   void clear();
   /// Entries of a block by columns, stride() rows each, until factorise() is called.
   double* block(int place) { return &values_[places_[static_cast<std::size_t>(place)].first]; }
@@ -40,13 +40,13 @@ class BlockLu {
 
   /// Factorises what was entered. @return false if a pivot is not positive or not a number
   bool factorise();
-  /// Smallest pivot relative to the diagonal entry that stood in its place, 0 … 1.
+  /// Smallest pivot relative to the original diagonal entry, 0 … 1.
   double pivot_ratio() const { return pivot_ratio_; }
   /// x ← A⁻¹ x with the last factorisation. Allocates nothing.
   void solve_in_place(Vector& x) const;
 
   int size() const { return first_row_.back(); }
-  /// Numbers held, those that fill up blocks included.
+  /// Numbers stored, including padding.
   std::size_t num_entries() const { return values_.size(); }
 
  private:
@@ -55,7 +55,7 @@ class BlockLu {
     std::size_t first;  // of its values
     int stride;         // rows as stored
   };
-  /// One block's turn in the elimination.
+  /// One step of the elimination.
   struct Pivot {
     int block;
     int stored;                // rows as stored
@@ -63,8 +63,8 @@ class BlockLu {
     std::size_t diagonal;      // first value of the diagonal block
     std::size_t first_neighbour, end_neighbour;
   };
-  /// A block that is still there and coupled with the pivot. Those of one pivot are in the order in
-  /// which they are eliminated themselves.
+  /// A remaining block coupled with the pivot. Those of one pivot are sorted by their own order of
+  /// elimination.
   struct Neighbour {
     int stored;
     int turn;  // its own in pivots_
@@ -86,8 +86,8 @@ class BlockLu {
   std::vector<Place> places_;
   std::vector<std::vector<std::pair<int, int>>> by_row_;  // per block: (column, place), ascending
   int uniform_ = 0;                        // rows of every block as stored, 0 if each has its own
-  std::vector<int> sequence_;              // blocks as they are eliminated
-  std::vector<std::vector<int>> coupled_;  // with each of them at that time
+  std::vector<int> sequence_;              // blocks in order of elimination
+  std::vector<std::vector<int>> coupled_;  // neighbours of each at that time
   std::vector<Pivot> pivots_;
   std::vector<Neighbour> neighbours_;
   std::vector<double> values_;

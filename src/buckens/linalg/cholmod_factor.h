@@ -10,30 +10,30 @@
 
 namespace buckens::linalg {
 
-/// A factorisation met a pivot that is not positive.
+/// A factorisation found a pivot that is not positive.
 class IndefiniteMatrix : public NumericalError {
  public:
   IndefiniteMatrix(Eigen::Index size, Eigen::Index column);
-  /// Of the matrix as it was given, where the pivot is not positive.
+  /// Row of the original matrix whose pivot is not positive.
   Eigen::Index column() const { return column_; }
 
  private:
   Eigen::Index column_;
 };
 
-/// L Lᵀ = P A Pᵀ by CHOLMOD, with 32-bit indices where they reach to every entry of L, otherwise
+/// L Lᵀ = P A Pᵀ by CHOLMOD, with 32-bit indices where they can address every entry of L, otherwise
 /// with 64-bit ones.
 class CholmodFactor {
  public:
   struct Options {
-    bool supernodal = false;       ///< in any case; otherwise where L is dense enough for it
-    double most_narrow = INT_MAX;  ///< entries of L that 32-bit indices are taken to reach
+    bool supernodal = false;       ///< always; otherwise where L is dense enough for it
+    double most_narrow = INT_MAX;  ///< entries of L: up to this, 32-bit indices
   };
-  /// Analyses and factorises. In one thread.
+  /// Analyses and factorises, in one thread.
   /// @param A symmetric, both triangles stored
   /// @throws IndefiniteMatrix if A is not positive definite
-  /// @throws NumericalError if entries are not finite, if memory is short or A too large even for
-  ///         64-bit indices, saying which and how large
+  /// @throws NumericalError if entries are not finite, memory runs out, or A is too large even for
+  /// 64-bit indices, saying which and how large
   static std::unique_ptr<CholmodFactor> make(const SparseMatrix& A, const Options& options);
 
   virtual ~CholmodFactor() = default;
@@ -43,11 +43,11 @@ class CholmodFactor {
   /// x ← A⁻¹ b, column by column. @param b,x rows × columns, may be the same
   virtual void solve(const double* b, double* x, Eigen::Index rows, Eigen::Index columns) = 0;
   virtual bool is_supernodal() const = 0;
-  /// Of a supernodal factor: what it holds, valid as long as it lives.
+  /// Contents of a supernodal factor, valid as long as it lives.
   virtual Supernodes supernodes() = 0;
   /// Entries of L.
   virtual double num_entries() const = 0;
-  /// What a pass over L reads.
+  /// Bytes that a pass over L reads.
   virtual double bytes() const = 0;
   virtual int index_bits() const = 0;
 

@@ -10,10 +10,10 @@
 
 namespace buckens::linalg {
 
-/// Factor of a symmetric positive definite matrix A: made once, solved with often.
+/// Factor of a symmetric positive definite matrix A: computed once, used for many solves.
 ///
-/// Whoever solves needs no more than this. SparseCholesky keeps the factor in the memory of this
-/// process; another implementation may keep it on an accelerator or spread over processes.
+/// All that code which solves needs to know. SparseCholesky keeps the factor in the memory of this
+/// process; another implementation may keep it on an accelerator or distribute it.
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -24,10 +24,10 @@ class Factor {
   /// Bytes that each of the two passes of a solve reads.
   virtual double bytes() const = 0;
 
-  /// X ← A⁻¹ B for columns that follow one another in memory; X may be B.
+  /// X ← A⁻¹ B for contiguous columns; X may be B.
   /// @param pool may share the work; the result must not depend on it
   virtual void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const = 0;
-  /// x ← A⁻¹ x for vectors of length size() that lie anywhere.
+  /// x ← A⁻¹ x for vectors of length size() anywhere in memory.
   virtual void solve_in_place(std::span<double* const> vectors, TaskPool* pool = nullptr) const = 0;
 
   /// x ← A⁻¹ x. Cost: two passes over the factor.
@@ -46,7 +46,7 @@ class Factor {
   }
 };
 
-/// Who factorises: A is symmetric with both triangles stored.
+/// Function that factorises A, symmetric with both triangles stored.
 /// @throws NumericalError if A is not positive definite
 using MakeFactor = std::function<std::shared_ptr<const Factor>(const SparseMatrix& A)>;
 

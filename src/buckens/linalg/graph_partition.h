@@ -6,7 +6,7 @@
 
 namespace buckens::linalg {
 
-/// An undirected graph with weights; `edges` holds every pair once or more, which adds up.
+/// An undirected graph with weights; `edges` holds each pair at least once, repetitions add up.
 struct Graph {
   std::vector<double> vertex_weights;  ///< one per vertex, not negative
   std::vector<std::pair<int, int>> edges;

@@ -7,17 +7,17 @@
 
 namespace buckens::linalg {
 
-/// F ← A⁻¹F, column by column, perhaps followed by a projection; symmetric in the sense that
+/// F ← A⁻¹F, column by column, optionally followed by a projection; symmetric in the sense that
 /// xᵀM A⁻¹M y = yᵀM A⁻¹M x.
 using InverseOperator = std::function<void(Matrix&)>;
 
 struct InverseIterationSettings {
   int count = 10;  ///< eigenpairs wanted
-  int block = 6;   ///< vectors that are iterated at the same time
+  int block = 6;   ///< vectors iterated at the same time
   /// Of ‖A⁻¹M x − θ x‖_M / |θ|: error of the vector; the error of θ is about its square.
   double tolerance = 1e-9;
   int max_sweeps = 400;
-  /// Asked once after two sweeps with the largest |θ| so far; `false` ends the iteration there.
+  /// Called once after two sweeps with the largest |θ| so far; `false` ends the iteration there.
   std::function<bool(double)> is_worthwhile = {};
 };
 
@@ -25,24 +25,24 @@ struct InverseIterationSettings {
 struct InversePairs {
   Vector theta;
   Matrix shapes;    ///< n×count, M-orthonormal
-  Vector residual;  ///< ‖A⁻¹M x − θ x‖_M / |θ| as the subspace tells it
+  Vector residual;  ///< ‖A⁻¹M x − θ x‖_M / |θ| from the subspace
   int sweeps = 0;
   long solves = 0;          ///< columns passed through A⁻¹
-  double rounding = 0;      ///< relative asymmetry of A⁻¹M found: no residual can be smaller
+  double rounding = 0;      ///< relative asymmetry found in A⁻¹M: no residual can be smaller
   bool is_complete = true;  ///< all wanted pairs converged, and none was missed
 };
 
 /// Simultaneous inverse iteration with projection onto the subspace of all sweeps.
 ///
-/// Each sweep takes a block X to A⁻¹M X and solves the eigenproblem in the span of all blocks so
-/// far (Rayleigh–Ritz); new blocks are kept M-orthogonal to all earlier ones, twice over. When the
-/// basis is full it restarts with the best Ritz vectors and goes on where it was (thick restart).
-/// Compared with an iteration that forgets earlier sweeps, the number of solves falls from one per
+/// Each sweep maps a block X to A⁻¹M X and solves the eigenproblem in the span of all blocks so
+/// far (Rayleigh–Ritz); new blocks are M-orthogonalised against all earlier ones, twice. When the
+/// basis is full it restarts with the best Ritz vectors without losing progress (thick restart).
+/// Compared with an iteration that discards earlier sweeps, the number of solves falls from one per
 /// vector and power of θ_k/θ_j to about its square root.
 ///
 /// Multiple eigenvalues: a block of b finds b equal ones. Afterwards a fresh block, orthogonal to
-/// what was found, is iterated until it can hold nothing among the wanted pairs; what turns up
-/// joins in and the search goes on. Thus any multiplicity is complete.
+/// what was found, is iterated until it cannot contain any of the wanted pairs; new ones are added
+/// and the search continues. So any multiplicity is found completely.
 ///
 /// M may be singular (massless variables): all vectors lie in the range of A⁻¹M.
 /// @param M symmetric, positive semidefinite, n×n

@@ -7,17 +7,17 @@
 
 namespace buckens::linalg {
 
-/// One vertex's turn when a symmetric matrix is eliminated.
+/// Elimination of one vertex of a symmetric matrix.
 struct EliminationStep {
   int vertex;
-  std::vector<int> coupled;  ///< with it and still there, ascending; coupled with each other now
+  std::vector<int> coupled;  ///< its remaining neighbours, ascending; now coupled with each other
 };
 
-/// Eliminates the vertices of a graph one after the other, each time one with the fewest neighbours
-/// left, the first of them: along a chain in its own order.
+/// Eliminates the vertices of a graph one by one, each time the first one with the fewest remaining
+/// neighbours: a chain is eliminated in its own order.
 ///
-/// Time and memory follow the neighbours of all steps together, that is the entries of the factor,
-/// also where all are coupled with all.
+/// Time and memory are proportional to the total number of neighbours in all steps, that is the
+/// entries of the factor, even for a complete graph.
 /// @param couples pairs of vertices; any order, repetitions allowed
 std::vector<EliminationStep> eliminate_by_least_degree(
     std::size_t count, const std::vector<std::pair<int, int>>& couples);

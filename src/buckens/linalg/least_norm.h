@@ -5,13 +5,13 @@
 
 namespace buckens::linalg {
 
-/// The shortest x of all that satisfy A x = b, for a sparse A of any rank.
+/// The minimum-norm x with A x = b, for a sparse A of any rank.
 ///
-/// Sparse QR of Aᵀ: Aᵀ E = Q R, x = Q R⁻ᵀ Eᵀb, dependent equations left out. Cost that of the
-/// factorisation; nothing dense is formed but vectors.
-/// @param b in the range of A; what is not, is not noticed
-/// @param tolerance relative to the longest equation, below which one follows from others
-/// @throws NumericalError if memory is short
+/// Sparse QR of Aᵀ: Aᵀ E = Q R, x = Q R⁻ᵀ Eᵀb, dependent equations left out. Cost: the
+/// factorisation; nothing dense is formed except vectors.
+/// @param b in the range of A, which is not checked
+/// @param tolerance relative to the longest equation, below which one counts as dependent
+/// @throws NumericalError if memory runs out
 Vector least_norm_solution(const SparseMatrix& A, const Vector& b, double tolerance);
 
 }  // namespace buckens::linalg

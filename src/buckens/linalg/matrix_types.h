@@ -15,7 +15,7 @@ using Matrix = Eigen::MatrixXd;
 /// Sparse column-compressed matrix with `int` indices, the layout CHOLMOD and KLU read in place.
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Entry of a sparse matrix under assembly: (row, column, value); equal places are summed.
+/// Entry of a sparse matrix under assembly: (row, column, value); duplicates are summed.
 using Triplet = Eigen::Triplet<double, int>;
 
 }  // namespace buckens::linalg

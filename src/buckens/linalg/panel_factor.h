@@ -14,12 +14,12 @@
 
 namespace buckens::linalg {
 
-/// A Cholesky factor laid out for repeated solves, which are bound by the speed of memory: one
-/// forward and one backward pass read it once each, in order, without gaps.
+/// A Cholesky factor laid out for repeated solves, which are limited by memory bandwidth: a forward
+/// and a backward pass read it once each, in order, without gaps.
 ///
 /// Differs from the supernodes it is made from: columns in panels of at most 128, rows in blocks of
-/// one cache line, triangles on the diagonal inverted, all behind one another on huge pages.
-/// Two threads take whole subtrees each; contributions to the rows above both are kept apart and
+/// one cache line, triangles on the diagonal inverted, all contiguous on huge pages.
+/// Two threads take whole subtrees each; contributions to the rows above both are kept separate and
 /// summed in a fixed order, so the result does not depend on the number of threads.
 class PanelFactor {
  public:
@@ -41,7 +41,7 @@ class PanelFactor {
   /// @param B,X column-major, may be the same. @param stride from column to column
   void solve(const double* B, double* X, Eigen::Index columns, Eigen::Index stride, Workspace& work,
              TaskPool* pool) const;
-  /// x ← A⁻¹ x for vectors that lie anywhere.
+  /// x ← A⁻¹ x for vectors anywhere in memory.
   void solve_in_place(std::span<double* const> vectors, Workspace& work, TaskPool* pool) const;
 
  private:

@@ -9,14 +9,14 @@ namespace buckens::linalg {
 
 /// Rows of a block of a panel: one cache line of doubles.
 inline constexpr int kPanelRows = 8;
-/// Columns of a panel at most.
+/// Largest number of columns of a panel.
 inline constexpr int kPanelColumns = 128;
-/// Right-hand sides that pass through the kernels at once, at most.
+/// Largest number of right-hand sides in one pass.
 inline constexpr int kMostSides = 32;
 
-/// Up to kPanelColumns columns of a Cholesky factor in the order in which a solve reads them.
+/// Up to kPanelColumns columns of a Cholesky factor in the order a solve reads them.
 ///
-/// `values` holds blocks of eight rows, each column by column, 64-byte aligned and without gaps:
+/// `values` holds blocks of eight rows, each column by column, 64-byte aligned and contiguous:
 /// first the inverse of the triangle on the diagonal (block b holds columns 0 … 8b+7 only), then
 /// the rows below it. Missing rows of a last block are zero. A forward solve reads all of it
 /// upwards in memory, a backward solve downwards.
@@ -50,13 +50,13 @@ struct PanelKernels {
   void (*backward)(const Panel* begin, const Panel* end, double* x, int sides);
 };
 
-/// Right-hand sides of several are padded to a multiple of this.
+/// Several right-hand sides are padded to a multiple of this.
 constexpr int side_multiple() { return 4; }
 
-/// Kernels of one level. The processor must have it.
+/// Kernels of one level, which the processor must support.
 const PanelKernels& panel_kernels(SimdLevel level);
 
-// One source each, compiled for its instructions.
+// One source each, compiled for its instruction set.
 extern const PanelKernels kPortablePanelKernels;
 #if defined(__x86_64__)
 extern const PanelKernels kAvx2PanelKernels;

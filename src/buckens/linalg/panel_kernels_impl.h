@@ -5,9 +5,9 @@
 
 #include "buckens/linalg/panel_kernels.h"
 
-// Included by the sources panel_kernels_*.cpp only, each compiled for other instructions. The
-// unnamed namespace keeps their instances apart; functions of the standard library must not occur
-// here, or one compiled for AVX-512 might serve the whole program.
+// Included by the sources panel_kernels_*.cpp only, each compiled for another instruction set. The
+// unnamed namespace keeps their instances apart; functions of the standard library must not be used
+// here, or one compiled for AVX-512 could end up in the whole program.
 namespace buckens::linalg {
 namespace {
 
@@ -24,7 +24,7 @@ struct Simd {
   static void store(double* p, const Register& value) { __builtin_memcpy(p, &value, sizeof value); }
 };
 
-// Far enough ahead to hide memory, near enough to stay in the first cache.
+// Far enough ahead to hide memory latency, near enough to stay in the L1 cache.
 constexpr std::ptrdiff_t kAhead = 4096 / sizeof(double);
 
 struct alignas(64) Line {

@@ -9,11 +9,11 @@
 
 namespace buckens::linalg {
 
-/// Rows of large vectors in parts that may be gone over at the same time, and in pieces that stay
-/// in the first caches while several things are done with them.
+/// Rows of large vectors in parts that may be processed concurrently, and in pieces that stay in
+/// the L1 and L2 caches while several operations are done on them.
 ///
-/// Both depend on the number of rows only. Sums over rows are to be kept by part and added in the
-/// order of the parts: then they are the same to the last bit with any number of threads.
+/// Both depend on the number of rows only. Sums over rows must be kept per part and added in the
+/// order of the parts: then they are bitwise the same with any number of threads.
 class RowParts {
  public:
   static constexpr int kMostParts = 16;
@@ -39,7 +39,7 @@ class RowParts {
   }
 
  private:
-  // Waking a thread costs as much as going over so many rows of several vectors.
+  // Waking a thread costs as much as processing so many rows of several vectors.
   static constexpr Eigen::Index kPart = 2048;
   static constexpr Eigen::Index kPiece = 1024;
 

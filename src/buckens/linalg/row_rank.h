@@ -15,7 +15,7 @@ struct RowRank {
 
 /// Splits the rows of J by rank-revealing QR of Jᵀ.
 ///
-/// Rows are compared as given: scale them first. Dense column-pivoted QR up to a hundred
+/// Rows are compared as given: scale them first. Dense column-pivoted QR for up to a hundred
 /// thousand entries, sparse QR above. Among dependent rows an earlier one is preferred where the
 /// pivoting allows.
 /// @param tolerance relative to the largest row norm

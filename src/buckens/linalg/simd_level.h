@@ -3,14 +3,14 @@
 
 namespace buckens::linalg {
 
-/// Vector instructions that the kernels of PanelFactor exist for.
+/// Vector instruction sets for which kernels of PanelFactor exist.
 enum class SimdLevel {
   portable,  ///< what every processor of the architecture has
   avx2,      ///< AVX2 with fused multiply-add
   avx512,    ///< AVX-512 F, VL and DQ
 };
 
-/// The highest level that this processor and this build offer.
+/// The highest level supported by this processor and this build.
 SimdLevel best_simd_level();
 
 /// "portable", "avx2", "avx512".

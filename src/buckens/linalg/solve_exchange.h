@@ -12,20 +12,21 @@
 
 namespace buckens::linalg {
 
-/// Lets computations that are independent but for common matrices share factors and solve together.
+/// Lets computations that are independent except for common matrices share factors and solve
+/// together.
 ///
-/// Each participant runs as if it were alone, until it asks for a solve; then the next one runs.
+/// Each participant runs as if alone until it asks for a solve; then the next one runs.
 /// When all wait, those with a common factor solve as the columns of one right-hand side, which
-/// reads the factor once for all of them. One participant runs at a time, in a fixed order, so
+/// reads the factor once for all of them. Only one participant runs at a time, in a fixed order, so
 /// results do not depend on timing.
 class SolveExchange {
  public:
-  /// @param make who factorises
+  /// @param make factorises
   explicit SolveExchange(MakeFactor make = make_cholesky);
   ~SolveExchange();
 
-  /// Factor of a symmetric positive definite matrix. Matrices that are equal to the last bit share
-  /// one as long as somebody holds it. Call from participants, or while nobody runs.
+  /// Factor of a symmetric positive definite matrix. Bitwise equal matrices share one as long as
+  /// somebody holds it. Call from participants, or while none runs.
   /// @throws NumericalError as the MakeFactor does
   std::shared_ptr<const Factor> factor(const SparseMatrix& A);
 
@@ -33,8 +34,8 @@ class SolveExchange {
   /// participant calls.
   void solve(const Factor& factor, std::span<double* const> vectors, TaskPool* pool = nullptr);
 
-  /// Runs all participants to their ends, each on a thread of its own.
-  /// @throws the first exception that a participant left, after all have ended
+  /// Runs all participants to completion, each on its own thread.
+  /// @throws the first exception of a participant, after all have finished
   void run(const std::vector<std::function<void()>>& participants);
 
   long num_factorisations() const { return num_factorisations_; }

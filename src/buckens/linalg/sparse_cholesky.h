@@ -11,24 +11,25 @@
 
 namespace buckens::linalg {
 
-/// Who carries out the forward and backward substitution.
+/// What does the forward and backward substitution.
 enum class SolveRoute {
   automatic,  ///< panels where the factor has dense parts worth it, otherwise CHOLMOD
-  panels,     ///< PanelFactor, whatever the matrix
-  cholmod,    ///< CHOLMOD's own: the reference of tests and benchmarks
+  panels,     ///< PanelFactor, for any matrix
+  cholmod,    ///< CHOLMOD's own: the reference for tests and benchmarks
 };
 
 struct CholeskyOptions {
   SolveRoute route = SolveRoute::automatic;
   SimdLevel simd = best_simd_level();  ///< of the panels
-  /// Entries of a factor that 32-bit indices are taken to reach; beyond, CHOLMOD counts in 64 bits.
+  /// Largest number of entries of a factor with 32-bit indices; above it CHOLMOD uses 64 bits.
   double most_narrow_entries = INT_MAX;
 };
 
-/// Cholesky factor of a sparse symmetric positive definite matrix: factorised once, solved often.
+/// Cholesky factor of a sparse symmetric positive definite matrix: factorised once, used for many
+/// solves.
 ///
 /// CHOLMOD factorises; the ordering is METIS' or nested dissection, whichever fills less. Large
-/// factors are then laid out anew for solving (PanelFactor) and CHOLMOD's copy is freed.
+/// factors are then copied into a layout for solving (PanelFactor) and CHOLMOD's copy is freed.
 /// Solving allocates nothing after the first call of a given number of right-hand sides. Solves
 /// from several threads wait for one another.
 class SparseCholesky final : public Factor {
@@ -50,13 +51,13 @@ class SparseCholesky final : public Factor {
   SolveRoute route() const;
   /// Width of CHOLMOD's indices that the factor needed: 32 or 64.
   int index_bits() const;
-  /// Solves over panels from now on; CHOLMOD's copy is freed. Not while others solve.
-  /// @return false if the factor has no dense parts to lay out; then nothing changes
+  /// Switches to solving with panels and frees CHOLMOD's copy. Not while other threads solve.
+  /// @return false if the factor has no dense parts; then nothing changes
   bool take_panels(SimdLevel simd = best_simd_level());
 
   using Factor::solve;
   using Factor::solve_in_place;
-  /// Up to 32 columns read the factor together.
+  /// Up to 32 columns share one read of the factor.
   /// @param pool shares the work of large factors between two threads; the result is the same
   void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override;
   void solve_in_place(std::span<double* const> vectors, TaskPool* pool = nullptr) const override;

@@ -11,7 +11,7 @@ namespace buckens::linalg {
 /// LU factors of a small sparse matrix whose pattern never changes while its values do.
 ///
 /// Backend KLU: the ordering is computed once; each factorise() reuses the pivots of the last one
-/// while they stay good (reciprocal pivot growth), and pivots anew otherwise.
+/// while they stay good (reciprocal pivot growth), and pivots again otherwise.
 class SparseLu {
  public:
   /// @param pattern square matrix in compressed form; the values are not read
@@ -20,18 +20,18 @@ class SparseLu {
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;
 
-  /// @param A the pattern of the constructor with new values
+  /// @param A new values with the pattern of the constructor
   /// @return false if A is singular to working precision
   bool factorise(const SparseMatrix& A);
-  /// Values of the matrix from which the pivots in use were taken; empty before the first.
+  /// Values of the matrix for which the current pivots were chosen; empty before the first.
   const std::vector<double>& pivoted_values() const;
-  /// Ratio of the smallest to the largest pivot; cheap estimate of 1/condition.
+  /// Ratio of the smallest to the largest pivot; a cheap estimate of 1/condition.
   double pivot_ratio() const;
   /// x ← A⁻¹ x with the last factorisation.
   void solve_in_place(Vector& x) const;
   /// The same for each column.
   void solve_in_place(Matrix& X) const;
-  /// Entries of L and U that the ordering promises, before factorising.
+  /// Entries of L and U predicted by the ordering, before factorising.
   double predicted_entries() const;
   /// Entries of L and U of the last factorisation.
   double num_factor_entries() const;

@@ -35,7 +35,7 @@ struct SpqrMatrix {
   SpqrMatrix(const SpqrMatrix&) = delete;
   SpqrMatrix& operator=(const SpqrMatrix&) = delete;
 
-  /// Why SPQR gave up, and what to do.
+  /// Why SPQR failed, and what to do.
   std::string failure() const {
     const std::string size = std::to_string(view.nrow) + " × " + std::to_string(view.ncol);
     if (common.status == CHOLMOD_OUT_OF_MEMORY) {

@@ -6,8 +6,8 @@
 
 namespace buckens::linalg {
 
-/// Doubles that are read in one long sweep: aligned to cache lines and, where there are many, on
-/// huge pages (where the system grants them), which spares most misses of address translation.
+/// Doubles that are read in one long sweep: aligned to cache lines and, if there are many, on huge
+/// pages (where the system provides them), which avoids most TLB misses.
 class StreamingMemory {
  public:
   StreamingMemory() = default;
@@ -26,8 +26,8 @@ class StreamingMemory {
   std::size_t size_ = 0;
 };
 
-/// Gives the whole pages of [begin, end) back to the system, where it can be asked to; what they
-/// held is lost. The memory stays allocated and is freed as ever.
+/// Returns the whole pages of [begin, end) to the system, where possible; their contents are lost.
+/// The memory stays allocated and is freed as usual.
 void give_up_pages(const double* begin, const double* end);
 
 }  // namespace buckens::linalg

@@ -5,7 +5,7 @@
 
 namespace buckens::linalg {
 
-/// A supernodal Cholesky factor P A Pᵀ = L Lᵀ as its owner holds it: views, valid as long as it
+/// A supernodal Cholesky factor P A Pᵀ = L Lᵀ as stored by its owner: views, valid as long as that
 /// lives. Supernodes are runs of columns with the same rows below; children come before parents.
 struct Supernodes {
   int size = 0;                              ///< n

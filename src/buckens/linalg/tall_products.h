@@ -5,9 +5,9 @@
 
 namespace buckens::linalg {
 
-/// Products of matrices with many rows and few columns, as block iterations need them. BLAS carries
-/// the dense ones out: it has the vector instructions of the processor, where a program that is to
-/// run everywhere is compiled without.
+/// Products of matrices with many rows and few columns, as block iterations need them. BLAS does
+/// the dense ones: it uses the vector instructions of the processor, while a program that has to
+/// run everywhere is compiled without them.
 
 /// AᵀB.
 Matrix inner_products(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B);
@@ -19,7 +19,7 @@ void subtract_combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<c
 /// A S.
 Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S);
 
-/// A X, entries of A read once for eight columns.
+/// A X, reading the entries of A once for eight columns.
 /// @param A symmetric, both triangles stored
 Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X);
 

@@ -5,7 +5,7 @@
 
 namespace buckens::spatial {
 
-/// Pose X_AB: where frame B stands in A.
+/// Pose X_AB: position and orientation of frame B in A.
 struct Pose {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();            ///< origin of B in A [m]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();  ///< R_AB

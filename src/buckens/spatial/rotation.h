@@ -20,8 +20,8 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& theta);
 
 /// Derivative of J_l(theta) theta_dot along theta_dot, with theta_ddot = 0 [rad/s²].
 ///
-/// Central difference along the path: the term is of the order |theta| |theta_dot|², so its
-/// relative error of about 1e-9 stays far below rounding of the accelerations it corrects.
+/// Central difference along the path: the term is of order |theta| |theta_dot|², so its
+/// relative error of about 1e-9 is far below rounding of the accelerations it corrects.
 Eigen::Vector3d left_jacobian_rate(const Eigen::Vector3d& theta, const Eigen::Vector3d& theta_dot);
 
 }  // namespace buckens::spatial

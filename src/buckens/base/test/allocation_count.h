@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstddef>
 
-// Counts calls of malloc, which operator new and Eigen use, and of its kin. Include in one source
-// of a test program only: it takes the place of the C library's functions.
+// Counts calls of malloc (which operator new and Eigen use), calloc and so on. Include in one
+// source of a test program only: it replaces the C library's functions.
 
 namespace buckens::test {
 
@@ -15,10 +15,10 @@ inline std::atomic<std::size_t> least_counted{0};  // bytes
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 inline constexpr bool kCountsAllocations = true;
 #else
-inline constexpr bool kCountsAllocations = false;  // sanitizers have a malloc of their own
+inline constexpr bool kCountsAllocations = false;  // sanitizers have their own malloc
 #endif
 
-/// Allocations of all threads while f runs. @param least only those of as many bytes or more
+/// Allocations of all threads while f runs. @param least count only those of at least so many bytes
 template <class F>
 long count_allocations(F&& f, std::size_t least = 0) {
   least_counted = least;

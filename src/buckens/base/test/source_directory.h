@@ -3,8 +3,8 @@
 
 namespace buckens::test {
 
-/// The checkout, for tests that read its files. Defined in a generated source, so that no other one
-/// depends on where the checkout lies and compiler caches serve all of them.
+/// The checkout, for tests that read its files. Defined in a generated source, so that no other
+/// source depends on where the checkout is and compiler caches work for all.
 extern const char* const kSourceDirectory;
 
 }  // namespace buckens::test

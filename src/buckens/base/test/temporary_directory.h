@@ -9,7 +9,7 @@
 
 namespace buckens::test {
 
-/// A directory of its own for one test, removed with its content at the end.
+/// A directory for one test, removed with its contents at the end.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -7,7 +7,7 @@
 namespace buckens::test {
 
 /// A marker frame that moves with constant acceleration of its origin and of its rotation vector:
-/// the path along which rates are checked by finite differences. Exact derivatives at t = 0.
+/// a path for checking rates by finite differences. Exact derivatives at t = 0.
 struct MarkerPath {
   Eigen::Vector3d p, v, a;
   Eigen::Matrix3d R;
@@ -23,7 +23,7 @@ struct MarkerPath {
     return out;
   }
 
-  /// Some frame in general position; `seed` tells frames apart.
+  /// A frame in general position; `seed` selects one.
   static MarkerPath some(int seed) {
     const double s = seed;
     MarkerPath out;
