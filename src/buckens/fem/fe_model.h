@@ -15,7 +15,8 @@ class ElementBlock;
 /// The constant matrices of one finite-element body: M d̈ + C ḋ + K d = f in the body frame, with
 /// C = α M + K_damping, and the inertia integrals that couple d to the frame's motion.
 ///
-/// Made by assemble(); see structure.h for the way there and recovery.h for what comes back.
+/// Made by assemble(); see structure.h for its input and recovery.h for stresses and section
+/// forces.
 struct FeModel {
   std::vector<Node> nodes;
   DofMap dofs;
@@ -23,7 +24,7 @@ struct FeModel {
   linalg::SparseMatrix K;          ///< stiffness, n×n [N/m, N, N m]
   linalg::SparseMatrix K_damping;  ///< Σ β K over materials, n×n; no entries where undamped
   double mass_damping = 0;         ///< α [1/s], one value per body
-  /// α acts on the motion of the body as its joints hold it, not on that relative to its frame.
+  /// α acts on the motion of the body as held by its joints, not on that relative to its frame.
   bool damps_held_motion = false;
   ShapeIntegrals shape;
   /// The elements, by kind. Elements are numbered through all blocks in this order.

@@ -41,20 +41,20 @@ struct Structure {
   ShellBlock shells;
   SpringBlock springs;
   NodeLinks links;
-  /// Nodes that only divide a bar. Bars there keep one direction although they are hinged.
+  /// Nodes that only divide a bar. Bars stay collinear there although they are hinged.
   std::vector<int> straight_nodes;
-  /// Faces, nodes and elements that generators or mesh files named. The parts of a divided mesh
-  /// have none.
+  /// Faces, nodes and elements named by generators or mesh files. The parts of a divided mesh have
+  /// none.
   std::vector<FaceSet> face_sets;
   std::vector<NodeSet> node_sets;
   std::vector<ElementSet> element_sets;
 };
 
-/// Elements and nodes made from one beam.
+/// Elements and nodes created from one beam.
 struct BeamDivision {
-  int first_element = 0;  ///< among the beams; the elements follow one another
+  int first_element = 0;  ///< among the beams; the elements are consecutive
   int num_elements = 0;
-  std::vector<int> nodes;  ///< from the first end to the second, both included
+  std::vector<int> nodes;  ///< from the first end to the second, inclusive
 };
 
 /// @param name may be empty
@@ -62,7 +62,8 @@ struct BeamDivision {
 /// @throws ModelError if another node has this name
 int add_node(Structure& structure, const std::string& name, const Eigen::Vector3d& position);
 
-/// Divides the line between two nodes into equal beam elements; makes the nodes between, unnamed.
+/// Divides the line between two nodes into equal beam elements; creates the unnamed nodes in
+/// between.
 /// @throws ModelError if `divisions` < 1 or a node does not exist
 BeamDivision add_beam(Structure& structure, int node_a, int node_b, int divisions,
                       const BeamProperties& properties);

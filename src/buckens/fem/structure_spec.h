@@ -23,7 +23,7 @@ constexpr std::array<const char*, 2> choice_names(BeamTheory) {
   return {"euler-bernoulli", "timoshenko"};
 }
 
-/// What beams have in common, however their ends are given.
+/// What beams have in common, whichever way their ends are given.
 struct BeamPropertySpec {
   int elements = 1;
   base::Reference<SectionSpec> section;
@@ -42,7 +42,7 @@ struct BeamPropertySpec {
   template <class Visitor>
   void property_fields(Visitor& visit) {
     visit(base::field("elements", elements,
-                      "number of elements, all of the same length between two given points")
+                      "number of elements, equally long between two given points")
               .positive()
               .like("16"));
     visit(
@@ -50,31 +50,29 @@ struct BeamPropertySpec {
             .required()
             .like("{circle: {diameter: 6 mm}}"));
     visit(base::field("end-section", end_section,
-                      "section at the second end, of the same shape: the measures change linearly "
+                      "section at the second end, of the same shape: the dimensions vary linearly "
                       "from `section` to it")
               .like("{circle: {diameter: 3 mm}}")
               .otherwise("the beam is uniform"));
-    visit(
-        base::field("through", through,
-                    "points between the ends that the beam goes through, in model axes; nodes lie "
-                    "on its `path`, elements are straight")
-            .in(base::kLength)
-            .like("[[0.1 m, 0.05 m, 0]]")
-            .otherwise("the beam is straight"));
+    visit(base::field("through", through,
+                      "points between the ends through which the beam passes, in model axes; nodes "
+                      "are on its `path`, elements are straight")
+              .in(base::kLength)
+              .like("[[0.1 m, 0.05 m, 0]]")
+              .otherwise("the beam is straight"));
     visit(base::field("path", path,
-                      "way from point to point: straight lines, a circular arc (one point in "
+                      "path from point to point: straight lines, a circular arc (one point in "
                       "`through`) or a natural cubic spline"));
     visit(base::field("material", material, "material: a name from `materials` or written in place")
               .required()
               .like("steel"));
-    visit(base::field("up", up, "direction near which the local z axis lies, in model axes")
+    visit(base::field("up", up, "approximate direction of the local z axis, in model axes")
               .like("[0, 0, 1]")
               .otherwise("model z; model y for members along z; along a `path` the axes of the "
-                         "first element are carried on without twist"));
+                         "first element are continued without twist"));
     visit(base::field("theory", theory, "with (`timoshenko`) or without shear deformation"));
     visit(base::field("rotary-inertia", rotary_inertia,
-                      "rotary inertia of bending (that of torsion is "
-                      "always there)")
+                      "rotary inertia of bending (that of torsion is always included)")
               .on_off()
               .otherwise("on for timoshenko, off for euler-bernoulli"));
   }
@@ -106,11 +104,10 @@ struct PointMassSpec {
               .in(base::kInertia)
               .like("[0, 0, 1e-5 kg m^2]")
               .otherwise("none"));
-    visit(
-        base::field("offset", offset,
-                    "of the mass centre from the node, to which it is held rigidly; in model axes")
-            .in(base::kLength)
-            .like("[0, 0, 20 mm]"));
+    visit(base::field("offset", offset,
+                      "from the node to the mass centre, rigidly attached; in model axes")
+              .in(base::kLength)
+              .like("[0, 0, 20 mm]"));
   }
 };
 
@@ -129,7 +126,7 @@ inline Eigen::Matrix3d symmetric_matrix(const std::vector<double>& entries) {
 
 inline Eigen::Matrix3d PointMassSpec::inertia_matrix() const { return symmetric_matrix(inertia); }
 
-/// A beam made a body by itself.
+/// A body that consists of one beam.
 struct BeamSpec : BeamPropertySpec {
   static constexpr const char* kKey = "beam";
   static constexpr const char* kDoc = "flexible body: one beam";
@@ -180,7 +177,7 @@ struct BeamMemberSpec : BeamPropertySpec {
 };
 
 /// A bar (axial stiffness only) between two named nodes. More than one element needs a frame each
-/// (`frames: per-element`), which hold one direction; in one frame they would be a mechanism.
+/// (`frames: per-element`), which keep them collinear; in one frame they would be a mechanism.
 /// Exactly one of section and area is given.
 struct BarMemberSpec {
   SourceLocation where;
@@ -211,8 +208,8 @@ struct BarMemberSpec {
   }
 };
 
-/// Beams, bars, solids, shells and point masses between named nodes. Beams and shells meet rigidly,
-/// bars and solids hold the place of a node only.
+/// Beams, bars, solids, shells and point masses between named nodes. Beams and shells are joined
+/// rigidly, bars and solids hold only the position of a node.
 struct StructureSpec {
   static constexpr const char* kKey = "structure";
   static constexpr const char* kDoc =

@@ -8,13 +8,13 @@
 
 namespace buckens::fem {
 
-/// Stiffening of beams and bars by the axial force that they carry.
+/// Stiffening of beams and bars by their axial force.
 ///
-/// An element with the axial force N resists being turned: f = −N G d with its geometric stiffness
-/// N G (cubic deflection for beams, linear for bars). N follows from d itself,
-/// N = EA/l · t·(u₂ − u₁), so that it holds whatever causes it: centrifugal load, forces at joints,
-/// axial vibration. The force is quadratic in d and goes to the right-hand side; K stays constant.
-/// Rigid rotation is not free of this force; the sieve takes that part out.
+/// An element with axial force N resists rotation: f = −N G d with its geometric stiffness N G
+/// (cubic deflection for beams, linear for bars). N follows from d itself, N = EA/l · t·(u₂ − u₁),
+/// whatever its cause: centrifugal load, joint forces, axial vibration. The force is quadratic in d
+/// and goes to the right-hand side; K stays constant. Rigid rotation is not free of this force; the
+/// sieve removes that part.
 class GeometricStiffness {
  public:
   explicit GeometricStiffness(const FeModel& fe);

@@ -11,7 +11,7 @@
 
 namespace buckens::fem {
 
-/// A body by the mass and stiffness matrices that another program has written.
+/// A body given by the mass and stiffness matrices of another program.
 struct MatricesSpec {
   static constexpr const char* kKey = "matrices";
   static constexpr const char* kDoc =
@@ -33,19 +33,19 @@ struct MatricesSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("mass", mass,
-                      "file of the mass matrix: Matrix Market (.mtx), or what *MATRIX OUTPUT of "
-                      "Abaqus writes; names of files are relative to the model file")
+                      "file with the mass matrix: Matrix Market (.mtx), or as written by *MATRIX "
+                      "OUTPUT of Abaqus; file names are relative to the model file")
               .required()
               .like("rotor_mass.mtx"));
-    visit(base::field("stiffness", stiffness, "file of the stiffness matrix")
+    visit(base::field("stiffness", stiffness, "file with the stiffness matrix")
               .required()
               .like("rotor_stiffness.mtx"));
-    visit(base::field("damping", damping, "file of a damping matrix")
+    visit(base::field("damping", damping, "file with a damping matrix")
               .like("rotor_damping.mtx")
               .otherwise("none"));
     visit(base::field("nodes", nodes,
-                      "CSV table of the nodes with the columns node, x, y, z and, where the order "
-                      "of the rows is not that of the table, ux, uy, uz, rx, ry, rz: the row of "
+                      "CSV table of the nodes with the columns node, x, y, z and, if the order of "
+                      "the rows is not that of the table, ux, uy, uz, rx, ry, rz: the row of "
                       "each displacement and rotation, counted from 1")
               .required()
               .like("rotor_nodes.csv"));

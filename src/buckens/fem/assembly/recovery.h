@@ -13,12 +13,12 @@ namespace buckens::fem {
 struct LineElement {
   int a = 0;  ///< nodes
   int b = 0;
-  std::array<const Section*, 2> sections{};            ///< at both ends; they belong to the model
+  std::array<const Section*, 2> sections{};            ///< at both ends; owned by the model
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns x, y, z, model axes
   bool bends = false;                                  ///< beam (true) or bar
 };
 
-/// All line elements in the order of their numbers: beams, then bars.
+/// All line elements in numerical order: beams, then bars.
 std::vector<LineElement> line_elements(const FeModel& fe);
 
 /// Rows of the displacement and rotation at a point of a line element.
@@ -33,11 +33,11 @@ PointRows node_rows(const FeModel& fe, int node);
 /// Section forces and stresses of all line elements at once.
 ///
 /// Per element twelve section forces in element axes: N, Q_y, Q_z [N], M_t, M_y, M_z [N m] at the
-/// first end, then at the second. They act from the part on the +x side on the part on the −x side:
-/// N > 0 is tension, M_y > 0 stretches the +z side, M_z > 0 stretches the −y side;
-/// σ_x = N/A + M_y z/I_y − M_z y/I_z. With θ_z = v′: M_z = E I_z v″ and Q_y = −M_z′.
-/// They are K_e d_e of the element: loads and inertia forces between the ends are shared by the
-/// nodes as in the equations of motion, so the values converge with the element length.
+/// first end, then at the second. They are exerted by the part on the +x side on the part on the −x
+/// side: N > 0 is tension, M_y > 0 stretches the +z side, M_z > 0 stretches the −y side; σ_x = N/A
+/// + M_y z/I_y − M_z y/I_z. With θ_z = v′: M_z = E I_z v″ and Q_y = −M_z′. They are K_e d_e of the
+/// element: loads and inertia forces between the ends are lumped to the nodes as in the equations
+/// of motion, so the values converge as elements get shorter.
 class Recovery {
  public:
   explicit Recovery(const FeModel& fe);
@@ -48,15 +48,15 @@ class Recovery {
   /// @return 12×(number of elements). Cost: one sparse product.
   linalg::Matrix section_forces(const linalg::Vector& d) const;
 
-  /// Stress estimates from section forces [Pa], per element the larger of both ends: row 0 the
-  /// largest |σ_x| over the section's stress points, row 1 a von Mises stress from that and the sum
-  /// of the largest torsional and shear stresses (on the safe side).
+  /// Stress estimates from section forces [Pa], for each element the larger of its two ends: row 0
+  /// the largest |σ_x| over the section's stress points, row 1 a von Mises stress from that and the
+  /// sum of the largest torsional and shear stresses (conservative).
   linalg::Matrix stresses(const linalg::Matrix& section_forces) const;
 
  private:
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
   std::vector<Section> sections_;
-  std::vector<std::array<std::size_t, 2>> at_ends_;  // sections of the ends of each element
+  std::vector<std::array<std::size_t, 2>> at_ends_;  // sections at the ends of each element
 };
 
 }  // namespace buckens::fem

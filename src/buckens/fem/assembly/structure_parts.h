@@ -7,27 +7,27 @@
 
 namespace buckens::fem {
 
-/// A place of the whole mesh as it is found in one of its parts.
+/// A location of the whole mesh within one of its parts.
 struct PartPlace {
   int part = -1;
   int index = -1;  ///< of the node or element within the part
 };
 
-/// A mesh divided into connected parts that share nothing but copies of nodes.
+/// A mesh divided into connected parts that share only copies of nodes.
 struct StructureParts {
   std::vector<Structure> parts;
-  /// Per node of the whole mesh its copies, at least one, by ascending part.
+  /// For each node of the whole mesh its copies, at least one, by ascending part.
   std::vector<std::vector<PartPlace>> nodes;
-  /// Per line element of the whole mesh (beams, then bars) its place among those of its part.
+  /// For each line element of the whole mesh (beams, then bars) its index in its part.
   std::vector<PartPlace> lines;
   std::vector<PartPlace> solids;  ///< the same for its solids, then its shells
 };
 
-/// Number of elements that hold nodes together: beams, bars, solids and shells.
+/// Number of elements that connect nodes: beams, bars, solids and shells.
 int num_holding_elements(const Structure& structure);
 
-/// Chooses the part of each beam, bar, solid and shell, in this order. Line elements that follow
-/// one another are divided by length; any other mesh by linalg::divide_graph.
+/// Chooses the part of each beam, bar, solid and shell, in this order. Consecutive line elements
+/// are divided by length; any other mesh by linalg::divide_graph.
 /// @param count number of parts, 1 … number of these elements
 /// @throws ModelError if count is out of range or the mesh is in pieces
 std::vector<int> choose_parts(const Structure& structure, int count);

@@ -7,13 +7,13 @@
 
 namespace buckens::fem {
 
-/// What each node of an element has of a uniform load on it, ∫ N dV.
+/// The share of each node of an element in a uniform load on it, ∫ N dV.
 struct NodeShares {
   std::vector<int> nodes;
   Eigen::VectorXd share;
 };
 
-/// Shares of the nodes of a solid element in its volume [m³]; they may be negative.
+/// Shares of the nodes of a solid element in its volume [m³]; may be negative.
 NodeShares solid_shares(const SolidBlock& solids, const std::vector<Node>& nodes, int element);
 
 /// Integral of the displacement along a line element times a weight, as rows over d:
@@ -24,8 +24,8 @@ struct LineIntegral {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();        ///< model axes [m]
   std::vector<linalg::Triplet> rows;  ///< (0…2, DOF, value); the DOF may be −1
 };
-/// A uniform force on a beam gives moments at its ends besides, ± q l²/12, as its shape functions
-/// say.
+/// A uniform force on a beam also gives end moments, ± q l²/12, from its shape
+/// functions.
 /// @param line number among the line elements
 LineIntegral line_integral(const FeModel& fe, int line, const Quartic& weight);
 

@@ -32,10 +32,10 @@ struct RigidLinkSpec {
     visit(
         base::field("reference", reference, "node that the others follow").required().like("hub"));
     visit(base::field("nodes", nodes, "nodes that follow").required().like("[a, b, c]"));
-    visit(
-        base::field("variables", variables, "what of them follows, in model axes; the rest is free")
-            .like("[x, y, z]")
-            .otherwise("all"));
+    visit(base::field("variables", variables,
+                      "variables that follow, in model axes; the rest is free")
+              .like("[x, y, z]")
+              .otherwise("all"));
   }
 };
 
@@ -58,7 +58,7 @@ struct AverageLinkSpec {
               .like("[1, 2, 1]")
               .otherwise("all alike"));
     visit(base::field("variables", variables,
-                      "what of the reference follows, in model axes; the rest is free")
+                      "variables of the reference that follow, in model axes; the rest is free")
               .like("[x, y, z]")
               .otherwise("all"));
   }
@@ -77,7 +77,7 @@ struct EquationTermSpec {
               .required()
               .like("x"));
     visit(base::field("coefficient", coefficient,
-                      "factor; a rotation times a lever in metres goes with displacements")
+                      "factor; a rotation combined with displacements needs a lever arm in metres")
               .like("-1"));
   }
 };
@@ -90,8 +90,8 @@ struct EquationSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("terms", terms,
-                      "the sum of coefficient times variable is zero; the first is made to depend "
-                      "on the others. Rigid motion must fulfil it")
+                      "the sum of coefficient times variable is zero; the first variable is "
+                      "expressed by the others. Rigid motion must satisfy it")
               .required()
               .like("[{node: a, variable: x}, {node: b, variable: x, coefficient: -1}]"));
   }
@@ -108,7 +108,7 @@ struct NodeSpringSpec {
   void fields(Visitor& visit) {
     visit(base::field("between", between, "the two nodes").required().like("[a, b]"));
     visit(base::field("translation", translation,
-                      "stiffness along x, y, z at the middle between the nodes, model axes")
+                      "stiffness along x, y, z midway between the nodes, model axes")
               .in(base::kStiffness)
               .non_negative()
               .like("[1e6 N/m, 1e6 N/m, 0]"));
@@ -119,7 +119,7 @@ struct NodeSpringSpec {
   }
 };
 
-/// Links between the nodes of a structure, solved before the equations of motion are made.
+/// Links between the nodes of a structure, solved before the equations of motion are formed.
 struct StructureLinksSpec {
   SourceLocation where;
   std::vector<RigidLinkSpec> rigid;

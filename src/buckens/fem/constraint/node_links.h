@@ -10,7 +10,7 @@ namespace buckens::fem {
 /// Nodes that follow a reference node as a rigid body: u_i = u + θ × (x_i − x), θ_i = θ, in the
 /// chosen variables. The others stay free.
 struct RigidLink {
-  std::string label;  ///< how messages call it: name, or file and line
+  std::string label;  ///< what messages call it: name, or file and line
   int reference = 0;
   std::vector<int> nodes;
   std::array<bool, 6> variables = {true, true, true, true, true, true};
@@ -22,7 +22,7 @@ struct AverageLink {
   int reference = 0;
   std::vector<int> nodes;
   std::vector<double> weights;  ///< as many as nodes, positive
-  /// What of the reference follows. The rest stays free.
+  /// Variables of the reference that follow. The rest stays free.
   std::array<bool, 6> variables = {true, true, true, true, true, true};
   /// Per node which of its displacements count, model axes; empty: all.
   std::vector<std::array<bool, 3>> components;

@@ -23,7 +23,7 @@ struct MassMoment {
 /// Inertia of a body under assembly. Entries with row or column −1 are never added.
 struct InertiaSum {
   std::array<std::vector<linalg::Triplet>, 6> W;  ///< order of ShapeIntegrals::W
-  std::vector<linalg::Triplet> M_flywheel;        ///< what is in M but not in Σ W_aa
+  std::vector<linalg::Triplet> M_flywheel;        ///< the part of M that is not in Σ W_aa
   std::vector<linalg::Triplet> nodal;             ///< NodalMass::Ms, by node numbers
   linalg::Matrix c;                               ///< n×9
   Eigen::Matrix3d C0 = Eigen::Matrix3d::Zero();
@@ -44,32 +44,32 @@ struct PointRows {
   bool has_rotation = false;  ///< false where the mesh has no rotations (bars)
 };
 
-/// What a block needs to know about its body.
+/// What a block needs from its body.
 struct MeshView {
   const std::vector<Node>& nodes;
   const DofMap& dofs;
 };
 
-/// All elements of one kind in a body: one virtual call handles the whole block.
+/// All elements of one kind in a body: one virtual call processes the whole block.
 class ElementBlock {
  public:
   virtual ~ElementBlock() = default;
 
   virtual int num_elements() const = 0;
-  /// The nodes of an element; those of a line from end to end.
+  /// The nodes of an element; of a line, from end to end.
   virtual std::span<const int> nodes(int element) const = 0;
-  /// First and last node; twice the same for a point mass.
+  /// First and last node; the same one for a point mass.
   std::array<int, 2> ends(int element) const {
     const auto all = nodes(element);
     return {all.front(), all.back()};
   }
-  /// Whether the elements extend along a line (beams, bars), or sit on a node.
+  /// Whether the elements are lines (beams, bars) rather than on a node.
   virtual bool is_line() const = 0;
-  /// Whether the elements fill a volume.
+  /// Whether the elements are volumes.
   virtual bool is_solid() const { return false; }
   /// Whether the elements are surfaces with a thickness.
   virtual bool is_shell() const { return false; }
-  /// Whether the elements hold their nodes together.
+  /// Whether the elements connect their nodes.
   virtual bool holds_nodes() const { return is_line() || is_solid() || is_shell(); }
   /// Whether the elements give rotations to their nodes.
   virtual bool has_rotations() const = 0;
@@ -82,12 +82,12 @@ class ElementBlock {
   virtual Eigen::Matrix3d line_axes(const std::vector<Node>& /*nodes*/, int /*element*/) const {
     return Eigen::Matrix3d::Identity();
   }
-  /// E A of the uniform line element that a tension stretches as much [N].
+  /// E A of the uniform line element with the same extension under tension [N].
   virtual double axial_rigidity(int element) const {
     return material(element)->E * section(element)->A;
   }
 
-  /// @throws ModelError naming the nodes of an element that cannot be (zero length, bad constants)
+  /// @throws ModelError naming the nodes of an invalid element (zero length, bad constants)
   virtual void check(const MeshView& mesh) const = 0;
 
   virtual void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const = 0;
@@ -103,14 +103,14 @@ class ElementBlock {
   /// @param xi 0 at the first end, 1 at the second
   virtual PointRows point_rows(const MeshView& mesh, int element, double xi) const = 0;
 
-  /// Stresses σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx at the centres of solid elements or of the two
-  /// sides of shells, model axes, as rows over d: rows 6 e + (0…5) with e counted from
-  /// `first_element`; a shell has two sets of rows, those of the side the normal points to first.
+  /// Stresses σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx at the centres of solid elements or of both sides
+  /// of shells, model axes, as rows over d: rows 6 e + (0…5) with e counted from `first_element`; a
+  /// shell has two sets of rows, those of the side the normal points to first.
   virtual void add_stress_rows(const MeshView& /*mesh*/, int /*first_element*/,
                                std::vector<linalg::Triplet>& /*rows*/) const {}
-  /// Faces of a solid element, or the one of a shell, in pieces that can be drawn, nodes
-  /// counter-clockwise seen from outside; −1 in place of the fourth node of a triangle. Elements
-  /// with a common face have the same pieces there.
+  /// Faces of a solid element, or the one of a shell, in pieces for drawing, nodes
+  /// counter-clockwise seen from outside; −1 as the fourth node of a triangle. Elements with a
+  /// common face divide it into the same pieces.
   virtual std::vector<std::array<int, 4>> faces(int /*element*/) const { return {}; }
 };
 

@@ -22,7 +22,7 @@ std::array<int, kPerNode * kNodes> element_dofs(const DofMap& map,
   return out;
 }
 
-/// The same for elements whose number of nodes is not known to the compiler.
+/// The same for elements whose number of nodes is not known at compile time.
 template <std::size_t kPerNode>
 std::vector<int> element_dofs(const DofMap& map, std::span<const int> nodes) {
   std::vector<int> out;

@@ -16,8 +16,8 @@ using Elasticity = Eigen::Matrix<double, 6, 6>;
 /// Elasticity of an isotropic or orthotropic material.
 Elasticity solid_elasticity(const Material& material);
 
-/// Refuses what no solid is made of.
-/// @param where start of the message
+/// Refuses impossible constants.
+/// @param where beginning of the message
 /// @throws ModelError unless the strain energy of every strain is positive, ρ ≥ 0 and an isotropic
 /// material has G = E/(2(1+ν))
 void check_solid_material(const std::string& where, const Material& material);

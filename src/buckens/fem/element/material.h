@@ -7,8 +7,8 @@
 
 namespace buckens::fem {
 
-/// Constants of a material with three planes of symmetry. ν_ab is the contraction along b of a pull
-/// along a; ν_ba = ν_ab E_b/E_a follows.
+/// Constants of a material with three planes of symmetry. ν_ab is the contraction along b under
+/// tension along a; ν_ba = ν_ab E_b/E_a follows.
 struct Orthotropy {
   Eigen::Vector3d E = Eigen::Vector3d::Zero();  ///< Young's moduli E1, E2, E3 [Pa]
   double nu12 = 0;
@@ -29,7 +29,7 @@ struct Material {
   double rho = 0;                ///< density [kg/m³], zero allowed
   double damping_mass = 0;       ///< α [1/s]
   double damping_stiffness = 0;  ///< β [s]
-  /// Solids and layers of shells: stands in place of E, ν and G.
+  /// Solids and layers of shells: used instead of E, ν and G.
   std::optional<Orthotropy> orthotropy = std::nullopt;
   bool damps_held_motion = false;  ///< what α acts on, see FeModel::damps_held_motion
 

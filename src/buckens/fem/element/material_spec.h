@@ -14,15 +14,15 @@
 
 namespace buckens::fem {
 
-/// Whose vibrations a damping ratio is meant for.
+/// Which vibrations a damping ratio refers to.
 enum class DampedModes { held, free };
 
 constexpr std::array<const char*, 2> choice_names(DampedModes) { return {"held", "free"}; }
 
 /// Rayleigh damping C = αM + βK, given by α and β or by a damping ratio at one or two frequencies.
 ///
-/// α acts on motion relative to the body frame. That is all motion of a vibration of the free body,
-/// but little of one of the body as its joints hold it, since the frame follows; see
+/// α acts on motion relative to the body frame. That is the whole motion in a vibration of the free
+/// body, but only a small part in one of the body held by its joints, since the frame follows; see
 /// FeModel::damps_held_motion.
 struct DampingSpec {
   SourceLocation where;
@@ -44,7 +44,7 @@ struct DampingSpec {
     for (const double frequency : at) sum += kTurn * frequency;
     return sum > 0.0 ? 2.0 * *ratio / sum : 0.0;
   }
-  /// Whether α acts on the motion that the joints leave the body, in place of that relative to the
+  /// Whether α acts on the motion that the joints leave the body, rather than that relative to the
   /// frame.
   bool is_of_held_motion() const { return ratio && at.size() == 2 && of == DampedModes::held; }
 
@@ -52,8 +52,8 @@ struct DampingSpec {
   void fields(Visitor& visit) {
     visit(base::field("mass", mass,
                       "factor α [1/s] of the mass matrix; one value per body, it acts on motion "
-                      "relative to the body frame and hardly on the low vibrations of a body that "
-                      "its joints hold")
+                      "relative to the body frame and has little effect on the low vibrations of a "
+                      "body held by its joints")
               .in(base::kFrequency)
               .non_negative()
               .like("2 1/s"));
@@ -66,16 +66,16 @@ struct DampingSpec {
                       "`buckens check` lists the ratios of the assembled model")
               .within(base::Range::fraction)
               .like("2 %"));
-    visit(base::field("at", at,
-                      "two frequencies at which `ratio` holds; between them it is less, outside "
-                      "more. One frequency: stiffness share alone, the ratio grows with the "
-                      "frequency")
+    visit(base::field(
+              "at", at,
+              "two frequencies at which `ratio` holds; it is lower between them and higher "
+              "outside. One frequency: stiffness damping only, the ratio grows with frequency")
               .in(base::kFrequency)
               .positive()
               .like("[10 Hz, 200 Hz]"));
     visit(base::field("of", of,
-                      "vibrations that have `ratio`. held: of the body as its joints hold it at "
-                      "t = 0; free: of the body alone in space"));
+                      "the vibrations to which `ratio` applies. held: of the body held by its "
+                      "joints at t = 0; free: of the body alone in space"));
   }
 
  private:
@@ -86,12 +86,12 @@ struct DampingSpec {
 struct OrthotropicSpec {
   SourceLocation where;
   double E1 = 0, E2 = 0, E3 = 0;        ///< [Pa]
-  double nu12 = 0, nu13 = 0, nu23 = 0;  ///< contraction along the second of a pull along the first
+  double nu12 = 0, nu13 = 0, nu23 = 0;  ///< contraction along 2nd under tension along 1st
   double G12 = 0, G13 = 0, G23 = 0;     ///< [Pa]
   Eigen::Vector3d axis_1 = Eigen::Vector3d::UnitX();
   Eigen::Vector3d axis_2 = Eigen::Vector3d::UnitY();  ///< near direction 2
 
-  /// The constants with orthonormal axes: what `axis_2` has along `axis_1` is taken out.
+  /// The constants with orthonormal axes: the component of `axis_2` along `axis_1` is removed.
   Orthotropy constants() const {
     Orthotropy out{{E1, E2, E3}, nu12, nu13, nu23, G12, G13, G23, Eigen::Matrix3d::Identity()};
     out.axes.col(0) = axis_1.normalized();
@@ -109,19 +109,22 @@ struct OrthotropicSpec {
     modulus("E1", E1, "Young's modulus along direction 1", "135 GPa");
     modulus("E2", E2, "Young's modulus along direction 2", "10 GPa");
     modulus("E3", E3, "Young's modulus along direction 3", "10 GPa");
-    visit(
-        base::field("nu12", nu12, "contraction along 2 of a pull along 1").required().like("0.3"));
-    visit(
-        base::field("nu13", nu13, "contraction along 3 of a pull along 1").required().like("0.3"));
-    visit(
-        base::field("nu23", nu23, "contraction along 3 of a pull along 2").required().like("0.45"));
+    visit(base::field("nu12", nu12, "contraction along 2 under tension along 1")
+              .required()
+              .like("0.3"));
+    visit(base::field("nu13", nu13, "contraction along 3 under tension along 1")
+              .required()
+              .like("0.3"));
+    visit(base::field("nu23", nu23, "contraction along 3 under tension along 2")
+              .required()
+              .like("0.45"));
     modulus("G12", G12, "shear modulus between directions 1 and 2", "5 GPa");
     modulus("G13", G13, "shear modulus between directions 1 and 3", "5 GPa");
     modulus("G23", G23, "shear modulus between directions 2 and 3", "3.4 GPa");
     visit(base::field("axis-1", axis_1, "direction 1, in model axes").like("[1, 0, 0]"));
-    visit(base::field("axis-2", axis_2,
-                      "direction near direction 2, in model axes; what it has along direction 1 is "
-                      "taken out")
+    visit(base::field(
+              "axis-2", axis_2,
+              "approximate direction 2, in model axes; its component along direction 1 is removed")
               .like("[0, 1, 0]"));
   }
 };
@@ -153,7 +156,7 @@ struct MaterialSpec {
               .like("77 GPa")
               .otherwise("E/(2(1+nu))"));
     visit(base::field("orthotropic", orthotropic,
-                      "nine constants in place of E, nu and G; for solids only")
+                      "nine constants instead of E, nu and G; for solids only")
               .otherwise("isotropic"));
     visit(base::field("rho", rho, "density")
               .in(base::kDensity)

@@ -8,7 +8,7 @@
 
 namespace buckens::fem {
 
-/// How messages name a node: by its name, or by number and place.
+/// How messages name a node: by its name, or by number and position.
 std::string node_label(const std::vector<Node>& nodes, int node);
 
 }  // namespace buckens::fem

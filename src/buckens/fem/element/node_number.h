@@ -8,7 +8,7 @@
 
 namespace buckens::fem {
 
-/// The number in the name of a node of a mesh file, "n17"; empty for other names.
+/// The number in a mesh-file node name, "n17"; empty for other names.
 inline std::optional<std::int64_t> node_number(const std::string& name) {
   std::int64_t number = 0;
   const char* end = name.data() + name.size();

@@ -14,7 +14,7 @@ struct QuadraturePoint {
 };
 using QuadratureRule = std::vector<QuadraturePoint>;
 
-/// Places and weights of a rule on [−1, 1] that integrates polynomials up to degree 2n − 1 times
+/// Points and weights of a rule on [−1, 1] that integrates polynomials up to degree 2n − 1 times
 /// (1 − x)^power.
 struct LineRule {
   Eigen::VectorXd place;

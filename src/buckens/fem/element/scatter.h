@@ -10,8 +10,8 @@
 
 namespace buckens::fem {
 
-/// Adds `scale` times an element matrix to the triplets of a body matrix. DOF −1 are dropped, which
-/// restricts planar models; exact zeros are left out, so axis-aligned beams stay decoupled.
+/// Adds `scale` times an element matrix to the triplets of a body matrix. DOF −1 are dropped, as
+/// planar models need; exact zeros are left out, so axis-aligned beams stay decoupled.
 template <int N>
 void scatter(const Eigen::Matrix<double, N, N>& element, const std::array<int, N>& dofs,
              double scale, std::vector<linalg::Triplet>& sum) {
@@ -25,7 +25,7 @@ void scatter(const Eigen::Matrix<double, N, N>& element, const std::array<int, N
   }
 }
 
-/// Adds `scale` times an element matrix; numbers −1 and exact zeros are left out.
+/// Adds `scale` times an element matrix; indices −1 and exact zeros are left out.
 inline void scatter_square(const Eigen::Ref<const linalg::Matrix>& element,
                            std::span<const int> numbers, double scale,
                            std::vector<linalg::Triplet>& sum) {

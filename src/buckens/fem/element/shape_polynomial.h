@@ -13,7 +13,7 @@ template <int N>
 struct ShapePolynomial {
   using Term = Eigen::Matrix<double, 3, N>;
   std::array<Term, 4> terms = {Term::Zero(), Term::Zero(), Term::Zero(), Term::Zero()};
-  int degree = 0;  ///< terms above are zero
+  int degree = 0;  ///< higher terms are zero
 
   Term at(double xi) const {
     Term value = terms[static_cast<std::size_t>(degree)];
@@ -57,7 +57,7 @@ struct ElementInertia {
                     s.slope * s.slope.transpose() / (power + 3.0));
   }
 
-  /// Takes rounding out of the symmetry of W_aa.
+  /// Removes rounding errors from the symmetry of W_aa.
   void symmetrise() {
     for (std::size_t a = 0; a < 3; ++a) W[a] = (0.5 * (W[a] + W[a].transpose())).eval();
   }

@@ -9,7 +9,7 @@ namespace buckens::fem {
 
 /// Two-node bars: axial stiffness only, three translations per node, consistent mass.
 ///
-/// All three displacement components are linear along the bar; its mass lies on the line. It has no
+/// All three displacement components are linear along the bar; its mass is on the line. It has no
 /// rotary inertia about its axis.
 class BarBlock final : public ElementBlock {
  public:
@@ -25,7 +25,7 @@ class BarBlock final : public ElementBlock {
   /// As of a beam without `up`.
   Eigen::Matrix3d line_axes(const std::vector<Node>& nodes, int element) const override;
 
-  /// Some of the elements, in the given order.
+  /// A subset of the elements, in the given order.
   /// @param node_numbers new number of each node
   BarBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
 

@@ -16,10 +16,10 @@ struct BeamProperties {
   Section section;
   BeamTheory theory = BeamTheory::euler_bernoulli;
   /// Whether sections have rotary inertia in bending. Off: T = ½∫ρA|ṙ+ω×(x+u)+u̇|² dx +
-  /// ½∫ρI_p(ω·t+θ̇_x)² dx, a line with torsional flywheels. On: every material point counts.
+  /// ½∫ρI_p(ω·t+θ̇_x)² dx, a line with torsional flywheels. On: every material point contributes.
   bool rotary_inertia = false;
   std::optional<Eigen::Vector3d> up = std::nullopt;  ///< hint for the local z axis, model axes
-  /// Of a tapered beam; `section` then counts for nothing.
+  /// Of a tapered beam; `section` is then ignored.
   SectionLaw taper = nullptr;
 
   /// Rotary inertia as usual for the theory: on for Timoshenko, off for Euler–Bernoulli.
@@ -28,10 +28,10 @@ struct BeamProperties {
   }
 };
 
-/// What an element of a beam has of its own.
+/// Properties of a single element of a beam.
 struct BeamPortion {
-  double from = 0, to = 1;  ///< places of its ends along the beam, for the taper
-  std::optional<Eigen::Vector3d> up = std::nullopt;  ///< in place of that of the beam
+  double from = 0, to = 1;  ///< positions of its ends along the beam, for the taper
+  std::optional<Eigen::Vector3d> up = std::nullopt;  ///< overrides that of the beam
 };
 
 /// Two-node beams in space: axial, torsion, bending in two planes, optionally with shear
@@ -42,7 +42,7 @@ struct BeamPortion {
 /// docs/theory/07-beam.md.
 class BeamBlock final : public ElementBlock {
  public:
-  /// @return number to give to add()
+  /// @return number to pass to add()
   int add_properties(BeamProperties properties);
   /// @return index of the element in this block
   int add(int node_a, int node_b, int properties, const BeamPortion& portion = {});
@@ -52,7 +52,7 @@ class BeamBlock final : public ElementBlock {
   bool is_line() const override { return true; }
   bool has_rotations() const override { return true; }
   const Material* material(int element) const override { return &of(at(element)).material; }
-  /// Of a tapered element that in its middle.
+  /// Of a tapered element, the one at its middle.
   const Section* section(int element) const override;
   const Section* end_section(int element, int end) const override;
   Eigen::Matrix3d line_axes(const std::vector<Node>& nodes, int element) const override;
@@ -62,7 +62,7 @@ class BeamBlock final : public ElementBlock {
   /// A along an element.
   Quartic area(int element) const;
 
-  /// Some of the elements, in the given order.
+  /// A subset of the elements, in the given order.
   /// @param node_numbers new number of each node
   BeamBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
 
@@ -96,7 +96,7 @@ class BeamBlock final : public ElementBlock {
     return own != nullptr ? own->middle : of(element).section;
   }
   LineFrame frame(const std::vector<Node>& nodes, const Element& element) const;
-  /// Interpolation with the shear parameters of the middle.
+  /// Interpolation with the shear parameters at the middle.
   BeamShape shape_of(const Element& element, const LineFrame& axes) const;
   Eigen::Matrix<double, 12, 12> local_stiffness(const Element& element, double length) const;
 

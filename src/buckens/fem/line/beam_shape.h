@@ -40,12 +40,12 @@ BeamShape beam_shape(const LineFrame& frame, const ShearParameters& shear);
 Eigen::Matrix<double, 12, 12> beam_stiffness_local(const Material& material, const Section& section,
                                                    double length, const ShearParameters& shear);
 
-/// The same of a tapered element, from its flexibility: exact for any taper under loads at the
+/// The same for a tapered element, from its flexibility: exact for any taper under loads at the
 /// ends.
 Eigen::Matrix<double, 12, 12> beam_stiffness_local(BeamTheory theory, const Material& material,
                                                    const SectionTaper& taper, double length);
 
-/// Turns the four triples of a beam's nodal variables: q_model = T q_element.
+/// Rotates the four triples of a beam's nodal variables: q_model = T q_element.
 Eigen::Matrix<double, 12, 12> beam_rotation(const Eigen::Matrix3d& axes);
 
 }  // namespace buckens::fem

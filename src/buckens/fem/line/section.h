@@ -7,8 +7,8 @@
 
 namespace buckens::fem {
 
-/// A closed polygon of points (y, z) [m], its inside on the left seen against x: outlines turn from
-/// y to z, holes the other way round. Round ones have corners so blunt that they look smooth.
+/// A closed polygon of points (y, z) [m], its inside on the left seen against x: outlines run from
+/// y to z, holes the other way round. Round ones have enough corners to look smooth.
 using SectionLoop = std::vector<Eigen::Vector2d>;
 
 /// Cross-section of a beam or bar in its principal axes y, z through the centroid.
@@ -25,7 +25,7 @@ struct Section {
   double shear_peak_y = 1.5;   ///< largest shear stress over Q_y / A
   double shear_peak_z = 1.5;   ///< largest shear stress over Q_z / A
   double torsion_modulus = 0;  ///< |M_t| over the largest torsional shear stress [m³]
-  double outer_radius = 0;     ///< of the circle about the centroid around it [m]
+  double outer_radius = 0;     ///< of the circumscribed circle about the centroid [m]
   std::vector<Eigen::Vector2d> stress_points;  ///< (y, z) where |σ_x| is examined [m]
   /// For drawing: the outer outline, then those of holes.
   std::vector<SectionLoop> outline;
@@ -42,15 +42,15 @@ struct Section {
   /// @throws ModelError unless 0 < 2 thickness < width, height
   static Section box(double width, double height, double thickness);
   /// Stress points, torsion modulus, radius and outline are those of a rectangle with the same
-  /// Iy/A, Iz/A; set them afterwards where they are known.
+  /// Iy/A, Iz/A; overwrite them where they are known.
   static Section general(double A, double Iy, double Iz, double J, double shear_y = 1,
                          double shear_z = 1);
   /// A bar needs an area only; bending and torsion constants are those of a circle.
   static Section area(double A);
 };
 
-/// The convex polygon around points, turning from y to z; less than three points where they lie on
-/// a line.
+/// The convex polygon around points, running from y to z; fewer than three points if they are
+/// collinear.
 SectionLoop convex_hull(std::vector<Eigen::Vector2d> points);
 
 }  // namespace buckens::fem

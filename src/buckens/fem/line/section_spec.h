@@ -110,17 +110,17 @@ struct BoxSpec {
   }
 };
 
-/// Section by its constants, in principal axes through the centroid.
+/// Section given by its constants, in principal axes through the centroid.
 struct GeneralSectionSpec {
   static constexpr const char* kKey = "general";
-  static constexpr const char* kDoc = "any section by its constants";
+  static constexpr const char* kDoc = "any section, given by its constants";
   double A = 0;   ///< [m²]
   double Iy = 0;  ///< ∫ z² dA [m⁴]
   double Iz = 0;  ///< ∫ y² dA [m⁴]
   double J = 0;   ///< torsion constant [m⁴]
   double shear_factor_y = 1;
   double shear_factor_z = 1;
-  std::vector<std::array<double, 2>> stress_points;  ///< (y, z) [m]; empty: of a like rectangle
+  std::vector<std::array<double, 2>> stress_points;  ///< (y, z) [m]; empty: a rectangle's
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -149,7 +149,7 @@ struct GeneralSectionSpec {
               .positive()
               .like("0.85"));
     visit(base::field("stress-points", stress_points,
-                      "points (y, z) where bending stress is examined")
+                      "points (y, z) where bending stress is evaluated")
               .in(base::kLength)
               .like("[[10 mm, 5 mm], [-10 mm, -5 mm]]")
               .otherwise("corners of a rectangle with the same A, Iy, Iz"));

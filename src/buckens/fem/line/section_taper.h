@@ -8,10 +8,10 @@
 
 namespace buckens::fem {
 
-/// Section of a beam along it: s from 0 at its first end to 1 at its second.
+/// Section along a beam: s from 0 at its first end to 1 at its second.
 using SectionLaw = std::function<Section(double)>;
 
-/// Polynomial in ξ ∈ [0, 1] of degree four, lowest power first.
+/// Polynomial of degree four in ξ ∈ [0, 1], lowest power first.
 using Quartic = std::array<double, 5>;
 
 inline Quartic constant_quartic(double value) { return {value, 0.0, 0.0, 0.0, 0.0}; }
@@ -24,15 +24,15 @@ struct SectionTaper {
   Section first, middle, last;
   /// Through five points; exact where the measures of the section are linear.
   Quartic A, Iy, Iz;
-  // Flexibility, by twelve Gauss points: the error is below 1e-10 where the end of an element has
-  // a fifth of its beginning, 1e-6 for a tenth.
+  // Flexibility, by twelve Gauss points: the error is below 1e-10 where one end of an element has a
+  // fifth of the size of the other, 1e-6 for a tenth.
   double per_A = 0;                                ///< ∫ dξ/A [1/m²]
   double per_J = 0;                                ///< ∫ dξ/J [1/m⁴]
   double per_shear_y = 0, per_shear_z = 0;         ///< ∫ dξ/(κ A) [1/m²]
   std::array<double, 3> per_Iy = {}, per_Iz = {};  ///< ∫ (1 − ξ)ᵏ dξ/I, k = 0, 1, 2 [1/m⁴]
 };
 
-/// @param from, to places s of the ends of the element
+/// @param from, to positions s of the ends of the element
 SectionTaper section_taper(const SectionLaw& law, double from, double to);
 
 }  // namespace buckens::fem

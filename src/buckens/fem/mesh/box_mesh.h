@@ -11,24 +11,24 @@ namespace buckens::fem {
 
 /// A regular block of solid elements, edges parallel to the model axes.
 struct Box {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the least coordinates [m]
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates [m]
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< edge lengths [m], positive
   std::array<int, 3> divisions = {1, 1, 1};        ///< elements along x, y, z
 
-  /// Number of the node at grid place (i, j, k), counted from 0: x fastest, then y, then z.
+  /// Number of the node at grid position (i, j, k), counted from 0: x fastest, then y, then z.
   int node(const std::array<int, 3>& place) const {
     return place[0] + (divisions[0] + 1) * (place[1] + (divisions[1] + 1) * place[2]);
   }
 };
 
-/// A node of a box that has a name, by its grid place.
+/// A named node of a box, by its grid position.
 struct NamedGridPlace {
   std::string name;
   std::array<int, 3> place;
 };
 
 /// Names of nodes of a box: `node_first` and `node_last`, the corners `corner_000` … `corner_111`
-/// (digits for x, y, z: 0 the lower, 1 the upper end), and where a node lies there the face centres
+/// (digits for x, y, z: 0 the lower, 1 the upper end), and, where there is a node, the face centres
 /// `face_x0` … `face_z1` and the `centre`.
 std::vector<NamedGridPlace> named_places(const Box& box);
 

@@ -12,13 +12,13 @@ namespace buckens::fem {
 /// triangles.
 using CellFace = std::array<int, 4>;
 
-/// Number of corners, with which the nodes of every kind begin.
+/// Number of corners, which come first among the nodes of every kind.
 int num_corners(CellKind kind);
 
 /// Number of corners of a face.
 constexpr int num_corners(const CellFace& face) { return face[3] < 0 ? 3 : 4; }
 
-/// Faces of a kind of volume; of a surface the surface itself; nothing for points and lines.
+/// Faces of a volume; of a surface, the surface itself; none for points and lines.
 std::span<const CellFace> cell_faces(CellKind kind);
 
 /// Edges of a kind as pairs of corners, in the order of its mid-side nodes.

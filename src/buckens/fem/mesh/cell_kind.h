@@ -5,9 +5,9 @@
 
 namespace buckens::fem {
 
-/// Shapes of the elements that mesh files hold, named by their nodes. Corners come first, then the
-/// mid-side nodes in the order of Abaqus (C3D20, C3D15, C3D10), which is that of VTK, too. Gmsh,
-/// Nastran and the universal file order those of some kinds otherwise; their readers sort them.
+/// Shapes of the elements in mesh files, named by their nodes. Corners come first, then the
+/// mid-side nodes in the order of Abaqus (C3D20, C3D15, C3D10), which is also that of VTK. Gmsh,
+/// Nastran and universal files order some kinds differently; their readers reorder them.
 enum class CellKind {
   point1,
   line2,

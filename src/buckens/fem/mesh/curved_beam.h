@@ -8,11 +8,11 @@
 
 namespace buckens::fem {
 
-/// Divides the way from one node through given points to another into straight beam elements; makes
-/// the nodes between, unnamed.
+/// Divides the path from one node through given points to another into straight beam elements;
+/// creates the unnamed nodes in between.
 ///
-/// Without `up` in the properties the axes of the first element are those of a straight beam and
-/// are carried from element to element by the smallest rotation.
+/// Without `up` in the properties, the axes of the first element are those of a straight beam and
+/// are transported from element to element by the smallest rotation.
 /// @param through points between the nodes, model axes [m]; none: a straight line
 /// @throws ModelError as divide_path(), or if a node does not exist
 BeamDivision add_curved_beam(Structure& structure, int node_a, int node_b, BeamPath path,

@@ -13,8 +13,8 @@ struct Cylinder {
   Eigen::Vector3d to = Eigen::Vector3d::UnitZ();   ///< centre of the top [m]
   double outer_radius = 1;                         ///< [m]
   double inner_radius = 0;                         ///< [m], zero without a bore
-  /// Elements from inside to outside, around, along. Without a bore the first counts the rings
-  /// around a square core that has a quarter of those around on each side.
+  /// Number of elements in radial, circumferential and axial direction. Without a bore the first
+  /// counts the rings around a square core that has a quarter of the second on each side.
   std::array<int, 3> divisions = {1, 8, 1};
 };
 

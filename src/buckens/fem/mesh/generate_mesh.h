@@ -10,11 +10,11 @@
 
 namespace buckens::fem {
 
-/// Names of nodes of a mesh, known before it is made: see named_places(const Box&) and
+/// Names of nodes of a mesh, known before it is generated: see named_places(const Box&) and
 /// cylinder_cells().
 std::vector<std::string> named_nodes(const MeshSpec& spec);
 
-/// Why a mesh cannot be made although each of its numbers is fine; empty if it can.
+/// Why a mesh cannot be generated although each number by itself is valid; empty if it can.
 std::optional<std::string> size_problem(const MeshSpec& spec);
 
 /// Adds the nodes, elements and named faces of a mesh of solids; add_plate() makes plates.

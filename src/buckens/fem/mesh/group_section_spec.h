@@ -11,8 +11,8 @@
 
 namespace buckens::fem {
 
-/// What the shells, beams or bars of one part of a mesh file are. Exactly one of thickness, layers,
-/// beam and bar is given.
+/// Section of the shells, beams or bars of one part of a mesh file. Exactly one of thickness,
+/// layers, beam and bar is given.
 struct GroupSectionSpec : ShellPropertySpec {
   static constexpr bool kHasForeignName = true;  ///< any characters
   std::string name;                              ///< of the property, element set or physical group
@@ -46,9 +46,9 @@ struct GroupSectionSpec : ShellPropertySpec {
                     "of the model or written in place")
             .like("{circle: {diameter: 6 mm}}")
             .otherwise("give this, `beam`, `thickness` or `layers`"));
-    visit(base::field("up", up, "of beams: direction near which the local z axis lies, model axes")
+    visit(base::field("up", up, "of beams: approximate direction of the local z axis, model axes")
               .like("[0, 0, 1]")
-              .otherwise("that of the file; else model z, model y for elements along z"));
+              .otherwise("that of the file; else model z, or model y for elements along z"));
     visit(
         base::field("theory", theory, "of beams: with (`timoshenko`) or without shear deformation")
             .otherwise("euler-bernoulli"));

@@ -19,7 +19,7 @@ namespace buckens::fem {
 struct ImportedBlock {
   CellKind kind = CellKind::tet4;
   std::string source;               ///< what the file calls them: "C3D10", "CTETRA", "tetrahedron"
-  int property = -1;                ///< in ImportedMesh::properties; −1: none is given
+  int property = -1;                ///< in ImportedMesh::properties; −1: none
   std::vector<std::int64_t> ids;    ///< numbers of the elements in the file
   std::vector<int> nodes;           ///< num_nodes(kind) per element, in ImportedMesh::positions
   std::vector<Eigen::Vector3d> up;  ///< per line element a direction near local z; may be empty
@@ -43,14 +43,14 @@ struct ImportedProperty {
   std::string material;             ///< in ImportedMesh::materials; empty: the model file gives it
   std::optional<double> thickness;  ///< of a shell
   double offset = 0;  ///< of the shell's middle surface from its nodes, along its normal
-  std::vector<ImportedLayer> layers;    ///< of a laminate, in place of material and thickness
+  std::vector<ImportedLayer> layers;    ///< of a laminate, instead of material and thickness
   std::optional<SectionSpec> section;   ///< of a beam or bar
   std::optional<bool> shear_flexible;   ///< of a beam: Timoshenko or Euler–Bernoulli
   std::optional<Eigen::Matrix3d> axes;  ///< material axes 1, 2, 3 as columns, in mesh axes
-  /// Without axes the x axis of a shell lies along the first side of each element rather than near
-  /// the x axis of the mesh.
+  /// Without axes, the x axis of a shell is along the first side of each element rather than close
+  /// to the x axis of the mesh.
   bool along_first_side = false;
-  /// Why material or section is missing, where the file does give something; ends no sentence.
+  /// Why material or section is missing although the file gives something; without a full stop.
   std::string lacking;
   int line = 0;
 };
@@ -60,17 +60,17 @@ struct ImportedNodeSet {
   std::vector<int> nodes;  ///< ascending
 };
 
-/// Elements are counted through all blocks.
+/// Elements are numbered through all blocks.
 struct ImportedElementSet {
   std::string name;
   std::vector<int> elements;  ///< ascending
 };
 
-/// A face of a solid as the nodes at its corners say, or one side of a shell.
+/// A face of a solid, given by its corner nodes, or one side of a shell.
 struct ImportedFace {
-  int element = 0;           ///< counted through all blocks
+  int element = 0;           ///< numbered through all blocks
   std::vector<int> corners;  ///< three or four nodes; for shells: those of the element, seen from
-                             ///< the side that is meant counter-clockwise
+                             ///< the intended side counter-clockwise
 };
 
 struct ImportedFaceSet {
@@ -107,7 +107,7 @@ struct ImportedAverage {
   std::string name;
   int reference = 0;
   std::vector<int> nodes;
-  std::vector<double> weights;  ///< as many as nodes, or empty: all alike
+  std::vector<double> weights;  ///< as many as nodes, or empty: all equal
   int line = 0;
   std::array<bool, 6> variables = {true, true, true, true, true, true};  ///< of the reference
   std::vector<std::array<bool, 3>> components;  ///< that count of each node; empty: all
@@ -124,26 +124,27 @@ struct ImportedEquation {
   int line = 0;
 };
 
-/// Something the reader did not take over, or took over as something else.
+/// Something the reader did not import, or imported as something else.
 struct ImportNote {
-  std::string text;  ///< a sentence with what became of it
+  std::string text;  ///< a sentence saying what was done with it
   int line = 0;      ///< 0: the whole file
-  int count = 1;     ///< how often the same was met
-  /// The model file says these things in any case (loads, supports, output): no reason to worry.
+  int count = 1;     ///< how often it occurred
+  /// The model file specifies these things anyway (loads, supports, output): nothing to worry
+  /// about.
   bool is_expected = false;
-  /// Mass or stiffness is missing because the model file wants it so: results are to be doubted.
+  /// Mass or stiffness is missing because the model file asks for it: results are doubtful.
   bool is_doubtful = false;
 };
 
-/// A mesh as a file holds it, in the units of the file: what all readers of meshes deliver.
+/// A mesh as in a file, in the units of the file: what all mesh readers return.
 ///
-/// Readers check that numbers are finite, that references exist and that counts agree. They leave
-/// out no element silently: what they cannot use stands in `notes`.
+/// Readers check that numbers are finite, that references exist and that counts agree. They never
+/// leave out an element silently: whatever they cannot use is listed in `notes`.
 struct ImportedMesh {
   std::string file;
   std::string format;                  ///< "Gmsh 4.1 binary", "Abaqus", "Nastran"
-  std::string making;                  ///< how long what took where a mesh was made; else empty
-  std::vector<std::int64_t> node_ids;  ///< numbers in the file
+  std::string making;                  ///< duration of each stage if generated; else empty
+  std::vector<std::int64_t> node_ids;  ///< node numbers in the file
   std::vector<Eigen::Vector3d> positions;
   std::vector<ImportedBlock> blocks;
   std::vector<ImportedProperty> properties;

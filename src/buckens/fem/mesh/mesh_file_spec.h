@@ -18,7 +18,7 @@
 
 namespace buckens::fem {
 
-/// Units of length of mesh files. The files themselves do not say theirs.
+/// Units of length of mesh files, which do not state their own.
 enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
 
 constexpr std::array<const char*, 7> choice_names(LengthUnit) {
@@ -60,7 +60,7 @@ struct GroupMaterialSpec {
   }
 };
 
-/// The file of another program that holds a mesh.
+/// A mesh file of another program.
 struct MeshFileSpec {
   static constexpr const char* kKey = "file";
   static constexpr const char* kDoc =
@@ -78,7 +78,7 @@ struct MeshFileSpec {
   }
 };
 
-/// What a model file adds to a foreign mesh: materials, sections, point masses and links.
+/// What a model file adds to an imported mesh: materials, sections, point masses and links.
 struct GroupMaterials {
   std::optional<base::Reference<MaterialSpec>> material;
   std::vector<GroupMaterialSpec> materials;
@@ -94,12 +94,12 @@ struct GroupMaterials {
   void material_fields(Visitor& visit) {
     visit(base::field("material", material,
                       "material: a name from `materials` or written in place; of a file: for all "
-                      "elements to which neither `materials` here nor the file gives one")
+                      "elements without one in `materials` here or in the file")
               .like("steel")
               .otherwise("that of the file"));
     visit(base::field("materials", materials,
                       "of a file: material by the name of an element set, a physical group or a "
-                      "property; stands above that of the file")
+                      "property; overrides that of the file")
               .like("{HOUSING: steel, LID: aluminium}")
               .otherwise("those of the file"));
   }
@@ -107,14 +107,14 @@ struct GroupMaterials {
   template <class Visitor>
   void section_fields(Visitor& visit) {
     visit(base::field("section", section,
-                      "of a file: for all shells, or all lines, to which neither `sections` here "
-                      "nor the file gives one")
+                      "of a file: for all shells, or all lines, without one in `sections` here or "
+                      "in the file")
               .like("{thickness: 2 mm}")
               .otherwise("that of the file"));
     visit(base::field("sections", sections,
                       "of a file: thickness or layers of shells, cross-sections of beams and bars, "
-                      "by the name of an element set, a physical group or a property; stands above "
-                      "that of the file. A physical group that has one becomes elements, also "
+                      "by the name of an element set, a physical group or a property; overrides "
+                      "that of the file. A physical group with a section becomes elements even "
                       "where it lies on others: a skin on solids, ribs on a plate")
               .like("{skin: {thickness: 2 mm}, ribs: {beam: {rectangle: {width: 5 mm, height: 20 "
                     "mm}}}}")
@@ -122,12 +122,12 @@ struct GroupMaterials {
   }
 };
 
-/// The faces of a STEP file that have a colour there.
+/// The faces of a STEP file with a given colour.
 struct FaceColorSpec {
   static constexpr const char* kKey = "color";
   static constexpr const char* kDoc = "the faces that have this colour in the STEP file";
   SourceLocation where;
-  std::array<int, 3> rgb = {0, 0, 0};  ///< 0 … 255, as CAD programs show them
+  std::array<int, 3> rgb = {0, 0, 0};  ///< 0 … 255, as shown by CAD programs
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -156,7 +156,7 @@ struct FaceNumbersSpec {
   }
 };
 
-/// Faces of a STEP file by a name that the file gives them.
+/// Faces of a STEP file by their name in it.
 struct FaceLabelSpec {
   static constexpr const char* kKey = "label";
   static constexpr const char* kDoc = "the faces that have this name in the STEP file";
@@ -172,8 +172,8 @@ struct FaceLabelSpec {
   }
 };
 
-/// Faces of a STEP file under a name for interfaces and loads. By place: those that lie wholly in
-/// the sphere, box, cylinder or plane.
+/// Faces of a STEP file under a name for interfaces and loads. By position: those wholly inside the
+/// sphere, box or cylinder, or in the plane.
 struct GeometryFaceSpec {
   std::string name;
   SourceLocation where;
@@ -193,7 +193,7 @@ struct GeometrySpec : GroupMaterials {
   static constexpr const char* kDoc = "flexible body: a part from a STEP file, meshed with Gmsh";
   SourceLocation where;
   std::string step;
-  std::optional<double> size;  ///< of the elements [m]; chosen when the part is meshed if not given
+  std::optional<double> size;  ///< of the elements [m]; default: chosen when meshing
   int order = 2;
   std::string solid;  ///< name or number of one solid; empty: all
   std::vector<GeometryFaceSpec> faces;
@@ -204,19 +204,19 @@ struct GeometrySpec : GroupMaterials {
               .required()
               .like("rod.step"));
     visit(base::field("size", size,
-                      "length of the edges of the elements; without it a twentieth of the part's "
-                      "diagonal, less where walls are thin")
+                      "edge length of the elements; default: a twentieth of the part's diagonal, "
+                      "less where walls are thin")
               .in(base::kLength)
               .positive()
               .like("5 mm"));
     visit(base::field("order", order, "1: tet4; 2: tet10 with mid-side nodes on the true surface"));
-    visit(base::field("solid", solid,
-                      "the one solid of the file that is meant, by its name or number; without it "
-                      "all, glued where they touch")
+    visit(base::field(
+              "solid", solid,
+              "one solid of the file, by its name or number; default: all, glued where they touch")
               .like("shaft"));
     visit(base::field("faces", faces,
                       "names for faces, used as `face:` of interfaces and loads; by label, colour, "
-                      "number or place")
+                      "number or position")
               .like("{bore: {color: [255, 0, 0]}}"));
     material_fields(visit);
     visit(base::field("masses", masses, "point masses at nodes, written `n` and the number"));

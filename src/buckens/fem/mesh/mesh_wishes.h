@@ -6,13 +6,13 @@
 
 namespace buckens::fem {
 
-/// What a model file or a command line asks of the reader of a mesh file.
+/// What a model file or command line asks of a mesh reader.
 struct MeshWishes {
-  /// Groups of surfaces and lines that are elements also where they lie on others.
+  /// Groups of surfaces and lines that become elements even where they lie on others.
   std::vector<std::string> members;
-  /// Keywords, cards and element types that are left out although they have mass or stiffness.
+  /// Keywords, cards and element types to leave out although they have mass or stiffness.
   std::vector<std::string> skip;
-  /// Element sets, groups, instances or properties that alone are taken; empty: everything.
+  /// Element sets, groups, instances or properties to import; empty: everything.
   std::vector<std::string> only;
 };
 

@@ -13,7 +13,7 @@
 
 namespace buckens::fem {
 
-/// Nodes of a face that the generator of the mesh or its file has named.
+/// Nodes of a face named by the mesh generator or the mesh file.
 struct NamedFaceSpec {
   static constexpr const char* kKey = "face";
   static constexpr const char* kDoc = "the nodes of a named face of the mesh, weighted by area";
@@ -49,7 +49,7 @@ struct NodeSetSpec {
   }
 };
 
-/// What selections by place have in common.
+/// What selections by position have in common.
 struct PlaceSelection {
   SourceLocation where;
   std::optional<double> tolerance;  ///< [m]
@@ -92,7 +92,7 @@ struct BoxSelection : PlaceSelection {
   static constexpr const char* kKey = "box";
   static constexpr const char* kDoc = "the nodes in a block with edges along the model axes";
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< model axes [m]
-  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< the corner across [m]
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< the opposite corner [m]
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -100,7 +100,7 @@ struct BoxSelection : PlaceSelection {
               .in(base::kLength)
               .required()
               .like("[0, -50 mm, -50 mm]"));
-    visit(base::field("to", to, "the corner across")
+    visit(base::field("to", to, "the opposite corner")
               .in(base::kLength)
               .required()
               .like("[20 mm, 50 mm, 50 mm]"));
@@ -140,7 +140,7 @@ struct PlaneSelection : PlaceSelection {
   static constexpr const char* kKey = "plane";
   static constexpr const char* kDoc = "the nodes on a plane";
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< model axes [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< any length but zero
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< any non-zero length
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -153,11 +153,11 @@ struct PlaneSelection : PlaceSelection {
   }
 };
 
-/// The ways to say which nodes of a mesh belong together.
+/// The ways to select nodes of a mesh.
 using RegionSpec = std::variant<NamedFaceSpec, NodeSetSpec, SphereSelection, BoxSelection,
                                 CylinderSelection, PlaneSelection>;
 
-/// Distance of a point from what a selection covers [m]; 0 inside.
+/// Distance of a point from the selected region [m]; 0 inside.
 double distance(const SphereSelection& sphere, const Eigen::Vector3d& point);
 double distance(const BoxSelection& box, const Eigen::Vector3d& point);
 double distance(const CylinderSelection& cylinder, const Eigen::Vector3d& point);

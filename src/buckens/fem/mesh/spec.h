@@ -20,13 +20,13 @@ struct BoxMeshSpec : SolidElementSpec {
   static constexpr const char* kKey = "box";
   static constexpr const char* kDoc = "block with edges along the model axes, divided regularly";
   SourceLocation where;
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the least coordinates [m]
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates [m]
   Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< edge lengths [m]
   std::array<int, 3> divisions = {1, 1, 1};        ///< elements along x, y, z
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("from", from, "corner with the least coordinates, in model axes")
+    visit(base::field("from", from, "corner with the smallest coordinates, in model axes")
               .in(base::kLength)
               .like("[0, -50 mm, -50 mm]"));
     visit(base::field("size", size, "edge lengths along x, y, z")
@@ -48,13 +48,14 @@ struct RoundMeshSpec : SolidElementSpec {
 
   template <class Visitor>
   void round_fields(Visitor& visit) {
-    visit(base::field("divisions", divisions,
-                      "number of elements from inside to outside, around, and along the axis; "
-                      "without a bore the first counts the rings around a square core, and those "
-                      "around must be divisible by 4")
-              .required()
-              .positive()
-              .like("[1, 8, 20]"));
+    visit(
+        base::field(
+            "divisions", divisions,
+            "number of elements in radial, circumferential and axial direction; without a bore the "
+            "first counts the rings around a square core, and the second must be divisible by 4")
+            .required()
+            .positive()
+            .like("[1, 8, 20]"));
     element_fields(visit);
   }
 };
@@ -132,7 +133,7 @@ struct DiscMeshSpec : RoundMeshSpec {
   static constexpr const char* kDoc = "plane disc about a centre, with or without a bore";
   SourceLocation where;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< any length but zero
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();   ///< any non-zero length
   double diameter = 0;                               ///< [m]
   double bore = 0;                                   ///< [m]
   double thickness = 0;                              ///< [m]
@@ -169,7 +170,7 @@ struct DiscMeshSpec : RoundMeshSpec {
   }
 };
 
-/// A mesh that the program generates or reads from a file, made a body.
+/// A body made of a mesh that is generated or read from a file.
 struct MeshSpec : GroupMaterials {
   static constexpr const char* kKey = "mesh";
   static constexpr const char* kDoc = "flexible body: a mesh, generated or from a file";
@@ -191,30 +192,29 @@ struct MeshSpec : GroupMaterials {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::inlined(shape, "shape of the mesh, or its file").required());
-    visit(base::field("length-unit", length_unit, "of a file: unit of its lengths")
+    visit(base::field("length-unit", length_unit, "of a file: its unit of length")
               .like("mm")
               .otherwise("m"));
     visit(base::field("mass-unit", mass_unit,
-                      "of a file: unit of mass of the constants in it; time is in seconds")
+                      "of a file: unit of mass in its constants; time is in seconds")
               .like("t")
               .otherwise("t with millimetres, so that stresses are in MPa; else kg"));
     visit(base::field("only", only,
-                      "of a file: the element set, physical group, instance or property that alone "
-                      "becomes the body, or several; links to the rest are left out")
+                      "of a file: element sets, physical groups, instances or properties to use, "
+                      "instead of everything; links to the rest are left out")
               .like("HOUSING")
               .otherwise("everything in the file"));
     visit(base::field("skip", skip,
-                      "of a file: keywords, cards and element types that are left out although "
-                      "they have mass or stiffness; how many there were stands in the notes and "
-                      "in `trust`")
+                      "of a file: keywords, cards and element types to leave out although they "
+                      "have mass or stiffness; the notes and `trust` tell how many there were")
               .like("[CELAS2, NONSTRUCTURAL MASS]")
               .otherwise("nothing; what is not supported is refused"));
-    visit(base::field("integration", integration,
-                      "of a file: how its hex8 are integrated; `full` takes their shape functions "
-                      "alone, as plain C3D8 of other programs do. Generated shapes have a key of "
-                      "this name of their own")
-              .like("full")
-              .otherwise("incompatible-modes"));
+    visit(
+        base::field("integration", integration,
+                    "of a file: integration of its hex8; `full` uses the shape functions only, "
+                    "like C3D8 of other programs. Generated shapes have their own key of this name")
+            .like("full")
+            .otherwise("incompatible-modes"));
     material_fields(visit);
     section_fields(visit);
     visit(base::field("masses", masses,

@@ -5,9 +5,9 @@
 
 namespace buckens::fem {
 
-/// Moves the mid-side nodes of tet10 elements that are turned inside out, be it at one node only,
-/// to the middle of their edges, and those of their neighbours that are so afterwards. Meshes of
-/// curved surfaces have a few such elements where elements are large compared with a radius.
+/// Moves the mid-side nodes of inverted tet10 elements (even if at one node only) to the middle of
+/// their edges, and those of neighbours that become inverted by it. Meshes of curved surfaces have
+/// a few such elements where elements are large compared with a radius.
 /// @return number of elements with moved nodes
 int straighten_inverted(ImportedMesh& mesh);
 

@@ -10,10 +10,10 @@
 
 namespace buckens::fem {
 
-/// Sentences on sizes, stiffnesses and densities that belong to no machine part, and which unit
-/// would explain them.
-/// @param mesh in SI units as they follow from what the user said
-/// @param units_given whether the user said something
+/// Sentences on sizes, stiffnesses and densities that no machine part has, and the unit that would
+/// explain them.
+/// @param mesh in SI units, converted as the user stated
+/// @param units_given whether the user stated units
 std::vector<std::string> unit_warnings(const ImportedMesh& mesh, const Eigen::AlignedBox3d& box,
                                        bool units_given);
 

@@ -9,11 +9,11 @@ namespace buckens::fem {
 
 /// Point masses on nodes, with rotary inertia where the node has rotations.
 ///
-/// Material points move by u + θ × ρ; with the second moment E = ∫ρρᵀdm = ½tr(I)1 − I everything
-/// follows, so a point mass shares the kinematics of a beam section.
+/// Material points move by u + θ × ρ; everything follows from the second moment E = ∫ρρᵀdm =
+/// ½tr(I)1 − I, so a point mass shares the kinematics of a beam section.
 class PointMassBlock final : public ElementBlock {
  public:
-  /// @param inertia about the node in model axes [kg m²], zero for a mere mass
+  /// @param inertia about the node in model axes [kg m²], zero without rotary inertia
   /// @return index of the element in this block
   int add(int node, double mass, const Eigen::Matrix3d& inertia = Eigen::Matrix3d::Zero());
 

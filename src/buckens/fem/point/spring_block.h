@@ -8,12 +8,12 @@
 namespace buckens::fem {
 
 /// Springs between two nodes of a mesh: the force on b is −k Δ, with Δ the displacement and
-/// rotation of b against a, both taken at the middle between the nodes,
+/// rotation of b relative to a, both taken midway between the nodes,
 ///
 ///     Δ = (u_b + θ_b × (m − x_b) − u_a − θ_a × (m − x_a), θ_b − θ_a).
 ///
-/// So rigid motion strains no spring. No mass. At nodes without rotations only those directions can
-/// have stiffness that need none: all translations where the nodes coincide.
+/// So rigid motion does not strain springs. No mass. Between nodes without rotations, only
+/// directions that need none can have stiffness: all translations if the nodes coincide.
 class SpringBlock final : public ElementBlock {
  public:
   using Stiffness = Eigen::Matrix<double, 6, 6>;

@@ -15,20 +15,20 @@ namespace buckens::fem {
 
 /// Shells with three, four, six or eight nodes, thin or moderately thick, six variables per node.
 ///
-/// A material point moves by u = Σ N_i (u_i + θ_i × z n_i), z from the nodes along the director
-/// n_i; inertia follows from that field, stiffness from shell/element.h. Theory:
+/// A material point moves by u = Σ N_i (u_i + θ_i × z n_i), with z measured from the nodes along
+/// the director n_i; inertia follows from that field, stiffness from shell/element.h. Theory:
 /// docs/theory/15-shells.md.
 class ShellBlock final : public ElementBlock {
  public:
-  /// @return number to give to add()
+  /// @return number to pass to add()
   int add_section(const ShellSection& section);
   /// @param nodes three or four corners, counter-clockwise seen from the side the normal points to,
-  /// and the nodes on all sides or none, that between the first two corners first
+  /// then the nodes on all sides or none, starting between the first two corners
   /// @return index of the element in this block
-  /// @throws ModelError for another number of nodes
+  /// @throws ModelError for any other number of nodes
   int add(std::span<const int> nodes, int section);
 
-  /// Names an element in messages by its number in a file rather than by its index + 1.
+  /// Sets the number by which messages name an element: that in its file rather than index + 1.
   void set_number(int element, std::int64_t number) {
     elements_.at(static_cast<std::size_t>(element)).number = number;
   }
@@ -40,7 +40,7 @@ class ShellBlock final : public ElementBlock {
   bool is_line() const override { return false; }
   bool is_shell() const override { return true; }
   bool has_rotations() const override { return true; }
-  /// That of the first layer.
+  /// The material of the first layer.
   const Material* material(int element) const override {
     return &shell_section(element).layers.front().material;
   }
@@ -54,18 +54,18 @@ class ShellBlock final : public ElementBlock {
   }
 
   /// Gives every element a director at each of its nodes: the mean normal of the shells there that
-  /// lie within 25° of its own. Elements that have directors keep them.
+  /// lie within 25° of its own. Elements that already have directors keep them.
   void choose_directors(const std::vector<Node>& nodes);
-  /// Places of the nodes of an element in model axes [m].
+  /// Positions of the nodes of an element in model axes [m].
   ShellVectors positions(const std::vector<Node>& all, int element) const;
   /// Unit vectors; the element's own normals before choose_directors().
   ShellVectors directors(const std::vector<Node>& all, int element) const;
 
-  /// Some of the elements with their directors, in the given order.
+  /// A subset of the elements with their directors, in the given order.
   /// @param node_numbers new number of each node
   ShellBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
 
-  /// @throws ModelError naming an element that is squashed, folded or impossibly made
+  /// @throws ModelError naming an element that is squashed, folded or has an impossible section
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;
   void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,
@@ -80,7 +80,7 @@ class ShellBlock final : public ElementBlock {
 
  private:
   struct Element {
-    std::array<int, kMostShellNodes> nodes;  // −1 behind the last
+    std::array<int, kMostShellNodes> nodes;  // −1 after the last
     int count;
     int section;
     std::int64_t number;  // in messages

@@ -5,9 +5,9 @@
 
 namespace buckens::fem {
 
-/// Covariant strains of a shell with nodes on its sides, as rows over its nodal variables and
-/// behind them its inner ones: the displacement of the surface by the bubble function
-/// (quadrilaterals, model axes), then the motion of the director along two axes across it.
+/// Covariant strains of a shell with nodes on its sides, as rows over its nodal variables followed
+/// by its inner ones: the displacement of the surface by the bubble function (quadrilaterals, model
+/// axes), then the motion of the director along two axes perpendicular to it.
 class CovariantStrain {
  public:
   template <int rows>
@@ -21,7 +21,7 @@ class CovariantStrain {
   struct Point {
     ShellShape shape;
     double bubble = 0;
-    Eigen::Vector2d bubble_slope;          ///< per natural coordinates
+    Eigen::Vector2d bubble_slope;          ///< with respect to the natural coordinates
     Eigen::Matrix<double, 3, 2> tangents;  ///< ∂X/∂r, ∂X/∂s
     Eigen::Matrix<double, 3, 2> bend;      ///< ∂D/∂r, ∂D/∂s
     Eigen::Vector3d director;
@@ -39,7 +39,7 @@ class CovariantStrain {
   /// γ_r, γ_s with γ_α = X,α·W + D·U,α.
   Rows<2> shear(const Point& p) const;
 
-  /// Adds vector · Σ f_i (u_i + offset θ_i × n_i), the bubble with its own factor.
+  /// Adds vector · Σ f_i (u_i + offset θ_i × n_i), the bubble with a separate factor.
   template <class Row, class Factors>
   void add_surface(Row&& row, const Eigen::Vector3d& vector, const Factors& f,
                    double bubble) const {
@@ -47,7 +47,7 @@ class CovariantStrain {
     if (element_.is_triangle()) return;
     row.template segment<3>(num_nodal()) += bubble * vector.transpose();
   }
-  /// Adds vector · Σ f_i θ_i × n_i, the bubble with its own factor.
+  /// Adds vector · Σ f_i θ_i × n_i, the bubble with a separate factor.
   template <class Row, class Factors>
   void add_director(Row&& row, const Eigen::Vector3d& vector, const Factors& f,
                     double bubble) const {
@@ -58,10 +58,10 @@ class CovariantStrain {
  private:
   const ShellElement& element_;
   ShellVectors middle_;
-  Eigen::Matrix<double, 3, 2> across_;  // unit vectors across the director of the centre
+  Eigen::Matrix<double, 3, 2> across_;  // unit vectors perpendicular to the director at the centre
 };
 
-/// Membrane and transverse shear strains that are interpolated between tying points.
+/// Membrane and transverse shear strains interpolated between tying points.
 class TiedStrain {
  public:
   explicit TiedStrain(const CovariantStrain& covariant, bool is_triangle);

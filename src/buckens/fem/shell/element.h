@@ -14,12 +14,12 @@ using ShellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6 *
 /// A row of the nodal variables.
 using ShellRow = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6 * kMostShellNodes>;
 /// Strain of the middle surface ε_x, ε_y, γ_xy, curvature κ_x, κ_y, κ_xy, transverse shear γ_xz,
-/// γ_yz per nodal variables.
+/// γ_yz as rows over the nodal variables.
 using ShellStrain = Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, 6 * kMostShellNodes>;
 
-/// One element with all it needs for its integrals.
+/// One element with everything its integrals need.
 struct ShellElement {
-  ShellVectors nodes;      ///< places of the nodes [m]
+  ShellVectors nodes;      ///< positions of the nodes [m]
   ShellVectors directors;  ///< unit vectors
   double offset = 0;       ///< of the middle surface along the directors [m]
   const ShellSection* section = nullptr;
@@ -28,7 +28,7 @@ struct ShellElement {
   bool is_triangle() const { return is_shell_triangle(nodes.cols()); }
   bool is_quadratic() const { return is_shell_quadratic(nodes.cols()); }
   Eigen::Index num_variables() const { return 6 * nodes.cols(); }
-  /// Places of the middle surface at the nodes.
+  /// Positions of the middle surface at the nodes.
   ShellVectors middle() const { return nodes + offset * directors; }
 };
 
@@ -49,7 +49,7 @@ double shell_area(const ShellElement& element, const ShellShape& shape);
 /// quadratic_strain().
 ShellMatrix shell_stiffness_matrix(const ShellElement& element);
 
-/// Strains at the centre, and the axes they are given in.
+/// Strains at the centre, and the axes in which they are given.
 struct ShellStrainRows {
   ShellStrain rows;
   Eigen::Matrix3d axes;
@@ -60,8 +60,8 @@ std::vector<ShellStrainRows> shell_corner_strains(const ShellElement& element);
 /// The axes alone.
 std::vector<Eigen::Matrix3d> shell_corner_axes(const ShellElement& element);
 
-/// ∫ (ρ h³/12) (drilling rotation against that of the surface)² dA: inertia of spurious rotations
-/// about the normal, none of rigid motion.
+/// ∫ (ρ h³/12) (drilling rotation relative to that of the surface)² dA: inertia of spurious
+/// rotations about the normal, none for rigid motion.
 ShellMatrix shell_drilling_inertia(const ShellElement& element);
 
 }  // namespace buckens::fem

@@ -19,10 +19,10 @@ struct ShellMoments {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< ∫ s sᵀ dm
   double mass = 0;
 
-  /// @param origin from which places s are measured [m]
+  /// @param origin from which positions s are measured [m]
   ShellMoments(const ShellElement& element, const Eigen::Vector3d& origin);
 
-  /// W_ab without its part over translations alone, which is products[0] ⊗ E_ab.
+  /// W_ab without its part in translations only, which is products[0] ⊗ E_ab.
   /// @param pair number in the order of ShapeIntegrals::W
   ShellMatrix second_moment(const ShellVectors& directors, std::size_t pair) const;
 };

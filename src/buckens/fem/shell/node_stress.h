@@ -9,7 +9,7 @@
 
 namespace buckens::fem {
 
-/// A node with some of the shells that meet there: those over which stresses may be averaged.
+/// A node with a group of the shells that meet there, over which stresses may be averaged.
 struct ShellPlace {
   int node = 0;
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns x, y, normal in model axes
@@ -17,19 +17,19 @@ struct ShellPlace {
 
 /// Stresses on the surfaces of shells at nodes.
 ///
-/// Strains are taken at the nodes of the elements and averaged over neighbours, each counting
-/// alike. Two elements are neighbours if they share a side with no third shell, have the same
-/// section, their normals there differ by less than 25°, and, with layers that have a direction,
-/// their x axes by less than 10°. Where plates of different thickness, a branch or an edge meet a
-/// node it has a place for each side. Second order in the element size inside a smooth mesh, first
-/// order at its border. Theory: docs/theory/18-stresses.md.
+/// Strains are taken at the nodes of the elements and averaged over neighbours with equal weights.
+/// Two elements are neighbours if they share a side with no third shell, have the same section,
+/// their normals there differ by less than 25°, and, with layers that have a direction, their x
+/// axes by less than 10°. Where plates of different thickness, branches or edges meet at a node, it
+/// has a place for each side. Second order in the element size inside a smooth mesh, first order at
+/// its boundary. Theory: docs/theory/18-stresses.md.
 class ShellNodeStresses {
  public:
   /// @param nodes at which stresses are wanted, each once
   ShellNodeStresses(const FeModel& fe, const std::vector<int>& nodes);
 
   const std::vector<ShellPlace>& places() const { return places_; }
-  /// Place of a node for a shell, counted among the shells; −1 if it is not wanted.
+  /// Place of a node for a shell, numbered among the shells; −1 if it is not wanted.
   int place_of(int node, int shell) const;
 
   /// Rows 6 p + (0…5) over the nodal variables: ε_x, ε_y, γ_xy of the middle surface, κ_x, κ_y,
@@ -38,7 +38,7 @@ class ShellNodeStresses {
 
   struct Surface {
     TensorColumns strain, stress;  ///< of the side the normal points to, model axes
-    Eigen::VectorXd mises;         ///< the larger one of both sides [Pa]
+    Eigen::VectorXd mises;         ///< the larger of both sides [Pa]
   };
   /// @param strains 6 × places, of rows()
   Surface surface(const Eigen::Ref<const TensorColumns>& strains) const;
@@ -59,7 +59,7 @@ class ShellNodeStresses {
   std::vector<ShellPlace> places_;
   std::vector<std::size_t> sections_;  // of each place, into sides_
   std::vector<Sides> sides_;           // of each different section
-  // Of each shell, node by node, −1 behind the last.
+  // For each shell, node by node, −1 after the last.
   std::vector<std::array<int, kMostShellNodes>> corner_place_, corner_node_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
 };

@@ -9,7 +9,7 @@
 
 namespace buckens::fem {
 
-/// Place of a stress in a shell: the bottom (0), middle (½) or top (1) of one of its layers.
+/// Position of a stress in a shell: the bottom (0), middle (½) or top (1) of one of its layers.
 struct ShellLevel {
   int layer = 0;
   double height = 0.5;
@@ -36,7 +36,7 @@ class ShellRecovery {
   /// N_x, N_y, N_xy [N/m], M_x, M_y, M_xy [N], Q_x, Q_y [N/m] from strains(). M_x > 0 stretches the
   /// side the normal points to.
   linalg::Matrix resultants(const linalg::Matrix& strains) const;
-  /// σ_x, σ_y, τ_xy of one element at a level, in the axes of the shell [Pa].
+  /// σ_x, σ_y, τ_xy of one element at a given level, in the axes of the shell [Pa].
   Eigen::Vector3d stress(const linalg::Matrix& strains, int element, const ShellLevel& level) const;
 
  private:

@@ -26,7 +26,7 @@ struct ShellSection {
   double offset = 0;  ///< of the middle surface from the nodes, along the normal [m]
   /// The x axis of the shell is this direction (model axes) projected onto it.
   std::optional<Eigen::Vector3d> direction;
-  /// Without `direction`: x along the first side of each element rather than near model x.
+  /// Without `direction`: x along the first side of each element rather than close to model x.
   bool along_first_side = false;
 
   static ShellSection homogeneous(const Material& material, double thickness, double offset = 0) {
@@ -52,16 +52,16 @@ struct ShellStiffness {
   Eigen::Matrix3d B;     ///< [N]
   Eigen::Matrix3d D;     ///< [N m]
   /// With the shear correction of each axis: the energy of the shear stresses that equilibrium
-  /// demands in cylindrical bending (5/6 for one layer) [N/m].
+  /// requires in cylindrical bending (5/6 for one layer) [N/m].
   Eigen::Matrix2d H;
   std::array<double, 3> inertia = {0, 0, 0};  ///< [kg/m², kg/m, kg]
 
-  /// Stiffness against shear in the plane [N/m].
+  /// In-plane shear stiffness [N/m].
   double shear() const { return A(2, 2); }
 };
 ShellStiffness shell_stiffness(const ShellSection& section);
 
-/// @param where start of the message
+/// @param where beginning of the message
 /// @throws ModelError for no layer, a thickness that is not positive, impossible constants, or
 /// damping that differs between layers
 void check_shell_section(const std::string& where, const ShellSection& section);

@@ -9,7 +9,7 @@
 
 namespace buckens::fem {
 
-/// Most nodes of a shell element.
+/// Largest number of nodes of a shell element.
 inline constexpr int kMostShellNodes = 8;
 
 /// One vector per node of a shell element, column by column.
@@ -17,8 +17,8 @@ using ShellVectors = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMostShellNo
 /// Slopes of the shape functions along two coordinates, node by node.
 using ShellSlope = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostShellNodes>;
 
-/// Shells have 3, 4, 6 or 8 nodes: corners counter-clockwise, then the nodes on the sides, that
-/// between corners 0 and 1 first.
+/// Shells have 3, 4, 6 or 8 nodes: corners counter-clockwise, then the nodes on the sides, starting
+/// between corners 0 and 1.
 constexpr bool is_shell_triangle(Eigen::Index num_nodes) {
   return num_nodes == 3 || num_nodes == 6;
 }
@@ -37,9 +37,9 @@ ShellShape shell_shape(Eigen::Index num_nodes, double r, double s);
 
 /// Natural coordinates of the nodes.
 std::span<const std::array<double, 2>> shell_node_places(Eigen::Index num_nodes);
-/// The nodes in the order in which they follow one another around the element.
+/// The nodes in order around the element.
 std::span<const int> shell_rim(Eigen::Index num_nodes);
-/// The element in pieces of three (fourth −1) or four nodes that can be drawn.
+/// The element in pieces of three (fourth −1) or four nodes for drawing.
 std::span<const std::array<int, 4>> shell_pieces(Eigen::Index num_nodes);
 
 struct ShellRulePoint {

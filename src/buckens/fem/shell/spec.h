@@ -28,7 +28,7 @@ struct ShellLayerSpec {
               .positive()
               .like("0.25 mm"));
     visit(base::field("angle", angle,
-                      "of material direction 1 from the x axis of the shell, about its normal")
+                      "from the x axis of the shell to material direction 1, about the normal")
               .in(base::kAngle)
               .like("45 deg"));
     visit(base::field("material", material, "material: a name from `materials` or written in place")
@@ -60,8 +60,8 @@ struct ShellPropertySpec {
               .in(base::kLength)
               .like("2.5 mm"));
     visit(base::field("direction", direction,
-                      "the x axis of the shell is this direction, projected onto it; angles of "
-                      "layers count from there")
+                      "the x axis of the shell is this direction projected onto it; angles of "
+                      "layers are measured from it")
               .like("[1, 0, 0]")
               .otherwise("model x; model z where that is normal to the shell"));
   }
@@ -75,13 +75,12 @@ struct ShellMemberSpec : ShellPropertySpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(
-        base::field("nodes", nodes,
-                    "three or four corners, counter-clockwise seen from the side the normal "
-                    "points to; behind them the nodes on all sides, if there are any, that between "
-                    "the first two corners first")
-            .required()
-            .like("[a, b, c, d]"));
+    visit(base::field(
+              "nodes", nodes,
+              "three or four corners, counter-clockwise seen from the side the normal points to, "
+              "followed by the nodes on all sides, if any, starting between the first two corners")
+              .required()
+              .like("[a, b, c, d]"));
     visit(base::field("material", material, "material: a name from `materials` or written in place")
               .required()
               .like("steel"));
@@ -107,14 +106,14 @@ struct PlateMeshSpec : ShellPropertySpec {
       "node "
       "sets x0, x1, y0, y1 are its edges, the faces `top` and `bottom` its sides";
   SourceLocation where;
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the least coordinates [m]
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates [m]
   std::array<double, 2> size = {1, 1};             ///< [m]
   std::array<int, 2> divisions = {1, 1};
   ShellShapeKind element = ShellShapeKind::quad4;
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("from", from, "corner with the least coordinates, in model axes")
+    visit(base::field("from", from, "corner with the smallest coordinates, in model axes")
               .in(base::kLength)
               .like("[0, -1 m, 0]"));
     visit(base::field("size", size, "edge lengths along x, y")
@@ -126,10 +125,9 @@ struct PlateMeshSpec : ShellPropertySpec {
               .required()
               .positive()
               .like("[16, 16]"));
-    visit(base::field(
-        "element", element,
-        "shell element: one `quad4` or two triangles `tri3` per field; `quad8` and `tri6` "
-        "have nodes on their sides, too"));
+    visit(base::field("element", element,
+                      "shell element: one `quad4` or two triangles `tri3` per field; `quad8` and "
+                      "`tri6` also have nodes on their sides"));
     shell_fields(visit);
   }
 };

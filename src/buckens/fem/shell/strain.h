@@ -8,7 +8,7 @@
 
 namespace buckens::fem {
 
-/// Most inner variables of a shell element.
+/// Largest number of inner variables of a shell element.
 inline constexpr int kMostInner = 5;
 
 /// Strains at one point per outer (nodal) and inner variables.
@@ -16,8 +16,8 @@ struct ShellStrainPoint {
   double area = 0;  ///< weight times area [m²]
   ShellStrain outer;
   Eigen::Matrix<double, 8, kMostInner> inner = Eigen::Matrix<double, 8, kMostInner>::Zero();
-  /// Drilling rotation against the rotation of the surface; empty where the membrane strains hold
-  /// it.
+  /// Drilling rotation relative to the rotation of the surface; empty where the membrane strains
+  /// contain it.
   ShellRow drilling;
   Eigen::Matrix<double, 1, kMostInner> inner_drilling =
       Eigen::Matrix<double, 1, kMostInner>::Zero();
@@ -26,15 +26,15 @@ struct ShellStrainPoint {
 /// The strains of an element at its integration points and its centre.
 struct ShellStrainField {
   std::vector<ShellStrainPoint> points;
-  int num_inner = 0;          ///< variables to be condensed
-  double drilling_share = 1;  ///< of the stiffness of ShellStrainPoint::drilling
+  int num_inner = 0;          ///< variables to condense out
+  double drilling_share = 1;  ///< stiffness of ShellStrainPoint::drilling
   ShellStrainPoint centre;
   Eigen::Matrix3d centre_axes = Eigen::Matrix3d::Identity();
-  std::vector<ShellStrainPoint> corners;  ///< at all nodes; none unless asked for
+  std::vector<ShellStrainPoint> corners;  ///< at all nodes; empty unless requested
   std::vector<Eigen::Matrix3d> corner_axes;
 };
 
-/// Adds to a row over the nodal variables what the motion of the nodes contributes.
+/// Adds the contribution of the motion of the nodes to a row over the nodal variables.
 struct ShellRowBuilder {
   const ShellElement& element;
 
@@ -78,18 +78,18 @@ void set_curvature(const ShellElement& element, const Eigen::Matrix3d& axes,
 using ShellShearRows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 6 * kMostShellNodes>;
 ShellShearRows covariant_shear(const ShellElement& element, double r, double s);
 
-/// Share of its stiffness against drilling rotations that a curved element keeps,
+/// Fraction of its drilling stiffness that a curved element keeps,
 /// 1/(1 + (|n_i − n| l/h)²). Where the normals n_i of the nodes differ from that of the element by
-/// l/2R, a curvature κ of the shell shows as drilling rotations of the order |n_i − n| l κ. Their
-/// energy is bounded so by that of bending, h² κ²; with smaller elements the share comes back to 1
-/// with l⁴. Flat elements keep all.
+/// l/2R, a curvature κ of the shell appears as drilling rotations of order |n_i − n| l κ. This
+/// bounds their energy by that of bending, h² κ²; as elements get smaller the fraction returns to 1
+/// like l⁴. Flat elements keep all of it.
 /// @param square l², the area of a quadrilateral, twice that of a triangle [m²]
 double drilling_share(const ShellElement& element, const Eigen::Vector3d& normal, double square);
 
 ShellStrainField quadrilateral_strain(const ShellElement& element, bool with_corners = false);
 ShellStrainField triangle_strain(const ShellElement& element, bool with_corners = false);
 
-/// Rotations of the nodes about the normal against that of the triangle in its plane.
+/// Rotations of the nodes about the normal relative to that of the triangle in its plane.
 struct TriangleDrilling {
   std::array<ShellRow, 3> rows;
   double area = 0;  ///< [m²]

@@ -19,17 +19,17 @@ namespace buckens::fem {
 /// docs/theory/11-solids.md.
 class SolidBlock final : public ElementBlock {
  public:
-  /// @return number to give to add()
+  /// @return number to pass to add()
   int add_material(const Material& material);
   /// @param nodes in the order of SolidTopology
   /// @return index of the element in this block
-  /// @throws ModelError unless the number of nodes is that of the kind, and incompatible modes are
-  /// asked for hex8 only
+  /// @throws ModelError if the number of nodes does not match the kind, or incompatible modes are
+  /// requested for anything but hex8
   int add(const SolidForm& form, std::span<const int> nodes, int material);
   /// A hex8 with full integration.
   int add(const std::array<int, 8>& nodes, int material);
 
-  /// Names an element in messages by its number in a file rather than by its index + 1.
+  /// Sets the number by which messages name an element: that in its file rather than index + 1.
   void set_number(int element, std::int64_t number) {
     elements_.at(static_cast<std::size_t>(element)).number = number;
   }
@@ -45,14 +45,14 @@ class SolidBlock final : public ElementBlock {
   const Section* section(int /*element*/) const override { return nullptr; }
 
   const SolidForm& form(int element) const { return at(element).form; }
-  /// Places of the nodes of an element in model axes [m].
+  /// Positions of the nodes of an element in model axes [m].
   NodeVectors positions(const std::vector<Node>& all, int element) const;
 
-  /// Some of the elements, in the given order.
+  /// A subset of the elements, in the given order.
   /// @param node_numbers new number of each node
   SolidBlock subset(const std::vector<int>& elements, const std::vector<int>& node_numbers) const;
 
-  /// @throws ModelError naming an element that is turned inside out or squashed flat
+  /// @throws ModelError naming an element that is inverted or flat
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;
   void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,
@@ -77,7 +77,7 @@ class SolidBlock final : public ElementBlock {
 
   std::vector<Material> materials_;
   std::vector<Element> elements_;
-  std::vector<int> nodes_;  // of all elements, one after the other
+  std::vector<int> nodes_;  // of all elements, consecutively
 };
 
 }  // namespace buckens::fem

@@ -11,7 +11,7 @@
 
 namespace buckens::fem {
 
-/// Which solid elements a mesh consists of.
+/// The kind of solid elements of a mesh.
 struct SolidElementSpec {
   SolidKind element = SolidKind::hex8;
   std::optional<SolidIntegration> integration;  ///< default: SolidForm::usual
@@ -27,9 +27,9 @@ struct SolidElementSpec {
         "solid element: linear (`hex8`, `tet4`, `wedge6`, `pyramid5`) or quadratic with "
         "mid-side nodes (`hex20`, `tet10`, `wedge15`)"));
     visit(base::field("integration", integration,
-                      "`incompatible-modes` (hex8 only) bends without locking; `full` takes the "
-                      "shape functions alone, at 2 × 2 × 2 points of hex8: bending then needs "
-                      "several elements across the thickness")
+                      "`incompatible-modes` (hex8 only) bends without locking; `full` uses the "
+                      "shape functions only, at 2 × 2 × 2 points for hex8: bending then needs "
+                      "several elements through the thickness")
               .like("full")
               .otherwise("incompatible-modes for hex8, full for all others"));
   }
@@ -43,14 +43,14 @@ struct SolidMemberSpec : SolidElementSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(
-        base::field("nodes", nodes,
-                    "hexahedra and wedges: the corners of one face counter-clockwise seen from the "
-                    "opposite face, then those of that face in the same order; tetrahedra and "
-                    "pyramids: the corners of a face (the base) counter-clockwise seen from the "
-                    "last corner, then that; mid-side nodes follow as Abaqus counts")
-            .required()
-            .like("[a, b, c, d, e, f, g, h]"));
+    visit(base::field(
+              "nodes", nodes,
+              "hexahedra and wedges: the corners of one face counter-clockwise seen from the "
+              "opposite face, then those of the opposite face in the same order; tetrahedra and "
+              "pyramids: the corners of a face (the base) counter-clockwise seen from the last "
+              "corner, then the last corner; mid-side nodes follow in the order of Abaqus")
+              .required()
+              .like("[a, b, c, d, e, f, g, h]"));
     element_fields(visit);
     visit(base::field("material", material, "material: a name from `materials` or written in place")
               .required()

@@ -10,14 +10,14 @@ namespace buckens::fem {
 
 /// One face of a solid element.
 struct ElementFace {
-  int element = 0;  ///< counted among the solid elements
+  int element = 0;  ///< numbered among the solid elements
   int face = 0;     ///< number in SolidTopology::faces
 };
 
 /// One side of a shell element.
 struct ShellSide {
-  int element = 0;           ///< counted among the shell elements
-  bool is_negative = false;  ///< the side the normal points away from
+  int element = 0;           ///< numbered among the shell elements
+  bool is_negative = false;  ///< the side that the normal points away from
 };
 
 /// Faces of solid elements and sides of shells under one name, such as `x0` of a box or `side` of a
@@ -34,7 +34,7 @@ std::vector<int> face_nodes(const SolidBlock& solids, const ElementFace& face);
 /// All nodes of a set, ascending, each once.
 std::vector<int> face_set_nodes(const SolidBlock& solids, const std::vector<ElementFace>& faces);
 
-/// What loads and averages need to know of one face, node by node in the order of face_nodes().
+/// What loads and averages need of one face, node by node in the order of face_nodes().
 struct FaceIntegrals {
   std::vector<int> nodes;
   Eigen::VectorXd area;     ///< ∫ N dA [m²]: a uniform traction's share; corners may be negative
@@ -45,7 +45,7 @@ struct FaceIntegrals {
   Eigen::VectorXd positive_area;
 };
 
-/// Integrals over a face by the points of a rule that is exact for plane faces with straight edges.
+/// Integrals over a face by a rule that is exact for plane faces with straight edges.
 FaceIntegrals face_integrals(const SolidBlock& solids, const std::vector<Node>& nodes,
                              const ElementFace& face);
 

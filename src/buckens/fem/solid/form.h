@@ -5,8 +5,8 @@
 
 namespace buckens::fem {
 
-/// Shapes of solid elements, named by their nodes. Corners are counted first, then the mid-side
-/// nodes, as Abaqus counts (C3D8, C3D20, C3D4, C3D10, C3D6, C3D15, C3D5).
+/// Shapes of solid elements, named by their nodes. Corners come first, then the mid-side nodes, as
+/// in Abaqus (C3D8, C3D20, C3D4, C3D10, C3D6, C3D15, C3D5).
 enum class SolidKind {
   hex8,      ///< trilinear hexahedron
   hex20,     ///< quadratic serendipity hexahedron
@@ -23,8 +23,8 @@ constexpr std::array<const char*, 7> choice_names(SolidKind) {
 
 /// How the stiffness of a solid element is integrated.
 enum class SolidIntegration {
-  incompatible_modes,  ///< hex8 only: nine inner displacement modes take shear locking away
-  full,                ///< all strain energy of the shape functions
+  incompatible_modes,  ///< hex8 only: nine inner displacement modes remove shear locking
+  full,                ///< the full strain energy of the shape functions
 };
 
 constexpr std::array<const char*, 2> choice_names(SolidIntegration) {

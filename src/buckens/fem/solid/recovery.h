@@ -11,20 +11,20 @@ namespace buckens::fem {
 /// A face on the surface of a mesh of solids.
 struct SurfaceFace {
   std::array<int, 4> nodes;  ///< counter-clockwise seen from outside; fourth −1 for triangles
-  int element = 0;           ///< to which it belongs, counted among solids, then shells
+  int element = 0;           ///< to which it belongs, numbered through solids, then shells
 };
 
-/// The faces that only one solid element has, in the order of the elements, then the shells.
+/// The faces that belong to one solid element only, in the order of the elements, then the shells.
 std::vector<SurfaceFace> surface_faces(const FeModel& fe);
 
-/// Whether every solid element hangs together with all others by common faces: then a mesh of
-/// solids alone is no mechanism.
+/// Whether all solid elements are connected through common faces: then a mesh of solids alone is
+/// not a mechanism.
 bool solids_join_by_faces(const FeModel& fe);
 
-/// Number of solid and shell elements. They are counted together, solids first.
+/// Number of solid and shell elements. They are numbered together, solids first.
 int num_solids(const FeModel& fe);
 
-/// The solid and shell elements that have each node, counted as by num_solids().
+/// The solid and shell elements at each node, numbered as by num_solids().
 std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe);
 
 /// Row of the von Mises stress in SolidRecovery::stresses.
@@ -33,8 +33,8 @@ inline constexpr int kMises = 6;
 /// Von Mises stress of σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx.
 double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s);
 
-/// Stresses of all solid elements at once, at their centres: there those of trilinear elements are
-/// most accurate. Of shells, which are counted behind them, stresses of their two sides.
+/// Stresses of all solid elements at once, at their centres, where those of trilinear elements are
+/// most accurate. For shells, which are numbered after them, stresses of both sides.
 class SolidRecovery {
  public:
   explicit SolidRecovery(const FeModel& fe);

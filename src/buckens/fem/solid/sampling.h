@@ -9,8 +9,8 @@
 
 namespace buckens::fem {
 
-/// Points of a solid element at which strains are most accurate, and the polynomial that carries
-/// them to the nodes.
+/// Points of a solid element at which strains are most accurate, and the polynomial that
+/// extrapolates them to the nodes.
 ///
 /// Hexahedra: 2×2×2 Gauss points, trilinear (Barlow, 1976); tet10: the four points of degree 2,
 /// linear; wedges: three times two points; tet4 and pyramids: the centre, constant.

@@ -12,7 +12,7 @@
 
 namespace buckens::fem {
 
-/// Most nodes of a solid element.
+/// Largest number of nodes of a solid element.
 inline constexpr int kMostSolidNodes = 20;
 
 /// One number per node of a solid element.
@@ -26,16 +26,16 @@ struct SolidShape {
   NodeVectors slope;  ///< ∂N/∂ξ
 };
 
-/// One face of a solid element: which of its nodes lie there.
+/// One face of a solid element: the nodes on it.
 struct SolidFace {
   std::vector<int> corners;    ///< three or four, counter-clockwise seen from outside
-  std::vector<int> mid_sides;  ///< behind corner k: between corners k and k + 1; empty if linear
+  std::vector<int> mid_sides;  ///< entry k: between corners k and k + 1; empty if linear
 
   /// Corners, then mid-side nodes.
   std::vector<int> nodes() const;
 };
 
-/// What is fixed for every element of a kind.
+/// What all elements of a kind have in common.
 struct SolidTopology {
   int num_nodes = 0;
   int num_corners = 0;
@@ -47,12 +47,12 @@ struct SolidTopology {
   NodeVectors natural;
   Eigen::Vector3d centre;
   std::vector<std::array<int, 2>> edges;  ///< corners of each edge, in the order of its mid node
-  /// Hexahedra: x0, x1, y0, y1, z0, z1 of the natural coordinates. Tetrahedra: face k lies opposite
-  /// to corner k. Wedges: lower, upper triangle, then the sides on edges 0, 1, 2. Pyramids: sides
-  /// on base edges 0…3, then the base.
+  /// Hexahedra: x0, x1, y0, y1, z0, z1 of the natural coordinates. Tetrahedra: face k is opposite
+  /// corner k. Wedges: lower, upper triangle, then the sides on edges 0, 1, 2. Pyramids: sides on
+  /// base edges 0…3, then the base.
   std::vector<SolidFace> faces;
-  /// The faces in pieces of three (fourth −1) or four nodes that can be drawn; those of a face
-  /// follow one another.
+  /// The faces in pieces of three (fourth −1) or four nodes for drawing; those of a face are
+  /// consecutive.
   std::vector<std::array<int, 4>> pieces;
 
   bool is_hexahedron() const { return num_corners == 8; }

@@ -14,10 +14,10 @@ class SolidBlock;
 /// Six strains or stresses per column: xx, yy, zz, xy, yz, zx in model axes, shear strains as 2ε.
 using TensorColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// A node with one of the materials that meet there.
+/// A node with one of the materials that meet at it.
 struct StrainPlace {
   int node = 0;
-  int material = -1;  ///< index into SolidStrains::elasticities(); −1: no solid is there
+  int material = -1;  ///< index into SolidStrains::elasticities(); −1: no solid at this node
 };
 
 /// Twice the strain energy of a difference of strains, and of the strains themselves [J].
@@ -28,41 +28,41 @@ struct EnergyOfError {
 
 /// Strains of solid elements at nodes and at centres.
 ///
-/// In each element strains are taken at the points of solid_sampling(), those of the incompatible
-/// modes of hex8 included, carried to the nodes by its polynomial, and averaged there over the
-/// elements of one elasticity: stresses may jump where the material changes. Second order in the
-/// element size at centres of hex8 and for hex20 and tet10; at nodes of hex8 inside the mesh, too,
-/// and first order at its surface. Theory: docs/theory/18-stresses.md.
+/// In each element strains are taken at the points of solid_sampling(), including those of the
+/// incompatible modes of hex8, extrapolated to the nodes by its polynomial, and averaged there over
+/// the elements of one elasticity: stresses may jump where the material changes. Second order in
+/// the element size at centres of hex8, at nodes of hex8 inside the mesh, and for hex20 and tet10;
+/// first order at nodes of hex8 on the surface. Theory: docs/theory/18-stresses.md.
 ///
-/// Nothing is stored per element but the condensed inner modes of hex8 (81 numbers); the cost of an
+/// Only the condensed inner modes of hex8 (81 numbers) are stored per element; the cost of an
 /// evaluation is that of the gradients at the points.
 class SolidStrains {
  public:
   /// @param nodes at which strains are wanted
-  /// @param elements solid elements at whose centres they are wanted, counted among the solids
+  /// @param elements solid elements at whose centres they are wanted, numbered among the solids
   SolidStrains(const FeModel& fe, const std::vector<int>& nodes, const std::vector<int>& elements);
 
-  /// The wanted nodes in their order, one entry per material there.
+  /// The wanted nodes in their order, one entry per material at the node.
   const std::vector<StrainPlace>& places() const { return places_; }
   Eigen::Index num_places() const { return static_cast<Eigen::Index>(places_.size()); }
   int num_elements() const { return static_cast<int>(element_materials_.size()); }
-  /// Of each wanted element, index into elasticities().
+  /// For each wanted element, index into elasticities().
   const std::vector<int>& element_materials() const { return element_materials_; }
   const std::vector<Elasticity>& elasticities() const { return elasticities_; }
 
   /// @param d nodal variables
-  /// @param at_places 6×places; zero where no solid is
+  /// @param at_places 6×places; zero where there is no solid
   /// @param at_elements 6×elements, at their centres
   void evaluate(const linalg::Vector& d, TensorColumns& at_places,
                 TensorColumns& at_elements) const;
 
-  /// Stresses of strains as evaluate() gives them, each with its own elasticity.
+  /// Stresses from strains of evaluate(), each with its own elasticity.
   void stresses(const TensorColumns& strain_at_places, const TensorColumns& strain_at_elements,
                 TensorColumns& at_places, TensorColumns& at_elements) const;
 
-  /// How far the strains of the elements are from continuous ones, in energy (Zienkiewicz & Zhu,
-  /// 1987); docs/theory/21-errors.md (E2).
-  /// @param at_places of evaluate(); elements without wanted nodes do not count
+  /// How far the strains of the elements are from continuous ones, in the energy norm (Zienkiewicz
+  /// & Zhu, 1987); docs/theory/21-errors.md (E2).
+  /// @param at_places from evaluate(); elements without wanted nodes do not count
   EnergyOfError energy_of_error(const linalg::Vector& d, const TensorColumns& at_places) const;
 
   /// Place of a node among places() with the material of a solid element, −1 if it is not wanted.
@@ -91,17 +91,17 @@ class SolidStrains {
 
   const FeModel& fe_;
   std::vector<StrainPlace> places_;
-  std::vector<double> share_;           // of one element in the mean of each place
+  std::vector<double> share_;           // weight of one element in the mean at each place
   std::vector<int> first_place_;        // of each node, −1 if it is not wanted
   std::vector<int> element_materials_;  // of the wanted elements
   std::vector<int> solid_materials_;    // of all solid elements
   std::vector<Elasticity> elasticities_;
-  std::vector<Element> elements_;  // those to be evaluated
+  std::vector<Element> elements_;  // elements to evaluate
   std::vector<int> corner_places_;
   std::vector<InnerProducts> inner_;
 };
 
-/// Principal values, falling. @param s σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx
+/// Principal values, in descending order. @param s σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx
 Eigen::Vector3d principal_stresses(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s);
 
 }  // namespace buckens::fem

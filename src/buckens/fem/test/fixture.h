@@ -46,7 +46,7 @@ inline Structure frame_structure(const BeamProperties& given, const Eigen::Matri
   return s;
 }
 
-/// A rotation about no special axis.
+/// A rotation about a general axis.
 inline Eigen::Matrix3d some_rotation() {
   return Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
 }

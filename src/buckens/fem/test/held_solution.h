@@ -9,7 +9,7 @@
 
 namespace buckens::fem::test {
 
-/// Solves K d = f with some DOF given.
+/// Solves K d = f with some DOF prescribed.
 inline linalg::Vector solve(const FeModel& fe, const linalg::Vector& f,
                             const std::vector<bool>& given, linalg::Vector d) {
   std::vector<int> number(given.size(), -1);

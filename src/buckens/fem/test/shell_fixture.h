@@ -14,7 +14,7 @@
 
 namespace buckens::fem::test {
 
-/// Which shells a grid consists of.
+/// The kind of shells of a grid.
 enum class ShellKind { quad4, tri3, quad8, tri6 };
 
 inline std::string shell_name(ShellKind kind) {
@@ -26,10 +26,10 @@ inline bool is_quadratic(ShellKind kind) {
   return kind == ShellKind::quad8 || kind == ShellKind::tri6;
 }
 
-/// Where nodes on the sides of elements lie: on the surface, or halfway between the corners.
+/// Where nodes on the sides of elements are: on the surface, or halfway between the corners.
 enum class Sides { curved, straight };
 
-/// A surface divided regularly: node (i, j) at place(i/nx, j/ny), nodes on sides behind them.
+/// A surface divided regularly: node (i, j) at place(i/nx, j/ny), followed by nodes on sides.
 struct ShellGrid {
   Structure structure;
   int nx = 0, ny = 0;
@@ -93,7 +93,7 @@ struct ShellGrid {
     return out;
   }
 
-  std::map<std::pair<int, int>, int> middles;  // by the corners, the lower number first
+  std::map<std::pair<int, int>, int> middles;  // by their corners, lower number first
 };
 
 /// DOF held at zero, marked by node and variable.

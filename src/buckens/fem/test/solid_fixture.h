@@ -51,7 +51,7 @@ inline void distort(Structure& s, double reach) {
   }
 }
 
-/// A 2×2×2 block of 0.4 × 0.3 × 0.2 m, all its nodes moved about.
+/// A 2×2×2 block of 0.4 × 0.3 × 0.2 m with all its nodes displaced.
 inline Structure distorted_block(const SolidForm& form, const Material& material = steel()) {
   Structure s;
   add_box(s, {{0.1, -0.2, 0.3}, {0.4, 0.3, 0.2}, {2, 2, 2}}, material, form);
@@ -59,7 +59,7 @@ inline Structure distorted_block(const SolidForm& form, const Material& material
   return s;
 }
 
-/// Nodes on no named face.
+/// Nodes that are not on any named face.
 inline std::vector<int> inner_nodes(const Structure& s) {
   std::vector<bool> outside(s.nodes.size(), false);
   for (const FaceSet& set : s.face_sets) {
