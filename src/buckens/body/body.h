@@ -16,22 +16,22 @@
 
 namespace buckens::body {
 
-/// What a reduced body has kept of its mesh.
+/// What a reduced body keeps of its mesh.
 struct ReductionFigures {
   std::string basis;        ///< "free-free", "craig-bampton" or "quasi-static"
   int modes = 0;            ///< vibrations in it
   int static_shapes = 0;    ///< deformations by static loads
   int full_dofs = 0;        ///< nodal variables of the mesh
   double highest_mode = 0;  ///< highest frequency among the vibrations [rad/s]
-  /// Largest share of the static interface compliance that the vibrations alone do not have, over
-  /// all interface directions; static shapes make up for it. 0 without interface.
+  /// Largest fraction of the static interface compliance that the vibrations alone lack, over all
+  /// interface directions; static shapes make up for it. 0 without interface.
   double static_share = 0;
 };
 
 /// The finite-element share of a body: everything with n rows.
 ///
-/// A reduced body and one with rigid regions are the same thing in other coordinates: `fe` then
-/// holds the projected matrices, `recovery` leads from its coordinates to the nodal variables of
+/// A reduced body or one with rigid regions is the same thing in other coordinates: `fe` then
+/// holds the projected matrices, and `recovery` maps its coordinates to the nodal variables of
 /// mesh().
 struct FlexiblePart {
   fem::FeModel fe;  ///< of the equations of motion
@@ -46,7 +46,7 @@ struct FlexiblePart {
   std::shared_ptr<const fem::FeModel> full_mesh;
   NodalRecovery recovery;
   ReductionFigures reduction;  ///< of a reduced body
-  /// Stiffening by axial forces, empty unless asked for.
+  /// Stiffening by axial forces, empty unless requested.
   std::unique_ptr<const fem::GeometricStiffness> geometric;
 
   /// Rows y = N d of all markers; the first `num_interface_rows` belong to markers that joints and
@@ -61,25 +61,25 @@ struct FlexiblePart {
   FlexiblePart(const FlexiblePart&) = delete;
   FlexiblePart& operator=(const FlexiblePart&) = delete;
 
-  /// Lets axial forces of beams and bars stiffen the mesh.
+  /// Enables stiffening by axial forces of beams and bars.
   void stiffen();
 
   Eigen::Index num_dofs() const { return fe.M.rows(); }
   /// Interface rows without those of patterns: what a Craig–Bampton basis holds.
   int num_held_rows() const { return num_interface_rows - num_pattern_rows; }
   bool is_damped() const { return C.nonZeros() > 0; }
-  /// Whether the body is limited to a basis of vibrations and static shapes.
+  /// Whether the body is reduced to a basis of vibrations and static shapes.
   bool is_reduced() const { return recovery.is_dense(); }
   /// The mesh with its nodes and elements.
   const fem::FeModel& mesh() const { return full_mesh ? *full_mesh : fe; }
   /// Nodal variables of mesh() from those of the equations of motion.
   linalg::Vector nodal(const linalg::Vector& d) const { return recovery.apply(d); }
-  /// Coordinates that come nearest to nodal variables in the mass metric: (TᵀMT)⁻¹TᵀM d.
+  /// Coordinates closest to given nodal variables in the mass metric: (TᵀMT)⁻¹TᵀM d.
   linalg::Vector coordinates(const linalg::Vector& nodal_values) const;
 };
 
-/// A body of the model: a Buckens frame B that carries all large motion, and for flexible bodies a
-/// mesh that deforms in it. A rigid body is the same thing without nodal variables.
+/// A body of the model: a Buckens frame B that carries all large motion and, for flexible bodies, a
+/// mesh that deforms relative to it. A rigid body is the same thing without nodal variables.
 ///
 /// B has its origin at the mass centre and axes parallel to the body's model axes.
 class Body {
@@ -89,14 +89,14 @@ class Body {
   Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();   ///< about the mass centre [kg m²]
   Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< mass centre in model axes [m]
   /// Orthonormal bases of the frame coordinates in use: rotations in body axes (3×0…3),
-  /// translations in world axes (3×2…3). Planar models and missing inertia shorten them.
+  /// translations in world axes (3×2…3). Planar models and missing inertia have fewer columns.
   Eigen::Matrix<double, 3, Eigen::Dynamic> rotation_basis;
   Eigen::Matrix<double, 3, Eigen::Dynamic> translation_basis;
-  /// Axes in body axes (3×0…3) about which the frame does not turn for want of inertia.
+  /// Axes in body axes (3×0…3) about which the frame does not rotate because it has no inertia.
   Eigen::Matrix<double, 3, Eigen::Dynamic> missing_rotations;
-  /// Stands in for missing inertia where an iteration needs a regular matrix [kg m²]: about axes of
-  /// `rotation_basis` that have none of their own and are turned by joints, otherwise zero. Results
-  /// do not depend on it: what it adds is taken out again, iteration by iteration.
+  /// Substitutes for missing inertia where an iteration needs a regular matrix [kg m²]: about axes
+  /// of `rotation_basis` that have none of their own and are rotated by joints, otherwise zero.
+  /// Results do not depend on it: what it adds is subtracted again in each iteration.
   Eigen::Matrix3d stand_in = Eigen::Matrix3d::Zero();
   std::vector<Marker> markers;
   std::unique_ptr<FlexiblePart> flexible;  ///< empty for rigid bodies
@@ -120,7 +120,7 @@ class Body {
 /// @param planar normal of the plane in world axes at the initial orientation, zero for 3-D
 void select_frame_coordinates(Body& body, const std::optional<Eigen::Vector3d>& plane_normal);
 
-/// What a user should know about a rotation that was left out.
+/// What a user should know about a rotation that was dropped.
 std::string missing_inertia_note(const Body& body, const Eigen::Vector3d& axis);
 
 }  // namespace buckens::body

@@ -28,7 +28,7 @@ struct OrientationSpec {
   std::optional<Eigen::Vector3d> euler;             ///< [rad]
   std::optional<std::array<double, 4>> quaternion;  ///< w, x, y, z
 
-  /// R = Rx(α) Ry(β) Rz(γ) for Euler angles: each turn about the axes already turned.
+  /// R = Rx(α) Ry(β) Rz(γ) for Euler angles: each rotation about the already rotated axes.
   Eigen::Quaterniond rotation() const {
     using Eigen::AngleAxisd, Eigen::Quaterniond, Eigen::Vector3d;
     if (axis && angle) return Quaterniond(AngleAxisd(*angle, axis->normalized()));
@@ -48,14 +48,14 @@ struct OrientationSpec {
   void fields(Visitor& visit) {
     visit(base::field("axis", axis, "axis of the rotation by `angle`").like("[0, 0, 1]"));
     visit(base::field("angle", angle, "angle about `axis`").in(base::kAngle).like("30 deg"));
-    visit(base::field("euler", euler, "turns about x, then the turned y, then the turned z")
+    visit(base::field("euler", euler, "rotations about x, then the rotated y, then the rotated z")
               .in(base::kAngle)
               .like("[0, 0, 90 deg]"));
     visit(base::field("quaternion", quaternion, "[w, x, y, z]; normalised").like("[1, 0, 0, 0]"));
   }
 };
 
-/// Where the model axes of a body stand in the world at t = 0.
+/// Pose of the model axes of a body in the world at t = 0.
 struct PlacementSpec {
   SourceLocation where;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the origin of the model axes [m]
@@ -91,9 +91,9 @@ struct MarkerSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(
-        base::field("position", position,
-                    "place in model axes; on a flexible body it must lie on a beam or bar, or at a "
-                    "node")
+        base::field(
+            "position", position,
+            "position in model axes; on a flexible body it must be on a beam or bar, or at a node")
             .in(base::kLength)
             .like("[100 mm, 0, 0]")
             .otherwise("give this or `at`"));
@@ -114,7 +114,7 @@ enum class InterfaceKind {
 
 constexpr std::array<const char*, 2> choice_names(InterfaceKind) { return {"average", "rigid"}; }
 
-/// A region of a mesh of solids with a frame that is used like a marker.
+/// A region of a mesh of solids with a frame that can be used like a marker.
 struct InterfaceSpec {
   std::string name;
   SourceLocation where;
@@ -130,9 +130,10 @@ struct InterfaceSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::inlined(region, "which nodes belong to it").required());
-    visit(base::field("kind", kind,
-                      "average: the frame follows the mean displacement and rotation of the nodes "
-                      "and shares its forces out to them; rigid: the nodes move as a rigid body"));
+    visit(
+        base::field("kind", kind,
+                    "average: the frame follows the mean displacement and rotation of the nodes "
+                    "and distributes its forces over them; rigid: the nodes move as a rigid body"));
     visit(base::field("at", at, "place of the frame in model axes")
               .in(base::kLength)
               .like("[0, 0, 0]")
@@ -143,14 +144,14 @@ struct InterfaceSpec {
   }
 };
 
-/// Rigid body by its mass properties.
+/// Rigid body given by its mass properties.
 struct RigidSpec {
   static constexpr const char* kKey = "rigid";
-  static constexpr const char* kDoc = "rigid body by its mass properties";
+  static constexpr const char* kDoc = "rigid body, given by its mass properties";
   SourceLocation where;
   double mass = 0;                                ///< [kg]
   Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< model axes [m]
-  /// Ixx, Iyy, Izz and perhaps Ixy, Ixz, Iyz about the mass centre, in model axes [kg m²].
+  /// Ixx, Iyy, Izz and optionally Ixy, Ixz, Iyz about the mass centre, in model axes [kg m²].
   std::vector<double> inertia;
 
   Eigen::Matrix3d inertia_matrix() const { return fem::symmetric_matrix(inertia); }
@@ -165,21 +166,22 @@ struct RigidSpec {
     visit(base::field("com", com, "mass centre in model axes")
               .in(base::kLength)
               .like("[75 mm, 0, 0]"));
-    visit(base::field("inertia", inertia,
-                      "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the "
-                      "mass centre, in model axes; Ixy = -∫ x y dm")
-              .in(base::kInertia)
-              .like("[0, 0, 2.727e-3 kg m^2]")
-              .otherwise("a point mass: it turns where a joint off its mass centre turns it"));
+    visit(
+        base::field("inertia", inertia,
+                    "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the "
+                    "mass centre, in model axes; Ixy = -∫ x y dm")
+            .in(base::kInertia)
+            .like("[0, 0, 2.727e-3 kg m^2]")
+            .otherwise("a point mass, which rotates only with a joint away from its mass centre"));
   }
 };
 
-/// A second body with the mesh or mass properties of another one.
+/// A body with the mesh or mass properties of another one.
 struct LikeSpec {
   static constexpr const char* kKey = "like";
   static constexpr const char* kDoc =
-      "mesh or mass properties, markers and damping of a body that stands "
-      "above; placed and coupled on its own";
+      "mesh or mass properties, markers and damping of a body defined above; with its own position "
+      "and coupling";
   SourceLocation where;
   std::string body;
 
@@ -211,16 +213,16 @@ struct CouplingSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("level", level,
-                      "full, first-order and none follow from a kinetic energy; auto moves up "
+                      "full, first-order and none derive from a kinetic energy; auto moves up "
                       "among them during the run; the others leave out single groups of terms")
               .shorthand()
               .like("first-order"));
-    visit(base::field("drop", drop, "terms left out besides, to see what they do")
+    visit(base::field("drop", drop, "further terms to leave out, to study their effect")
               .like("[cent0, cent1]")
               .otherwise("none"));
     visit(base::field("tolerance", tolerance,
-                      "auto: largest share of the neglected terms in all inertial, elastic and "
-                      "applied loads of the mesh")
+                      "auto: largest admissible share of the neglected terms in all inertial, "
+                      "elastic and applied loads of the mesh")
               .positive()
               .like("1 %"));
   }
@@ -230,8 +232,8 @@ struct CouplingSpec {
 struct BodySpec {
   std::string name;
   SourceLocation where;
-  /// What the body is made of. The reader replaces LikeSpec by the other body's content; `like`
-  /// then holds the other body's name.
+  /// What the body is made of. The reader replaces LikeSpec by the contents of the other body;
+  /// `like` then holds the other body's name.
   std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, fem::MeshSpec, fem::GeometrySpec,
                fem::MatricesSpec, LikeSpec>
       kind;
@@ -251,14 +253,15 @@ struct BodySpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::inlined(kind, "what the body is made of").required());
-    visit(base::field("at", at, "where the model axes stand in the world at t = 0"));
+    visit(
+        base::field("at", at, "position and orientation of the model axes in the world at t = 0"));
     visit(base::field("markers", markers, "named points for joints, loads and sensors")
               .like("{pin: {position: [100 mm, 0, 0]}}"));
     visit(base::field("interfaces", interfaces,
                       "regions of a mesh of solids that joints, loads and sensors use like markers")
               .like("{bearing: {face: x0}}"));
     visit(base::field("frames", frames,
-                      "number of body frames that carry the mesh, each its own part of it")
+                      "number of body frames that carry the mesh, each one part of it")
               .positive()
               .like("8"));
     visit(base::field("coupling", coupling, "inertial coupling of elastic and frame motion")
@@ -268,13 +271,13 @@ struct BodySpec {
               .like("{free-free: 8}")
               .otherwise("none"));
     visit(base::field("flexibility", flexibility,
-                      "elastic, or quasi-static: the body moves like a rigid one of deformed shape "
-                      "and deforms under the loads of that motion without vibrating"));
+                      "elastic, or quasi-static: the body moves like a rigid body of deformed "
+                      "shape and deforms under the loads of that motion without vibrating"));
     visit(base::field("geometric-stiffness", geometric_stiffness,
                       "axial forces of beams and bars stiffen or soften their bending within a "
-                      "frame; approximate and not conserving, `frames` is the exact way")
+                      "frame; approximate and not energy-conserving; `frames` is exact")
               .on_off());
-    visit(base::field("damping", damping, "Rayleigh damping in place of that of the materials")
+    visit(base::field("damping", damping, "Rayleigh damping, overrides that of the materials")
               .otherwise("that of the materials"));
   }
 };

@@ -6,11 +6,11 @@
 
 namespace buckens::body {
 
-/// Products of two columns of a dense matrix with several vectors at once, and their
-/// share of a product with the matrix: each number of the matrix is read once.
+/// Products of two columns of a dense matrix with several vectors at once, and their contribution
+/// to a product with the matrix: each number of the matrix is read once.
 ///
-/// Written with vectors of four, which the compiler maps to what the processor has; sums of four
-/// lanes, always added in the same order.
+/// Written with vectors of four, which the compiler maps to the processor's instructions; sums of
+/// four lanes, always added in the same order.
 template <int Dots>
 struct ColumnPair {
   std::array<double, Dots> first{}, second{};  ///< c0ᵀ x_k, c1ᵀ x_k
@@ -55,8 +55,8 @@ struct ColumnPair {
  private:
   typedef double Four __attribute__((vector_size(32)));
 
-  // By reference: returned by value, a vector of four would be passed otherwise with AVX than
-  // without.
+  // By reference: the calling convention for a vector of four by value differs with and without
+  // AVX.
   static void load(const double* p, Four& out) { __builtin_memcpy(&out, p, sizeof out); }
 };
 

@@ -6,13 +6,13 @@
 
 namespace buckens::body {
 
-/// Which inertial coupling terms between frame and nodal variables are kept, as users choose it.
+/// User's choice of the inertial coupling terms between frame and nodal variables to keep.
 ///
 /// `full`: all of them, from the exact kinetic energy FM (13). `first_order`: those of a kinetic
 /// energy with J₀ + J₁(d). `none`: the body's frame moves like that of a rigid body, its mesh
 /// vibrates as at rest; derives from a kinetic energy with J₀. `automatic`: starts with the
-/// cheapest of these that will do and moves up during a run. The others leave out single groups as
-/// the paper's figures 6 and 7 do; no kinetic energy belongs to them.
+/// cheapest sufficient one of these and moves up during a run. The others leave out single groups,
+/// as the paper's figures 6 and 7 do; they do not derive from a kinetic energy.
 enum class CouplingLevel { full, first_order, none, automatic, noquad, nocent, nocor, nojvar };
 
 /// A group of terms that can be left out, docs/theory/08-coupling.md.
@@ -27,8 +27,8 @@ struct CouplingTerms {
   bool cent1 = true;     ///< mesh: centrifugal load of the deformation
   bool cor_fe = true;    ///< mesh: Coriolis load, FM (22)
   bool eul_fe = true;    ///< mesh: Euler load, FM (23)
-  /// Mesh: stiffening by axial forces. No inertial coupling and in no level, but a load of the same
-  /// kind: it depends on all of d and stands on the right-hand side.
+  /// Mesh: stiffening by axial forces. Not an inertial coupling and in no level, but a load of the
+  /// same kind: it depends on all of d and is on the right-hand side.
   bool stiffening = false;
 
   static CouplingTerms none() { return {false, false, false, false, false, false, false}; }
@@ -37,20 +37,20 @@ struct CouplingTerms {
   void drop(CouplingTerm term);
 
   bool operator==(const CouplingTerms&) const = default;
-  /// Whether the six numbers c_ab·d matter: for J₁ or as places where a load acts.
+  /// Whether the six numbers c_ab·d are needed: for J₁ or for loads on the deformed position.
   bool use_patterns() const { return jvar || cor_ref || cent0; }
   bool have_load() const { return cent1 || cor_fe || eul_fe || stiffening; }
-  /// Whether some terms depend on all of d, so that a step takes them as given and repeats.
+  /// Whether some terms depend on all of d, so that a step treats them as given and iterates.
   bool are_lagged() const { return quad_ref || have_load(); }
 };
 
-/// What a body is asked to keep.
+/// The coupling terms requested for a body.
 struct CouplingChoice {
   CouplingLevel level = CouplingLevel::full;
   CouplingTerms terms;                ///< at the start
   bool is_automatic = false;          ///< may move up during a run
-  double tolerance = 0.01;            ///< automatic: neglected terms relative to the kept ones
-  std::vector<CouplingTerm> dropped;  ///< besides those of the level
+  double tolerance = 0.01;            ///< automatic: neglected relative to kept terms
+  std::vector<CouplingTerm> dropped;  ///< in addition to those of the level
 
   CouplingChoice(CouplingLevel chosen = CouplingLevel::full,  // NOLINT: a level is a choice
                  std::vector<CouplingTerm> drop = {}, double auto_tolerance = 0.01);
@@ -59,7 +59,7 @@ struct CouplingChoice {
   bool may_use_patterns() const { return is_automatic || terms.use_patterns(); }
 };
 
-/// As the model file spells it.
+/// As spelled in the model file.
 std::string to_string(CouplingLevel level);
 std::string to_string(CouplingTerm term);
 /// Name of a set of terms: a level's name, or "drop cent0, cent1".

@@ -7,7 +7,7 @@
 
 namespace buckens::body {
 
-/// Nodal loads Σ (A_ab W_ab d + B_ab W_ab ḋ) of the deformation, by the matrices A and B.
+/// Weights A and B of the nodal loads Σ (A_ab W_ab d + B_ab W_ab ḋ) of the deformation.
 struct DeformationWeights {
   Eigen::Matrix3d with_d = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d with_rate = Eigen::Matrix3d::Zero();
@@ -18,10 +18,10 @@ struct DeformationWeights {
   bool are_zero() const { return with_d.isZero(0.0) && with_rate.isZero(0.0); }
 };
 
-/// The moments quadratic in d and the nodal loads of a deformation, from one pass over the inertia
+/// The moments quadratic in d and the nodal loads of a deformation, in one pass over the inertia
 /// integrals. Allocates nothing.
-/// @param load n, what is there is added to; not touched where the weights are zero
-/// @param pool shares the nodes of solids; the result is the same
+/// @param load n, added to; unchanged where the weights are zero
+/// @param pool processes nodes of solids in parallel, with the same result
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const linalg::Vector& d,
                                      const linalg::Vector& d_dot, const linalg::Vector& d_ddot,
                                      const DeformationWeights& weights, linalg::Vector& load,

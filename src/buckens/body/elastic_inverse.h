@@ -10,20 +10,20 @@
 
 namespace buckens::body {
 
-/// K⁺ of a free mesh: the sieved deformation under loads from which their inertia relief is taken.
+/// K⁺ of a free mesh: the sieved deformation under loads with inertia relief.
 ///
 /// K is singular by the rigid modes Φ. With exactly rank(Φ) variables held (isostatic grounding)
 /// the rest, K_ff, is positive definite, and
 ///
 ///     K⁺ = Y K_g⁻¹ Yᵀ,      K_g⁻¹ = [K_ff⁻¹ 0; 0 0]                        FM (38), (39)
 ///
-/// does not depend on which variables are held: sieved loads need no reaction there, and the sieve
-/// takes out the rigid motion that holding them brings in. K K⁺ f = Yᵀ f, Pᵀ K⁺ f = 0.
-/// Theory: docs/theory/06-initial-state.md §3.
+/// does not depend on which variables are held: sieved loads cause no reaction there, and the sieve
+/// removes the rigid motion that holding them introduces. K K⁺ f = Yᵀ f, Pᵀ K⁺ f = 0. Theory:
+/// docs/theory/06-initial-state.md §3.
 class ElasticInverse {
  public:
   /// @param length scale that makes rotations and translations comparable [m]
-  /// @throws ModelError naming the body if the mesh moves without strain other than rigidly
+  /// @throws ModelError naming the body if the mesh has strain-free motions other than rigid ones
   ElasticInverse(const std::string& body, const fem::FeModel& fe, const Sieve& sieve,
                  double length);
 
@@ -33,7 +33,7 @@ class ElasticInverse {
   /// @throws ModelError where K K⁺f misses the sieved load: the mesh is a mechanism
   linalg::Matrix solve_checked(const linalg::Matrix& loads) const;
 
-  /// Numbers of the held variables, as many as there are rigid motions.
+  /// Indices of the held variables, as many as there are rigid motions.
   const std::vector<int>& held() const { return held_; }
   long solves() const { return solves_; }
 

@@ -9,7 +9,7 @@
 
 namespace buckens::body {
 
-/// How the elastic vibrations of a free body are computed; all give the same.
+/// How the elastic vibrations of a free body are computed; all methods give the same result.
 enum class FreeModeMethod {
   /// `subspace` for large bodies, dense for small ones.
   automatic,
@@ -31,7 +31,7 @@ constexpr std::array<const char*, 6> choice_names(FreeModeMethod) {
 std::string to_string(FreeModeMethod method);
 
 struct FreeModesSettings {
-  int count = 10;  ///< modes wanted; fewer come back where the body has fewer
+  int count = 10;  ///< modes wanted; fewer are returned if the body has fewer
   FreeModeMethod method = FreeModeMethod::automatic;
   /// Relative error of a shape in the sense of `FreeFreeModes::error`; that of ω is its square.
   double tolerance = 1e-9;
@@ -39,37 +39,37 @@ struct FreeModesSettings {
   bool condition = false;  ///< whether the condition number is estimated, about 40 more solves
 };
 
-/// Elastic vibrations of a free body with what is known about them.
+/// Elastic vibrations of a free body and their accuracy.
 struct FreeFreeModes : FreeModes {
   FreeModeMethod method = FreeModeMethod::dense;  ///< the one that was used
-  /// ‖Kφ − ω²Mφ‖ / ‖ω²Mφ‖ per mode, DOF scaled by 1/√M_ii. Rounding of K alone leaves about
+  /// ‖Kφ − ω²Mφ‖ / ‖ω²Mφ‖ per mode, DOF scaled by 1/√M_ii. Rounding of K alone causes about
   /// ε(ω_max/ω)².
   linalg::Vector residual;
-  /// ‖φ − (ω² + μ) Y(K + μM)⁻¹Mφ‖_M per mode: bound of the relative error of ω² + μ, whatever the
+  /// ‖φ − (ω² + μ) Y(K + μM)⁻¹Mφ‖_M per mode: bound of the relative error of ω² + μ for any
   /// mesh.
   linalg::Vector error;
-  double shift = 0;           ///< μ [1/s²], 0 without
-  double penalty = 0;         ///< c [1/s²], 0 without
+  double shift = 0;           ///< μ [1/s²], 0 if unused
+  double penalty = 0;         ///< c [1/s²], 0 if unused
   int sweeps = 0;             ///< block iterations, or Lanczos restarts
-  long solves = 0;            ///< large solves, those of estimates included
-  int factorisations = 0;     ///< sparse or dense, those given up included
+  long solves = 0;            ///< large solves, including those for estimates
+  int factorisations = 0;     ///< sparse or dense, including abandoned ones
   double factor_entries = 0;  ///< of the last factor: L, L + U, or half a dense matrix
-  double condition = 0;       ///< of the factored matrix, DOF scaled to unit diagonal; 0: not asked
+  double condition = 0;       ///< of the factored matrix, scaled to unit diagonal; 0: not computed
 };
 
 /// The lowest elastic vibrations of a flexible body, M-orthonormal and sieved: ΨᵀMΨ = 1, PᵀΨ = 0.
 ///
-/// Good for thousands of DOF and more: one sparse Cholesky factor as a rule, about seven to ten
-/// solves per mode, no mode missing from a multiple frequency. Theory:
+/// Suitable for thousands of DOF and more: usually one sparse Cholesky factor, about seven to ten
+/// solves per mode, no mode of a multiple frequency is missed. Theory:
 /// docs/theory/04-free-vibration.md.
-/// @throws ModelError if a method that works with full matrices is asked for a body too large, or
-/// so
-///         many modes of one that there is no other
+/// @throws ModelError if a method with full matrices is requested for
+/// too large a body, or so many modes of one that only such a method
+/// would do
 /// @throws NumericalError if the iteration does not converge or M is not positive definite on
 ///         {d : Pᵀd = 0} where the method needs that
 FreeFreeModes free_free_modes(const FlexiblePart& part, const FreeModesSettings& settings);
 
-/// The same with everything at its default.
+/// The same with defaults.
 FreeFreeModes free_free_modes(const FlexiblePart& part, int count);
 
 }  // namespace buckens::body

@@ -15,16 +15,16 @@ struct FreeModes {
 ///
 /// Up to 600 DOF: dense, on an orthonormal basis of {d : Pᵀd = 0}. Above: simultaneous inverse
 /// iteration on Y (K + μM)⁻¹M, FM (31), two to four sparse factorisations; free_free_modes(), which
-/// knows the mesh, needs one as a rule. Theory: docs/theory/04-free-vibration.md.
+/// knows the mesh, usually needs one. Theory: docs/theory/04-free-vibration.md.
 /// @param M positive definite on {d : Pᵀd = 0}, n×n
 /// @param Phi rigid modes, n×r; zero and dependent columns allowed
-/// @param count modes wanted; fewer come back where the body has fewer
+/// @param count modes wanted; fewer are returned if the body has fewer
 /// @throws NumericalError if the iteration does not converge or M is not positive definite
-/// @throws ModelError if a third of all modes of more than 4000 DOF is asked for
+/// @throws ModelError if a third of all modes of more than 4000 DOF is requested
 FreeModes free_modes(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                      const linalg::Matrix& Phi, int count);
 
-/// Whether the dense way is the faster one: up to 600 DOF, or where many modes are wanted.
+/// Whether the dense method is faster: up to 600 DOF, or if many modes are wanted.
 bool is_dense_better(Eigen::Index num_dofs, Eigen::Index count);
 
 }  // namespace buckens::body

@@ -17,7 +17,7 @@ struct DeformedMoments {
   Eigen::Vector3d l_dot = Eigen::Vector3d::Zero();  ///< Cᵀd̈ [N m]
 };
 
-/// Inertia integrals of a finite-element body and what follows from them.
+/// Inertia integrals of a finite-element body and derived quantities.
 ///
 /// With C(d) = ∫ s sᵀ dm = C₀ + S₁ + S₁ᵀ + S₂ and S₁_ab = c_ab·d, S₂_ab = dᵀW_ab d,
 /// J(d) = J₀ + tr(ΔC) 1 − ΔC, ΔC = C(d) − C₀;  l_a = dᵀH_a ḋ with H_1 = W_23 − W_32 and cyclic.
@@ -26,8 +26,8 @@ class InertiaInvariants {
  public:
   explicit InertiaInvariants(const fem::ShapeIntegrals& shape);
 
-  /// Rotary inertia of the deformed body [kg m²]. Cost: six sparse products; one with the scalar
-  /// mass matrix for solids, also below.
+  /// Rotary inertia of the deformed body [kg m²]. Cost: six sparse products; for solids one with
+  /// the scalar mass matrix (also below).
   Eigen::Matrix3d rotary_inertia(const linalg::Vector& d) const;
 
   /// l = Σ dᵀH_a ḋ e_a [N m s].
@@ -41,8 +41,8 @@ class InertiaInvariants {
   DeformedMoments quadratic_moments(const linalg::Vector& d, const linalg::Vector& d_dot,
                                     const linalg::Vector& d_ddot) const;
 
-  /// J₁, the part of J linear in d: six numbers are enough.
-  /// @param z centrifugal_patterns()ᵀ d; with ḋ in place of d it is J̇₁
+  /// J₁, the part of J linear in d, from six numbers.
+  /// @param z centrifugal_patterns()ᵀ d; with ḋ instead of d the result is J̇₁
   static Eigen::Matrix3d linear_inertia(const Eigen::Matrix<double, 6, 1>& z);
 
   /// y ← y + Σ_ab A_ab W_ab x.

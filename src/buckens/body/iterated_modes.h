@@ -6,7 +6,7 @@
 
 namespace buckens::body {
 
-/// Modes from an iteration, with the operator that gave them and its cost.
+/// Modes from an iteration, with the operator used and its cost.
 struct IteratedModes {
   FreeModes modes;
   ModeOperator op;
@@ -15,14 +15,14 @@ struct IteratedModes {
   int factorisations = 0;
 };
 
-/// Simultaneous inverse iteration with an operator; rigid motion that it lets through is left out.
+/// Simultaneous inverse iteration with an operator; rigid motions that it lets through are dropped.
 /// @throws NumericalError if it does not converge
 IteratedModes iterate_modes(const linalg::SparseMatrix& M, const Sieve& sieve, ModeOperator op,
                             int count, double tolerance);
 
-/// The same on Y (K + μM)⁻¹M, FM (31), with μ as needed: it begins with `first_shift`; where the
-/// lowest ω² turns out to lie far below, it begins anew with that, and a shift that drowns in the
-/// rounding of K is raised.
+/// The same on Y (K + μM)⁻¹M, FM (31), with a suitable μ: it starts with `first_shift`; if the
+/// lowest ω² turns out to be far below, it restarts with that, and a shift lost in the rounding of
+/// K is raised.
 IteratedModes iterate_with_shift(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                                  const Sieve& sieve, double first_shift, int count,
                                  double tolerance);
@@ -32,9 +32,9 @@ IteratedModes iterate_with_shift(const linalg::SparseMatrix& M, const linalg::Sp
 IteratedModes lanczos_modes(const linalg::SparseMatrix& M, ModeOperator op, int count,
                             double tolerance);
 
-/// First shift where nothing is known: far above rounding, below most ω² [1/s²].
+/// First shift when nothing is known: far above rounding, below most ω² [1/s²].
 double cautious_shift(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K);
-/// Upper bound of ω² or nearly so: the largest of K_ii/M_ii [1/s²].
+/// Approximate upper bound of ω²: the largest of K_ii/M_ii [1/s²].
 double highest_square(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K);
 
 }  // namespace buckens::body

@@ -18,7 +18,7 @@ struct Marker {
   spatial::Pose X_BF;        ///< in the undeformed body
   int translation_row = -1;  ///< first of three rows of FlexiblePart::rows; −1: rigid
   int rotation_row = -1;     ///< first of three rows; −1: no rotations at this point
-  int node = -1;             ///< mesh node that carries it, −1 if none does
+  int node = -1;             ///< mesh node that carries it, −1 if none
 
   bool follows_mesh() const { return translation_row >= 0; }
   bool carries_moment() const { return !follows_mesh() || rotation_row >= 0; }
@@ -31,7 +31,7 @@ struct FrameMotion {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< velocity of the origin in world axes [m/s]
 };
 
-/// A marker's motion together with what a force on it does to the body.
+/// A marker's motion together with the effect of a force on it on the body.
 struct MarkerKinematics {
   spatial::MarkerMotion motion;
   Eigen::Matrix3d R_WB;          ///< body axes
@@ -49,7 +49,7 @@ struct MarkerKinematics {
 MarkerKinematics marker_kinematics(const Marker& marker, const FrameMotion& frame,
                                    const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot);
 
-/// Acceleration of the marker that remains when ẇ, v̇ and ÿ are zero.
+/// Acceleration of the marker when ẇ, v̇ and ÿ are zero.
 spatial::MarkerBias marker_bias(const Marker& marker, const FrameMotion& frame,
                                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot);
 

@@ -11,17 +11,17 @@ namespace buckens::body {
 /// A factored matrix A whose inverse, applied to M d, has the elastic modes of a free body as
 /// eigenvectors with the largest eigenvalues 1/(ω² + shift).
 struct ModeOperator {
-  linalg::InverseOperator inverse;  ///< F ← the elastic part of A⁻¹F; no rigid motion comes out
+  linalg::InverseOperator inverse;  ///< F ← the elastic part of A⁻¹F, without rigid motion
   double shift = 0;                 ///< μ [1/s²]
   double penalty = 0;               ///< c [1/s²]
   double factor_entries = 0;
-  /// A itself and its inverse, for the estimate of its condition; size of A.
+  /// A itself and its inverse, for estimating its condition number; size of A.
   std::function<linalg::Vector(const linalg::Vector&)> multiply, solve;
-  linalg::Vector scale;  ///< brings the diagonal of A to one
+  linalg::Vector scale;  ///< scales the diagonal of A to one
 };
 
 /// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor.
-/// @throws NumericalError if μ drowns in the rounding of K
+/// @throws NumericalError if μ is lost in the rounding of K
 ModeOperator sieved_operator(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                              const Sieve& sieve, double shift);
 
@@ -33,13 +33,13 @@ ModeOperator augmented_operator(const linalg::SparseMatrix& K, const Sieve& siev
 /// (K + c PPᵀ)⁻¹ with P = MΦ of M-orthonormal rigid motions, FM (29): these become modes with
 /// ω² = c.
 ///
-/// Up to 1500 variables the full matrix is formed and factorised as the equation says: n²/2 entries
+/// Up to 1500 variables the full matrix is formed and factorised literally: n²/2 entries
 /// and n³/6 multiplications. Above, the same inverse comes from the factor of K + μM with a
-/// correction of rank six (Woodbury), then with the shift μ.
+/// rank-six correction (Woodbury), then with the shift μ.
 ModeOperator penalty_operator(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                               const Sieve& sieve, double penalty, double shift);
 
-/// λ_max/λ_min of the scaled matrix A by twenty power iterations each way.
+/// λ_max/λ_min of the scaled matrix A by twenty power iterations each.
 double estimate_condition(const ModeOperator& op);
 
 }  // namespace buckens::body

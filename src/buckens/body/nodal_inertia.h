@@ -8,13 +8,13 @@
 
 namespace buckens::body {
 
-/// The share of the inertia integrals that a scalar mass matrix holds: W_ab = Ms ⊗ E_ab.
+/// The part of the inertia integrals given by a scalar mass matrix: W_ab = Ms ⊗ E_ab.
 ///
-/// Nodal vectors are looked at as 3×N arrays, so that xᵀW_ab y = (X Ms Yᵀ)_ab for all nine pairs at
-/// once and Σ A_ab W_ab x = A X Ms: one product with Ms in place of nine with W.
+/// Nodal vectors are viewed as 3×N arrays, so that xᵀW_ab y = (X Ms Yᵀ)_ab for all nine pairs at
+/// once and Σ A_ab W_ab x = A X Ms: one product with Ms instead of nine with W.
 ///
 /// Where the variables are numbered node by node, three each, as in solids without constraints,
-/// products look nothing up but the entries of Ms.
+/// products need no lookup except of the entries of Ms.
 class NodalInertia {
  public:
   explicit NodalInertia(const fem::NodalMass& mass);
@@ -27,7 +27,7 @@ class NodalInertia {
   /// y ← y + Y, node by node.
   void add(const Eigen::Matrix3Xd& by_node, linalg::Vector& y) const;
   /// y = (Ms ⊗ 1) x, zero where no node has the variable. Allocates nothing.
-  /// @param pool shares the nodes; the result is the same
+  /// @param pool processes nodes in parallel, with the same result
   void multiply(const linalg::Vector& x, linalg::Vector& y, TaskPool* pool = nullptr) const;
 
   /// Whether node k has the variables 3k, 3k + 1, 3k + 2.

@@ -7,10 +7,10 @@
 
 namespace buckens::body {
 
-/// Leads from the variables of the equations of motion to the nodal variables of the mesh: d = T x.
+/// Maps the variables of the equations of motion to the nodal variables of the mesh: d = T x.
 ///
-/// T is the identity, sparse where nodes were eliminated (rigid regions), dense where the body was
-/// reduced to a basis.
+/// T is the identity, sparse where nodes were eliminated (rigid regions), or dense where the body
+/// was reduced to a basis.
 class NodalRecovery {
  public:
   /// The identity.
@@ -34,7 +34,7 @@ class NodalRecovery {
   /// N T for rows over nodal variables.
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows(
       const Eigen::SparseMatrix<double, Eigen::RowMajor>& N) const;
-  /// Largest of scale_i |T_ij| per column: size of a unit of each variable.
+  /// Largest of scale_i |T_ij| per column: the size of one unit of each variable.
   linalg::Vector column_sizes(const linalg::Vector& scale) const;
 
  private:

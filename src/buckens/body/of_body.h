@@ -8,8 +8,8 @@
 
 namespace buckens::body {
 
-/// Carries out work on one body and names it in what the work fails with: matrices do not know
-/// whose they are.
+/// Runs work on one body and adds its name to exceptions: matrices do not know which body they
+/// belong to.
 template <class Work>
 auto of_body(const std::string& body, Work&& work) {
   try {

@@ -8,7 +8,7 @@
 
 namespace buckens::body {
 
-/// What in a body's description speaks against the reduction or flexibility asked for.
+/// What in a body's description conflicts with the requested reduction or flexibility.
 struct ReductionConflict {
   std::string key;   ///< of the model file, within the body
   std::string text;  ///< what is wrong and what to do

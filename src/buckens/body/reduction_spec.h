@@ -17,7 +17,7 @@ constexpr std::array<const char*, 2> choice_names(Flexibility) {
   return {"elastic", "quasi-static"};
 }
 
-/// Free vibrations of the whole body as its basis.
+/// Basis of free vibrations of the whole body.
 struct FreeFreeSpec {
   SourceLocation where;
   int modes = 0;
@@ -30,13 +30,14 @@ struct FreeFreeSpec {
               .positive()
               .shorthand()
               .like("8"));
-    visit(base::field("static-correction", static_correction,
-                      "adds what unit loads of joints and forces deform beyond these vibrations")
+    visit(base::field(
+              "static-correction", static_correction,
+              "adds the deformations by unit loads of joints and forces beyond these vibrations")
               .on_off());
   }
 };
 
-/// Vibrations with held interfaces and the deformations by displaced interfaces as basis.
+/// Basis of vibrations with held interfaces and deformations by displaced interfaces.
 struct CraigBamptonSpec {
   SourceLocation where;
   std::optional<int> modes;
@@ -56,7 +57,7 @@ struct CraigBamptonSpec {
               .like("2 kHz")
               .otherwise("give this or `modes`"));
     visit(base::field("static-correction", static_correction,
-                      "adds what centrifugal loads deform beyond these shapes")
+                      "adds the deformations by centrifugal loads beyond these shapes")
               .on_off());
   }
 };
@@ -64,10 +65,10 @@ struct CraigBamptonSpec {
 /// Reduced basis of a flexible body. At most one of the three bases is given.
 struct ReductionSpec {
   SourceLocation where;
-  double tolerance = 0;  ///< of the choice by trial runs; 0: no such choice
+  double tolerance = 0;  ///< of the choice by trial runs; 0: no trial runs
   std::optional<FreeFreeSpec> free_free;
   std::optional<CraigBamptonSpec> craig_bampton;
-  std::string file;  ///< keeps the basis between runs, empty: none
+  std::string file;  ///< stores the basis between runs, empty: none
 
   bool is_none() const { return !free_free && !craig_bampton && !is_automatic(); }
   bool is_automatic() const { return tolerance > 0.0; }
@@ -75,8 +76,8 @@ struct ReductionSpec {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("auto", tolerance,
-                      "`craig-bampton` with as many modes as it takes for all markers to move as "
-                      "on the full mesh in a trial run, within this share of the largest motion")
+                      "`craig-bampton` with as many modes as needed for all markers to move as on "
+                      "the full mesh in a trial run, within this fraction of the largest motion")
               .positive()
               .or_word("none")
               .shorthand()
@@ -84,10 +85,10 @@ struct ReductionSpec {
               .otherwise("`none`"));
     visit(base::field("free-free", free_free, "free vibrations of the whole body").like("8"));
     visit(base::field("craig-bampton", craig_bampton,
-                      "vibrations with held interfaces, and deformations by moved ones")
+                      "vibrations with held interfaces, and deformations by displaced interfaces")
               .like("{cutoff: 2 kHz}"));
     visit(base::field("file", file,
-                      "HDF5 file that keeps the basis between runs, relative to the model file")
+                      "HDF5 file that stores the basis between runs, relative to the model file")
               .like("rod.basis.h5")
               .otherwise("none"));
   }

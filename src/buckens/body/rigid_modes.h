@@ -11,8 +11,8 @@ namespace buckens::body {
 /// Rigid motions Φ = [Φ_t Φ_r] of the nodal variables about the mass centre: unit translations
 /// along and unit rotations about the body axes, FM (4), (5). Shape n×6.
 ///
-/// Every rigid motion of the kept nodal DOF is spanned; a column is zero where the DOF cannot show
-/// it (a straight pin-jointed bar about its axis).
+/// Spans every rigid motion of the kept nodal DOF; a column is zero if the DOF cannot represent it
+/// (a straight pin-jointed bar about its axis).
 /// @param node_positions in model axes [m]
 /// @param com mass centre in model axes [m]
 linalg::Matrix rigid_modes(const std::vector<Eigen::Vector3d>& node_positions,

@@ -13,20 +13,20 @@ namespace buckens::body {
 /// Nodes of a mesh that move as a rigid body.
 struct RigidRegion {
   std::string name;
-  std::vector<int> nodes;                            ///< not on one line
+  std::vector<int> nodes;                            ///< not collinear
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< where its variables are, model axes [m]
 };
 
-/// The body without the variables that links inside its mesh make depend on others: d = T x,
+/// The body without the variables that links inside its mesh make dependent: d = T x,
 /// sparse, see fem/constraint/elimination.h. The variables of a rigid region are those of one more
 /// node at its centre, three translations and three rotations, with u_i = u + θ × (x_i − centre).
 ///
 /// M, K, C, c_ab and W_ab become Tᵀ(·)T. The scalar mass matrix keeps its entries between nodes
-/// that T leaves alone; those that others take part in stand in W_ab. The result has the mass
-/// and the six rigid motions of the whole; mesh() and nodal() lead back to all nodes.
+/// that T does not affect; the others go to W_ab. The result has the mass and the six rigid motions
+/// of the whole; mesh() and nodal() lead back to all nodes.
 /// @param part full body without marker rows
-/// @throws ModelError naming two regions that have nodes in common, a link that would ground the
-/// body, or a node that can move without mass
+/// @throws ModelError naming two regions with common nodes, a link that would ground the body, or a
+/// massless node that can move
 std::unique_ptr<FlexiblePart> with_links(const std::string& body, FlexiblePart& part,
                                          const std::vector<RigidRegion>& regions,
                                          const fem::NodeLinks& links = {});

@@ -7,7 +7,7 @@
 
 namespace buckens::body {
 
-/// Places (a, b) of the six stored matrices W_ab, a ≤ b; W_ba is the transpose.
+/// Indices (a, b) of the six stored matrices W_ab, a ≤ b; W_ba is the transpose.
 inline constexpr std::array<std::array<int, 2>, 6> kPairs = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 

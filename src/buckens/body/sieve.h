@@ -12,10 +12,10 @@ namespace buckens::body {
 ///
 ///     Y d = d − Φ S⁻¹ (Pᵀ d),   S = ΦᵀMΦ                                FM (38), (39)
 ///
-/// in place of the multiplier term PΛ. Loads are sieved by Yᵀ. Y is idempotent and self-adjoint in
-/// the M-product; it is full, hence never formed: 24 n flops per application.
+/// instead of the multiplier term PΛ. Loads are sieved by Yᵀ. Y is idempotent and self-adjoint in
+/// the M-product; it is full, so it is never formed: 24 n flops per application.
 ///
-/// S is treated rank-revealing: Φ is replaced by an M-orthonormal basis of the motions that carry
+/// S is handled by its rank: Φ is replaced by an M-orthonormal basis of the motions that carry
 /// mass, so that S becomes the identity.
 class Sieve {
  public:

@@ -8,12 +8,12 @@
 
 namespace buckens::joints {
 
-/// Everything one scalar constraint g(X_F, X_M, t) = 0 says at one configuration.
+/// One scalar constraint g(X_F, X_M, t) = 0 evaluated at a configuration.
 ///
 ///     ġ = J V + g_t,      g̈ = J V̇ + bias                                   FM (20), (34)
 ///
-/// V holds the twists of both markers (see PairRow). The multiplier λ of the row acts on the
-/// markers with the wrench Jᵀλ.
+/// V contains the twists of both markers (see PairRow). The multiplier λ of the row exerts the
+/// wrench Jᵀλ on the markers.
 struct RowValue {
   double g = 0;    ///< residual: [m] for point rows, [-] for direction rows
   double g_t = 0;  ///< partial time derivative of g
@@ -25,8 +25,8 @@ struct RowValue {
 /// Every joint is made of these kinds of rows:
 ///   - `point_world`: e·(p_M − p_F) = 0 with e fixed in the world;
 ///   - `point_along`: (R_F e)·(p_M − p_F) − s₀ − s(t) = 0 with e fixed in F;
-///   - `direction`:   (R_F b(t))·(R_M c) = 0, b turning about the axis a of F by the law of time
-///                    where there is one;
+///   - `direction`: (R_F b(t))·(R_M c) = 0, b rotating about the axis a of F by a law of time if
+///   there is one;
 ///   - `distance`:    |p_M − p_F| − L = 0;
 ///   - `homokinetic`: (R_F x)·(R_M y′) − (R_F y)·(R_M x′) = 0, x and y across the shafts;
 ///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F.
@@ -39,36 +39,37 @@ class ConstraintRow {
   static ConstraintRow point_along(const Eigen::Vector3d& e_F, double offset = 0.0,
                                    std::optional<base::TimeLaw> displacement = std::nullopt);
   static ConstraintRow direction(const Eigen::Vector3d& b_F, const Eigen::Vector3d& c_M);
-  /// M's direction c, which coincides with x_F when the angle is zero, turned about `axis_F` by
+  /// M's direction c, which coincides with x_F when the angle is zero, rotated about `axis_F` by
   /// angle(t) [rad]. The residual is the sine of the angle error.
   static ConstraintRow turning(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
                                const Eigen::Vector3d& c_M, base::TimeLaw angle);
 
   /// @param length L [m], > 0
   static ConstraintRow distance(double length);
-  /// Two directions across the shaft of F, and across that of M.
+  /// Two directions perpendicular to the shaft of F, and to that of M.
   static ConstraintRow homokinetic(const Eigen::Vector3d& x_F, const Eigen::Vector3d& y_F,
                                    const Eigen::Vector3d& x_M, const Eigen::Vector3d& y_M);
-  /// The displacement counts from the offset along the axis, the angle from where x_M lies along a
-  /// direction x_F across the axis. Whole turns are told by the displacement, so none are counted.
+  /// The displacement is measured from the offset along the axis, the angle from where x_M
+  /// coincides with a direction x_F perpendicular to the axis. Whole turns follow from the
+  /// displacement, so none are counted.
   /// @param pitch p [m], not zero
   static ConstraintRow screw(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
                              const Eigen::Vector3d& x_M, double offset, double pitch);
 
   RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t) const;
 
-  /// Part of g̈ that does not come from the accelerations of the bodies' coordinates.
+  /// Part of g̈ that does not depend on the accelerations of the bodies' coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
               const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t) const;
 
   Kind kind() const { return kind_; }
   /// True for rows whose residual is a length, false for dimensionless ones.
   bool is_length() const { return kind_ != Kind::direction && kind_ != Kind::homokinetic; }
-  /// Whether the row takes a moment of the first marker, and of the second.
+  /// Whether the row exerts a moment on the first marker, and on the second.
   bool turns_first() const { return kind_ != Kind::point_world && kind_ != Kind::distance; }
   bool turns_second() const { return turns_first() && kind_ != Kind::point_along; }
   bool depends_on_time() const { return law_.has_value(); }
-  /// e of a point row; b of a direction row, at angle zero where it turns.
+  /// e of a point row; b of a direction row, at zero angle if it rotates.
   const Eigen::Vector3d& direction() const { return e_; }
   /// c of a direction row, in M.
   const Eigen::Vector3d& second_direction() const { return c_; }

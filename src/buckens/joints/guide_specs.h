@@ -9,7 +9,7 @@ namespace buckens::joints {
 
 struct CylindricalSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "cylindrical";
-  static constexpr const char* kDoc = "turns about the axis and slides along it";
+  static constexpr const char* kDoc = "rotates about the axis and slides along it";
   static constexpr bool kTurns = true, kSlides = true;
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -20,7 +20,7 @@ struct CylindricalSpec : JointEndsAndDirection {
 struct PlanarJointSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "planar";
   static constexpr const char* kDoc =
-      "slides in a plane and turns about its normal: a face on a face";
+      "slides in a plane and rotates about its normal: a face on a face";
   template <class Visitor>
   void fields(Visitor& visit) {
     direction_fields(visit, "normal of the plane in the first marker's axes");
@@ -51,7 +51,7 @@ struct PointInPlaneSpec : JointEndsAndDirection {
 struct ParallelSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "parallel";
   static constexpr const char* kDoc =
-      "an axis keeps its direction in both bodies; they may move and turn about it";
+      "an axis keeps its direction in both bodies; they may translate and rotate about it";
   template <class Visitor>
   void fields(Visitor& visit) {
     direction_fields(visit, "direction of the axis in the first marker's axes");

@@ -30,19 +30,19 @@ enum class JointType {
   screw
 };
 
-/// Name of the kind as the model file spells it.
+/// Name of the kind as spelled in the model file.
 std::string to_string(JointType type);
 
-/// Orientation of both marker frames as placed, and what the joint needs beside it.
+/// Orientation of both marker frames as placed, and further data of the joint.
 ///
-/// Joints keep the relative orientation that the placed bodies show: directions of M are the images
-/// of F's directions at that moment, and prescribed angles and displacements count from it. Points
-/// are meant to coincide or to lie on the axis, so a gap there is closed by assembly.
+/// Joints keep the relative orientation of the bodies as placed: directions of M are the images of
+/// F's directions there, and prescribed angles and displacements are measured from it. Points
+/// should coincide or lie on the axis, so a gap is closed by assembly.
 struct Placement {
   Eigen::Matrix3d R_WF = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_WM = Eigen::Matrix3d::Identity();
   Eigen::Vector3d r_F = Eigen::Vector3d::Zero();      ///< from F to M, in F [m]
-  Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();  ///< joint axis in F, any length but zero
+  Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();  ///< joint axis in F, any non-zero length
   std::optional<spatial::Plane> planar;               ///< keep in-plane rows only
   std::optional<base::TimeLaw> law;                   ///< angle [rad] or displacement [m]
   std::optional<Eigen::Vector3d> second_axis_F;  ///< of universal, constant velocity, as placed
@@ -58,12 +58,12 @@ struct Placement {
 /// universal 4, constant velocity 4, parallel 2, screw 5. Cost O(1).
 /// @throws ModelError if the axis is zero or, in a planar model, neither normal to the plane
 ///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation, point on
-///         line, point in plane); if the joint makes no sense in a plane; if its second axis or
-///         its length does not suit it
+///         line, point in plane); if the joint is meaningless in a plane; if its second axis or its
+///         length is unsuitable
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);
 
-/// Rows that hold two points together and keep the direction `axis_F` common to both markers: what
-/// two bars have where they only divide a longer one.
+/// Rows that hold two points together and keep the direction `axis_F` common to both markers: for
+/// two bars that only divide a longer one.
 std::vector<ConstraintRow> make_straight_rows(const Placement& placement);
 
 /// Joint axis in F, normalised.

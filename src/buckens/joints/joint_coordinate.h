@@ -5,7 +5,7 @@
 
 namespace buckens::joints {
 
-/// A coordinate with its whole turns apart from the rest, so that no digits are lost after many.
+/// A coordinate with its whole turns stored separately, so that no digits are lost after many.
 struct CountedValue {
   int turns = 0;        ///< of an angle; 0 of a displacement
   double fraction = 0;  ///< angle within the turn, −π … π [rad], or displacement [m]
@@ -14,8 +14,8 @@ struct CountedValue {
   double value() const;
 };
 
-/// Angle or displacement of marker M as seen from marker F about or along an axis fixed in F. Both
-/// are zero as placed. The axis keeps its direction in M, too, where a joint sees to that.
+/// Angle or displacement of marker M relative to marker F about or along an axis fixed in F. Both
+/// are zero as placed. The axis is also fixed in M if a joint ensures that.
 class JointCoordinate {
  public:
   enum class Kind { angle, displacement };
@@ -34,18 +34,18 @@ class JointCoordinate {
   /// J: the rate of the coordinate is J V.
   spatial::PairRow derivatives(const spatial::MarkerMotion& F,
                                const spatial::MarkerMotion& M) const;
-  /// The counted value that is reached from `before` on the shorter way.
+  /// The counted value closest to `before`.
   CountedValue follow(const CountedValue& before, double fraction) const;
 
  private:
   Kind kind_ = Kind::displacement;
   Eigen::Vector3d axis_F_ = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d x_F_ = Eigen::Vector3d::UnitX();  // of an angle: across the axis
-  Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();  // its image as placed, in M
+  Eigen::Vector3d x_F_ = Eigen::Vector3d::UnitX();  // of an angle: perpendicular to the axis
+  Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();  // its image in M as placed
   double offset_ = 0;                               // of a displacement [m]
 };
 
-/// How far a coordinate has gone from one value to another, with all digits.
+/// Difference between two values of a coordinate, to full precision.
 double difference(const CountedValue& from, const CountedValue& to);
 
 }  // namespace buckens::joints

@@ -33,7 +33,7 @@ struct JointEndsAndAxis : JointEnds {
   }
 };
 
-/// With an axis that has to be given.
+/// With an axis that must be given.
 struct JointEndsAndDirection : JointEnds {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
 

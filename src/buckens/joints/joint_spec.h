@@ -56,7 +56,7 @@ struct FixedSpec : JointEnds {
   }
 };
 
-/// Elastic connection along and about the axes of the first marker, free of force as placed.
+/// Elastic connection along and about the axes of the first marker, force-free as placed.
 struct BushingSpec : JointEnds {
   static constexpr const char* kKey = "bushing";
   static constexpr const char* kDoc =
@@ -92,8 +92,7 @@ struct BushingSpec : JointEnds {
 struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "prescribed-rotation";
   static constexpr const char* kDoc =
-      "drives the rotation about the axis; add a joint that "
-      "carries the other directions";
+      "drives the rotation about the axis; add a joint for the other directions";
   static constexpr bool kTurns = true;
   // Exactly one of the two is given.
   std::optional<base::TimeLaw> angle;  ///< counted from the position as placed [rad]
@@ -107,15 +106,15 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
   template <class Visitor>
   void fields(Visitor& visit) {
     axis_fields(visit);
-    visit(base::field("angle", angle,
-                      "angle of the second marker about the axis, counted from "
-                      "the position as placed")
+    visit(base::field(
+              "angle", angle,
+              "angle of the second marker about the axis, measured from the position as placed")
               .in(base::kAngle)
               .like("\"150*t\"")
               .otherwise("give this or `speed`"));
     visit(base::field("speed", speed,
                       "angular velocity of the second marker about the axis; the angle is its "
-                      "integral from t = 0 and begins at the position as placed")
+                      "integral from t = 0 and starts from the position as placed")
               .in(base::kAngularVelocity)
               .like("3000 rpm")
               .otherwise("give this or `angle`"));
@@ -125,8 +124,7 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
 struct PrescribedTranslationSpec : JointEnds {
   static constexpr const char* kKey = "prescribed-translation";
   static constexpr const char* kDoc =
-      "drives the distance along the axis; add a joint that "
-      "carries the other directions";
+      "drives the displacement along the axis; add a joint for the other directions";
   static constexpr bool kSlides = true;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
   base::TimeLaw displacement;                      ///< counted from the position as placed [m]
@@ -138,8 +136,8 @@ struct PrescribedTranslationSpec : JointEnds {
               .required()
               .like("[1, 0, 0]"));
     visit(base::field("displacement", displacement,
-                      "distance of the second marker along the axis, "
-                      "counted from the position as placed")
+                      "displacement of the second marker along the axis, measured from the "
+                      "position as placed")
               .in(base::kLength)
               .required()
               .like("\"10*sin(20*t) mm\""));

@@ -10,8 +10,8 @@
 namespace buckens::loads {
 
 /// Force or torque on the first marker by laws of time, in world axes (`fixed`) or in the axes of
-/// the marker (`following`). Its shares on frame and mesh, FM (50)–(52) in the plane, follow from
-/// the marker's velocity map (docs/theory/01-kinematics.md).
+/// the marker (`following`). Its contributions to frame and mesh, FM (50)–(52) in the plane, follow
+/// from the marker's velocity map (docs/theory/01-kinematics.md).
 class AppliedLoad final : public ForceElement {
  public:
   enum class Kind { force, torque };

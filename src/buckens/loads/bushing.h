@@ -6,15 +6,15 @@
 namespace buckens::loads {
 
 /// Linear six-DOF bushing: stiffness and damping along and about the axes of the first marker,
-/// free of force as placed.
+/// force-free as placed.
 ///
 /// With r the displacement of the second marker in the first one's axes and θ the rotation vector
 /// between them (both zero as placed): force −K r − C ṙ, torque −J_l⁻ᵀ(θ) K_r θ − C_r ω. The
-/// elastic part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is kept at any rotation below π. About
-/// axes without stiffness it may turn on and on; against stiffness up to 3 rad.
+/// elastic part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is conserved at any rotation below π.
+/// About axes without stiffness it may rotate without limit; against stiffness up to 3 rad.
 class Bushing final : public ForceElement {
  public:
-  static constexpr double kLargestAngle = 3.0;  ///< [rad]; θ changes its sign at π
+  static constexpr double kLargestAngle = 3.0;  ///< [rad]; θ changes sign at π
 
   struct Coefficients {
     Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();             ///< [N/m]

@@ -7,30 +7,30 @@
 
 namespace buckens::loads {
 
-/// A spring and damper on one joint coordinate whose force is projected on a set:
+/// A spring and damper on one joint coordinate whose force is projected onto a set:
 ///
 ///     f = proj_[lowest, highest](−k x − c ξ̇) − c₀ ξ̇
 ///
-/// All forces are admitted by a plain spring, those of one sign by a stop (unilateral), those up to
-/// a bound by friction (bounded). Theory: docs/theory/22-rows.md §2.
+/// A plain spring admits all forces, a stop those of one sign (unilateral), friction those up to a
+/// bound (bounded). Theory: docs/theory/22-rows.md §2.
 struct ProjectedForce {
   bool is_on = true;                              ///< off: only c₀ acts
-  double strain = 0;                              ///< x, away from rest [m] or [rad]
+  double strain = 0;                              ///< x, from rest [m] or [rad]
   double stiffness = 0;                           ///< k [N/m] or [N m/rad]
   double damping = 0;                             ///< c [N s/m] or [N m s/rad]
   double lowest = -HUGE_VAL, highest = HUGE_VAL;  ///< [N] or [N m]
-  double outer_damping = 0;                       ///< c₀, not bounded by the set
-  /// The force of c is at most that of k: a contact begins and ends without a jump.
+  double outer_damping = 0;                       ///< c₀, not limited by the set
+  /// The force of c is at most that of k, so that contact begins and ends without a jump.
   bool is_damper_limited = false;
-  /// Where the set cuts the force off, rest follows so that k x becomes the force (return mapping);
-  /// otherwise rest stays where it is.
+  /// Where the set limits the force, rest follows so that k x becomes the force (return mapping);
+  /// otherwise rest does not move.
   bool is_yielding = false;
 };
 
 /// A law of one joint coordinate. The force acts as Jᵀf on both markers of the joint.
 class CoordinateLaw : public ForceElement {
  public:
-  /// Nothing: the law needs its coordinate, see respond().
+  /// Zero: the law needs its coordinate, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const final;
   Action respond(const Sight& sight) const final;
@@ -41,14 +41,14 @@ class CoordinateLaw : public ForceElement {
 
  protected:
   virtual ProjectedForce force(const Sight& sight) const = 0;
-  /// Whether rest follows: its strain is kept as a state.
+  /// Whether rest follows: its strain is then a state.
   virtual bool is_yielding() const { return false; }
 };
 
 /// Linear spring and damper on a joint coordinate.
 class CoordinateSpring final : public CoordinateLaw {
  public:
-  /// @param free value of the coordinate without force [m] or [rad]
+  /// @param free force-free value of the coordinate [m] or [rad]
   CoordinateSpring(double stiffness, double damping, double free)
       : stiffness_(stiffness), damping_(damping), free_(free) {}
 
@@ -57,12 +57,12 @@ class CoordinateSpring final : public CoordinateLaw {
   double stiffness_, damping_, free_;
 };
 
-/// Elastic stops of a joint coordinate: a spring and damper beyond an end, which never pulls. Its
-/// damper is limited by its spring: a force that sets in with the speed of approach would leave a
-/// step without solution, on either side of the end.
+/// Elastic stops of a joint coordinate: a spring and damper beyond an end, which never pulls. The
+/// damper is limited by the spring: a force that jumps with the speed of approach would leave a
+/// step without a solution on either side of the end.
 class CoordinateStop final : public CoordinateLaw {
  public:
-  /// @param from,to ends of the free way [m] or [rad]; −HUGE_VAL, HUGE_VAL: none on that side
+  /// @param from,to ends of the free range [m] or [rad]; −HUGE_VAL, HUGE_VAL: none on that side
   CoordinateStop(double from, double to, double stiffness, double damping)
       : from_(from), to_(to), stiffness_(stiffness), damping_(damping) {}
 

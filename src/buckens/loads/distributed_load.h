@@ -12,8 +12,8 @@ namespace buckens::loads {
 /// Uniform force per area, length, mass or volume over a part of a body.
 ///
 /// Its work is that of the resultant on the mean displacement of that part, eq. (L1), so it acts as
-/// a force on a marker at the mean place that follows the mean displacement; such a marker has no
-/// rotation of its own, and its axes are those of the body.
+/// a force on a marker at the mean position that follows the mean displacement; such a marker has
+/// no rotation of its own, its axes are those of the body.
 class DistributedLoad final : public ForceElement {
  public:
   /// @param value three laws of time [N per unit of extent]

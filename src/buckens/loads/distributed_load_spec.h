@@ -16,7 +16,7 @@ namespace buckens::loads {
 inline constexpr base::Dimension kForcePerLength = base::kForce / base::kLength;
 inline constexpr base::Dimension kForcePerVolume = base::kForce / base::kVolume;
 
-/// Part of a body that takes a load: "piston/crown", or a whole body: "rotor".
+/// Part of a body on which a load acts: "piston/crown", or a whole body: "rotor".
 struct BodyPart {
   SourceLocation where;
   std::string text;  ///< as written
@@ -30,17 +30,17 @@ struct BodyPart {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("name", text, "body, or body and its part with a slash between")
+    visit(base::field("name", text, "body, or body and part separated by a slash")
               .required()
               .shorthand()
               .like("piston/crown"));
   }
 };
 
-/// Pressure on faces along the normals of the undeformed mesh, in the axes of the body.
+/// Pressure on faces along the normals of the undeformed mesh, in body axes.
 struct PressureSpec {
   static constexpr const char* kKey = "pressure";
-  static constexpr const char* kDoc = "pressure on faces of a mesh; positive pushes onto them";
+  static constexpr const char* kDoc = "pressure on faces of a mesh; positive pushes against them";
   BodyPart on;
   base::TimeLaw value;  ///< [Pa]
 
@@ -90,7 +90,7 @@ struct LineLoadSpec {
   }
 };
 
-/// Force per mass or per volume. Exactly one of both is given.
+/// Force per mass or per volume. Exactly one of the two is given.
 struct BodyForceSpec {
   static constexpr const char* kKey = "body-force";
   static constexpr const char* kDoc = "force per mass or per volume on a body or a set of elements";
@@ -110,12 +110,12 @@ struct BodyForceSpec {
   }
 };
 
-/// The world is carried by a base that accelerates: all bodies feel −a per mass.
+/// The world is attached to an accelerating base: all bodies are subject to −a per mass.
 struct BaseAccelerationSpec {
   static constexpr const char* kKey = "base-acceleration";
   static constexpr const char* kDoc =
       "translational acceleration of the ground in an inertial frame; everything is reported "
-      "relative to the ground, and every body feels the opposite force per mass";
+      "relative to the ground, and every body is subject to the opposite force per mass";
   std::array<base::TimeLaw, 3> value;  ///< [m/s²]
 
   template <class Visitor>

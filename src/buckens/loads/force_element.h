@@ -7,37 +7,37 @@
 
 namespace buckens::loads {
 
-/// What a force element does at one configuration.
+/// The effect of a force element at one configuration.
 struct Action {
   spatial::Wrench on_first;   ///< on the first marker, world components
   spatial::Wrench on_second;  ///< on the second marker, world components
-  /// Load along Load::pattern_row of the first body [N]; evaluate() leaves its power out, which
-  /// takes the rate of that row.
+  /// Load along Load::pattern_row of the first body [N]; evaluate() omits its power, which needs
+  /// the rate of that row.
   double along_pattern = 0;
-  double stored_energy = 0;  ///< of its springs [J]
-  double active_power = 0;   ///< power given to the system beyond −d(stored_energy)/dt [W]
-  double dissipation = 0;    ///< power taken by dampers, contained in active_power with minus [W]
+  double stored_energy = 0;     ///< of its springs [J]
+  double active_power = 0;      ///< power supplied to the system beyond −d(stored_energy)/dt [W]
+  double dissipation = 0;       ///< power dissipated by dampers, negative part of active_power [W]
   double along_coordinate = 0;  ///< force along its joint coordinate [N] or [N m]
-  int regime = 0;  ///< which of its tangents holds; where it changes, they are formed anew
+  int regime = 0;  ///< which of its tangents applies; a change makes them be formed again
 };
 
-/// A direction in which a force element resists: the generalised displacement x with ẋ = J V meets
-/// the generalised force −k x − c ẋ. Only the tangent of the step's iteration is made of it.
+/// A direction in which a force element resists: the generalised displacement x with ẋ = J V causes
+/// the generalised force −k x − c ẋ. Used only for the tangent of the step's iteration.
 struct SoftRow {
   spatial::PairRow J = spatial::PairRow::Zero();
   double stiffness = 0;  ///< [N/m] or [N m/rad]
   double damping = 0;    ///< [N s/m] or [N m s/rad]
 };
 
-/// A joint coordinate at one instant: an angle counted over turns [rad] or a displacement [m].
+/// A joint coordinate at one instant: an angle including whole turns [rad] or a displacement [m].
 struct CoordinateMotion {
   double value = 0;
   double rate = 0;    ///< J V
-  double change = 0;  ///< since the start of the step, with all digits after many turns, too
+  double change = 0;  ///< change since the start of the step, accurate also after many turns
   spatial::PairRow J = spatial::PairRow::Zero();
 };
 
-/// All that a force law may see at one instant.
+/// Everything a force law may use at one instant.
 struct Sight {
   double t = 0;
   const spatial::MarkerMotion& first;
@@ -49,22 +49,22 @@ struct Sight {
 
 /// A force law between two marker frames. An applied load has the ground as its second marker.
 ///
-/// Most laws are made of time and both markers and need evaluate() and append_soft_rows() only.
-/// Others see a joint coordinate, the reaction of their joint, or states of their own, which the
-/// model's state keeps for them; these override respond() and append_tangent().
+/// Most laws depend on time and both markers and need only evaluate() and append_soft_rows().
+/// Others depend on a joint coordinate, the reaction of their joint, or states of their own, which
+/// the model's state stores for them; these override respond() and append_tangent().
 class ForceElement {
  public:
   virtual ~ForceElement() = default;
 
-  /// What it does by time and markers alone.
+  /// Its effect from time and markers alone.
   virtual Action evaluate(double t, const spatial::MarkerMotion& first,
                           const spatial::MarkerMotion& second) const = 0;
-  /// What it does by all that it may see.
+  /// Its effect from everything it may use.
   virtual Action respond(const Sight& sight) const {
     return evaluate(sight.t, sight.first, sight.second);
   }
 
-  /// Number of soft rows, the same at any time; zero for elements without stiffness and damping.
+  /// Number of soft rows, constant over time; zero for elements without stiffness and damping.
   virtual int num_soft_rows() const { return 0; }
 
   /// Appends num_soft_rows() rows.
@@ -75,33 +75,33 @@ class ForceElement {
     append_soft_rows(sight.first, sight.second, rows);
   }
 
-  /// Numbers that it keeps from step to step.
+  /// Number of states that it keeps from step to step.
   virtual int num_states() const { return 0; }
-  /// Writes these numbers as they are before the first step. @param states all zero
+  /// Writes these states as they are before the first step. @param states all zero
   virtual void start_states(const Sight& /*sight*/, double* /*states*/) const {}
-  /// Writes these numbers as they are at the end of a step.
+  /// Writes these states as they are at the end of a step.
   /// @param sight at the end, with the states at the start
   virtual void find_states(const Sight& /*sight*/, double* /*states*/) const {}
 
-  /// True for loads that come from outside: a static path multiplies them by its load factor.
+  /// True for external loads: a static path multiplies them by its load factor.
   virtual bool is_applied() const { return false; }
 
-  /// Number of laws of time whose values are recorded: three components, one pressure, none.
+  /// Number of laws of time whose values are recorded: three components, one pressure, or none.
   virtual int num_values() const { return 0; }
   /// Their values, the first num_values() of three: components in world axes, or in those of the
-  /// first marker where follows() says so.
+  /// first marker if follows().
   virtual Eigen::Vector3d values(double /*t*/) const { return Eigen::Vector3d::Zero(); }
   virtual bool follows() const { return false; }
 
-  /// Whether values can be given from outside in place of the laws of time: forces and torques.
+  /// Whether values can be given from outside instead of the laws of time: forces and torques.
   virtual bool takes_values() const { return false; }
-  /// What it does with these values, axes as for values(). @pre takes_values()
+  /// Its effect with these values, axes as for values(). @pre takes_values()
   virtual Action act(const Eigen::Vector3d& /*values*/,
                      const spatial::MarkerMotion& /*first*/) const {
     return {};
   }
 
-  /// False if the load changes with time by a law; a static start takes its value at t = 0.
+  /// False if the load varies with time by a law; a static start takes its value at t = 0.
   virtual bool is_constant() const { return true; }
 };
 

@@ -11,18 +11,18 @@ namespace buckens::loads {
 
 /// Force on the first marker by a function of time and of the marker's motion, in world axes [N].
 ///
-/// The function is called several times per step, from one thread at a time, and must give the same
-/// answer to the same question. It says nothing of its derivatives: a law that is stiff compared to
-/// the bodies makes the iteration of the step slow; write a ForceElement with soft rows for it.
-/// Positions count from Model::origin, zero unless the mechanism lies very far from that of the
-/// world.
+/// The function is called several times per step, from one thread at a time, and must return the
+/// same value for the same arguments. It provides no derivatives: a law that is stiff compared to
+/// the bodies slows down the iteration of the step; write a ForceElement with soft rows for it.
+/// Positions are relative to Model::origin, which is zero unless the mechanism is very far from
+/// that of the world.
 class FunctionForce final : public ForceElement {
  public:
   using Law = std::function<Eigen::Vector3d(double t, const spatial::MarkerMotion& marker)>;
 
   explicit FunctionForce(Law law) : law_(std::move(law)) {}
 
-  /// @throws NumericalError if the function gives something that is not finite
+  /// @throws NumericalError if the function returns something that is not finite
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& /*second*/) const override {
     Action action;

@@ -8,17 +8,17 @@
 
 namespace buckens::loads {
 
-// Laws on the coordinate of a joint: its angle, counted over turns, or its displacement. Both are
-// zero as placed.
+// Laws on the coordinate of a joint: its angle, including whole turns, or its displacement. Both
+// are zero as placed.
 
-/// What all of them begin with.
+/// What all of them have in common.
 struct JointLaw {
   std::string joint;
 
   template <class Visitor>
   void joint_fields(Visitor& visit, bool turns) {
     visit(base::field("joint", joint,
-                      turns ? "name of a joint that turns about an axis"
+                      turns ? "name of a joint that rotates about an axis"
                             : "name of a joint that slides along an axis")
               .required()
               .like(turns ? "hinge" : "slide"));
@@ -32,7 +32,7 @@ struct HingeSpringSpec : JointLaw {
   static constexpr bool kTurns = true;
   double stiffness = 0;  ///< [N m/rad]
   double damping = 0;    ///< [N m s/rad]
-  double angle = 0;      ///< without torque [rad]
+  double angle = 0;      ///< torque-free [rad]
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -45,7 +45,7 @@ struct HingeSpringSpec : JointLaw {
               .in(base::kRotationalDamping)
               .non_negative()
               .like("0.1 N m s/rad"));
-    visit(base::field("angle", angle, "angle at which the spring is free of torque")
+    visit(base::field("angle", angle, "angle at which the spring is torque-free")
               .in(base::kAngle)
               .like("10 deg"));
   }
@@ -57,7 +57,7 @@ struct SlideSpringSpec : JointLaw {
   static constexpr bool kTurns = false;
   double stiffness = 0;     ///< [N/m]
   double damping = 0;       ///< [N s/m]
-  double displacement = 0;  ///< without force [m]
+  double displacement = 0;  ///< force-free [m]
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -70,14 +70,14 @@ struct SlideSpringSpec : JointLaw {
               .in(base::kDamping)
               .non_negative()
               .like("5 N s/m"));
-    visit(base::field("displacement", displacement,
-                      "displacement at which the spring is free of force")
-              .in(base::kLength)
-              .like("10 mm"));
+    visit(
+        base::field("displacement", displacement, "displacement at which the spring is force-free")
+            .in(base::kLength)
+            .like("10 mm"));
   }
 };
 
-/// Ends of the free way of a joint.
+/// Ends of the free range of a joint.
 struct JointStop : JointLaw {
   std::optional<double> from, to;  ///< [rad] or [m]
   double stiffness = 0;            ///< [N m/rad] or [N/m]
@@ -86,12 +86,12 @@ struct JointStop : JointLaw {
   template <class Visitor>
   void stop_fields(Visitor& visit, bool turns) {
     joint_fields(visit, turns);
-    visit(
-        base::field("from", from, "where the free way begins, counted from the position as placed")
-            .in(turns ? base::kAngle : base::kLength)
-            .like(turns ? "-30 deg" : "-20 mm")
-            .otherwise("no stop on this side"));
-    visit(base::field("to", to, "where the free way ends, counted from the position as placed")
+    visit(base::field("from", from,
+                      "where the free range begins, measured from the position as placed")
+              .in(turns ? base::kAngle : base::kLength)
+              .like(turns ? "-30 deg" : "-20 mm")
+              .otherwise("no stop on this side"));
+    visit(base::field("to", to, "where the free range ends, measured from the position as placed")
               .in(turns ? base::kAngle : base::kLength)
               .like(turns ? "90 deg" : "50 mm")
               .otherwise("no stop on this side"));
@@ -149,27 +149,27 @@ struct JointFrictionBase : JointLaw {
               .like("0.1")
               .otherwise("the same as `static`"));
     visit(base::field("stribeck-velocity", stribeck,
-                      "rate at which the coefficient has come down from `static` to `dynamic` by "
-                      "63 %; needed where they differ")
+                      "rate at which the coefficient has dropped from `static` towards `dynamic` "
+                      "by 63 %; needed if they differ")
               .in(turns ? base::kAngularVelocity : base::kVelocity)
               .positive()
               .like(turns ? "0.1 rad/s" : "10 mm/s")
               .otherwise("none"));
-    visit(base::field("viscous", viscous, "damper rate beside the dry friction")
+    visit(base::field("viscous", viscous, "damper rate in addition to dry friction")
               .in(turns ? base::kRotationalDamping : base::kDamping)
               .non_negative()
               .like(turns ? "0.01 N m s/rad" : "1 N s/m"));
-    visit(base::field("preload", preload, "resistance without any reaction, of seals and the like")
+    visit(base::field("preload", preload, "resistance without any reaction, as of seals")
               .in(turns ? base::kTorque : base::kForce)
               .non_negative()
               .like(turns ? "0.2 N m" : "5 N"));
-    visit(base::field("slip", slip, "elastic displacement at which it breaks away")
+    visit(base::field("slip", slip, "elastic displacement at which the joint breaks away")
               .in(turns ? base::kAngle : base::kLength)
               .positive()
               .like(turns ? "1e-5 rad" : "1 um")
               .otherwise(turns ? "1e-5 rad" : "1e-6 of the size of the model"));
     visit(base::field("bearing-length", length,
-                      "length over which bending moments are carried by two opposite forces")
+                      "length over which bending moments are carried by a pair of opposite forces")
               .in(base::kLength)
               .positive()
               .like("40 mm")
@@ -180,7 +180,7 @@ struct JointFrictionBase : JointLaw {
 struct HingeFrictionSpec : JointFrictionBase {
   static constexpr const char* kKey = "hinge-friction";
   static constexpr const char* kDoc =
-      "dry friction against turning, from the reaction of the joint; sticks without creep";
+      "dry friction against rotation, from the reaction of the joint; sticks without creep";
   static constexpr bool kTurns = true;
   double radius = 0;        ///< of the pin [m]
   double axial_radius = 0;  ///< [m]
@@ -189,12 +189,13 @@ struct HingeFrictionSpec : JointFrictionBase {
   void fields(Visitor& visit) {
     joint_fields(visit, kTurns);
     law_fields(visit, kTurns);
-    visit(base::field("radius", radius, "of the pin, on which forces across the axis rub")
+    visit(base::field("radius", radius,
+                      "radius of the pin, on which forces across the axis cause friction")
               .in(base::kLength)
               .non_negative()
               .like("8 mm"));
     visit(base::field("axial-radius", axial_radius,
-                      "mean radius of the collar on which forces along the axis rub")
+                      "mean radius of the collar on which forces along the axis cause friction")
               .in(base::kLength)
               .non_negative()
               .like("12 mm"));

@@ -9,7 +9,7 @@
 
 namespace buckens::loads {
 
-// Fields that several kinds of load have.
+// Fields common to several kinds of load.
 
 /// Part of a body on which the load acts.
 template <class Part>

@@ -27,7 +27,7 @@ struct ForceSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("on", on, "marker that takes the force").required().like("rod/end"));
+    visit(base::field("on", on, "marker on which the force acts").required().like("rod/end"));
     visit(components_field("value", value, base::kForce, "[0, \"10*sin(20*t) N\", 0]").required());
     visit(axes_field(axes, "marker"));
   }
@@ -42,7 +42,7 @@ struct TorqueSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("on", on, "marker that takes the torque").required().like("crank"));
+    visit(base::field("on", on, "marker on which the torque acts").required().like("crank"));
     visit(components_field("value", value, base::kTorque, "[0, 0, 2 N m]").required());
     visit(axes_field(axes, "marker"));
   }
@@ -56,7 +56,7 @@ struct SpringDamperSpec {
   double stiffness = 0;                ///< k [N/m]
   double damping = 0;                  ///< c [N s/m]
   std::optional<double> length;        ///< l0 [m]; default: the distance as placed
-  std::optional<base::TimeLaw> force;  ///< f [N], pulls the markers together where positive
+  std::optional<base::TimeLaw> force;  ///< f [N], positive pulls the markers together
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -69,7 +69,7 @@ struct SpringDamperSpec {
               .in(base::kDamping)
               .non_negative()
               .like("5 N s/m"));
-    visit(base::field("length", length, "length at which the spring is free of force")
+    visit(base::field("length", length, "length at which the spring is force-free")
               .in(base::kLength)
               .non_negative()
               .like("120 mm")
@@ -91,7 +91,7 @@ struct TorsionalSpringSpec {
   std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
   double stiffness = 0;                 ///< [N m/rad]
   double damping = 0;                   ///< [N m s/rad]
-  double angle = 0;                     ///< free angle, counted from the position as placed [rad]
+  double angle = 0;                     ///< free angle, from the position as placed [rad]
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -107,9 +107,9 @@ struct TorsionalSpringSpec {
               .in(base::kRotationalDamping)
               .non_negative()
               .like("0.1 N m s/rad"));
-    visit(base::field("angle", angle,
-                      "angle at which the spring is free of torque, counted from the "
-                      "position as placed")
+    visit(base::field(
+              "angle", angle,
+              "angle at which the spring is torque-free, measured from the position as placed")
               .in(base::kAngle)
               .like("10 deg"));
   }

@@ -10,7 +10,7 @@ namespace buckens::loads {
 ///
 /// The nodal forces are −p ∫ N n dA. Their resultant acts on the body frame; on the mesh they act
 /// along one row, w·d = −(1/A) ∫ n·u dA, with the load p A, eq. (L2). Normals and lever arms both
-/// belong to the undeformed faces: then pressure all around a body has no resultant, however it is
+/// belong to the undeformed faces: so pressure all around a body has no resultant, however it is
 /// deformed.
 ///
 /// The first marker is the frame of the body, its origin at the mass centre.

@@ -19,7 +19,8 @@ class SpringDamper final : public ForceElement {
   SpringDamper(double stiffness, double damping, double free_length,
                std::optional<base::TimeLaw> tension);
 
-  /// @throws NumericalError if the markers coincide while the spring pulls: no direction
+  /// @throws NumericalError if the markers coincide while the spring pulls, so that it has no
+  /// direction
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
   int num_soft_rows() const override { return 1; }
@@ -34,8 +35,8 @@ class SpringDamper final : public ForceElement {
 
 /// Linear torsional spring and damper about an axis fixed in the first marker.
 ///
-/// The angle is that of the second marker about the axis, zero as placed; it is measured within
-/// ±3 rad, beyond which the element refuses (a spring wound further needs a bearing model).
+/// The angle is that of the second marker about the axis, zero as placed; it is measured within ±3
+/// rad; beyond that the element throws (use a hinge-spring on a joint).
 class TorsionalSpring final : public ForceElement {
  public:
   static constexpr double kLargestAngle = 3.0;  ///< [rad]; the measured angle jumps at π
