@@ -9,11 +9,11 @@
 
 namespace buckens::model {
 
-/// Makes a model in code: bodies, joints, loads and sensors by value, in SI units, with the structs
-/// that a model file fills and the names that its keys have.
+/// Builds a model in code: bodies, joints, loads and sensors by value, in SI units, with the
+/// structs that a model file fills and the names of its keys.
 ///
-/// Markers are named as in a model file: "rod/end", "rod", "ground". References that the functions
-/// return hold until the next call for another entry of the same kind.
+/// Markers are named as in a model file: "rod/end", "rod", "ground". References returned by the
+/// functions are valid until the next call for another entry of the same kind.
 class ModelBuilder {
  public:
   explicit ModelBuilder(std::string title = {});
@@ -63,7 +63,7 @@ class ModelBuilder {
   void add_torque(const std::string& name, const std::string& on, const Eigen::Vector3d& value);
   /// Force on a marker by a function of time and motion, see loads::FunctionForce.
   void add_force_law(const std::string& name, const std::string& on, loads::FunctionForce::Law law);
-  /// A force law of one's own between two markers.
+  /// A user-defined force law between two markers.
   void add_force_element(const std::string& name,
                          std::shared_ptr<const loads::ForceElement> element,
                          const std::string& first, const std::string& second = "ground");
@@ -84,7 +84,7 @@ class ModelBuilder {
   /// A point fixed to the ground [m].
   static base::MarkerRef ground(const Eigen::Vector3d& point);
 
-  /// All of it, for whatever has no function here.
+  /// The whole description, for whatever has no function here.
   ModelDescription& description() { return description_; }
   /// Builds and checks the mechanism; can be called again after changes.
   /// @throws InputError, ModelError with the names of bodies, joints and markers
@@ -98,7 +98,7 @@ class ModelBuilder {
     spec.name = name;
     return spec;
   }
-  /// @throws InputError if the name is taken or empty
+  /// @throws InputError if the name is already in use or empty
   static void require_new(bool is_new, const std::string& name);
 
   ModelDescription description_;

@@ -23,7 +23,7 @@ struct MarkerId {
   int body = kGround;
   int marker = 0;      ///< index into Body::markers; unused on the ground
   spatial::Pose X_WF;  ///< ground only
-  std::string text;    ///< as the model file names it, for messages
+  std::string text;    ///< as named in the model file, for messages
 };
 
 /// Joint between two markers with its place in λ.
@@ -34,12 +34,12 @@ struct Joint {
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
   std::vector<joints::ConstraintRow> rows;
   int first_row = 0;     ///< of λ
-  SourceLocation where;  ///< in the model file; that of the body for ties
-  /// Holds the parts of a divided body together; stands in no model file.
+  SourceLocation where;  ///< in the model file; for ties that of the body
+  /// Holds the parts of a divided body together; not in the model file.
   bool is_tie = false;
 };
 
-/// A joint coordinate that somebody asks for: a force law or a sensor.
+/// A joint coordinate that a force law or a sensor needs.
 struct Coordinate {
   int joint = 0;  ///< index into Model::joints; its markers are those of the coordinate
   joints::JointCoordinate law;
@@ -62,7 +62,7 @@ struct LoadRegion {
 };
 
 /// Load or force law between two markers. A load of the model file on a body with several frames,
-/// or on all bodies, stands here once for each body that takes a share.
+/// or on all bodies, appears here once for each body with a share.
 struct Load {
   std::string name;
   std::string kind;  ///< key in the model file
@@ -70,9 +70,9 @@ struct Load {
   std::shared_ptr<const loads::ForceElement> element;
   MarkerId first, second;
   bool is_among_joints = false;  ///< in the model file
-  int joint = -1;                ///< whose reaction it sees, −1: none
+  int joint = -1;                ///< whose reaction it depends on, −1: none
   int coordinate = -1;           ///< index into Model::coordinates on which it acts, −1: none
-  int first_state = 0;           ///< of its own in RowMemory::laws
+  int first_state = 0;           ///< its own states in RowMemory::laws
   /// Interface row of the first body along which Action::along_pattern acts, −1: none.
   int pattern_row = -1;
   std::optional<LoadRegion> region;  ///< of distributed loads
@@ -89,9 +89,9 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Load> loads;
   std::vector<Coordinate> coordinates;
-  /// Where the world of this model begins in that of the model file [m]: zero unless the mechanism
-  /// lies so far away that positions would lose digits. All positions of the library count from
-  /// here; whoever shows one adds it.
+  /// Origin of the world of this model in that of the model file [m]: zero unless the mechanism is
+  /// so far away that positions would lose digits. All positions in the library are relative to it;
+  /// add it for display.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<spatial::Pose> placed;  ///< X_WB of each body as placed
   double length = 1.0;                ///< characteristic length L [m]

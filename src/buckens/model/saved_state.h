@@ -6,7 +6,7 @@
 
 namespace buckens::model {
 
-/// Saves a state of a model or takes it back, all that steps read of it.
+/// Saves or restores a state of a model, everything that steps read of it.
 /// @throws InputError if what was saved belongs to another model
 void visit_saved(const base::SaveVisit& visit, const Model& model, State& state);
 

@@ -10,8 +10,8 @@
 
 namespace buckens::model {
 
-/// Inertial coupling of one flexible body at one instant: the terms that the large solve takes as
-/// given. Part of the state, because steps extrapolate from it.
+/// Inertial coupling of one flexible body at one instant: the terms that the large solve treats as
+/// given. Part of the state because steps extrapolate from it.
 struct Coupling {
   double t = 0;                   ///< the instant [s]
   body::DeformedMoments moments;  ///< only what is quadratic in d: J₂, J̇₂, l, l̇
@@ -19,7 +19,7 @@ struct Coupling {
                         ///< empty if the level keeps none
 };
 
-/// Motion of one body at time t: all that a continuation bit for bit needs.
+/// Motion of one body at time t: everything needed to continue bit for bit.
 struct BodyState {
   body::FrameMotion frame;
   Eigen::Vector3d w_dot = Eigen::Vector3d::Zero();  ///< body axes [rad/s²]
@@ -27,18 +27,18 @@ struct BodyState {
   Eigen::Vector3d w_alg = Eigen::Vector3d::Zero();  ///< algorithmic accelerations of the frame
   Eigen::Vector3d v_alg = Eigen::Vector3d::Zero();
   linalg::Vector d, d_dot, d_ddot, d_alg;                ///< nodal variables, n each, body axes
-  body::CouplingTerms terms;                             ///< kept by this body now
+  body::CouplingTerms terms;                             ///< kept by this body at present
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };
 
-/// What rows and force laws remember: part of the state, because the next step depends on it.
+/// Memory of rows and force laws: part of the state because the next step depends on it.
 struct RowMemory {
   std::vector<joints::CountedValue> coordinates;  ///< one per Model::coordinates
   linalg::Vector laws;  ///< states of force laws, from Load::first_state of each
 };
 
-/// Values given from outside in place of laws of time, one entry per load of the model: components
-/// of a force [N] or torque [N m] in the axes of the load. Empty: none is given.
+/// Values given from outside instead of laws of time, one entry per load of the model: components
+/// of a force [N] or torque [N m] in the axes of the load. Empty: none given.
 using LoadInputs = std::vector<std::optional<Eigen::Vector3d>>;
 
 /// State of the mechanism.
@@ -46,10 +46,10 @@ struct State {
   double t = 0;  ///< [s]
   std::vector<BodyState> bodies;
   linalg::Vector lambda;   ///< joint multipliers [N, N m]
-  double lambda_time = 0;  ///< instant to which λ belongs [s]
+  double lambda_time = 0;  ///< instant to which λ refers [s]
   double last_step = 0;    ///< length of the step that led here [s]
   int history = 0;         ///< number of valid coupling entries: 0 … 3
-  LoadInputs inputs;       ///< in force from here on
+  LoadInputs inputs;       ///< in effect from here on
   RowMemory memory;        ///< of joint coordinates and force laws
 };
 

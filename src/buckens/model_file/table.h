@@ -39,7 +39,7 @@ struct TableLawSpec {
     visit(base::field("unit", unit, "unit of the values").like("N m").otherwise("SI"));
     visit(base::field("interpolation", interpolation, "between the points"));
     visit(base::field("extrapolation", extrapolation,
-                      "outside of their range: refuse to go on, or hold the first and last value"));
+                      "outside the table: an error, or the first and last value"));
   }
 };
 

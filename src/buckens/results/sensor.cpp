@@ -354,7 +354,7 @@ class Maker {
   std::unique_ptr<Sensor> operator()(const model::RelativeSensor& s) const {
     static const char* const units[] = {"m", "m", "m/s", "rad", "rad", "rad/s"};
     Channel channel = vector_channel(spec_.name, units[static_cast<int>(s.quantity)],
-                                     "motion of the second marker as seen from the first");
+                                     "motion of the second marker relative to the first");
     using Q = model::RelativeQuantity;
     if (s.quantity == Q::distance || s.quantity == Q::angle) {
       channel.shape.clear();

@@ -14,10 +14,10 @@ namespace buckens::model {
 /// Adds loads on parts of bodies to the model under construction: pressure, traction, line loads,
 /// body forces, base acceleration.
 ///
-/// A load that is uniform over its part becomes one on a marker at the mean place, whose three rows
-/// give the mean displacement; pressure becomes one row. A load per mass on a whole body or on the
-/// whole world accelerates the frames alone and needs no rows. A body with several frames gets one
-/// load for each that takes a share.
+/// A load that is uniform over its part becomes one on a marker at the mean position, whose three
+/// rows give the mean displacement; pressure becomes one row. A load per mass on a whole body or on
+/// the whole world accelerates the frames only and needs no rows. A body with several frames gets
+/// one load for each frame with a share.
 class DistributedLoads {
  public:
   using Meshes = std::vector<std::unique_ptr<NamedStructure>>;
@@ -35,7 +35,7 @@ class DistributedLoads {
         divisions_(divisions),
         tables_(tables) {}
 
-  /// Whether the load belongs here; the others act on markers.
+  /// Whether the load is handled here; the others act on markers.
   static bool takes(const loads::LoadSpec& spec);
 
   /// @throws InputError or ModelError naming the load and its place in the file
@@ -66,14 +66,14 @@ class DistributedLoads {
   LoadShares shares_of(const Place& place) const;
   void require_in_plane(const loads::LoadSpec& spec,
                         const std::array<base::TimeLaw, 3>& value) const;
-  /// @throws InputError if a pressure has a resultant out of the plane of the model
+  /// @throws InputError if a pressure has a resultant normal to the plane of the model
   void require_in_plane(const loads::LoadSpec& spec, const LoadShares& shares) const;
-  /// @throws InputError if nothing on the place has area, length, mass or volume
+  /// @throws InputError if nothing there has area, length, mass or volume
   void require_extent(const loads::LoadSpec& spec, const Place& place, const LoadShares& shares,
                       const char* what) const;
   void add_uniform(const loads::LoadSpec& spec, const Place& place, const LoadShares& shares,
                    const Uniform& load);
-  /// The same field of acceleration for all mass of a body.
+  /// A uniform acceleration of all mass of a body.
   void add_to_frame(const loads::LoadSpec& spec, int body, const std::string& text,
                     const Uniform& load, double extent);
 

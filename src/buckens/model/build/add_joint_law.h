@@ -16,7 +16,7 @@ bool is_joint_law(const loads::LoadSpec& spec);
 /// @throws ModelError naming the law, if the joint has no such coordinate
 void add_joint_law(const loads::LoadSpec& spec, MarkerFinder& find, double length);
 
-/// Index into Model::coordinates of the angle or displacement of a joint, added if it is not there.
+/// Index into Model::coordinates of the angle or displacement of a joint, added if missing.
 /// @return −1 if there is no such joint
 int find_coordinate(const std::string& joint, joints::JointCoordinate::Kind kind,
                     MarkerFinder& find);

@@ -11,7 +11,7 @@ namespace buckens::model {
 /// @throws InputError, ModelError naming the load and its place in the file
 void add_load(const loads::LoadSpec& spec, MarkerFinder& find);
 
-/// Adds a force law that was written in code.
+/// Adds a force law written in code.
 void add_own_force(const OwnForce& force, MarkerFinder& find);
 
 }  // namespace buckens::model

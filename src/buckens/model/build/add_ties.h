@@ -7,11 +7,11 @@
 
 namespace buckens::model {
 
-/// Ties the parts of a divided body: at every node that several parts have, a spanning tree of
-/// joints over its copies. Copies with rotations are welded in a row, copies without are pinned to
-/// the first; where a node only divides a bar the direction is held, too.
+/// Ties the parts of a divided body: at every node shared by several parts, a spanning tree of
+/// joints over its copies. Copies with rotations are welded in a chain, copies without are pinned
+/// to the first; where a node only divides a bar, the direction is held as well.
 ///
-/// Comes before the joints of the model file, so that those count as the redundant ones.
+/// Must come before the joints of the model file, so that those count as the redundant ones.
 void add_ties(const WholeBody& whole, const MeshDivision& division, MarkerFinder& find);
 
 }  // namespace buckens::model

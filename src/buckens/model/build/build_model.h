@@ -14,15 +14,15 @@ namespace buckens::model {
 
 /// Where a sensor looks.
 struct SensorPlace {
-  std::vector<MarkerId> markers;  ///< in the order in which the spec names them
+  std::vector<MarkerId> markers;  ///< in the order of the spec
   int body = kGround;             ///< of section forces and stresses, index into Model::bodies
-  int element = -1;     ///< line element of that body; −1 without `solids`: all, other parts, too
-  int end = 0;          ///< 0 its first end, 1 its second
-  int coordinate = -1;  ///< of joint coordinates, index into Model::coordinates
-  std::vector<int> solids;  ///< solid elements of that body at which stresses are averaged
+  int element = -1;               ///< line element of that body; −1 without `solids`: all
+  int end = 0;                    ///< 0 its first end, 1 its second
+  int coordinate = -1;            ///< of joint coordinates, index into Model::coordinates
+  std::vector<int> solids;        ///< solid elements of that body at which stresses are averaged
 };
 
-/// A built model with what the description said beyond the mechanics.
+/// A built model with the non-mechanical contents of the description.
 struct BuiltModel {
   Model model;
   ModelDescription description;
@@ -33,7 +33,7 @@ struct BuiltModel {
 /// Builds and checks the mechanism.
 /// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and
 /// markers
-/// @param bases keeps reduced bases between runs; null: nothing is kept
+/// @param bases stores reduced bases between runs; null: nothing is stored
 std::unique_ptr<BuiltModel> build_model(ModelDescription description,
                                         body::BasisStore* bases = nullptr);
 

@@ -10,11 +10,13 @@
 namespace buckens::model {
 
 /// Eliminates the nodal variables that rigid interfaces and the links inside a mesh make dependent.
-/// Of a body with several frames the mesh is that of one part, and a rigid interface lies in one.
+/// For a body with several frames the mesh is that of one part, and a rigid interface lies within
+/// one part.
 /// @throws ModelError if there are links and the body has geometric stiffness
 void eliminate_links(const NamedStructure& mesh, body::Body& body);
 
-/// A divided body as it would be in one frame, its rigid interfaces eliminated: for its vibrations.
+/// A divided body as it would be in one frame, with its rigid interfaces eliminated: for its
+/// vibrations.
 std::unique_ptr<body::FlexiblePart> undivided_part(const WholeBody& whole,
                                                    const body::CouplingChoice& coupling);
 

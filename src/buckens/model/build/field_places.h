@@ -17,21 +17,21 @@ struct FieldPlaces {
   bool is_everywhere = true;  ///< all nodes, solid elements and interfaces; the lists are empty
   std::vector<int> nodes;     ///< ascending
   std::vector<int> solids;    ///< solid elements, ascending
-  std::vector<std::string> names;  ///< as the model file names them, of loads at interfaces
+  std::vector<std::string> names;  ///< names in the model file, of loads at interfaces
 };
 
-/// What follows the body in "body/place"; empty where a body is named alone.
+/// What follows the body in "body/place"; empty if only a body is named.
 std::string part_of_place(const std::string& text);
 
-/// Finds the places that a model file names, in the order of the bodies.
+/// Finds the places named in a model file, in the order of the bodies.
 ///
-/// Of an interface or a set of nodes the solids that touch them belong to it, of a set of faces
-/// their elements. Where loads at interfaces are wanted, rigid bodies and markers of any body are
-/// places as well.
+/// An interface or set of nodes includes the solids that touch it, a set of faces their
+/// elements. For loads at interfaces, rigid bodies and markers of any body are places as
+/// well.
 /// @pre joints and loads are in the model
 /// @param meshes one per whole body, null if rigid
 /// @throws InputError with the nearest name if there is no such body or place, or if it is rigid
-///         and its loads are not wanted
+/// and its loads are not requested
 std::vector<FieldPlaces> find_field_places(
     const FieldOutputSpec& spec, const Model& model,
     const std::vector<std::unique_ptr<NamedStructure>>& meshes);

@@ -14,13 +14,13 @@ namespace buckens::model {
 /// @param used one entry per node of the file
 void mark_linked_nodes(const fem::ImportedMesh& mesh, std::vector<bool>& used);
 
-/// Marks the nodes that point masses and links of the model file use; names that are none of the
-/// file are left to those who add them.
+/// Marks the nodes that point masses and links of the model file use; names that are not in the
+/// file are left to the code that adds them.
 void mark_given_nodes(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given,
                       std::vector<bool>& used);
 
-/// Adds rigid links, averages, equations, springs and point masses of a mesh file. A mass beside
-/// its node gets a node of its own, linked rigidly.
+/// Adds rigid links, averages, equations, springs and point masses of a mesh file. A mass with an
+/// offset gets a node of its own, linked rigidly.
 /// @param numbers node of the structure per node of the file
 /// @param where the body in the model file, for messages
 /// @throws InputError for a spring to ground or an average without nodes

@@ -7,17 +7,17 @@
 
 namespace buckens::model {
 
-/// Which shells and lines of a mesh file have a section from the model file. In the order of
-/// precedence: `sections` by the name of an element set (the last stands above the others), then by
-/// that of the property; `section` where the file gives none.
+/// The shells and lines of a mesh file whose section comes from the model file. In order of
+/// precedence: `sections` by the name of an element set (the last one wins), then by that of the
+/// property; `section` where the file gives none.
 class ImportedSections {
  public:
   /// @throws InputError if a name in `sections` is neither a property nor an element set, or has
   /// no elements to which the section fits
   ImportedSections(const fem::ImportedMesh& mesh, const fem::GroupMaterials& given);
 
-  /// Null where the file's own section holds, if it has one.
-  /// @param element counted through all blocks
+  /// Null where the file's own section applies, if there is one.
+  /// @param element index through all blocks
   const fem::GroupSectionSpec* of(int element) const {
     return chosen_.empty() ? nullptr : chosen_.at(static_cast<std::size_t>(element));
   }

@@ -10,18 +10,18 @@
 
 namespace buckens::model {
 
-/// A mesh file made nodes and elements.
+/// Nodes and elements made from a mesh file.
 struct ImportedStructure {
   fem::Structure structure;
   std::unordered_map<std::int64_t, int> numbers;  ///< nodes by their number in the file
 };
 
-/// Gives every element of a mesh file its material, section and thickness. Nodes that nothing uses
-/// are left out.
+/// Gives every element of a mesh file its material, section and thickness. Unused nodes are left
+/// out.
 /// @param mesh in SI units
-/// @param damping of the whole body; stands above that of the materials
+/// @param damping of the whole body; overrides that of the materials
 /// @param where the body in the model file, for messages
-/// @throws InputError where a material or a section is missing, or a name is unknown
+/// @throws InputError if a material or a section is missing, or a name is unknown
 ImportedStructure imported_structure(const fem::ImportedMesh& mesh,
                                      const fem::GroupMaterials& materials,
                                      const std::optional<fem::DampingSpec>& damping,

@@ -11,10 +11,10 @@
 namespace buckens::model {
 
 /// Finds the nodes of the interfaces of a body.
-/// @throws InputError with the place in the file if the body has no solids, a face or node has
-///         another name, no node lies in a selection (saying how near the nearest one is), the
-///         frame lies off nodes that tell no rotation, or the nodes of a rigid interface lie on one
-///         line
+/// @throws InputError with the place in the file if the body has no solids, a face or node
+/// does not exist, a selection contains no node (saying how near the nearest one is), the
+/// frame is away from nodes that define no rotation, or the nodes of a rigid interface are
+/// collinear
 std::vector<InterfaceRegion> find_interfaces(const body::BodySpec& spec,
                                              const NamedStructure& mesh);
 

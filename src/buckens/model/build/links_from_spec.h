@@ -13,7 +13,7 @@ namespace buckens::model {
 /// Finds a node by its name.
 using NodeFinder = std::function<int(const std::string& name, const SourceLocation& where)>;
 
-/// Adds the links and springs of a structure. Messages name their lines.
+/// Adds the links and springs of a structure. Messages cite their lines.
 void add_links(const fem::StructureLinksSpec& spec, const NodeFinder& node,
                fem::Structure& structure);
 

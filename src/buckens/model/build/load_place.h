@@ -7,20 +7,20 @@
 
 namespace buckens::model {
 
-/// Elements of a mesh that take a load.
+/// Elements of a mesh on which a load acts.
 struct LoadedElements {
   std::vector<int> lines;  ///< beams, then bars
   std::vector<int> solids;
   std::vector<int> shells;
 };
 
-/// Faces of solids and sides of shells that take a load.
+/// Faces of solids and sides of shells on which a load acts.
 struct LoadedFaces {
   std::vector<fem::ElementFace> solids;
   std::vector<fem::ShellSide> shells;
 };
 
-/// Finds the part of a body that a load of the model file names.
+/// Finds the part of a body named by a load of the model file.
 class LoadPlaceFinder {
  public:
   /// @param load its name, for messages
@@ -29,8 +29,8 @@ class LoadPlaceFinder {
       : load_(std::move(load)), on_(on), body_(body), mesh_(mesh) {}
 
   /// Faces of a named face or face set, or those on the surface of the mesh that lie in an
-  /// interface; of shells there the side is meant that their normal points to.
-  /// @throws InputError if the mesh has neither solids nor shells, or none of its faces is meant
+  /// interface; of shells there, the side that their normal points to.
+  /// @throws InputError if the mesh has neither solids nor shells, or no face matches
   LoadedFaces faces() const;
   /// Lines, solids and shells: all, those of an element set, or of one beam of the model file.
   /// @throws InputError if there is no such part

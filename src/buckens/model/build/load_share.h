@@ -9,7 +9,7 @@
 
 namespace buckens::model {
 
-/// What one body of the model takes of a load on a part of a mesh.
+/// The share of one body of the model in a load on a part of a mesh.
 struct LoadShare {
   double extent = 0;  ///< area [m²], length [m], mass [kg] or volume [m³]
   /// ∫ x over the extent, model axes.
@@ -26,7 +26,7 @@ struct LoadShare {
   Eigen::Vector3d middle() const { return first_moment / extent; }
 };
 
-/// Collects the shares of the bodies that a mesh is divided into.
+/// Collects the shares of the bodies into which a mesh is divided.
 class LoadShares {
  public:
   /// @param division null for a mesh in one part
@@ -38,7 +38,7 @@ class LoadShares {
   void add_side(const fem::ShellSide& side);
   /// @param density extent per volume: 1, or that of the element's mass
   void add_solid(int element, double density);
-  /// @param per_mass the extent is mass, else volume
+  /// @param per_mass true if the extent is mass, else volume
   void add_shell(int element, bool per_mass);
   /// @param density extent per length
   void add_line(int line, const fem::Quartic& density);

@@ -22,14 +22,14 @@ class MarkerFinder {
   /// @throws InputError with the nearest name if body or marker are unknown
   MarkerId marker(const base::MarkerRef& ref, bool needs_mesh);
 
-  /// Pose in the world as the bodies are placed.
+  /// Pose in the world with the bodies as placed.
   spatial::Pose placed(const MarkerId& id) const;
 
   /// Relative placement of two markers for a joint between them.
   joints::Placement placement(const MarkerId& first, const MarkerId& second) const;
 
   /// The given axis, or the normal of a planar model in the axes of the first marker.
-  /// @throws InputError if there is neither
+  /// @throws InputError if neither exists
   Eigen::Vector3d axis_or_normal(const std::optional<Eigen::Vector3d>& axis,
                                  const Eigen::Matrix3d& R_WF, const std::string& what,
                                  const SourceLocation& where) const;

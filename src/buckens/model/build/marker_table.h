@@ -14,8 +14,8 @@
 
 namespace buckens::model {
 
-/// Finds the marker that a name in the model file means, and gives points of the mesh their rows
-/// y = N d. Markers asked for first (by joints and loads) get the first rows.
+/// Finds the marker for a name in the model file, and assigns points of the mesh their rows y = N
+/// d. Markers requested first (by joints and loads) get the first rows.
 class MarkerTable {
  public:
   /// @param mesh null for rigid bodies
@@ -26,37 +26,37 @@ class MarkerTable {
   /// Index into Body::markers.
   /// @param needs_mesh true where a force acts: on flexible bodies the marker must lie on the mesh
   /// @throws InputError with the nearest name if there is no such marker, ModelError if a force
-  ///         would act on a place off the mesh
+  /// would act away from the mesh
   int find(const base::MarkerRef& ref, bool needs_mesh);
 
-  /// Where on the mesh the marker lies; empty if it is fixed to the body frame.
+  /// Position of the marker on the mesh; empty if it is fixed to the body frame.
   std::optional<MeshPlace> place(const base::MarkerRef& ref) const;
 
-  /// The interface that the marker is or stands at, null for all other places.
+  /// The interface that the marker is or is at, null for all other places.
   const InterfaceRegion* interface(const std::string& marker) const;
 
-  /// Whether the named place lies on this mesh: in a divided body it may lie on another part.
+  /// Whether the named place is on this mesh: in a divided body it may be on another part.
   bool holds(const std::string& name) const;
-  /// Least distance of a node from the named place [m]; HUGE_VAL where the name is unknown.
+  /// Distance from the named place to the nearest node [m]; HUGE_VAL if the name is unknown.
   double distance(const std::string& name) const;
-  /// Marker on a node where this part is cut from others.
+  /// Marker on a node at which this part was cut from others.
   int cut_marker(int node);
 
-  /// Marker that follows the mean displacement of a part of the mesh; with the axes of the body.
-  /// Its name, which no model file can write, finds it.
-  /// @param position mean place, model axes [m]; empty: a marker at the body frame
+  /// Marker that follows the mean displacement of a part of the mesh, with the axes of the body. It
+  /// is found by its name, which cannot occur in a model file ("#load NAME").
+  /// @param position mean position, model axes [m]; empty: a marker at the body frame
   /// @param rows of the mean displacement over the nodal variables (0…2, DOF, value)
   int add_region(const std::string& name, const std::optional<Eigen::Vector3d>& position,
                  const std::vector<linalg::Triplet>& rows);
-  /// One more row over the nodal variables.
+  /// Adds a row over the nodal variables.
   /// @param entries (0, DOF, value)
-  /// @return its number
+  /// @return its index
   int add_pattern(const std::vector<linalg::Triplet>& entries);
 
   /// All names a user can write, for messages and listings.
   std::vector<std::string> names() const;
 
-  /// Number of rows given out so far.
+  /// Number of rows assigned so far.
   int num_rows() const { return num_rows_; }
   /// N with all rows.
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows() const;
@@ -70,7 +70,7 @@ class MarkerTable {
   };
   Target target(const base::MarkerRef& ref) const;
   Target named(const std::string& name, const base::MarkerRef& ref) const;
-  /// @throws InputError saying how far from the mesh the marker lies
+  /// @throws InputError saying how far the marker is from the mesh
   [[noreturn]] void refuse_place(const body::MarkerSpec& marker) const;
   std::string suggestion(const std::string& name) const;
   /// "use one of: …": the places that follow the mesh, for messages.

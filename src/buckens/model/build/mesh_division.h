@@ -9,22 +9,22 @@
 
 namespace buckens::model {
 
-/// The mesh of a body cut into the parts that get a frame each.
+/// The mesh of a body cut into parts with a frame each.
 struct MeshDivision {
-  std::vector<NamedStructure> parts;  ///< with the named places that lie on them
-  /// Per node of the whole mesh its copies; `part` counts from 0 within the body.
+  std::vector<NamedStructure> parts;  ///< with the named places on them
+  /// For each node of the whole mesh its copies; `part` counts from 0 within the body.
   std::vector<std::vector<fem::PartPlace>> nodes;
   std::vector<fem::PartPlace> lines;
   std::vector<fem::PartPlace> solids;
   std::vector<int> straight_nodes;  ///< of the whole mesh
 };
 
-/// Memory that the interfaces at the cuts will take while stepping [bytes]: per part with n
+/// Memory that the interfaces at the cuts will need while stepping [bytes]: per part with n
 /// variables and m interface rows four n×m panels, and eight m×m blocks of the joint equations.
 double predicted_bytes(const MeshDivision& division);
 
-/// @param memory what may be used [bytes]
-/// @throws ModelError if the prediction exceeds it, which happens to solids cut in many places
+/// @param memory available memory [bytes]
+/// @throws ModelError if the prediction exceeds it, as for solids cut in many places
 void require_memory(const MeshDivision& division, double memory);
 
 /// Half of the memory of this machine [bytes].

@@ -5,11 +5,11 @@
 
 namespace buckens::model {
 
-/// Refuses meshes that move without strain beyond rigid motion, such as bars pinned in a row or
-/// solids that share an edge only.
+/// Refuses meshes with strain-free motions other than rigid ones, such as bars pinned in a row or
+/// solids that only share an edge.
 ///
-/// Looks at the lowest free vibration: a mechanism shows as one of no stiffness. Beams alone, and
-/// solids alone that hang together by faces, are none and return at once.
+/// Examines the lowest free vibration: a mechanism appears as one without stiffness. Beams alone,
+/// and solids alone connected through faces, are never mechanisms and return at once.
 /// @throws ModelError naming the body and the node that moves most
 void refuse_mechanisms(const body::Body& body);
 

@@ -7,11 +7,11 @@
 
 namespace buckens::model {
 
-/// Replaces the meshes of those bodies by reduced bases that the model file asks this for. All rows
-/// of the markers must be known.
-/// @param store keeps bases between runs; null: nothing is kept
-/// @throws InputError where the description contradicts itself, ModelError where a body has no
-///         basis
+/// Replaces meshes by reduced bases for the bodies whose model-file entry requests it. All rows of
+/// the markers must be known.
+/// @param store stores bases between runs; null: nothing is stored
+/// @throws InputError if the description contradicts itself, ModelError if a body has no
+/// basis
 void reduce_bodies(const ModelDescription& description, Model& model, body::BasisStore* store);
 
 }  // namespace buckens::model

@@ -11,7 +11,7 @@ namespace buckens::model {
 
 /// The section of a shell of a model file.
 /// @param material of layers without one of their own
-/// @param of_body damping of the whole body; stands above that of the materials
+/// @param of_body damping of the whole body; overrides that of the materials
 fem::ShellSection make_shell_section(const fem::ShellPropertySpec& spec,
                                      const fem::MaterialSpec& material,
                                      const std::optional<fem::DampingSpec>& of_body);

@@ -16,14 +16,14 @@
 
 namespace buckens::model {
 
-/// A place on a mesh: a node, or a point inside a line element.
+/// A position on a mesh: a node, or a point inside a line element.
 struct MeshPlace {
   int node = -1;
   int element = -1;
   double xi = 0;
 };
 
-/// The mesh of a flexible body with the places that a model file can name.
+/// The mesh of a flexible body with the places a model file can name.
 struct NamedStructure {
   fem::Structure structure;
   std::vector<fem::BeamDivision> beams;  ///< one per beam of the file
@@ -37,15 +37,15 @@ struct NamedStructure {
 
   /// A named place; nodes of mesh files are `n` and the number.
   std::optional<MeshPlace> find(const std::string& name) const;
-  /// Null if there is none with this name.
+  /// Null if there is none of this name.
   const InterfaceRegion* find_interface(const std::string& name) const;
 };
 
-/// Turns a `beam`, `structure`, `mesh` or `matrices` of the model file into nodes and elements.
+/// Makes nodes and elements from a `beam`, `structure`, `mesh` or `matrices` of the model file.
 /// @throws InputError or ModelError with the place in the file
 NamedStructure structure_from_spec(const body::BodySpec& spec);
 
-/// The constant matrices of a mesh, or those that stand in its place.
+/// The constant matrices of a mesh, or those given instead of it.
 fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> planar);
 
 }  // namespace buckens::model

@@ -5,8 +5,8 @@
 
 namespace buckens::model {
 
-/// Largest edge of the box around a body along its model axes, as its spec says [m]; of round
-/// solids somewhat more. 0 for bodies without shape, such as rigid ones.
+/// Largest edge of the bounding box of a body along its model axes, from its spec [m]; slightly
+/// more for round solids. 0 for bodies without shape, such as rigid ones.
 double body_extent(const body::BodySpec& body);
 
 }  // namespace buckens::model

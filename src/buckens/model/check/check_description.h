@@ -6,14 +6,14 @@
 
 namespace buckens::model {
 
-/// The first thing that is wrong with a description, in the order of the model file and in its
-/// words; field paths are those of the model file, "bodies.rod.beam.to".
+/// The first error in a description, in the order and the words of the model file; field paths are
+/// those of the model file, "bodies.rod.beam.to".
 ///
 /// Numbers that stay at their default count as not given.
 Found check(const ModelDescription& description);
 
-/// @throws InputError if check() finds something: with the place of the nearest spec that knows
-///         one, and the field path
+/// @throws InputError if check() finds something: with the place of the nearest spec that has one,
+/// and the field path
 void require_sound(const ModelDescription& description);
 
 }  // namespace buckens::model

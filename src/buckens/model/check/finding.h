@@ -6,9 +6,9 @@
 
 namespace buckens::model {
 
-/// What is wrong with a model that can be written down, and where.
+/// An error in a model description, and where it is.
 struct Finding {
-  std::string field_path;  ///< the field to be corrected, "bodies.rod.beam.to"; empty: the whole
+  std::string field_path;  ///< the field to correct, "bodies.rod.beam.to"; empty: the whole
   std::string text;        ///< what is wrong, the value, the remedy
 };
 

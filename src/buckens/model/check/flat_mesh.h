@@ -8,8 +8,8 @@
 
 namespace buckens::model {
 
-/// Beams, bars and shells of a planar model have the variables of its plane alone and must lie
-/// parallel to it. Solids may be anywhere.
+/// Beams, bars and shells of a planar model have only in-plane variables and must be parallel to
+/// the plane. Solids may be anywhere.
 /// @param normal of the plane, in model axes of the body
 /// @throws InputError naming the first element that leaves the plane, and by how much
 void require_flat(const std::string& body, const SourceLocation& where,

@@ -11,7 +11,7 @@ namespace buckens::model {
 /// Whether a load is a law on the angle (or the displacement) of a joint.
 bool acts_on_coordinate(const loads::LoadSpec& load, bool turns);
 
-/// Whether the joint that a sensor names does not exist.
+/// Whether a sensor names a joint that does not exist.
 Found joint_problem(const std::string& name, const ModelDescription& model);
 
 // What is wrong with joints, laws and sensors of joints beyond their ends and axes.

@@ -20,16 +20,16 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
 /// Names that may follow the slash after a body.
 std::vector<std::string> marker_names(const body::BodySpec& body);
 
-/// Whether a name stands for a node of the body's mesh file: `n` and the number there.
+/// Whether a name denotes a node of the body's mesh file: `n` and its number there.
 bool is_numbered_node(const body::BodySpec& body, const std::string& name);
 
-/// The reference as it is written, also where a program made it.
+/// The reference as written, also if made by a program.
 std::string text_of(const base::MarkerRef& marker);
 
-/// Whether the body or the marker that is named does not exist.
+/// Whether the named body or marker does not exist.
 Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model);
 
-/// Names of a body's markers and interfaces that are taken already, and markers at places that the
+/// Markers and interfaces of a body whose names are already in use, and markers at places that the
 /// body does not have. The mesh must have been read.
 Found names_problem(const body::BodySpec& body);
 

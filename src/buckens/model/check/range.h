@@ -8,7 +8,7 @@
 
 namespace buckens::model {
 
-/// What a value of a field must do and does not: "be positive"; empty where all is well.
+/// The requirement that a value of a field violates: "be positive"; empty if there is none.
 std::optional<std::string> broken_rule(const base::FieldNote& note, double value);
 
 /// "-3 mm is not allowed: the value must be positive".

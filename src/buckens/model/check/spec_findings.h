@@ -6,12 +6,12 @@
 
 namespace buckens::model {
 
-/// Directions have a length.
+/// Directions must not be zero.
 Found axis_problem(const Eigen::Vector3d& axis);
 
-/// What is wrong with a spec whose fields are fine each by itself; field paths begin in the spec.
+/// What is wrong with a spec whose fields are each valid; field paths start in the spec.
 /// Most specs have no such rules.
-/// @param model what the spec may refer to: all that comes before it in the model file
+/// @param model what the spec may refer to: everything before it in the model file
 template <class T>
 Found problem(const T& /*spec*/, const ModelDescription& /*model*/) {
   return std::nullopt;

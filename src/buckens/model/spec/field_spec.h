@@ -11,17 +11,17 @@
 
 namespace buckens::model {
 
-/// What can be recorded all over a mesh, and of the loads on a body.
+/// What can be recorded over a mesh, and of the loads on a body.
 enum class FieldQuantity {
-  displacement,           ///< of the nodes from their undeformed places, body axes
+  displacement,           ///< of the nodes from their undeformed positions, body axes
   velocity,               ///< of the nodes, world axes
   acceleration,           ///< of the nodes, world axes
   stress,                 ///< six components, body axes
   strain,                 ///< six components, shear as 2ε, body axes
   von_mises,              ///< equivalent stress
-  principal_stress,       ///< falling
+  principal_stress,       ///< in descending order
   strain_energy_density,  ///< ½ σ:ε
-  interface_load,         ///< force and torque on the body at every place where something acts
+  interface_load,         ///< force and torque on the body wherever something acts on it
 };
 
 constexpr std::array<const char*, 9> choice_names(FieldQuantity) {
@@ -35,7 +35,7 @@ constexpr std::array<const char*, 3> choice_names(FieldLocation) {
   return {"nodes", "elements", "both"};
 }
 
-/// How often the largest von Mises stress of each node is brought up to date.
+/// How often the largest von Mises stress of each node is updated.
 enum class ExtremeRate { off, records, steps };
 
 constexpr std::array<const char*, 3> choice_names(ExtremeRate) {
@@ -55,7 +55,7 @@ struct FieldOutputSpec {
   void fields(Visitor& visit) {
     visit(base::field(
               "record", record,
-              "fields to be recorded: displacement, velocity, acceleration, stress, strain, "
+              "fields to record: displacement, velocity, acceleration, stress, strain, "
               "von-mises, principal-stress, strain-energy-density; interface-load: forces and "
               "torques of joints and loads on a body, place by place")
               .required()
@@ -74,8 +74,8 @@ struct FieldOutputSpec {
               .like("10 ms")
               .otherwise("with every record"));
     visit(base::field("at", at,
-                      "strains and stresses at nodes (averaged over the elements of one material "
-                      "there), at the centres of the elements, or both"));
+                      "strains and stresses at nodes (averaged over the adjacent elements of one "
+                      "material), at the centres of the elements, or both"));
     visit(base::field("extremes", extremes,
                       "largest von Mises stress of each node over the run and its time, found at "
                       "every record or every step"));

@@ -24,8 +24,8 @@ struct PositionLaw {
   }
 };
 
-/// Velocities of the nodal variables relative to the body frame, in model axes. Rigid motion in it
-/// is sieved out.
+/// Velocities of the nodal variables relative to the body frame, in model axes. Any rigid motion is
+/// sieved out.
 struct NodalVelocitySpec {
   SourceLocation where;
   PositionLaw x, y, z;     ///< [m/s]
@@ -44,8 +44,8 @@ struct NodalVelocitySpec {
   }
 };
 
-/// Displacements of the nodal variables relative to the body frame, in model axes. Rigid motion in
-/// it is sieved out.
+/// Displacements of the nodal variables relative to the body frame, in model axes. Any rigid motion
+/// is sieved out.
 struct NodalDisplacementSpec {
   SourceLocation where;
   PositionLaw x, y, z;     ///< [m]
@@ -59,8 +59,8 @@ struct NodalDisplacementSpec {
     visit(base::field("y", y, "displacement along model y").in(base::kLength));
     visit(base::field("z", z, "displacement along model z").in(base::kLength));
     visit(base::field("rx", rx,
-                      "rotation about model x; beams and shells have rotations of their "
-                      "own, which belong to the slope of the displacements")
+                      "rotation about model x; beams and shells have their own rotations, which "
+                      "must match the slope of the displacements")
               .in(base::kAngle));
     visit(base::field("ry", ry, "rotation about model y").in(base::kAngle));
     visit(base::field("rz", rz, "rotation about model z").in(base::kAngle));
@@ -85,15 +85,15 @@ struct InitialBodySpec {
                       "angular velocity, in the body's model axes")
               .in(base::kAngularVelocity)
               .like("[0, 0, 60 rpm]"));
-    visit(base::field("nodal-velocity", nodal_velocity,
-                      "velocity of the nodes relative to the body "
-                      "frame: formulas in the model coordinates x, y, "
-                      "z [m]; rigid motion is taken out")
-              .otherwise("none"));
+    visit(
+        base::field("nodal-velocity", nodal_velocity,
+                    "velocity of the nodes relative to the body "
+                    "frame: formulas in the model coordinates x, y, z [m]; rigid motion is removed")
+            .otherwise("none"));
     visit(base::field("nodal-displacement", nodal_displacement,
                       "shape in which the body starts: displacement of the nodes relative to the "
                       "body frame, formulas in the model coordinates x, y, z [m]; rigid motion is "
-                      "taken out, and frames move as far as joints ask for")
+                      "removed, and frames move as far as the joints require")
               .otherwise("undeformed"));
   }
 };
@@ -102,7 +102,7 @@ enum class StartKind { as_given, static_equilibrium };
 
 constexpr std::array<const char*, 2> choice_names(StartKind) { return {"as-given", "static"}; }
 
-/// How the motion begins.
+/// How the motion starts.
 struct InitialSpec {
   SourceLocation where;
   std::vector<InitialBodySpec> bodies;
@@ -111,9 +111,9 @@ struct InitialSpec {
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("bodies", bodies, "velocities and shapes by name of the body"));
+    visit(base::field("bodies", bodies, "initial velocities and shapes by name of the body"));
     visit(base::field("start", start,
-                      "`static` begins in equilibrium under gravity and constant loads"));
+                      "`static` starts in equilibrium under gravity and constant loads"));
     visit(base::field("preload", preload, "accept bodies that must be deformed to fit together"));
   }
 };

@@ -46,7 +46,7 @@ struct ParameterSpec {
   }
 };
 
-/// A force law written in code, between two markers; no model file can say it.
+/// A force law between two markers written in code, which a model file cannot express.
 struct OwnForce {
   std::string name;
   SourceLocation where;
@@ -54,17 +54,17 @@ struct OwnForce {
   std::shared_ptr<const loads::ForceElement> element;
 };
 
-/// What happens where joints are open as the bodies are placed.
+/// What to do if joints are open with the bodies as placed.
 enum class AssemblyRule { adjust, strict };
 
 constexpr std::array<const char*, 2> choice_names(AssemblyRule) { return {"adjust", "strict"}; }
 
-/// Everything a model file says, in SI units, names resolved and checked as far as one can without
-/// building the model.
+/// The contents of a model file, in SI units, with names resolved and checked as far as possible
+/// without building the model.
 struct ModelDescription {
   int format = 1;
   std::string title;
-  std::string base;  ///< as `directory`, as it is written: relative to the model file, or empty
+  std::string base;  ///< as `directory`, as written: relative to the model file, or empty
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
   std::optional<spatial::Plane> planar;
   AssemblyRule assembly = AssemblyRule::adjust;
@@ -77,13 +77,13 @@ struct ModelDescription {
   std::vector<OwnForce> own_forces;  ///< of models made in code
   InitialSpec initial;
   std::optional<SimulationSpec> simulation;  ///< absent: the model can be checked, not run
-  std::optional<StaticSpec> static_path;     ///< absent: as StaticSpec begins
+  std::optional<StaticSpec> static_path;     ///< absent: the defaults of StaticSpec
   OutputSpec output;
   SourceLocation where;   ///< the file
-  std::string directory;  ///< relative names of files begin here
-  /// Text of a file that is this model: the one that was read, with overrides in their places.
+  std::string directory;  ///< relative file names start here
+  /// Text of a file with this model: the one that was read, with overrides applied.
   std::string source;
-  std::vector<std::string> warnings;  ///< about values that are hardly meant; see plausibility.h
+  std::vector<std::string> warnings;  ///< about implausible values; see plausibility.h
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -92,7 +92,7 @@ struct ModelDescription {
     visit(base::field("base", base, "directory in which relative file names begin")
               .like("../meshes")
               .otherwise("that of the model file"));
-    // Before everything that may hold an expression.
+    // Before everything that may contain an expression.
     visit(base::field("parameters", parameters, "named values for use in expressions")
               .like("{L: 300 mm, speed: 150}"));
     visit(base::field("gravity", gravity, "acceleration of gravity, world axes")
@@ -100,9 +100,9 @@ struct ModelDescription {
               .like("[0, -9.81 m/s^2, 0]"));
     visit(base::field("planar", planar, "plane of a planar model").otherwise("a model in space"));
     visit(base::field("assembly", assembly,
-                      "where joints are open as bodies are placed: `adjust` moves bodies by the "
-                      "least change and reports it, `strict` refuses more than 1e-3 of the model's "
-                      "size or 1e-3 rad"));
+                      "where joints are open with the bodies as placed: `adjust` moves bodies as "
+                      "little as possible and reports it, `strict` refuses more than 1e-3 of the "
+                      "model's size or 1e-3 rad"));
     visit(base::field("materials", materials, "materials by name")
               .like("{steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}"));
     visit(base::field("sections", sections, "cross-sections by name")
@@ -110,11 +110,11 @@ struct ModelDescription {
     visit(base::field("bodies", bodies, "bodies by name").required());
     visit(base::field("joints", joints, "joints by name"));
     visit(base::field("loads", loads, "loads and force laws by name"));
-    visit(base::field("initial", initial, "how the motion begins").otherwise("at rest, as placed"));
-    visit(base::field("simulation", simulation, "how far and how finely to simulate")
+    visit(base::field("initial", initial, "how the motion starts").otherwise("at rest, as placed"));
+    visit(base::field("simulation", simulation, "duration and time step")
               .otherwise("the model can be checked but not run"));
     visit(base::field("static", static_path, "equilibria over a load factor, for `buckens static`")
-              .otherwise("the factor goes from 0 to 1"));
+              .otherwise("the factor runs from 0 to 1"));
     visit(base::field("output", output, "what is recorded"));
   }
 };

@@ -19,7 +19,7 @@ namespace buckens::model {
 struct MarkerSensor {
   base::MarkerRef of;
   std::optional<base::MarkerRef> in;     ///< axes of the components; default: world
-  std::optional<Eigen::Vector3d> along;  ///< record the component along it only; any length
+  std::optional<Eigen::Vector3d> along;  ///< record only the component along it; any length
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -27,7 +27,7 @@ struct MarkerSensor {
     visit(base::field("in", in, "marker whose axes the components refer to")
               .like("rod")
               .otherwise("world axes"));
-    visit(base::field("along", along, "direction along which the one component is recorded")
+    visit(base::field("along", along, "direction of the single component to record")
               .like("[0, -1, 0]")
               .otherwise("all three components"));
   }
@@ -35,11 +35,11 @@ struct MarkerSensor {
 
 struct PositionSensor : MarkerSensor {
   static constexpr const char* kKey = "position";
-  static constexpr const char* kDoc = "place of a marker in the world";
+  static constexpr const char* kDoc = "position of a marker in the world";
 };
 struct DisplacementSensor : MarkerSensor {
   static constexpr const char* kKey = "displacement";
-  static constexpr const char* kDoc = "way of a marker in the world since t = 0";
+  static constexpr const char* kDoc = "displacement of a marker in the world since t = 0";
 };
 struct VelocitySensor : MarkerSensor {
   static constexpr const char* kKey = "velocity";
@@ -59,13 +59,13 @@ struct AngularVelocitySensor : MarkerSensor {
   static constexpr const char* kDoc = "angular velocity of a marker";
 };
 
-/// From where the deflection of a marker is seen.
+/// The reference for the deflection of a marker.
 struct DeflectionBase {
   enum Kind { chord, frame, other };
   static constexpr std::array<const char*, 2> kWords = {"chord", "frame"};
 
   Kind kind = chord;
-  base::MarkerRef marker;  ///< only of `other`: a marker of the same body
+  base::MarkerRef marker;  ///< for `other` only: a marker of the same body
 
   DeflectionBase(Kind k = chord) : kind(k) {}
   friend bool operator==(const DeflectionBase& base, Kind k) { return base.kind == k; }
@@ -75,14 +75,13 @@ struct DeflectionBase {
 struct DeflectionSensor {
   static constexpr const char* kKey = "deflection";
   static constexpr const char* kDoc =
-      "elastic displacement of a marker, seen from a chord between two markers, from another "
-      "marker "
-      "or from the body frame";
+      "elastic displacement of a marker, relative to a chord between two markers, to another "
+      "marker or to the body frame";
   base::MarkerRef of;
   DeflectionBase from;
   std::optional<std::array<base::MarkerRef, 2>> chord;  ///< in place of start and end
 
-  /// The given ends of the chord, or start and end of the body.
+  /// The ends of the chord: as given, or start and end of the body.
   std::array<base::MarkerRef, 2> chord_ends() const {
     if (chord) return *chord;
     std::array<base::MarkerRef, 2> ends = {of, of};
@@ -94,17 +93,17 @@ struct DeflectionSensor {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("of", of, "marker that is observed").required().shorthand().like("rod/mid"));
+    visit(base::field("from", from,
+                      "`chord`: relative to the straight line between `start` and `end` of a beam "
+                      "or between the two markers of `chord`, in axes that rotate with it; "
+                      "`frame`: relative to the body frame, in its axes; a marker of the same "
+                      "body: relative to its motion and rotation, in its axes"));
     visit(
-        base::field("from", from,
-                    "`chord`: from the straight line between `start` and `end` of a beam or "
-                    "between the two markers of `chord`, in axes that turn with it; `frame`: from "
-                    "the body frame, in its axes; a marker of the same body: from where that "
-                    "moves and how it turns, in its axes"));
-    visit(base::field("chord", chord,
-                      "the two markers of the body between which the chord runs; the observed one "
-                      "is compared with the point of the chord that it is beside when undeformed")
-              .like("[rod/start, rod/mid]")
-              .otherwise("`start` and `end` of a beam"));
+        base::field("chord", chord,
+                    "the two markers of the body between which the chord runs; the observed marker "
+                    "is compared with the point of the chord next to it in the undeformed body")
+            .like("[rod/start, rod/mid]")
+            .otherwise("`start` and `end` of a beam"));
   }
 };
 
@@ -114,10 +113,10 @@ constexpr std::array<const char*, 6> choice_names(RelativeQuantity) {
   return {"position", "distance", "velocity", "rotation", "angle", "angular-velocity"};
 }
 
-/// Motion of the second marker as seen from the first, in the first one's axes.
+/// Motion of the second marker relative to the first, in the first one's axes.
 struct RelativeSensor {
   static constexpr const char* kKey = "relative";
-  static constexpr const char* kDoc = "motion of the second marker as seen from the first";
+  static constexpr const char* kDoc = "motion of the second marker relative to the first";
   std::array<base::MarkerRef, 2> between;
   RelativeQuantity quantity = RelativeQuantity::position;
   std::optional<Eigen::Vector3d> axis;  ///< of `angle`, in the first marker
@@ -125,10 +124,9 @@ struct RelativeSensor {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("between", between, "the two markers").required().like("[crank, rod]"));
-    visit(
-        base::field("quantity", quantity,
-                    "what is recorded; `angle` counts turns about the axis and is zero as placed, "
-                    "before assembly and static start move the bodies"));
+    visit(base::field("quantity", quantity,
+                      "what is recorded; `angle` includes whole turns about the axis and is zero "
+                      "as placed, before assembly and static start move the bodies"));
     visit(base::field("axis", axis, "axis of `angle` in the first marker's axes")
               .like("[0, 0, 1]")
               .otherwise("planar models: the normal of the plane"));
@@ -165,12 +163,12 @@ constexpr std::array<const char*, 2> choice_names(CoordinateKind) {
 struct JointCoordinateSensor {
   static constexpr const char* kKey = "joint-coordinate";
   static constexpr const char* kDoc =
-      "angle of a joint about its axis, counted over turns, or displacement along it, from the "
+      "angle of a joint about its axis, including whole turns, or displacement along it, from the "
       "position as placed; with its rate";
   std::string joint;
   std::optional<CoordinateKind> which;
 
-  /// The coordinate that is meant: the one asked for, or the only one.
+  /// The coordinate that is meant: the requested one, or the only one.
   CoordinateKind choice(bool turns) const {
     return which.value_or(turns ? CoordinateKind::angle : CoordinateKind::displacement);
   }
@@ -178,16 +176,16 @@ struct JointCoordinateSensor {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("joint", joint, "name of the joint").required().shorthand().like("hinge"));
-    visit(base::field("which", which, "of joints that turn and slide")
+    visit(base::field("which", which, "for joints that rotate and slide")
               .like("displacement")
-              .otherwise("the angle of joints that turn"));
+              .otherwise("the angle of joints that rotate"));
   }
 };
 
-/// Resultant of a load on all bodies that it acts on.
+/// Resultant of a load over all bodies on which it acts.
 struct LoadForceSensor {
   static constexpr const char* kKey = "load-force";
-  static constexpr const char* kDoc = "resultant force of a load on the bodies that it acts on";
+  static constexpr const char* kDoc = "resultant force of a load on the bodies on which it acts";
   std::string load;
   std::optional<base::MarkerRef> in;  ///< axes of the components; default: world
 
@@ -210,7 +208,7 @@ struct LoadTorqueSensor {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("load", load, "name of the load").required().shorthand().like("gas"));
-    visit(base::field("about", about, "marker about whose place the torque is taken")
+    visit(base::field("about", about, "marker about whose position the torque is taken")
               .like("crank")
               .otherwise("the origin of the world"));
     visit(base::field("in", in, "marker whose axes the components refer to")
@@ -224,10 +222,10 @@ struct SpringForceSensor {
   static constexpr const char* kKey = "spring-force";
   static constexpr const char* kDoc =
       "force of a spring-damper or bushing on its first marker: of a spring-damper the tension "
-      "between its markers, positive where it pulls them together; of a bushing three components "
+      "between its markers, positive if it pulls them together; of a bushing three components "
       "in "
-      "the axes of its first marker, positive where the second marker is pulled back; of a "
-      "slide-spring, slide-stop or slide-friction the force against the displacement of its joint";
+      "the axes of its first marker, positive if the second marker is pulled back; of a "
+      "slide-spring, slide-stop or slide-friction the force opposing the displacement of its joint";
   std::string spring;
 
   template <class Visitor>
@@ -241,11 +239,10 @@ struct SpringForceSensor {
 struct SpringTorqueSensor {
   static constexpr const char* kKey = "spring-torque";
   static constexpr const char* kDoc =
-      "torque of a torsional-spring or bushing: of a torsional spring about its axis, positive "
-      "where "
-      "it turns the second marker back against a positive angle; of a bushing three components in "
+      "torque of a torsional-spring or bushing: of a torsional spring about its axis, positive if "
+      "it turns the second marker back from a positive angle; of a bushing three components in "
       "the axes of its first marker, with the same sign; of a hinge-spring, hinge-stop or "
-      "hinge-friction the torque against the angle of its joint";
+      "hinge-friction the torque opposing the angle of its joint";
   std::string spring;
 
   template <class Visitor>
@@ -266,14 +263,14 @@ struct SectionPlace {
   template <class Visitor>
   void place_fields(Visitor& visit) {
     visit(base::field("of", of,
-                      "start, mid, end or a node of a flexible body; with `element` the body")
+                      "start, mid, end or a node of a flexible body; with `element`, the body")
               .required()
               .shorthand()
               .like("rod/mid"));
     visit(
         base::field("element", element,
                     "number of the element, counted from 1: beams, bars and solids in the order of "
-                    "the file, meshes along x, then y, then z; of lines the first end is meant")
+                    "the file, meshes along x, then y, then z; for lines, their first end")
             .positive()
             .otherwise("the first element that touches the marker"));
   }
@@ -292,7 +289,7 @@ struct StressSensor : SectionPlace {
   static constexpr const char* kKey = "stress";
   static constexpr const char* kDoc =
       "largest stress in a section of a beam or bar; at a node of solids the von Mises stress "
-      "of the mean over the elements there, taken at their centres; for a body without marker "
+      "of the mean over the elements there, taken at their centres; for a body without a marker, "
       "the largest anywhere in it";
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -313,8 +310,8 @@ struct EnergySensor {
       "plus "
       "gravity plus springs; `total` is kinetic plus potential; `work` of loads and drives and "
       "what "
-      "dampers `dissipated` since t = 0; `balance` is what these two leave open of the change of "
-      "the total since t = 0";
+      "dampers `dissipated` since t = 0; `balance` is the part of the change of the total since t "
+      "= 0 that these two do not explain";
   EnergyKind kind = EnergyKind::total;
 
   template <class Visitor>

@@ -15,7 +15,7 @@ constexpr std::array<const char*, 4> choice_names(IntegrationMethod) {
   return {"generalized-alpha", "newmark", "hht", "wilson"};
 }
 
-/// How far and how finely to simulate.
+/// Duration and time steps of a simulation.
 struct SimulationSpec {
   SourceLocation where;
   double duration = 0;  ///< [s]
@@ -47,7 +47,7 @@ struct SimulationSpec {
               .like("0.1 s"));
     visit(base::field("step", step,
                       "time step; adjusted once so that a whole number fits the duration. `auto`: "
-                      "the program chooses steps that keep `tolerance`. A time together with "
+                      "the program chooses steps to meet `tolerance`. A time together with "
                       "`tolerance`: the longest step")
               .in(base::kTime)
               .positive()
@@ -65,36 +65,37 @@ struct SimulationSpec {
               .like("1.4")
               .otherwise("1.4"));
     visit(base::field("tolerance", tolerance,
-                      "switches step control on: error that all steps of the run may add up to, as "
-                      "a share of the mechanism's size for the position of a body, in rad for its "
-                      "rotation, as a share of the largest so far for its deformation")
+                      "enables step control: admissible total error of all steps of the run, "
+                      "relative to the mechanism's size for the position of a body, in rad for its "
+                      "rotation, relative to the largest so far for its deformation")
               .positive()
               .like("1e-4")
-              .otherwise("1e-3 with `step: auto`, else steps are not controlled"));
-    visit(base::field("absolute-tolerance", absolute_tolerance,
-                      "error of deformation that is always admitted, as a share of the "
-                      "mechanism's size")
+              .otherwise("1e-3 with `step: auto`, else no step control"));
+    visit(base::field(
+              "absolute-tolerance", absolute_tolerance,
+              "error of deformation that is always admissible, relative to the mechanism's size")
               .positive());
     visit(base::field("projection", projection,
                       "newmark, wilson: project positions onto the joints each step")
               .on_off());
     visit(base::field("newton-tolerance", newton_tolerance,
-                      "relative change at which the iteration of "
-                      "frames and joints ends")
+                      "relative change at which the iteration of frames and joints stops")
               .positive());
-    visit(base::field("outer-tolerance", outer_tolerance,
-                      "relative change of the coupling load at which "
-                      "no further large solve is made")
+    visit(base::field(
+              "outer-tolerance", outer_tolerance,
+              "relative change of the coupling load below which no further large solve is done")
               .positive());
     visit(base::field("iterate-coupling", iterate_coupling,
-                      "on: large solves until outer-tolerance is met; off: a second one in a step "
-                      "is the last if the coupling load it used was right to 1e-4")
+                      "on: large solves until outer-tolerance is met; off: the second one in a "
+                      "step is the last if the coupling load it used was accurate to 1e-4")
               .on_off());
-    visit(base::field("max-iterations", max_iterations, "most Newton iterations in a step")
+    visit(base::field("max-iterations", max_iterations,
+                      "maximum number of Newton iterations in a step")
               .positive());
-    visit(base::field("max-outer-iterations", max_outer_iterations, "most large solves in a step")
+    visit(base::field("max-outer-iterations", max_outer_iterations,
+                      "maximum number of large solves in a step")
               .positive());
-    visit(base::field("error", error, "on: as `buckens run --error`").on_off());
+    visit(base::field("error", error, "on: same as `buckens run --error`").on_off());
   }
 };
 

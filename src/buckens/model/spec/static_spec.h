@@ -18,23 +18,23 @@ constexpr std::array<const char*, 2> choice_names(StaticMethod) { return {"arc-l
 struct StaticStopSpec {
   SourceLocation where;
   std::string sensor;
-  std::string component;  ///< of a sensor with several; empty: the sensor is a single number
+  std::string component;  ///< for a sensor with several; empty: the sensor is a single number
   double at = 0;          ///< SI
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("sensor", sensor, "name of the sensor that is watched").required().like("w"));
-    visit(base::field("component", component, "which of its columns")
+    visit(base::field("sensor", sensor, "name of the sensor to watch").required().like("w"));
+    visit(base::field("component", component, "column of the sensor")
               .like("y")
-              .otherwise("for sensors of one column"));
-    visit(base::field("at", at, "value at which the path ends, whichever way it is passed")
+              .otherwise("for sensors with one column"));
+    visit(base::field("at", at, "value at which the path ends, crossed in either direction")
               .of_any_dimension()
               .required()
               .like("500 mm"));
   }
 };
 
-/// Equilibria over a load factor: what `buckens static` traces.
+/// Equilibria over a load factor, as traced by `buckens static`.
 struct StaticSpec {
   SourceLocation where;
   std::array<double, 2> load_factor = {0.0, 1.0};  ///< first and last
@@ -49,19 +49,20 @@ struct StaticSpec {
   void fields(Visitor& visit) {
     visit(base::field("load-factor", load_factor,
                       "first and last factor of all applied forces and torques; gravity, springs "
-                      "and drives are not multiplied")
+                      "and drives are not scaled")
               .like("[0, 1]"));
     visit(base::field("method", method,
-                      "`arc-length` follows the path through limit points, `load` raises the "
+                      "`arc-length` follows the path through limit points, `load` increases the "
                       "factor step by step"));
     visit(base::field("steps", steps, "the load factor changes by at most 1/steps of its range")
               .positive());
     visit(base::field("arc-step", arc_step,
-                      "arc-length: largest motion in a step: turn in rad, way as a fraction of the "
-                      "model's length")
+                      "arc-length: largest motion in a step: rotation in rad, displacement as a "
+                      "fraction of the model's length")
               .positive());
     visit(base::field("max-points", max_points, "the path ends after this many points").positive());
-    visit(base::field("time", time, "instant at which laws of time, of loads and drives, are taken")
+    visit(base::field("time", time,
+                      "instant at which the laws of time of loads and drives are evaluated")
               .in(base::kTime)
               .like("1 s"));
     visit(base::field("stop", stop, "ends the path early").otherwise("at the last load factor"));

@@ -13,7 +13,7 @@ namespace buckens::model::test {
 
 using Eigen::Vector3d;
 
-/// Line of an imaginary model file, to be found again in messages.
+/// Line of an imaginary model file, expected in messages.
 inline SourceLocation at_line(int line) { return {"test.yaml", line, 1}; }
 
 /// "ground", "rod" or "rod/end".
@@ -40,7 +40,7 @@ inline constexpr double kArea = kWidth * kHeight;
 inline constexpr double kIz = kHeight * kWidth * kWidth * kWidth / 12;  // bending in x-y
 inline constexpr double kRho = 7800;
 
-/// A model description under construction, in the way a model file says it.
+/// A model description under construction, as in a model file.
 struct Described {
   ModelDescription d;
 
@@ -177,7 +177,7 @@ struct Described {
     return std::get<Kind>(d.output.sensors.back().kind);
   }
 
-  /// Sensor of a marker: the simplest are called like what they observe.
+  /// Sensor of a marker: the simplest are named after what they observe.
   template <class Kind>
   Kind& sensor_of(const std::string& name, const std::string& of) {
     Kind& kind = sensor<Kind>(name);
