@@ -157,7 +157,18 @@ def test_a_run_tells_doubts_once_and_sets_them_at_the_override(buckens, tmp_path
     assert any("g/cm^3" in text for text in summary["warnings"])
 
 
-def test_elements_larger_than_the_part_and_units_of_files(check, tmp_path):
+def test_elements_larger_than_the_part_are_doubted(check):
+    # A size of 5 mm written without its unit; the rod is 337 mm long.
+    rod = SOURCE / "examples" / "connecting_rod" / "rod.step"
+    text = (f"buckens: 1\nbodies: {{rod: {{geometry: {{step: {rod}, order: 1, SIZE, "
+            "material: {E: 210 GPa, nu: 0.3, rho: 7850}}}}\n")
+    (warning,) = check(text.replace("SIZE", "size: 5"))["warnings"]
+    for word in ("model.yaml:2:", "elements of 5 m in a part of 0.337 m", "did you mean 5 mm?"):
+        assert word in warning
+    assert check(text.replace("SIZE", "size: 50 mm"))["warnings"] == []
+
+
+def test_units_of_files(check, tmp_path):
     # A hexahedron of 140 in the units of its file, constants in N, mm and t.
     nodes = [(x, y, z) for z in (0, 140) for x, y in ((0, 0), (140, 0), (140, 140), (0, 140))]
     rows = "".join(f"{k}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(nodes, 1))

@@ -123,6 +123,20 @@ def test_a_torque_on_a_free_point_mass_is_refused(run):
         "simulation: {duration: 1 s, step: 1 ms}\n").must(3, '"turn"', '"bob"', "no rotary inertia")
 
 
+def test_a_clamped_wire_without_inertia_about_its_axis_is_refused(buckens, tmp_path):
+    # About its axis a round wire has 3/2 (d/L)^2 of its inertia across: below 1e-10 with d = 50 um and L = 10 m.
+    text = (HEAD + "bodies:\n  wire: {beam: {to: [10 m, 0, 0], elements: 2, section: {circle: {diameter: 50 um}}, "
+            "material: {E: 200 GPa, nu: 0.3, rho: 7850}}}\n"
+            "joints:\n  wall: {KIND: {between: [ground, wire/start]}}\n"
+            "simulation: {duration: 1 ms, step: 1 ms}\n")
+    (tmp_path / "model.yaml").write_text(text.replace("KIND", "fixed"))
+    buckens("check", "model.yaml").must(3, "joint \"wall\" turns body \"wire\" about (1, 0, 0)", "no rotary inertia",
+                                        "leaves this rotation free")
+    # As it advises: a joint that leaves the rotation free; the frame then does not turn about the axis.
+    (tmp_path / "model.yaml").write_text(text.replace("KIND", "spherical"))
+    assert "does not turn about this axis" in buckens("check", "model.yaml").must(0).out
+
+
 def test_a_spring_at_the_mass_centre_is_fine(run, tmp_path):
     run(HEAD + "bodies: {bob: {rigid: {mass: 1}, at: {position: [0, -1, 0]}}}\n"
         "loads: {spring: {spring-damper: {between: [ground, bob], stiffness: 400}}}\n"

@@ -124,7 +124,7 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
       const int stride = block_lu_.stride(*place);
       ++place;
       for (int m = 0; m < columns; ++m) {
-        double* const column = S + m * stride;
+        double* const column = S + static_cast<std::ptrdiff_t>(m) * stride;
         const Vector6& image = images[static_cast<std::size_t>(m)];
         for (int k = 0; k < rows; ++k) column[k] += six(test.frame(closing, k)).dot(image);
         if (!on_interface || !closing.follows_mesh()) continue;

@@ -34,7 +34,7 @@ StepSettings with_longest_step(StepSettings settings, const MarchSettings& march
 TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
                      const MarchSettings& march)
     : march_(march),
-      ladder_(model, with_longest_step(settings, march), std::move(rows_in_use)),
+      ladder_(model, with_longest_step(std::move(settings), march), std::move(rows_in_use)),
       model_(model),
       end_(march.longest_steps * kTicks),
       accepted_(kShortestRung + 1, 0) {

@@ -108,8 +108,11 @@ Found friction_problem(const loads::HingeFrictionSpec& spec) {
   if (spec.coefficient == 0.0 || spec.radius > 0.0 || spec.axial_radius > 0.0) return std::nullopt;
   return Finding{
       "radius",
-      "forces on a pin without radius cause no torque; give the `radius` of the pin, the "
-      "`axial-radius` of its collar, or a `preload`"};
+      fmt::format("forces on a pin without radius cause no torque, so that `static: {:g}` has no "
+                  "effect; give the `radius` of the pin or the `axial-radius` of its collar, or {}",
+                  spec.coefficient,
+                  spec.preload > 0.0 ? "leave out `static` and keep `preload` alone"
+                                     : "a `preload` in place of `static`")};
 }
 
 /// Both arms of a cross are given in the same axes.
