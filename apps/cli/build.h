@@ -9,9 +9,9 @@
 
 namespace buckens::cli {
 
-/// Builds the model of a model file: chooses modes where `reduction: auto` asks for it, and keeps
-/// reduced bases in the files that the model names. What is probably wrong with meshes of files
-/// stands among the notes of the model.
+/// Builds the model of a model file: chooses modes for `reduction: auto`, and stores reduced bases
+/// in the files named by the model. Probable faults of mesh files are listed in the notes of the
+/// model.
 /// @param meshes gets a line on each mesh of a file; null: the line goes to the log
 std::unique_ptr<model::BuiltModel> build(model::ModelDescription description,
                                          std::vector<std::string>* meshes = nullptr);

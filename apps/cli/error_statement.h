@@ -14,15 +14,15 @@
 
 namespace buckens::cli {
 
-/// What an error statement is made from besides the run.
+/// Input of an error statement besides the run.
 struct ErrorStatementInput {
-  std::string model;                   ///< the file, read again where a part is meshed anew
+  std::string model;                   ///< the file, read again if a part is remeshed
   std::vector<std::string> overrides;  ///< of the run
   int threads = 1;
 };
 
-/// Makes the further runs of an error statement and puts it into the summary, with what it means
-/// for `trust`.
+/// Does the further runs of an error statement and adds it to the summary, including its effect on
+/// `trust`.
 /// @param built of the run; freed before the further runs begin
 /// @param curves sensors of the run, finished
 void add_error_statement(const ErrorStatementInput& input, std::unique_ptr<model::BuiltModel> built,

@@ -7,7 +7,7 @@
 
 namespace buckens::cli {
 
-/// Table of the peak of each sensor with its uncertainty and where that comes from, then notes.
+/// Table of the peak of each sensor with its uncertainty and its sources, then notes.
 std::string error_text(const results::ErrorStatement& errors);
 
 }  // namespace buckens::cli

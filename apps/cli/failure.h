@@ -10,15 +10,15 @@
 
 namespace buckens::cli {
 
-/// An error as the user meets it.
+/// An error as shown to the user.
 struct Failure {
   ExitCode code = ExitCode::internal;
   std::string kind;      ///< "usage", "input", "model", "numerical", "memory", "io", "internal"
-  std::string message;   ///< with the place in front if it is known
+  std::string message;   ///< preceded by the place if known
   SourceLocation where;  ///< empty if unknown
 };
 
-/// Turns whatever was thrown into a failure with its exit code.
+/// Converts any exception into a failure with its exit code.
 Failure describe_failure(const std::exception_ptr& thrown);
 
 /// {"error": {"kind", "message", "file", "line", "column"}}; unknown places are null.

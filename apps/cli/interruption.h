@@ -6,14 +6,14 @@
 
 namespace buckens::cli {
 
-/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only asks the program to stop; the
-/// second one ends it at once.
+/// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only requests a stop; the second
+/// one ends the program at once.
 ///
 /// Signals that were ignored when the program started (nohup, background jobs) stay ignored. Only
 /// one object at a time.
 class Interruption {
  public:
-  /// @param announce say on the standard error stream that the request has been seen
+  /// @param announce acknowledge the request on the standard error stream
   explicit Interruption(bool announce);
   ~Interruption();
   Interruption(const Interruption&) = delete;

@@ -10,8 +10,8 @@
 
 namespace buckens::cli {
 
-/// Passes records on to a run directory, counts them, says warnings that are known only at the end,
-/// and puts the summary into the log before the directory is completed.
+/// Passes records on to a run directory, counts them, prints warnings that are known only at the
+/// end, and adds the summary to the log before the directory is completed.
 class JournaledSink : public results::RecordSink {
  public:
   JournaledSink(run_store::RunDirectory& directory, RunJournal& journal)
@@ -26,11 +26,11 @@ class JournaledSink : public results::RecordSink {
     directory_.write_extremes(values);
   }
 
-  /// Completes the directory of a run that failed, if the simulation has not done it: `reason` is
-  /// what its summary names. Never throws; the failure itself is what the user has to learn.
+  /// Completes the directory of a run that failed, if the simulation has not done so: `reason` is
+  /// given in its summary. Never throws, since the user must see the failure itself.
   void abandon(const std::string& reason) noexcept;
 
-  /// The run ended before its first record, and an earlier one in the directory is back.
+  /// The run ended before its first record, and an earlier one in the directory was restored.
   bool has_earlier_run_back() const { return directory_.has_earlier_run_back(); }
   long num_records() const { return num_records_; }
   double last_time() const { return last_time_; }  ///< of a record [s]

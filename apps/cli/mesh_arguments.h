@@ -10,7 +10,7 @@
 
 namespace buckens::cli {
 
-/// A mesh file, or a STEP file to be meshed, and its units as the command line says.
+/// A mesh file, or a STEP file to be meshed, and its units from the command line.
 struct MeshArguments {
   std::string file;
   std::string length_unit, mass_unit;  ///< empty: not given

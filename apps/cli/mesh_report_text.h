@@ -11,18 +11,18 @@
 
 namespace buckens::cli {
 
-/// A mesh and what was found in it, for `buckens mesh-info`.
+/// A mesh and its report, for `buckens mesh-info`.
 std::string mesh_report_text(const fem::ImportedMesh& mesh, const fem::MeshReport& report);
 nlohmann::ordered_json mesh_report_json(const fem::ImportedMesh& mesh,
                                         const fem::MeshReport& report);
 
-/// A note of a reader: what became of something, how often and where.
+/// A note of a reader: what was done with something, how often and where.
 std::string note_text(const fem::ImportNote& note);
 
 /// The same in a few lines; empty for bodies whose mesh is no file.
 struct MeshNotes {
   std::string summary;
-  std::vector<std::string> complaints;  ///< what is probably wrong, and what the body lacks
+  std::vector<std::string> complaints;  ///< probable faults, and what the body lacks
 };
 MeshNotes mesh_notes(const body::BodySpec& body);
 

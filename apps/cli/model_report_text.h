@@ -7,7 +7,7 @@
 
 namespace buckens::cli {
 
-/// What `buckens check` says, for people.
+/// Output of `buckens check`, for people.
 std::string report_text(const std::string& title, const analysis::ModelReport& report);
 
 /// The same as a JSON object; SI units, described in docs/reference/command-line.md.

@@ -10,8 +10,8 @@
 
 namespace buckens::cli {
 
-/// Accepts plain numbers from `least` to `most`. The ranges of CLI11 let "nan" pass and print
-/// limits with six decimals.
+/// Accepts plain numbers from `least` to `most`. The ranges of CLI11 accept "nan" and print limits
+/// with six decimals.
 inline CLI::Validator number_between(double least, double most) {
   const auto check = [least, most](const std::string& text) -> std::string {
     const auto value = base::parse_number(text);
@@ -21,7 +21,7 @@ inline CLI::Validator number_between(double least, double most) {
   return {check, fmt::format("{:.10g} to {:.10g}", least, most)};
 }
 
-/// Accepts numbers, or positive ones only; neither infinities nor what is no number.
+/// Accepts numbers, or positive ones only; neither infinities nor NaN.
 inline CLI::Validator any_number(bool is_positive) {
   const auto check = [is_positive](const std::string& text) -> std::string {
     const auto value = base::parse_number(text);

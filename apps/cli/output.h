@@ -19,12 +19,12 @@ void print(std::string_view text);
 /// The same without an exception. @return whether all was written
 bool try_print(std::string_view text) noexcept;
 
-/// Writes to a stream of messages, such as the standard error, and flushes it. What cannot be
-/// written there is lost: a simulation does not end because nobody can read how far it is.
+/// Writes to a message stream, such as the standard error, and flushes it. What cannot be written
+/// is lost: a simulation must not end because its progress cannot be shown.
 void tell(std::FILE* stream, std::string_view text) noexcept;
 
-/// Where the program was started without standard streams (`2>&-`), puts something in their places
-/// that cannot be written: files opened later would take these numbers, and messages would go into
+/// If the program was started without standard streams (`2>&-`), opens unwritable replacements:
+/// otherwise files opened later would get these descriptors, and messages would go into
 /// results.
 void hold_standard_streams() noexcept;
 

@@ -3,7 +3,7 @@
 
 namespace buckens::cli {
 
-/// The whole program: reads the command line, does what it says, reports errors.
+/// The whole program: reads the command line, executes it, reports errors.
 /// @return exit code
 int run_program(int argc, const char* const* argv);
 

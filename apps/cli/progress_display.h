@@ -9,7 +9,7 @@
 
 namespace buckens::cli {
 
-/// "0:07", "12:30", "3:05:00"; "?" if it is not known.
+/// "0:07", "12:30", "3:05:00"; "?" if unknown.
 std::string clock_text(double seconds);
 
 /// One line: time, step, steps per second, time to go.
@@ -19,7 +19,7 @@ std::string progress_line(const analysis::Progress& progress, double seconds);
 /// The same with a bar, at most `columns` wide.
 std::string progress_bar(const analysis::Progress& progress, double seconds, int columns);
 
-/// Shows on a stream how a simulation advances, without disturbing messages on the same stream.
+/// Shows the progress of a simulation on a stream, without disturbing messages on the same stream.
 class ProgressDisplay {
  public:
   enum class Style {
@@ -37,7 +37,7 @@ class ProgressDisplay {
   void show(const analysis::Progress& progress, double seconds);
   /// Prints a line, above the bar if there is one. May be called from any thread.
   void message(const std::string& line);
-  /// Takes the bar away.
+  /// Removes the bar.
   void clear();
 
  private:

@@ -14,10 +14,10 @@
 
 namespace buckens::cli {
 
-/// What a run says on its way: all of it to log.txt, what the user wants to see to the terminal.
+/// Messages of a run: all of them to log.txt, those the user wants to see to the terminal.
 ///
-/// Takes the messages of the library while it lives. Lines that come before there is a run
-/// directory are kept for it.
+/// Receives the messages of the library while it lives. Lines before there is a run directory are
+/// kept for it.
 class RunJournal {
  public:
   /// @param lowest messages below this level go to the log only
@@ -26,18 +26,18 @@ class RunJournal {
   RunJournal(const RunJournal&) = delete;
   RunJournal& operator=(const RunJournal&) = delete;
 
-  /// From here on lines go to log.txt of this directory, those so far first.
+  /// Sends lines to log.txt of this directory, starting with those so far.
   void open(run_store::RunDirectory& directory);
   /// The directory's log ends; later lines go to the terminal only.
   void close();
 
   void say(base::LogLevel level, const std::string& message);
-  /// Says a warning unless it has been shown or, as a warning, recorded before.
+  /// Prints a warning unless it has been shown or, as a warning, recorded before.
   void warn_once(const std::string& message);
-  /// Lines for the log alone.
+  /// Lines for the log only.
   void record(const std::string& lines);
 
-  /// Wall time since the journal was begun [s].
+  /// Wall time since the journal was created [s].
   double seconds() const;
 
  private:

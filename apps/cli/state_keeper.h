@@ -12,18 +12,18 @@
 
 namespace buckens::cli {
 
-/// What the user asks for about saved states.
+/// The user's options for saved states.
 struct StateArguments {
   std::string save, start_from;   ///< files; empty: none
   std::optional<double> save_at;  ///< [s]; none: at the end
 
-  /// @throws InputError if the time lies outside of the run, or has no file
+  /// @throws InputError if the time is outside the run, or has no file
   void check(double duration) const;
 };
 
 void add_state_options(CLI::App& verb, StateArguments& arguments);
 
-/// Takes a simulation back to a saved state, and saves its state when it is time.
+/// Restores a saved state of a simulation, and saves its state at the requested time.
 class StateKeeper {
  public:
   /// @throws InputError, IoError if there is a state to start from that does not fit

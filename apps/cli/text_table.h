@@ -7,7 +7,7 @@
 
 namespace buckens::cli {
 
-/// Columns of text: the first one to the left, the others to the right. The first row is the
+/// Columns of text: the first one left-aligned, the others right-aligned. The first row is the
 /// heading. Every line begins with two blanks.
 std::string text_table(const std::vector<std::vector<std::string>>& rows);
 

@@ -11,7 +11,7 @@
 
 namespace buckens::cli {
 
-/// What a command line asks for; filled by the verb that is found in it.
+/// The request of a command line; filled by the verb found in it.
 struct Invocation {
   std::function<ExitCode()> action;
   bool json = false;  ///< results and errors as JSON on the standard output
@@ -33,7 +33,7 @@ void add_schema_verb(CLI::App& program, Invocation& invocation);
 void add_reference_verb(CLI::App& program, Invocation& invocation);
 void add_version_verb(CLI::App& program, Invocation& invocation);
 
-/// Options that more than one verb has.
+/// Options of more than one verb.
 void add_json_option(CLI::App& verb, Invocation& invocation);
 void add_model_options(CLI::App& verb, std::string& model, std::vector<std::string>& overrides);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The public face of the library: what programs include, and all that is installed.
+/// The public interface of the library: what programs include, and all that is installed.
 ///
-/// This list is the one place that decides what is public; installed are these headers and those
-/// that they include. See docs/developers/cpp.md and examples/cpp.
+/// This list alone decides what is public: these headers and those that they include are installed.
+/// See docs/developers/cpp.md and examples/cpp.
 
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"

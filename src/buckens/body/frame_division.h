@@ -11,7 +11,7 @@ struct FrameDivision {
   bool per_element = false;  ///< one frame per element, whatever `count`
 
   FrameDivision() = default;
-  FrameDivision(int frames) : count(frames) {}
+  FrameDivision(int frames) : count(frames) {}  // NOLINT: a number is a division
   static FrameDivision each_element() {
     FrameDivision out;
     out.per_element = true;

@@ -6,8 +6,8 @@
 
 namespace buckens::dynamics {
 
-/// What force laws see beside time and motions. Nothing of it needs to be known: loads follow their
-/// laws then, joints carry nothing, and states of laws are zero.
+/// What force laws may use besides time and motions. All of it is optional: without it, loads
+/// follow their laws, joints carry nothing, and states of laws are zero.
 struct Circumstances {
   const model::LoadInputs* inputs = nullptr;
   const model::RowMemory* memory = nullptr;  ///< as at the start of the step
@@ -25,13 +25,13 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
                                           const spatial::MarkerMotion& first,
                                           const spatial::MarkerMotion& second);
 
-/// All that a load may see.
+/// Everything a load may use.
 /// @param load index into Model::loads
 loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const spatial::MarkerMotion& first,
                       const spatial::MarkerMotion& second);
 
-/// What one load does: by its law, or by what is given for it.
+/// The effect of one load: by its law, or by the values given for it.
 /// @param load index into Model::loads
 loads::Action action_of(const model::Model& model, std::size_t load, double t,
                         const Circumstances& around, const spatial::MarkerMotion& first,

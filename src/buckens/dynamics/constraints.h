@@ -19,7 +19,7 @@ struct Constraints {
 void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
                           double t, Constraints& out);
 
-/// Part of g̈ without coordinate accelerations, for the initial accelerations.
+/// The part of g̈ without coordinate accelerations, for the initial accelerations.
 linalg::Vector constraint_bias(const model::Model& model, const std::vector<BodyMotion>& motions,
                                double t);
 

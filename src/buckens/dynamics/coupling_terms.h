@@ -6,24 +6,24 @@
 
 namespace buckens::dynamics {
 
-/// Those terms of the inertial coupling that need all of d, FM (19), (21)–(24): moments quadratic
-/// in d for the frame equation, and nodal loads. Terms that are not kept are zero, their load
-/// empty. The instant is left at zero.
+/// The terms of the inertial coupling that need all of d, FM (19), (21)–(24): moments quadratic in
+/// d for the frame equation, and nodal loads. Terms that are not kept are zero, their load empty.
+/// The instant is left at zero.
 model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
                                   const linalg::Vector& d, const linalg::Vector& d_dot,
                                   const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
                                   const Eigen::Vector3d& w_dot);
-/// The same into `out`, whose memory serves again.
-/// @param pool shares the nodes of solids; the result is the same
+/// The same into `out`, whose buffers are reused.
+/// @param pool processes nodes of solids in parallel, with the same result
 void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
                        const linalg::Vector& d, const linalg::Vector& d_dot,
                        const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
                        const Eigen::Vector3d& w_dot, model::Coupling& out,
                        TaskPool* pool = nullptr);
 
-/// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and what is
-/// quadratic.
-/// @param z InertiaInvariants::centrifugal_patterns()ᵀ d; not read where the terms do not need it
+/// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and the quadratic
+/// parts.
+/// @param z InertiaInvariants::centrifugal_patterns()ᵀ d; not read if the terms do not need it
 body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
                                     const body::DeformedMoments& quadratic,
                                     const Eigen::Matrix<double, 6, 1>& z,
@@ -33,9 +33,9 @@ body::DeformedMoments frame_moments(const body::Body& body, const body::Coupling
 Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms,
                                                 const Eigen::Vector3d& w);
 
-/// Coupling at t from the instants of the state, by the parabola, the line or the value through
-/// `history` of them. Steps may differ in length.
-/// @param pool shares the variables; the result is the same
+/// Coupling at t, extrapolated from the instants of the state by the parabola, line or constant
+/// through `history` of them. Steps may differ in length.
+/// @param pool processes the variables in parallel, with the same result
 void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out,
                  TaskPool* pool = nullptr);
 

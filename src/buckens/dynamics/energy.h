@@ -20,8 +20,8 @@ struct Energy {
 /// Cost: a product with M and K per flexible body.
 Energy energy(const model::Model& model, const model::State& state);
 
-/// What the energy of gravity is more than Energy::gravity where it counts from the origin of the
-/// model file. Kept apart, so that differences of energies lose no digits far away.
+/// Difference between the gravitational energy relative to the origin of the model file and
+/// Energy::gravity. Kept separate so that differences of energies lose no digits far away.
 double gravity_datum(const model::Model& model);
 
 /// Linear momentum [N s] and angular momentum about Model::origin [N m s], world axes.

@@ -16,15 +16,15 @@ struct Forces {
   std::vector<Eigen::VectorXd> interface;
   double stored_energy = 0;  ///< in springs [J]
   double active_power = 0;   ///< of loads and dampers [W], not counting stored energy
-  double dissipation = 0;    ///< taken by dampers, contained in active_power with minus [W]
+  double dissipation = 0;    ///< dissipated by dampers, negative part of active_power [W]
   std::vector<int> regimes;  ///< of laws on joint coordinates, see loads::Action::regime
 
   void reset(const model::Model& model);
 };
 
-/// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load lies in the span
+/// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load is in the span
 /// of P, which the sieve removes.
-/// @param around what force laws see beside the motions
+/// @param around what force laws use besides the motions
 /// @param load_factor multiplies applied forces and torques, neither gravity nor springs
 /// @throws NumericalError naming the load whose law fails
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
@@ -33,7 +33,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor = 1.0);
 
-/// Adds what a wrench on a marker does to its body; on the ground nothing.
+/// Adds the effect of a wrench on a marker to its body; nothing for the ground.
 void add_wrench(const model::Model& model, const model::MarkerId& id,
                 const body::MarkerKinematics& kinematics, const spatial::Wrench& wrench,
                 Forces& out);

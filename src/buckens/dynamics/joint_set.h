@@ -9,23 +9,23 @@
 
 namespace buckens::dynamics {
 
-/// What the joints leave open at one instant.
+/// Residuals of the joints at one instant.
 struct JointResiduals {
   linalg::Vector g;      ///< residuals [m] or [-]
   linalg::Vector g_dot;  ///< their rates [m/s] or [1/s]
   linalg::Vector g_t;    ///< their partial time derivatives
 };
 
-/// All joints of a model as a step reads them, several times over: markers and rows one after the
-/// other in memory, directions in body axes. Says the same as evaluate_constraints() and
-/// add_joint_forces(), which go through the model. Rows that slide or follow a law of time are left
-/// to their own code; points held together and directions held perpendicular, of which all but the
-/// rarest joints are made, are written out.
+/// All joints of a model laid out for a step, which reads them several times: markers and rows
+/// contiguous in memory, directions in body axes. Gives the same as evaluate_constraints() and
+/// add_joint_forces(), which use the model. Rows that slide or follow a law of time are left to
+/// their own code; coincident points and perpendicular directions, which nearly all joints consist
+/// of, are coded explicitly.
 class JointSet {
  public:
   static constexpr std::size_t kMostRows = 6;  ///< of one joint
 
-  /// @param model must live longer
+  /// @param model must outlive this object
   explicit JointSet(const model::Model& model);
 
   std::size_t size() const { return joints_.size(); }
@@ -33,8 +33,8 @@ class JointSet {
   int num_rows(std::size_t joint) const { return joints_[joint].num_rows; }
 
   /// Residuals of all rows. With multipliers, the forces Gᵀλ are added: the rows of a joint act on
-  /// its two markers together, and a marker's wrench goes to its body once. Allocates nothing once
-  /// `out` has its size.
+  /// its two markers together, and each marker's wrench is added to its body once. Allocates
+  /// nothing once `out` has its size.
   /// @param lambda,forces both or neither
   void evaluate(const std::vector<BodyMotion>& motions, double t, JointResiduals& out,
                 const linalg::Vector* lambda = nullptr, Forces* forces = nullptr) const;

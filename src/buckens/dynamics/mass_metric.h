@@ -9,8 +9,8 @@
 
 namespace buckens::dynamics {
 
-/// Response of all bodies to interface forces through their mass alone: what initial velocities,
-/// initial accelerations and the rank of the joint equations are measured in.
+/// Response of all bodies to interface forces through their mass alone: the metric for initial
+/// velocities, initial accelerations and the rank of the joint equations.
 ///
 /// Flexible bodies: H = Y M⁻¹Nᵀ by conjugate gradients, one solve per interface row, no
 /// factorisation.
@@ -18,9 +18,9 @@ class MassMetric {
  public:
   explicit MassMetric(const model::Model& model);
 
-  /// Frame part only: bodies move as rigid ones.
+  /// Frame part only: bodies move rigidly.
   std::vector<BodyCompliance> rigid() const;
-  /// Frames and meshes. @param J rotary inertia of each body as it is now [kg m²]
+  /// Frames and meshes. @param J current rotary inertia of each body [kg m²]
   std::vector<BodyCompliance> full(const std::vector<Eigen::Matrix3d>& J) const;
 
   /// Y M⁻¹Nᵀ of one body, n×interface rows.

@@ -11,7 +11,7 @@
 
 namespace buckens::dynamics {
 
-/// Response of one body to unit generalised forces, everything condensed to what joints can touch.
+/// Response of one body to unit generalised forces, condensed to what joints can act on.
 struct BodyCompliance {
   /// Frame coordinates per frame load, 6×6: a rotation block and a translation block.
   Eigen::Matrix<double, 6, 6> frame = Eigen::Matrix<double, 6, 6>::Zero();
@@ -25,7 +25,7 @@ struct BodyCompliance {
 ///
 /// Rows are constraints in use, followed by the soft rows of force elements. Bodies enter only by
 /// small dense blocks, so the matrix is sparse across joints; its pattern is found once. The blocks
-/// are eliminated as they are (linalg::BlockLu); where that leaves poor pivots, rows are exchanged
+/// are eliminated without pivoting (linalg::BlockLu); if that gives poor pivots, rows are exchanged
 /// (linalg::SparseLu).
 class MultiplierCondensation {
  public:
@@ -34,7 +34,7 @@ class MultiplierCondensation {
 
   /// Sets a row that is closed along the direction in which its multiplier acts.
   void set_row(int row, const SystemRow& values);
-  /// Sets a row. @param test what is closed (left), @param force along which the multiplier acts
+  /// Sets a row. @param test direction to close (left), @param force direction of the multiplier
   void set_row(int row, const SystemRow& test, const SystemRow& force);
 
   /// Assembles and factorises S of the rows set.
@@ -50,24 +50,24 @@ class MultiplierCondensation {
   /// x ← S⁻¹ x.
   void solve_in_place(linalg::Vector& x) const;
 
-  /// Sums the row forces x along the directions of the multipliers on each body.
+  /// Sums the row forces x along the directions of the multipliers for each body.
   void gather(const linalg::Vector& x, std::vector<BodyResponse>& responses) const {
     force_.gather(x, responses);
   }
   /// The rows that are closed.
   const RowBlocks& test_rows() const { return test_ ? *test_ : force_; }
 
-  /// Values of S, in its compressed order, at which rows were last exchanged; empty where they
-  /// never were. Later factorisations keep these exchanges while they serve.
+  /// Values of S, in its compressed order, for which rows were last exchanged; empty if they never
+  /// were. Later factorisations keep these exchanges while they are good.
   std::vector<double> pivoted_values() const;
-  /// Exchanges rows as for these values, so that later factorisations come out to the same bits.
+  /// Exchanges rows as for these values, so that later factorisations are bitwise the same.
   /// @param values of pivoted_values() of another object for the same rows
   void pivot_as(const std::vector<double>& values);
 
   int size() const { return force_.num_rows(); }
-  /// Smallest pivot without exchanges of rows, relative to what stood on the diagonal: the least
-  /// share of a row's compliance that those before it leave, the square of the sine of an angle
-  /// between them. 0 … 1 whatever units and masses are; 0 where a pivot is not positive.
+  /// Smallest pivot without row exchanges, relative to the original diagonal: the smallest fraction
+  /// of a row's compliance left by the rows before it, the squared sine of an angle between them. 0
+  /// … 1 for any units and masses; 0 if a pivot is not positive.
   double pivot_ratio() const { return block_lu_.pivot_ratio(); }
 
  private:
@@ -85,7 +85,7 @@ class MultiplierCondensation {
   bool factorise_with_exchanges();
 
   RowBlocks force_;
-  std::optional<RowBlocks> test_;  // where other rows are closed than multipliers act along
+  std::optional<RowBlocks> test_;  // if closed directions differ from those of the multipliers
   std::vector<std::vector<BlockOnBody>> blocks_on_body_;
   std::vector<std::vector<int>> places_;      // in blocks_lu_, one per pair of blocks on a body
   std::vector<std::pair<int, int>> couples_;  // blocks (i, j) of S, every one once

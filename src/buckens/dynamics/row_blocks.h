@@ -23,7 +23,7 @@ struct Displacement {
 
 /// Up to six rows between the same markers, side by side: usually a joint.
 struct RowBlock {
-  /// What the rows touch of one body.
+  /// The rows' derivatives with respect to one body.
   struct Side {
     int body = model::kGround;
     int translation_row = -1, rotation_row = -1;  ///< as in BodyRow
@@ -36,11 +36,11 @@ struct RowBlock {
   std::array<Side, 2> sides;
 };
 
-/// Derivatives of many rows, kept close together in the order of the rows.
+/// Derivatives of many rows, stored compactly in the order of the rows.
 ///
-/// A SystemRow says everything about one row; of a chain of a thousand links that is more than a
-/// processor's cache holds, and a step reads it several times. Here a row is its numbers only,
-/// twelve of a rigid pair, and what its block has in common is kept once.
+/// A SystemRow holds everything about one row; for a chain of a thousand links that is more than
+/// fits into a processor's cache, and a step reads it several times. Here a row is only its
+/// numbers, twelve for a rigid pair, and what its block has in common is stored once.
 class RowBlocks {
  public:
   static constexpr int kMostRows = 6;
@@ -51,7 +51,7 @@ class RowBlocks {
   const std::vector<RowBlock>& blocks() const { return blocks_; }
   int num_rows() const { return static_cast<int>(block_of_row_.size()); }
 
-  /// Takes the numbers of a row. Its bodies are those of the pattern.
+  /// Stores the numbers of a row. Its bodies are those of the pattern.
   void set(int row, const SystemRow& values);
 
   /// Derivatives of row `k` of a block on one side: six of the frame, six of the interface.

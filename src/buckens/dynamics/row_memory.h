@@ -8,13 +8,13 @@
 
 namespace buckens::dynamics {
 
-/// What joint coordinates and force laws remember at the start of a motion: no turns yet, and laws
-/// at rest.
+/// Memory of joint coordinates and force laws at the start of a motion: no turns yet, and laws at
+/// rest.
 model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions);
 
-/// What they remember at the end of a step.
+/// Their memory at the end of a step.
 /// @param motions at its end, @param around with the memory at its start
-/// @param out neither of the two; its memory serves again
+/// @param out neither of the two; its buffers are reused
 void advance_memory(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                     const Circumstances& around, model::RowMemory& out);
 

@@ -8,7 +8,7 @@
 
 namespace buckens::dynamics {
 
-/// Motion of one body at one instant, reduced to what joints and loads can see.
+/// Motion of one body at one instant, as far as joints and loads use it.
 struct BodyMotion {
   body::FrameMotion frame;
   Eigen::VectorXd y, y_dot;  ///< marker rows of a flexible body
@@ -29,7 +29,7 @@ struct BodyRow {
   double change(const Eigen::Matrix<double, 6, 1>& u, const Eigen::VectorXd& y) const;
 };
 
-/// Both bodies' shares of a scalar between two markers.
+/// Contributions of both bodies to a scalar between two markers.
 struct SystemRow {
   BodyRow first, second;
 };
@@ -38,7 +38,7 @@ struct SystemRow {
 body::MarkerKinematics evaluate_marker(const model::Model& model, const model::MarkerId& id,
                                        const std::vector<BodyMotion>& motions);
 
-/// Marker acceleration that remains when all coordinate accelerations vanish.
+/// Marker acceleration when all coordinate accelerations are zero.
 spatial::MarkerBias evaluate_bias(const model::Model& model, const model::MarkerId& id,
                                   const std::vector<BodyMotion>& motions);
 

@@ -7,7 +7,7 @@
 
 namespace buckens::exports {
 
-/// Writes what results.h5 holds as tables for spreadsheets:
+/// Writes the contents of results.h5 as tables for spreadsheets:
 ///
 ///     sensors.csv             a line per record; as complete as results.h5 is
 ///     <body>_nodes.csv        a line per chosen instant and place: t, node, undeformed x, y, z in
@@ -16,8 +16,8 @@ namespace buckens::exports {
 ///     <body>_nodes_extremes.csv (and _elements_…)   the largest von Mises stresses and when
 ///     <body>_loads.csv        a line per chosen instant: force and torque at every place
 ///
-/// Empty cells are values that do not exist. Numbers of fields carry 9 digits, as many as they
-/// have.
+/// Empty cells are values that do not exist. Numbers of fields have 9 digits, their full
+/// precision.
 /// @return names of the files
 /// @throws IoError
 std::vector<std::string> export_csv(const run_store::RunReader& run,

@@ -11,22 +11,22 @@
 
 namespace buckens::exports {
 
-/// A binary glTF 2.0 file under construction: JSON with the numbers in one buffer behind it.
+/// A binary glTF 2.0 file under construction: JSON followed by one buffer with the numbers.
 class GlbFile {
  public:
-  nlohmann::ordered_json root;  ///< everything but buffers, bufferViews and accessors
+  nlohmann::ordered_json root;  ///< everything except buffers, bufferViews and accessors
 
   GlbFile();
 
   /// Appends numbers and returns the index of their accessor.
-  /// @param bounds smallest and largest components, which the format wants of positions and times
+  /// @param bounds smallest and largest components, required for positions and times
   int add_vectors(const Eigen::Matrix3Xf& values, bool bounds);
   int add_floats(const std::vector<float>& values, bool bounds);
   int add_quaternions(const std::vector<std::array<float, 4>>& values);  ///< x, y, z, w
   int add_colours(const std::vector<std::array<std::uint8_t, 4>>& values);
   int add_indices(const std::vector<std::uint32_t>& values);
 
-  /// @throws IoError, also where the numbers take more than the 4 GB that the format holds
+  /// @throws IoError, also if the numbers exceed the 4 GB limit of the format
   void write(const std::filesystem::path& path) const;
 
  private:

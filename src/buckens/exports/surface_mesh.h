@@ -10,8 +10,8 @@
 
 namespace buckens::exports {
 
-/// What can be seen of a body, in its undeformed frame: triangles on its solids, tubes around its
-/// beams and bars.
+/// The visible surface of a body, in its undeformed frame: triangles on its solids, tubes around
+/// its beams and bars.
 struct SurfaceMesh {
   Eigen::Matrix3Xf positions;            ///< of the vertices [m]
   std::vector<int> nodes;                ///< node with which each vertex moves

@@ -10,11 +10,11 @@ namespace buckens::exports {
 /// Writes a run for ParaView: `<directory>/<name>_0000.vtu` and so on, one file per instant with
 /// all bodies, and `<directory>/<name>.pvd`, which lists them with their times.
 ///
-/// Points stand in the world, deformed. A node has as many points as materials meet there, because
-/// stresses may jump. Point data: `displacement` since the undeformed shape, turned into world
-/// axes, and the fields recorded at nodes; cell data: `body` (number in the order of the model),
-/// `von_mises` and the fields recorded at elements. Values that were not recorded are NaN. Rigid
-/// bodies are one vertex at their origin.
+/// Points are deformed, in the world. A node has one point for each material that meets there,
+/// because stresses may jump. Point data: `displacement` since the undeformed shape, rotated into
+/// world axes, and the fields recorded at nodes; cell data: `body` (number in the order of the
+/// model), `von_mises` and the fields recorded at elements. Values that were not recorded are NaN.
+/// Rigid bodies are one vertex at their origin.
 /// @return number of instants
 /// @throws IoError
 std::size_t export_vtk(const run_store::RunReader& run, const run_store::InstantChoice& choice,

@@ -7,9 +7,9 @@
 
 namespace buckens::mesh_io {
 
-/// Finds the place of a number that a file gives to its nodes or elements.
+/// Finds the index of a node or element number of a file.
 ///
-/// Numbers without great gaps are looked up in a list, others in a hash table, so that one huge
+/// Numbers without large gaps are looked up in a list, others in a hash table, so that one huge
 /// number costs no memory.
 class LabelIndex {
  public:
@@ -24,7 +24,7 @@ class LabelIndex {
   }
   LabelIndex() = default;
 
-  /// @return the place that the number had before, −1: none; then it has the new one
+  /// @return the previous index of the number, −1: none; then it has the new one
   int add(std::int64_t label, int place) {
     int& slot = label >= 0 && static_cast<std::size_t>(label) < list_.size()
                     ? list_[static_cast<std::size_t>(label)]
@@ -34,7 +34,7 @@ class LabelIndex {
     return -1;
   }
 
-  /// −1 if the number is not there.
+  /// −1 if the number does not exist.
   int find(std::int64_t label) const {
     if (label >= 0 && static_cast<std::size_t>(label) < list_.size()) {
       return list_[static_cast<std::size_t>(label)];

@@ -10,14 +10,14 @@
 
 namespace buckens::mesh_io {
 
-/// Reads a mesh in the way its file name ends. Lengths, masses and constants stay in the units of
-/// the file.
-/// @throws InputError with file and line where the contents cannot be, or if a wish names what the
-/// file does not have; IoError if the file cannot be read
+/// Reads a mesh in the format given by its file name. Lengths, masses and constants stay in the
+/// units of the file.
+/// @throws InputError with file and line if the contents are invalid, or if a wish names something
+/// the file does not have; IoError if the file cannot be read
 fem::ImportedMesh read_mesh_file(const std::filesystem::path& path,
                                  const fem::MeshWishes& wishes = {});
 
-/// Endings of the files that can be read: ".inp", ".msh" …
+/// Endings of files that can be read: ".inp", ".msh" …
 std::vector<std::string> mesh_file_endings();
 
 }  // namespace buckens::mesh_io

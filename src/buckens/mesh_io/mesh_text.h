@@ -10,14 +10,14 @@
 
 namespace buckens::mesh_io {
 
-/// Reads the contents of a mesh file from front to back, text and binary parts, and knows the line.
+/// Reads a mesh file sequentially, text and binary parts, keeping track of the line.
 ///
-/// Whatever the bytes are, it reads none beyond their end and gives only finite numbers in the
-/// range that is asked for; everything else is an InputError with file, line and column.
+/// Whatever the bytes are, it never reads beyond their end and returns only finite numbers in the
+/// requested range; everything else is an InputError with file, line and column.
 class MeshText {
  public:
   /// @param bytes must outlive this object
-  /// @param file as messages name it
+  /// @param file its name in messages
   MeshText(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
   bool at_end() const { return place_ >= bytes_.size(); }
@@ -25,11 +25,11 @@ class MeshText {
   std::size_t remaining() const { return bytes_.size() - place_; }
   int line() const { return line_; }
 
-  /// The rest of the line without its end. @param what for the message where nothing is left
+  /// The rest of the line without its end. @param what for the message if nothing is left
   std::string_view next_line(std::string_view what);
-  /// What the next line will be; empty at the end.
+  /// The next line, without consuming it; empty at the end.
   std::string_view peek_line() const;
-  /// The next word, over line ends.
+  /// The next word, skipping line ends.
   std::string_view word(std::string_view what);
   /// A word, or text between double quotes.
   std::string quoted(std::string_view what);
@@ -37,7 +37,7 @@ class MeshText {
   std::int64_t integer(std::string_view what,
                        std::int64_t least = std::numeric_limits<std::int64_t>::min(),
                        std::int64_t most = std::numeric_limits<std::int64_t>::max());
-  /// A number of things of which each takes at least so many bytes.
+  /// A count of items that each take at least so many bytes.
   std::size_t count(std::string_view what, std::size_t bytes_each);
   double number(std::string_view what);
 
@@ -62,11 +62,11 @@ class MeshText {
     return static_cast<std::int64_t>(value);
   }
 
-  /// Goes on behind the next line that is `mark`. @return false if there is none
+  /// Skips past the next line that is `mark`. @return false if there is none
   /// @param after_bytes the mark may also follow binary data without a line end between
   bool skip_to(std::string_view mark, bool after_bytes = false);
 
-  /// @throws InputError at the word read last
+  /// @throws InputError at the last word read
   [[noreturn]] void fail(const std::string& text) const;
 
  private:

@@ -10,27 +10,27 @@
 
 namespace buckens::mesh_io {
 
-/// What a model file wants a reader to leave out although it has mass or stiffness: `mesh: {skip:
-/// [CELAS2]}`. A reader asks before it refuses something, and hands the notes on at the end.
+/// What a model file asks a reader to leave out although it has mass or stiffness: `mesh: {skip:
+/// [CELAS2]}`. A reader checks before it refuses something, and passes the notes on at the end.
 ///
-/// Names are compared in capitals, without blanks and without the star of keywords: "Solid
+/// Names are compared in upper case, without blanks and without the star of keywords: "Solid
 /// Section", "*SOLID SECTION" and "SOLIDSECTION" are the same.
 class SkipList {
  public:
   SkipList() = default;
   explicit SkipList(const std::vector<std::string>& names);
 
-  /// Whether this is to be left out.
+  /// Whether to leave this out.
   bool has(std::string_view name) const { return entries_.contains(plain(name)); }
   /// The same; counts it if so.
-  /// @param line where it stands, 0: unknown or in another file
-  /// @param count how many elements or cards that is
+  /// @param line its line, 0: unknown or in another file
+  /// @param count number of elements or cards
   bool takes(std::string_view name, int line, int count = 1);
 
-  /// What a refusal ends with: `; to leave it out, name it in the model file: mesh: {skip: […]}`.
+  /// The ending of a refusal: `; to leave it out, name it in the model file: mesh: {skip: […]}`.
   static std::string remedy(std::string_view name);
 
-  /// One note per name: how many were left out, or that there was none.
+  /// One note per name: how many were left out, or that there were none.
   std::vector<fem::ImportNote> notes() const;
 
  private:

@@ -27,7 +27,7 @@ struct TaggedCells {
   std::vector<int> nodes;
 };
 
-/// A mesh in which lines, surfaces and volumes are elements alike, as Gmsh sees it.
+/// A mesh in which lines, surfaces and volumes are all elements, as in Gmsh.
 struct TaggedMesh {
   std::string file;
   std::string format;
@@ -36,17 +36,17 @@ struct TaggedMesh {
   std::vector<CellGroup> groups;
   std::vector<TaggedCells> cells;
   std::vector<std::pair<int, std::vector<int>>> group_nodes;  ///< further nodes of a group
-  /// Nodes that the file gives to elements but that have no place in ours: in the middle of faces
-  /// and volumes. They vanish unless something else uses them.
+  /// Nodes that elements in the file have but ours do not: in the middle of faces and volumes. They
+  /// are dropped unless something else uses them.
   std::vector<int> dropped_nodes;
   std::vector<fem::ImportNote> notes;
-  /// Whether an element stands once for each group that it belongs to. Otherwise elements between
-  /// the same nodes, such as two bars side by side, are several.
+  /// Whether an element is listed once for each group it belongs to. Otherwise elements between the
+  /// same nodes, such as two parallel bars, are distinct.
   bool repeats_elements = true;
 
-  /// The elements of this shape and these groups, new if there are none yet.
+  /// The elements of this shape and these groups, created if there are none yet.
   TaggedCells& cells_of(fem::CellKind kind, const std::string& source, std::vector<int> groups);
-  /// Number of the group, new with a name made of dimension and tag if it is not known.
+  /// Number of the group, created with a name from dimension and tag if unknown.
   int group(int dimension, std::int64_t tag);
 
  private:
@@ -55,23 +55,23 @@ struct TaggedMesh {
 };
 
 /// Volumes become elements, their groups properties and element sets. Surfaces become sets of faces
-/// of the volumes where they lie on them; groups of surfaces that touch no volume become shells,
-/// whose sides towards the normals are sets of faces; and lines become beams where there is nothing
-/// else, or where they are no edge of other elements. Every group is a set of nodes, too.
-/// @param members names of groups whose surfaces and lines are elements wherever they lie
+/// of the volumes they are on; groups of surfaces that touch no volume become shells, whose sides
+/// towards the normals are sets of faces; and lines become beams if there is nothing else, or if
+/// they are not edges of other elements. Every group is also a set of nodes.
+/// @param members names of groups whose surfaces and lines always become elements
 fem::ImportedMesh mesh_of_groups(TaggedMesh tagged, const std::vector<std::string>& members = {});
 
-/// A name as groups take it: without quotation marks and line ends.
+/// A valid group name: without quotation marks and line ends.
 std::string group_name(const std::string& name);
 
-/// The group that each property becomes. It has the property's name, unless another property or an
-/// element set with other members has it; then a number follows.
+/// The group for each property. It has the property's name, unless another property or an element
+/// set with other members uses it; then a number is appended.
 std::vector<std::string> property_groups(const fem::ImportedMesh& mesh);
 
-/// The way back: what mesh_of_groups() makes this mesh of. Properties come before other groups, so
+/// The inverse: what mesh_of_groups() makes into this mesh. Properties come before other groups, so
 /// that the first group of an element is its property. Node sets are groups of points unless
-/// another group has the same name and nodes. Only nodes, elements and sets have a place there; of
-/// sets, what has none stands in `notes`.
+/// another group has the same name and nodes. It can only hold nodes, elements and sets; sets that
+/// do not fit are listed in `notes`.
 TaggedMesh groups_of_mesh(const fem::ImportedMesh& mesh);
 
 }  // namespace buckens::mesh_io

@@ -6,9 +6,9 @@
 
 namespace buckens::model_file {
 
-/// Reads the file of a `mesh` or those of `matrices` and turns them into SI units; other bodies
-/// stay as they are.
-/// @throws InputError with the place of the file name where it cannot be read
+/// Reads the file of a `mesh` or those of `matrices` and converts them to SI units; other bodies
+/// are unchanged.
+/// @throws InputError with the place of the file name if it cannot be read
 void load_body_mesh(body::BodySpec& body, const ReadContext& context);
 
 }  // namespace buckens::model_file

@@ -9,8 +9,8 @@
 
 namespace buckens::model_file {
 
-/// Warnings about doubtful values with the place of each, its path, the text of the model file, and
-/// the unit that was probably meant where none was written.
+/// Warnings about doubtful values, each with its place, path, the text of the model file, and the
+/// unit that was probably meant if none was written.
 /// @param root tree of the model file, overrides applied
 std::vector<std::string> doubt_warnings(const YamlNode& root,
                                         const std::vector<model::Doubt>& doubts);

@@ -29,12 +29,12 @@ namespace buckens::model_file {
 template <class T>
 void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext& context, T& out);
 
-/// Reads a map into a spec, or the single value that stands for it. Unknown and missing keys are
+/// Reads a map into a spec, or the single value that abbreviates it. Unknown and missing keys are
 /// errors, and so is what model::problem() finds afterwards.
 template <base::HasFields T>
 void read_record(const ReadPlace& place, ReadContext& context, T& out);
 
-/// The keys that a record takes, those of its alternatives included.
+/// The keys of a record, including those of its alternatives.
 class KeyCollector {
  public:
   std::vector<std::string> keys;
@@ -53,7 +53,7 @@ class KeyCollector {
   }
 };
 
-/// Reads the field that may stand for its whole record.
+/// Reads the field that may abbreviate its whole record.
 class ShorthandReader {
  public:
   ShorthandReader(const ReadPlace& place, ReadContext& context)
@@ -166,7 +166,7 @@ void read_named(const ReadPlace& place, ReadContext& context, std::vector<T>& ou
   }
 }
 
-/// Reads a list item by item; `count` < 0 takes any number.
+/// Reads a list item by item; `count` < 0 accepts any number.
 template <class Sequence>
 void read_items(const ReadPlace& place, const base::FieldNote& note, ReadContext& context,
                 int count, Sequence&& item) {

@@ -9,7 +9,7 @@
 
 namespace buckens::model_file {
 
-/// Reads a model file (YAML or JSON) and checks everything that can be said without building the
+/// Reads a model file (YAML or JSON) and checks everything that can be checked without building the
 /// model. Numbers are SI afterwards, names are resolved. Reference: docs/reference/model-file.md.
 ///
 /// @param overrides "PATH=VALUE" each, applied before reading: "bodies.rod.beam.elements=8"
@@ -18,8 +18,8 @@ namespace buckens::model_file {
 model::ModelDescription read_model_file(const std::filesystem::path& path,
                                         const std::vector<std::string>& overrides = {});
 
-/// The same from a text; `name` stands for the file in messages, and its directory is where tables
-/// are looked for.
+/// The same from a text; `name` denotes the file in messages, and tables are looked up in its
+/// directory.
 model::ModelDescription read_model_text(const std::string& text, const std::string& name,
                                         const std::vector<std::string>& overrides = {});
 

@@ -21,7 +21,7 @@ void check_name(const YamlEntry& entry, const std::string& path);
 [[noreturn]] void fail_unknown(const ReadPlace& place, const std::string& kind,
                                const std::string& name, const std::vector<std::string>& known);
 
-/// Reads "body/marker" or {ground: [x, y, z]} and makes sure that body and marker exist.
+/// Reads "body/marker" or {ground: [x, y, z]} and checks that body and marker exist.
 base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context);
 
 /// Reads `chord`, `frame` or a marker.
@@ -36,12 +36,12 @@ inline const std::vector<fem::SectionSpec>& definitions(const ReadContext& conte
   return context.model->sections;
 }
 
-/// Throws what was found in the spec that was read from `place`.
+/// Throws a finding in the spec read from `place`.
 /// @throws InputError with the place of the field in the file
 void fail_if_found(const model::Found& found, const ReadPlace& place);
 
-/// What remains to be done when a named entry has been read: parameters become known to
-/// expressions, bodies take over what they are `like`.
+/// To be called when a named entry has been read: makes parameters known to expressions, and gives
+/// bodies what they are `like`.
 template <class T>
 void finish_entry(T& /*entry*/, const ReadPlace& /*place*/, ReadContext& /*context*/) {}
 void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadContext& context);

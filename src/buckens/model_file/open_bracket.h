@@ -6,15 +6,15 @@
 
 namespace buckens::model_file {
 
-/// A bracket that nothing closes.
+/// An unclosed bracket.
 struct OpenBracket {
   char bracket;      ///< [ or {
   int line, column;  ///< from 1
 };
 
-/// The innermost bracket that is open at a place of a YAML text, or one that a bracket of the other
-/// kind meets before it; nothing where all are closed. Knows comments and quotes.
-/// @param position index into the text where a parser gave up
+/// The innermost bracket open at a position of a YAML text, or an earlier one closed by a bracket
+/// of the other kind; empty if all are closed. Handles comments and quotes.
+/// @param position index into the text where a parser failed
 std::optional<OpenBracket> unclosed_bracket(const std::string& text, int position);
 
 }  // namespace buckens::model_file

@@ -11,8 +11,8 @@ namespace buckens::model_file {
 
 struct FieldShape;
 
-/// What the model file may hold at one place, as found by visiting the field lists. The schema, the
-/// reference page and overrides work on this; the reader itself visits the lists directly.
+/// What the model file may contain at one place, as found by visiting the field lists. The schema,
+/// the reference page and overrides work on this; the reader itself visits the lists directly.
 struct Shape {
   enum class Kind {
     quantity,
@@ -37,9 +37,9 @@ struct Shape {
   std::vector<Shape> element;            ///< one entry: of a list, reference or named map
   std::vector<FieldShape> fields;        ///< of a record
   std::vector<FieldShape> alternatives;  ///< of a record: exactly one of these keys
-  std::type_index type = typeid(void);   ///< of a record, to tell where one occurs again
+  std::type_index type = typeid(void);   ///< of a record, to detect repetitions
 
-  /// The field that may stand for the whole record, or null.
+  /// The field that may abbreviate the whole record, or null.
   const FieldShape* shorthand() const;
   /// Field or alternative of that key, or null.
   const FieldShape* find(const std::string& key) const;
@@ -52,7 +52,7 @@ struct FieldShape {
   std::string standard;  ///< value if left out, as text
 };
 
-/// Whether one text may stand for a list of texts.
+/// Whether one text may replace a list of texts.
 inline bool takes_single_text(const Shape& shape) {
   return shape.kind == Shape::Kind::list && shape.count < 0 &&
          shape.element[0].kind == Shape::Kind::text;

@@ -14,21 +14,21 @@
 
 namespace buckens::model_file {
 
-/// Meshes of STEP files that were made a short while ago. Bodies of one part, and variants of a
-/// model that differ elsewhere, are meshed once; they share the mesh itself where they name no
+/// Recently made meshes of STEP files. Bodies of one part, and variants of a model
+/// that differ elsewhere, are meshed once; they share the mesh itself if they name no
 /// faces.
 ///
-/// The last kKept meshes are held. A mesh is taken again if the file has the same name and
-/// contents, and solid, size and order are the same.
+/// The last kKept meshes are kept. A mesh is reused if the file has the same name and contents, and
+/// solid, size and order are the same.
 class StepMeshCache {
  public:
   static constexpr std::size_t kKept = 4;
 
-  /// @param spec whose size is set to that which was chosen where it has none
+  /// @param spec its size is set to the chosen one if it has none
   /// @throws as mesh_step() and with_face_names()
   std::shared_ptr<const fem::ImportedMesh> mesh(const std::filesystem::path& path,
                                                 fem::GeometrySpec& spec);
-  /// How often a part was really meshed.
+  /// How often a part was actually meshed.
   int num_meshed() const { return num_meshed_; }
 
  private:
@@ -45,7 +45,7 @@ class StepMeshCache {
   int num_meshed_ = 0;
 };
 
-/// read_model_file() of model_file.h with meshes out of a cache.
+/// read_model_file() of model_file.h with meshes from a cache.
 model::ModelDescription read_model_file(const std::filesystem::path& path,
                                         const std::vector<std::string>& overrides,
                                         StepMeshCache& meshes);

@@ -14,8 +14,8 @@
 
 namespace buckens::model_file {
 
-/// A law of time by points, as the model file writes it. Exactly one of table and file is given; a
-/// text in place of the points is the name of the file.
+/// A law of time given by points, as in the model file. Exactly one of table and file is given; a
+/// text instead of the points is the name of the file.
 struct TableLawSpec {
   std::vector<std::array<double, 2>> table;
   std::string file;
@@ -43,7 +43,7 @@ struct TableLawSpec {
   }
 };
 
-/// What is wrong with a table as it is written.
+/// What is wrong with a table as written.
 model::Found problem(const TableLawSpec& spec);
 
 /// Reads a law given by `table` or `file`.
@@ -52,8 +52,8 @@ base::TimeLaw read_table_law(const ReadPlace& place, const base::FieldNote& note
 
 /// Time and one more column of a text file with numbers separated by commas, semicolons, blanks or
 /// tabs. Lines that begin with # and one heading line, whose first cell does not begin like a
-/// number, are skipped. Numbers may stand in double quotes.
-/// @throws IoError if the file cannot be read, InputError with file and line for its content
+/// number, are skipped. Numbers may be in double quotes.
+/// @throws IoError if the file cannot be read, InputError with file and line for its contents
 struct CsvColumns {
   std::vector<double> times, values;
 };

@@ -5,7 +5,7 @@
 
 namespace buckens::model_file {
 
-/// Tables that refuse to be extrapolated must cover the simulation, or t = 0 where there is none.
+/// Tables that refuse extrapolation must cover the simulation, or t = 0 if there is none.
 /// @throws InputError at the table
 void check_table_ranges(const model::ModelDescription& model);
 

@@ -56,13 +56,13 @@ double read_quantity(const ReadPlace& place, const base::FieldNote& note,
                      const ReadContext& context);
 
 int read_integer(const ReadPlace& place, const base::FieldNote& note, const ReadContext& context);
-/// A whole number or `per-element`.
+/// An integer or `per-element`.
 body::FrameDivision read_frames(const ReadPlace& place, const base::FieldNote& note,
                                 const ReadContext& context);
 bool read_truth(const ReadPlace& place, const base::FieldNote& note);
 std::string read_text(const ReadPlace& place);
 
-/// Index of a word among the allowed ones. `planned` words get an error of their own.
+/// Index of a word among the allowed ones. `planned` words get a separate error.
 std::size_t read_choice(const ReadPlace& place, const std::vector<std::string>& allowed,
                         const std::vector<std::string>& planned);
 

@@ -6,9 +6,9 @@
 
 namespace buckens::model_file {
 
-/// What to say about a key that the format does not have but users look for: something that is not
-/// supported yet and what to do instead, or the name that it has here. Empty for other keys.
-/// @param path of the map that holds the key: "joints.hinge"
+/// Message about a key that the format does not have but users may try: something not supported yet
+/// and what to do instead, or its name here. Empty for other keys.
+/// @param path of the map containing the key: "joints.hinge"
 std::optional<std::string> advice_on_key(const std::string& key, const std::string& path);
 
 }  // namespace buckens::model_file

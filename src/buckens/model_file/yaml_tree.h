@@ -10,7 +10,7 @@ namespace buckens::model_file {
 
 struct YamlEntry;
 
-/// A value of a YAML file as it is written: nothing is interpreted, every value knows its place.
+/// A value of a YAML file as written: nothing is interpreted, every value knows its place.
 struct YamlNode {
   enum class Kind { null, scalar, list, map };
 
@@ -27,7 +27,7 @@ struct YamlNode {
   /// Value of a key, or null.
   const YamlNode* find(const std::string& key) const;
   YamlNode* find(const std::string& key);
-  /// Follows a path such as "beams.0.section" as far as it leads.
+  /// Follows a path such as "beams.0.section" as far as it goes.
   const YamlNode& deepest(const std::string& path) const;
   /// "a list", "a map", "no value", or the text of a scalar in quotation marks.
   std::string description() const;
@@ -39,14 +39,14 @@ struct YamlEntry {
   YamlNode value;
 };
 
-/// A text as far as a message can show it.
+/// A text, shortened for messages.
 std::string shortened(const std::string& text);
 
 /// Reads one YAML (or JSON) document.
 ///
 /// Duplicate keys, anchors, aliases, merge keys, tags, several documents, text that is not UTF-8
 /// and unreasonable depth or size are refused.
-/// @param name stands for the file in messages
+/// @param name denotes the file in messages
 /// @param single_line every place is `name` itself; for values given on a command line
 /// @throws InputError with line and column
 YamlNode parse_yaml(const std::string& text, const std::string& name, bool single_line = false);

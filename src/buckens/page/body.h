@@ -11,18 +11,18 @@
 
 namespace buckens::page {
 
-/// What can be seen of a body: the nodes of its lines and of its surface, and the solid elements
-/// below the surface. Nothing else of a body with solids goes into the page.
+/// The visible part of a body: the nodes of its lines and of its surface, and the solid elements
+/// below the surface. Nothing else of a body with solids is in the page.
 struct VisibleParts {
   explicit VisibleParts(const results::GeometryBody& body);
 
-  std::vector<std::size_t> nodes;   ///< of the body that the page has, increasing
-  std::vector<int> number;          ///< in the page of each node of the body, −1 if it has not
+  std::vector<std::size_t> nodes;   ///< of the body that are in the page, increasing
+  std::vector<int> number;          ///< in the page for each node of the body, −1 if not there
   std::vector<std::size_t> solids;  ///< solid elements below the surface, increasing
   std::vector<std::size_t> places;  ///< of fields at nodes on the surface, increasing
 };
 
-/// A body as the page holds it (PageBody in viewer/src/page_data.ts).
+/// A body in the page (PageBody in viewer/src/page_data.ts).
 class PageBody {
  public:
   /// @param body outlives the object
@@ -30,7 +30,7 @@ class PageBody {
 
   const std::string& name() const { return body_.name; }
   const VisibleParts& visible() const { return visible_; }
-  /// How many numbers of rows (PageRows) the displacements take in every frame.
+  /// Numbers per row (PageRows) of the displacements in every frame.
   std::size_t displacements_per_frame(const run_store::RunReader& run) const;
   nlohmann::ordered_json json(const FrameReader& reader) const;
 

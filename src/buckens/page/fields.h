@@ -10,14 +10,14 @@
 
 namespace buckens::page {
 
-/// One quantity of a body that the page can show in colour (PageField in viewer/src/page_data.ts).
+/// A quantity of a body that the page can show in colour (PageField in viewer/src/page_data.ts).
 struct PageField {
   enum class From { records, fields, fixed };
 
   std::string name;  ///< "von_mises" …; the page knows the usual ones
   /// "places" on the surface, "elements" with a face, "lines", or "lineEnds": two per line.
   std::string on;
-  /// Where the values are: a channel of the records, a field over a mesh, values that exist once.
+  /// Source of the values: a channel of the records, a field over a mesh, values that exist once.
   From from = From::records;
   std::string path;
   std::string unit;
@@ -32,7 +32,7 @@ struct PageField {
   nlohmann::ordered_json json(const FrameReader& reader) const;
 };
 
-/// What the run recorded over the body.
+/// The fields that the run recorded over the body.
 std::vector<PageField> page_fields(const results::GeometryBody& body, const VisibleParts& visible,
                                    const run_store::RunReader& run);
 

@@ -18,9 +18,9 @@ struct PageFrames {
   std::vector<int> field_frames;        ///< index into `records` of each of them
 };
 
-/// At most about `limit` frames, evenly spread, the first and the last among them. Where a run has
-/// fields over meshes they are at the fields' instants, unless those are very few: then frames
-/// without fields stand between them.
+/// At most about `limit` frames, evenly spread, the first and the last among them. If a run has
+/// fields over meshes, they are at the fields' instants, unless those are very few: then there are
+/// frames without fields between them.
 PageFrames choose_frames(const run_store::RunReader& run, bool with_fields, std::size_t limit);
 
 /// Reads the records that a page shows, channel by channel, in the page's form.
@@ -35,16 +35,16 @@ class FrameReader {
   std::string times() const;
   /// Base64 of a whole channel as float32.
   std::string values(const std::string& path) const;
-  /// A channel's rows, one per frame: `choose` makes the page's row of the channel's.
+  /// A channel's rows, one per frame: `choose` converts the channel's row to the page's.
   using Choose = std::function<std::vector<double>(const std::vector<double>&)>;
   nlohmann::ordered_json rows(const std::string& path, const Choose& choose) const;
-  /// The same of a field over a mesh, one row per instant of the fields.
+  /// The same for a field over a mesh, one row per instant of the fields.
   nlohmann::ordered_json field_rows(const std::string& path, const Choose& choose) const;
-  /// The same of values that exist once: one row.
+  /// The same for values that exist once: one row.
   nlohmann::ordered_json fixed_row(const std::string& path, const Choose& choose) const;
-  /// Values of a scalar channel, empty where it is missing.
+  /// Values of a scalar channel, empty if it is missing.
   std::vector<double> scalars(const std::string& path) const;
-  /// Number of values of a channel, 0 where it is missing.
+  /// Number of values of a channel, 0 if it is missing.
   std::size_t size_of(const std::string& path) const;
 
  private:
@@ -53,7 +53,7 @@ class FrameReader {
   bool coded_;
 };
 
-/// The values at some places.
+/// The values at given places.
 std::vector<double> values_at(const std::vector<double>& all, const std::vector<std::size_t>& at);
 
 }  // namespace buckens::page

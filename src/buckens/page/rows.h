@@ -10,8 +10,8 @@
 
 namespace buckens::page {
 
-/// Rows of numbers as the page holds them (PageRows in viewer/src/page_data.ts): float32, or codes
-/// of 16 bits over the range of each row, which are off by at most 1/131068 of that range.
+/// Rows of numbers in the page (PageRows in viewer/src/page_data.ts): float32, or codes of 16 bits
+/// over the range of each row, with errors of at most 1/131068 of that range.
 class PageRowsWriter {
  public:
   explicit PageRowsWriter(bool coded) : coded_(coded) {}

@@ -9,8 +9,8 @@
 
 namespace buckens::page {
 
-/// One run as the page holds it (PageRun in viewer/src/page_data.ts).
-/// @param options max_bytes counts for this run alone
+/// One run in the page (PageRun in viewer/src/page_data.ts).
+/// @param options max_bytes applies to this run alone
 /// @throws IoError if the directory holds no run, or one without records
 nlohmann::ordered_json page_run(const std::filesystem::path& directory,
                                 const ViewPageOptions& options, ViewPageReport& report);

@@ -10,14 +10,14 @@ namespace buckens::page {
 
 struct ViewPageOptions {
   std::size_t max_frames = 2000;
-  /// Upper bound for the numbers of all frames together; where float32 would need more than a
-  /// quarter of it deformations and fields are rounded to 16 bits, and fewer frames are taken.
+  /// Upper bound for the numbers of all frames together; if float32 would need more than a quarter
+  /// of it, deformations and fields are rounded to 16 bits, and fewer frames are taken.
   std::size_t max_bytes = 64U << 20U;
   /// Names of the fields to show ("von_mises"); all that were recorded if it is empty.
   std::vector<std::string> fields = {};
 };
 
-/// What went into a page of one run.
+/// What was put into the page of one run.
 struct ViewPageReport {
   std::size_t records = 0;               ///< in the run
   std::size_t frames = 0;                ///< of them in the page
@@ -27,10 +27,10 @@ struct ViewPageReport {
 
 /// Writes one self-contained HTML page that shows a run, or two runs side by side.
 ///
-/// `template_html` is the viewer's page, which holds the text `/*BUCKENS_DATA*/null` exactly once;
-/// the runs take the place of that text as JSON (format 2, viewer/src/page_data.ts). Frames are
-/// taken evenly from the records, the first and the last among them. Runs that go on or were killed
-/// show what they have.
+/// `template_html` is the viewer's page, which contains the text `/*BUCKENS_DATA*/null` exactly
+/// once; the runs replace that text as JSON (format 2, viewer/src/page_data.ts). Frames are taken
+/// evenly from the records, the first and the last among them. Runs that are in progress or were
+/// killed show what they have.
 /// @param run_directories one or two
 /// @return one report for each
 /// @throws IoError if a run cannot be read, the template does not fit, a run has no records, one

@@ -12,18 +12,18 @@
 namespace buckens::results {
 
 /// Fields over one body of the model file: strains, stresses and motion of its mesh at the places
-/// where the model file wants them.
+/// requested in the model file.
 ///
-/// Of shells nodes have the stresses of the side that the normal points to, and the larger von
+/// Nodes of shells have the stresses of the side that the normal points to, and the larger von
 /// Mises stress of both sides. Tensors are in the axes of the whole body's frame. The parts of a
-/// divided body are places of their own: nothing is averaged across a cut.
+/// divided body have separate places: nothing is averaged across a cut.
 class BodyFields {
  public:
   /// @param model outlives the object
   BodyFields(const model::Model& model, const model::FieldPlaces& places,
              const model::FieldOutputSpec& spec);
 
-  /// Whether nothing is recorded: bodies without solids and shells have motion only.
+  /// Whether nothing is recorded: bodies without solids and shells only have motion.
   bool is_empty() const { return at_nodes_.empty() && at_elements_.empty(); }
   bool has_extremes() const { return has_extremes_; }
   int whole() const { return whole_; }
@@ -39,7 +39,7 @@ class BodyFields {
   /// Compares the stresses evaluated last with the largest so far. @param t [s]
   void update_extremes(double t);
   void append_extremes(std::vector<double>& values) const;
-  /// Saves the largest so far, or takes it back. @throws InputError where it does not fit
+  /// Saves or restores the largest so far. @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:

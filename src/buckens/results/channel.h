@@ -12,7 +12,7 @@ namespace buckens::results {
 
 /// One recorded quantity: a scalar, vector or table of numbers per record.
 ///
-/// Paths with a meaning to readers (the viewer page, sensors.csv):
+/// Paths with a meaning for readers (the viewer page, sensors.csv):
 ///
 ///     bodies/<body>/pose           {7}     p_WB [m], then q_WB as w, x, y, z
 ///     bodies/<body>/displacement   {N, 6}  nodal translations [m] and rotations [rad], body axes
@@ -24,7 +24,7 @@ struct Channel {
   std::string path;         ///< "bodies/rod/pose": names joined by '/', no leading '/'
   std::string unit;         ///< "m", "N m"; "1" for pure numbers
   std::vector<int> shape;   ///< extents of one record's value; empty: a scalar
-  std::string description;  ///< one sentence for people who open the file
+  std::string description;  ///< one sentence for whoever opens the file
   std::vector<std::string>
       components;  ///< names along the last extent ("x", "y", "z"); may be empty
 
@@ -32,11 +32,11 @@ struct Channel {
   std::size_t size() const;
 };
 
-/// The channels of a run and where each lies in the flat list of values of a record.
+/// The channels of a run and their positions in the flat list of values of a record.
 class RecordLayout {
  public:
-  /// Adds a channel behind the others and returns its index.
-  /// @throws ModelError if the path is taken, empty, or holds an empty part, "." or "..", if a
+  /// Appends a channel and returns its index.
+  /// @throws ModelError if the path is in use, empty, or contains an empty part, "." or "..", if a
   ///   parent of it is itself a channel, if an extent is below 1, or if the number of component
   ///   names differs from the last extent
   std::size_t add(Channel channel);

@@ -8,9 +8,9 @@
 
 namespace buckens::results {
 
-/// @param markers the observed one alone (from the body frame); and one more, from which it is
-/// seen; or and two more, the ends of a chord
-/// @throws ModelError if the marker from which it is seen has no rotation
+/// @param markers the observed one only (relative to the body frame); followed by one more, the
+/// reference; or by two more, the ends of a chord
+/// @throws ModelError if the reference marker has no rotation
 std::unique_ptr<Sensor> make_deflection_sensor(const model::BuiltModel& built,
                                                const model::SensorSpec& spec,
                                                const std::vector<model::MarkerId>& markers);

@@ -7,7 +7,7 @@
 
 namespace buckens::results {
 
-/// What a divided body shows as a whole. Axes: those of model::whole_motion().
+/// Results of a divided body as a whole. Axes: those of model::whole_motion().
 ///
 /// For an undivided body `frame` is the frame of its one body.
 class DividedBody {
@@ -15,9 +15,9 @@ class DividedBody {
   DividedBody(const model::Model& model, const model::WholeBody& whole)
       : model_(model), whole_(whole) {}
 
-  /// Displacement of a marker's origin from its undeformed place [m].
+  /// Displacement of a marker's origin from its undeformed position [m].
   Eigen::Vector3d displacement(const Observation& now, const model::MarkerId& id) const;
-  /// Undeformed place of a marker's origin in the frame of the whole [m].
+  /// Undeformed position of a marker's origin in the frame of the whole [m].
   Eigen::Vector3d place(const model::MarkerId& id) const;
 
   /// Appends translation [m] and rotation vector [rad] of every node of the whole mesh.

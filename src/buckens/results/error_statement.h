@@ -6,42 +6,42 @@
 
 namespace buckens::results {
 
-/// Name of the source of errors that a shorter step shows.
+/// Name of the source of errors revealed by a shorter step.
 inline constexpr const char* kTimeStepSource = "time step";
 
-/// What was changed in a further run to see what it is worth.
+/// What was changed in a further run to assess its effect.
 struct ErrorSource {
   std::string name;       ///< "time step", "mesh", "frames", "coupling", "modes"
   std::string what;       ///< "step 0.5 ms in place of 1 ms"
-  double refinement = 0;  ///< how many times finer; 0: the further run is right in this respect
+  double refinement = 0;  ///< how many times finer; 0: the further run is exact in this respect
   double factor = 0;      ///< uncertainty over difference of the two runs
   long steps = 0;         ///< of the further run
   double seconds = 0;     ///< wall time of it
 };
 
-/// A number with what it may be off by.
+/// A number with its uncertainty.
 struct UncertainValue {
   double value = 0;
   double at = 0;              ///< its time [s]
-  double uncertainty = 0;     ///< sum of the parts and of what iterations leave open
+  double uncertainty = 0;     ///< sum of the parts and of iteration errors
   std::vector<double> parts;  ///< one per source
 };
 
-/// What one component of a sensor may be off by.
+/// Uncertainty of one component of a sensor.
 struct SensorErrors {
   std::string name;  ///< "tip.x"
   std::string unit;
   UncertainValue peak;   ///< the value of largest magnitude
   UncertainValue last;   ///< at the end of the run
-  UncertainValue curve;  ///< all over the run: where the runs differ most
-  double range = 0;      ///< largest less smallest value
-  double sampling = 0;   ///< part of the peak's uncertainty: records are apart
+  UncertainValue curve;  ///< over the whole run: where the runs differ most
+  double range = 0;      ///< largest minus smallest value
+  double sampling = 0;   ///< part of the peak's uncertainty: gaps between records
   double scale = 0;      ///< largest magnitude of all components of the sensor
-  /// False where the runs differ as much as the curve itself varies: no digit of it stands.
+  /// False if the runs differ as much as the curve itself varies: none of its digits is reliable.
   bool is_resolved = true;
 };
 
-/// How far the sensors of a run can be trusted, by further runs; theory: docs/theory/21-errors.md.
+/// Reliability of the sensors of a run, from further runs; theory: docs/theory/21-errors.md.
 struct ErrorStatement {
   std::vector<ErrorSource> sources;
   std::vector<SensorErrors> sensors;

@@ -13,39 +13,39 @@
 
 namespace buckens::results {
 
-/// What a record of fields needs to know beyond the state.
+/// What a record of fields needs besides the state.
 struct FieldInstant {
   std::optional<double> stamp;             ///< time stamp of the record; default: the state's time
   const linalg::Vector* lambda = nullptr;  ///< multipliers of the joints; null: those of the state
   double load_factor = 1.0;                ///< of applied loads
 };
 
-/// Turns states into records of the fields that the model file asks for, and keeps the largest von
+/// Turns states into records of the fields requested in the model file, and keeps the largest von
 /// Mises stress of every place.
 class FieldRecorder {
  public:
   /// @param built outlives the object
-  /// @throws InputError if nothing of what is asked for exists: stresses need solids or shells,
-  ///         loads a place where something acts
+  /// @throws InputError if nothing of what is requested exists: stresses need solids or shells,
+  /// loads a place where something acts
   explicit FieldRecorder(const model::BuiltModel& built);
 
-  /// Nothing is asked for.
+  /// Nothing is requested.
   bool is_empty() const { return bodies_.empty() && shells_.empty() && loads_.empty(); }
-  /// Whether the largest stresses are to be brought up to date at every step.
+  /// Whether the largest stresses are to be updated at every step.
   bool watches_steps() const;
   bool has_extremes() const { return !layout_.extremes.channels().empty(); }
 
   const FieldLayout& layout() const { return layout_; }
   void add_places(Geometry& geometry) const;
 
-  /// Fields of a state; its stresses count among the largest.
+  /// Fields of a state; its stresses are included in the largest.
   Record record(const model::State& state, const FieldInstant& at = {});
-  /// Takes note of the largest stresses of a state. Cost: as for record().
+  /// Updates the largest stresses with a state. Cost: as for record().
   void watch(const model::State& state);
   /// The largest so far, values of FieldLayout::extremes. @pre a state was seen
   std::vector<double> extremes() const;
 
-  /// Saves what later values depend on, or takes it back.
+  /// Saves or restores what later values depend on.
   /// @throws InputError where it does not fit
   void visit_saved(const base::SaveVisit& visit);
 

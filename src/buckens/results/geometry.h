@@ -23,7 +23,7 @@ struct GeometryMarker {
   spatial::Pose X_BF;  ///< in the undeformed body [m]
 };
 
-/// `solid` where a mesh has solid elements, perhaps besides beams and bars.
+/// `solid` if a mesh has solid elements, possibly besides beams and bars.
 enum class BodyKind { rigid, beam, solid };
 
 /// The undeformed shape of one body in its body frame B.
@@ -34,8 +34,8 @@ struct GeometryBody {
   std::vector<std::array<int, 2>> elements;                         ///< E pairs of nodes: lines
   std::vector<std::array<double, 2>>
       radius;  ///< E, of the circle around the section at both ends [m]
-  /// Outlines of cross-sections, each once. None where lines stand for something else, and in runs
-  /// of older versions: they are drawn as round tubes then.
+  /// Outlines of cross-sections, each once. None if lines represent something else, and in runs of
+  /// older versions: they are then drawn as round tubes.
   std::vector<std::vector<fem::SectionLoop>> sections;
   std::vector<std::array<int, 2>> element_sections;  ///< E, at both ends; empty without sections
   std::vector<Eigen::Vector3d> element_y;  ///< E, local y axis, body axes; empty without sections
@@ -44,15 +44,15 @@ struct GeometryBody {
   std::vector<std::array<int, 4>> faces;
   std::vector<int> face_elements;         ///< F, solid element of each face
   std::vector<fem::CellKind> cell_kinds;  ///< S, of the solids, then the shells
-  std::vector<int> cell_nodes;            ///< nodes of all of them, one after the other
+  std::vector<int> cell_nodes;            ///< nodes of all of them, consecutively
   /// P places of fields at nodes: the node of each. A node occurs once for each material that meets
-  /// there, and for each part of a divided body.
+  /// at it, and for each part of a divided body.
   std::vector<int> field_nodes;
   std::vector<int> field_elements;  ///< solid elements of fields at elements, ascending
-  /// F, for each corner of a face its place in field_nodes, −1 where there is none.
+  /// F, for each corner of a face its place in field_nodes, −1 if there is none.
   std::vector<std::array<int, 4>> face_places;
-  /// As cell_nodes, the place of each corner, −1 where there is none; empty where nodes and places
-  /// belong together one to one.
+  /// As cell_nodes, the place of each corner, −1 if there is none; empty if nodes and places
+  /// correspond one to one.
   std::vector<int> cell_places;
   std::vector<GeometryMarker> markers;
 };
@@ -60,7 +60,7 @@ struct GeometryBody {
 /// One of the two places that a joint or force element connects.
 struct GeometrySide {
   int body = kGroundBody;
-  int marker = -1;                                     ///< of that body; −1: position alone
+  int marker = -1;                                     ///< of that body; −1: position only
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< body frame, world for the ground [m]
 };
 
@@ -75,17 +75,17 @@ struct GeometryJoint {
 struct GeometryLoad {
   std::string name;
   std::string kind;        ///< as in the model file: "force", "pressure", "traction" …
-  int body = kGroundBody;  ///< the ground where a load acts on all bodies
-  bool follows = false;    ///< directions and values turn with the body
+  int body = kGroundBody;  ///< the ground if a load acts on all bodies
+  bool follows = false;    ///< directions and values rotate with the body
   std::string unit;        ///< of the values
   std::vector<Eigen::Vector3d> positions;  ///< feet of the arrows in the undeformed body frame [m]
-  std::vector<int> nodes;                  ///< that carry them, −1 if none does
-  /// Of a value of one where there is one value: unit vectors in body axes. Empty where three
-  /// values are the direction.
+  std::vector<int> nodes;                  ///< that carry them, −1 if none
+  /// Unit vectors in body axes if there is a single value. Empty if three values give the
+  /// direction.
   std::vector<Eigen::Vector3d> directions;
 };
 
-/// What never changes during a run and a viewer needs besides the records.
+/// What a viewer needs besides the records and never changes during a run.
 struct Geometry {
   std::vector<GeometryBody> bodies;
   std::vector<GeometryJoint> joints;

@@ -18,8 +18,8 @@ namespace buckens::results {
 ///     fields/bodies/<body>/loads/<load>         {6}  resultant of a load on a part of the body,
 ///                                                    torque about the origin of the body frame
 ///
-/// Components are in world axes and act on the body. Gravity is no load of a place; joints between
-/// the parts of a divided body are none from outside.
+/// Components are in world axes and act on the body. Gravity is not a load at a place; joints
+/// between the parts of a divided body are not external loads.
 class InterfaceLoads {
  public:
   /// @param model outlives the object
@@ -43,8 +43,8 @@ class InterfaceLoads {
     Side side = Side::first;
   };
   struct Place {
-    std::string path;             // behind the body's: "interfaces/end"
-    bool is_distributed = false;  // torque about the frame of the body, else about the marker
+    std::string path;             // after the body's: "interfaces/end"
+    bool is_distributed = false;  // torque about the frame of the body rather than the marker
     std::vector<Share> shares;
   };
 

@@ -5,7 +5,7 @@
 
 namespace buckens::results {
 
-/// Resultant of a load of the model file, which may stand in the model once per body.
+/// Resultant of a load of the model file, which may occur in the model once per body.
 /// @param about_and_in markers of the sensor: the torque's point (torque sensors only), then the
 ///        axes of the components, if there are any
 /// @throws InputError if the load is a spring, whose resultant on all bodies is zero

@@ -17,7 +17,7 @@ struct WorkBalance {
   double balance = 0;     ///< E − E₀ − external + dissipated
 };
 
-/// All that sensors and channels are computed from at one instant.
+/// Everything from which sensors and channels are computed at one instant.
 struct Observation {
   const model::Model& model;
   const model::State& state;
@@ -35,7 +35,7 @@ struct Observation {
 };
 
 /// Force and torque of each joint on its second marker at the marker's origin.
-/// @param lambda multipliers, with redundant rows shared out
+/// @param lambda multipliers, with those of redundant rows distributed
 std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
                                             const std::vector<dynamics::BodyMotion>& motions,
                                             double t, const linalg::Vector& lambda);

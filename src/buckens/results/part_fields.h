@@ -11,8 +11,8 @@
 
 namespace buckens::results {
 
-/// The share that one body of the model has in the fields of a whole body: its places follow one
-/// another.
+/// The share of one body of the model in the fields of a whole body: its places are
+/// consecutive.
 struct PartFields {
   int body = 0;                                // index into Model::bodies
   Eigen::Index first_place = 0;                // among those of the whole
@@ -21,15 +21,15 @@ struct PartFields {
   std::unique_ptr<fem::SolidStrains> strains;  // null without stresses
   std::unique_ptr<fem::ShellNodeStresses> shells;  // null without shells or stresses
   std::vector<Eigen::Index> shell_columns;         // place of each of theirs
-  int first_shell = 0;                             // of the part, behind its solids
-  // Reduced bodies: what one unit of each variable does. Empty where the mesh is evaluated.
+  int first_shell = 0;                             // of the part, after its solids
+  // Reduced bodies: the effect of one unit of each variable. Empty if the mesh is evaluated.
   linalg::Matrix node_basis, element_basis, motion_basis, shell_basis;
 
   Eigen::Index num_places() const { return static_cast<Eigen::Index>(nodes.size()); }
   Eigen::Index num_elements() const { return static_cast<Eigen::Index>(element_rows.size()); }
 
-  /// Multiplies the recovery of a reduced body with its basis, so that costs follow its modes and
-  /// the places. @param has_motion whether translations() will be asked for
+  /// Multiplies the recovery of a reduced body with its basis, so that costs depend on modes and
+  /// places only. @param has_motion whether translations() will be called
   void compose(const body::FlexiblePart& flexible, bool has_motion);
   /// Strains in the part's own axes.
   /// @param d variables of the body
@@ -44,7 +44,7 @@ struct PartFields {
   Eigen::Matrix3Xd translations(const body::FlexiblePart& flexible, const linalg::Vector& d) const;
 };
 
-/// Nodes of the whole mesh that the nodes of a body are, −1 where that is unknown.
+/// For each node of a body its node of the whole mesh, −1 if unknown.
 std::vector<int> whole_nodes_of(const model::Model& model, const model::WholeBody& whole, int body);
 
 }  // namespace buckens::results

@@ -16,11 +16,11 @@ struct Record {
   std::vector<double> values;  ///< RecordLayout::num_values() numbers
 };
 
-/// Where the records of a run go: a directory, memory, a test.
+/// Destination of the records of a run: a directory, memory, a test.
 ///
 /// Called in the order begin, write …, finish; `finish` also after a run that failed, with
 /// RunSummary::finished false. Runs with fields over meshes call begin_fields before begin, and
-/// write_fields and write_extremes between the others; a sink may leave fields alone.
+/// write_fields and write_extremes between the others; a sink may ignore fields.
 class RecordSink {
  public:
   virtual ~RecordSink() = default;

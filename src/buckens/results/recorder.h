@@ -18,8 +18,8 @@ namespace buckens::results {
 /// energies and all sensors of the model file.
 class Recorder {
  public:
-  /// @param metric and has_redundant_joints: joint forces of redundant joints are shared out so
-  ///        that their norm is least
+  /// @param metric and has_redundant_joints: joint forces of redundant joints are distributed with
+  /// the least norm
   Recorder(const model::BuiltModel& built, const dynamics::MassMetric& metric,
            bool has_redundant_joints);
   ~Recorder();
@@ -27,23 +27,23 @@ class Recorder {
   const RecordLayout& layout() const { return layout_; }
   Geometry geometry() const;
 
-  /// The record of a state. The first call fixes what sensors count from (t = 0).
+  /// The record of a state. The first call sets the reference of sensors (t = 0).
   /// Cost: a product with M, K and the recovery rows per flexible body.
-  /// @param work balance is filled in here
-  /// @param energy in place of that of the state, for states between steps
+  /// @param work its balance is filled in here
+  /// @param energy instead of that of the state, for states between steps
   Record record(const model::State& state, WorkBalance work,
                 const std::optional<dynamics::Energy>& energy = {});
 
   /// Factor of applied loads in the records that follow; one at first.
   void set_load_factor(double factor) { load_factor_ = factor; }
 
-  /// Multipliers of the last record, shared out where joints are redundant.
+  /// Multipliers of the last record, distributed where joints are redundant.
   const linalg::Vector& last_multipliers() const { return multipliers_; }
   /// Energies of the last record.
   const dynamics::Energy& last_energy() const { return energy_; }
   double last_balance() const { return balance_; }
 
-  /// Saves what later values depend on, or takes it back.
+  /// Saves or restores what later values depend on.
   /// @throws InputError where it does not fit
   void visit_saved(const base::SaveVisit& visit);
 

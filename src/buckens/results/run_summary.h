@@ -10,7 +10,7 @@
 
 namespace buckens::results {
 
-/// How much work one body caused.
+/// Computing effort for one body.
 struct BodyEffort {
   std::string name;
   int dof = 0;              ///< nodal variables; 0 for rigid bodies
@@ -21,18 +21,18 @@ struct BodyEffort {
   std::vector<std::pair<std::string, double>> measures;
 };
 
-/// What the steps of one length came to.
+/// The steps of one length.
 struct StepSizeEffort {
   double step = 0;          ///< [s]
   long steps = 0;           ///< accepted ones
   long factorisations = 0;  ///< of all bodies together
 };
 
-/// How the length of the steps was found.
+/// How the step length was chosen.
 struct StepControlEffort {
   bool is_controlled = false;         ///< by an error estimate
   long rejected = 0;                  ///< undone because their error was too large
-  long failed = 0;                    ///< undone because they did not settle
+  long failed = 0;                    ///< undone because they did not converge
   double smallest = 0;                ///< accepted [s]
   double largest = 0;                 ///< accepted [s]
   std::vector<StepSizeEffort> sizes;  ///< from the longest to the shortest
@@ -62,7 +62,7 @@ struct Residuals {
   double opening = 0, opening_rate = 0;
 };
 
-/// A point of a static path at which equilibrium changes its kind.
+/// A critical point of a static path.
 struct CriticalPoint {
   std::string kind;                                     ///< "limit point" or "bifurcation"
   double load_factor = 0;                               ///< there
@@ -76,11 +76,11 @@ struct StaticPathSummary {
   std::vector<CriticalPoint> critical_points;
 };
 
-/// What a run reports about itself at its end; the content of summary.json.
+/// What a run reports at its end; the contents of summary.json.
 struct RunSummary {
   std::string title;        ///< of the model
   std::string version;      ///< of Buckens
-  bool finished = false;    ///< true: reached the end that was asked for
+  bool finished = false;    ///< true: reached the requested end
   std::string interrupted;  ///< why not, in words; empty if finished
   double end_time = 0;      ///< simulated time reached [s]
   long steps = 0;
@@ -93,10 +93,10 @@ struct RunSummary {
   double energy_error = 0;         ///< (E−E₀−W+D)/scale, largest magnitude
   std::vector<std::string> trust;  ///< reasons to doubt the results; empty: none
   std::vector<std::string> warnings;
-  std::vector<std::string> notes;                  ///< what else happened, such as changes of level
+  std::vector<std::string> notes;                  ///< other events, such as changes of level
   std::vector<std::string> redundant_constraints;  ///< rows found redundant, by joint
   std::optional<StaticPathSummary> static_path;    ///< of `buckens static`
-  std::optional<ErrorStatement> errors;            ///< where it was asked for
+  std::optional<ErrorStatement> errors;            ///< if requested
   /// Further figures of the run, by name.
   std::vector<std::pair<std::string, double>> measures;
 };

@@ -12,7 +12,7 @@
 
 namespace buckens::results {
 
-/// One observed quantity of the model file; may fill more than one channel.
+/// A sensor of the model file; may fill more than one channel.
 class Sensor {
  public:
   virtual ~Sensor() = default;
@@ -23,12 +23,12 @@ class Sensor {
   virtual void start(const Observation& /*now*/) {}
   /// Appends the values of all channels.
   virtual void append(const Observation& now, std::vector<double>& values) = 0;
-  /// Saves what later values depend on, or takes it back: where sensors count from.
+  /// Saves or restores what later values depend on: the reference of sensors.
   virtual void visit_saved(const base::SaveVisit& /*visit*/) {}
 };
 
-/// Makes the sensor that a spec asks for.
-/// @throws InputError if it names an unknown joint, ModelError if it makes no sense there
+/// Makes the sensor of a spec.
+/// @throws InputError if it names an unknown joint, ModelError if it is meaningless there
 std::unique_ptr<Sensor> make_sensor(const model::BuiltModel& built, std::size_t index);
 
 }  // namespace buckens::results

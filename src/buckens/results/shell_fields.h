@@ -18,8 +18,8 @@ namespace buckens::results {
 ///     fields/bodies/<body>/shells/stress        {n, 2L, 3} bottom and top of each layer, upwards
 ///     fields/bodies/<body>/shells/section_force {n, 8}     forces and moments per length
 ///
-/// Rows are all n shells of the body in their order: places on it choose bodies only. L is the
-/// largest number of layers; what an element has not is NaN.
+/// Rows are all n shells of the body in order: places on it only select bodies. L is the largest
+/// number of layers; entries an element does not have are NaN.
 class ShellFields {
  public:
   /// @param model outlives the object
@@ -39,7 +39,7 @@ class ShellFields {
   /// Compares the stresses evaluated last with the largest so far. @param t [s]
   void update_extremes(double t);
   void append_extremes(std::vector<double>& values) const;
-  /// Saves the largest so far, or takes it back. @throws InputError where it does not fit
+  /// Saves or restores the largest so far. @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
@@ -62,7 +62,7 @@ class ShellFields {
   std::vector<Quantity> quantities_;
   bool has_extremes_ = false;
   std::size_t most_layers_ = 1;
-  std::vector<int> shells_;  // of the whole mesh, counted behind its solids: all
+  std::vector<int> shells_;  // of the whole mesh, numbered after its solids: all
   std::vector<Part> parts_;
   std::vector<double> largest_, times_;
 };

@@ -15,7 +15,7 @@ model::State interpolate(const model::State& before, const model::State& after, 
 /// Multipliers at time t, linear between (or beyond) the instants to which both states' λ belong.
 linalg::Vector multipliers_at(const model::State& before, const model::State& after, double t);
 
-/// Energies and work at one instant: what an energy balance compares.
+/// Energies and work at one instant, as compared by an energy balance.
 struct EnergyLevels {
   dynamics::Energy energy;
   WorkBalance work;

@@ -8,20 +8,20 @@
 
 namespace buckens::results {
 
-/// Rows of a channel that results.h5 stores together: about 64 KiB of double precision, so that
-/// neither large channels need much memory nor small ones many pieces; at most 256 rows, because
-/// a started chunk takes its full size.
+/// Rows of a channel per chunk of results.h5: about 64 KiB of double precision, so that large
+/// channels do not need much memory nor small ones many chunks; at most 256 rows, because even a
+/// partly filled chunk takes its full size.
 std::size_t chunk_rows(std::size_t values_per_row);
 
-/// What a table of records takes in results.h5 [bytes]: whole chunks, and the books of each data
-/// set, which are known to about a tenth of themselves.
+/// Size of a table of records in results.h5 [bytes]: whole chunks, plus the overhead of each data
+/// set, which is known to about 10 %.
 /// @param rows records, @param value_size of one value in the file [bytes]
 double stored_bytes(const RecordLayout& layout, double rows, std::size_t value_size);
 
-/// The same of data sets without rows.
+/// The same for data sets without rows.
 double stored_bytes(const RecordLayout& layout);
 
-/// What the undeformed shape takes there [bytes].
+/// Size of the undeformed shape there [bytes].
 double stored_bytes(const Geometry& geometry);
 
 }  // namespace buckens::results

@@ -7,22 +7,22 @@
 
 namespace buckens::run_store {
 
-/// What the file driver for writing reports to the owner of the file.
+/// Report of the writing file driver to the owner of the file.
 struct Hdf5WriteFault {
   int error = 0;       ///< errno of the first failed operation on the file; 0: none failed
-  bool ended = false;  ///< true: nothing reaches the disk any more; can also be set from outside
+  bool ended = false;  ///< true: nothing more reaches the disk; can also be set from outside
 };
 
-/// Makes files be written through a driver of our own, which never tells HDF5 of a failed write.
+/// Writes files through our own driver, which never reports a failed write to HDF5.
 ///
-/// HDF5 1.10 does not get over a write that fails: it keeps the unwritten parts, cannot close the
+/// HDF5 1.10 does not recover from a failed write: it keeps the unwritten parts, cannot close the
 /// file, and crashes at the end of the process. This driver keeps the reason for its owner instead
 /// and holds that write and all later ones in memory, so that HDF5 carries on undisturbed until the
-/// owner closes the file. On disk stays what was there: as if the program had been killed at the
-/// failed write, which files in SWMR mode are made for.
+/// owner closes the file. The disk keeps what was there, as if the program had been killed at the
+/// failed write, for which files in SWMR mode are designed.
 ///
-/// All writes are carried out by a second process, so that SIGKILL tears none of them: a reader
-/// that meets half an object of HDF5's own bookkeeping waits for a writer that is gone.
+/// All writes are done by a second process, so that SIGKILL does not tear them: a reader that finds
+/// half an object of HDF5's own bookkeeping waits for a writer that is gone.
 /// @param access  file access property list
 /// @param writer  carries out the writes; must outlive the file
 /// @param fault   must outlive the file

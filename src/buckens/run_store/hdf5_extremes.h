@@ -9,17 +9,17 @@
 
 namespace buckens::run_store {
 
-/// Data sets of results.h5 that exist once and are overwritten while a run goes on. Until they are
-/// written for the first time they hold NaN.
+/// Data sets of results.h5 that exist once and are overwritten during a run. Until first written
+/// they contain NaN.
 class Hdf5Extremes {
  public:
   Hdf5Extremes() = default;
   /// Creates the data sets. Must happen before Hdf5File::start_swmr. @throws IoError
   Hdf5Extremes(const Hdf5File& file, const results::RecordLayout& layout);
 
-  /// Replaces all values and hands them to the system.
+  /// Replaces all values and passes them to the system.
   /// @param values  layout.num_values() numbers
-  /// @throws IoError; the file is then to be abandoned
+  /// @throws IoError; the file must then be abandoned
   void write(Hdf5File& file, const std::vector<double>& values);
   /// Closes the data sets.
   void close();

@@ -46,7 +46,7 @@ class Hdf5Quiet {
   void* print_argument_ = nullptr;
 };
 
-/// Why the last HDF5 call of this thread failed, in the words of the system where it has any
+/// Why the last HDF5 call of this thread failed, in the system's words if it has any
 /// ("No space left on device"), otherwise in those of HDF5.
 std::string hdf5_reason();
 
@@ -61,9 +61,9 @@ class Hdf5File {
   /// Creates the file anew (open_anew()). All writes go through `writer`, which must outlive the
   /// file. @throws IoError
   static Hdf5File create(const std::filesystem::path& path, files::WriteProcess& writer);
-  /// Opens a file that is complete, still being written by another process, or left behind by a
-  /// killed one.
-  /// @param texts where its texts are noted, or come from: read_texts_apart()
+  /// Opens a file that is complete, still being written by another process, or left by a killed
+  /// one.
+  /// @param texts where its texts are collected or taken from: read_texts_apart()
   /// @throws IoError
   static Hdf5File open_for_reading(const std::filesystem::path& path,
                                    std::shared_ptr<Hdf5Texts> texts = nullptr);
@@ -76,20 +76,20 @@ class Hdf5File {
   const std::filesystem::path& path() const { return path_; }
   Hdf5Texts* texts() const { return texts_.get(); }
 
-  /// Lets others read from now on; no attribute or data set can be added any more.
+  /// Lets others read from now on; no more attributes or data sets can be added.
   /// @throws IoError
   void start_swmr();
-  /// Hands everything written so far to the system. @throws IoError also for earlier writes: only
-  ///   here, in check_written and in close does a failed write show
+  /// Passes everything written so far to the system. @throws IoError also for earlier writes:
+  /// failed writes only show here, in check_written and in close
   void flush();
   /// @throws IoError if a write has failed
   void check_written() const;
   /// Gives the file another name in the same directory. @throws IoError
   void rename(const std::filesystem::path& path);
-  /// Completes the file. All handles to its contents must be gone. After a failed write the file on
-  /// disk is left as it is. @throws IoError if a write has failed now or before
+  /// Completes the file. All handles to its contents must be closed. After a failed write the file
+  /// on disk is left unchanged. @throws IoError if a write has failed now or before
   void close();
-  /// Leaves the file on disk as it is, as a killed program would; further writes go nowhere.
+  /// Leaves the file on disk unchanged, as a killed program would; further writes are discarded.
   void abandon() noexcept;
 
   /// @throws IoError "<path>: cannot <what>: <reason>" with the reason of the last failed call
@@ -100,7 +100,7 @@ class Hdf5File {
  private:
   std::filesystem::path path_;
   std::shared_ptr<Hdf5Texts> texts_;
-  std::unique_ptr<Hdf5WriteFault> fault_;  // before file_, which uses it to its end
+  std::unique_ptr<Hdf5WriteFault> fault_;  // before file_, which uses it until the end
   Hdf5Handle file_;
 };
 

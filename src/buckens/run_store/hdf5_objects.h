@@ -9,10 +9,10 @@
 
 namespace buckens::run_store {
 
-// Groups and data sets of files that anybody may have made or damaged. A file of ours holds plain
+// Groups and data sets of files that anybody may have made or damaged. Our files contain plain
 // objects with their values in the file itself; everything else is refused before it is followed:
 // links to other places and files, values kept in other files, filters that HDF5 would load as
-// plug-ins, values that the file is too short for. Every function throws IoError with the file, the
+// plug-ins, values that do not fit into the file. Every function throws IoError with the file, the
 // path, what is wrong and what to do.
 
 /// What a path leads to.
@@ -25,7 +25,7 @@ bool has_object(const Hdf5File& file, const std::string& path);
 /// Names of everything right below a group, in alphabetical order.
 std::vector<std::string> list_objects(const Hdf5File& file, const std::string& path);
 
-/// The kinds of values that a file of ours holds.
+/// The kinds of values in our files.
 enum class Hdf5Values { integers, numbers, texts };
 
 /// A data set whose form has been checked.
@@ -36,25 +36,25 @@ struct Hdf5Dataset {
 };
 
 /// Opens a data set for reading.
-/// @param values what it must hold
-/// @param rows how many of its rows are wanted at most; all of them without it
+/// @param values required kind of values
+/// @param rows maximum number of rows wanted; all by default
 Hdf5Dataset open_dataset(const Hdf5File& file, const std::string& path, Hdf5Values values,
                          hsize_t rows = static_cast<hsize_t>(-1));
 
 /// Refuses a type of values other than the wanted one.
 void check_type(const Hdf5File& file, const std::string& path, hid_t type, Hdf5Values values);
 
-/// Extents of a space. @throws IoError if it has none, or an extent beyond what an int counts
+/// Extents of a space. @throws IoError if it has none, or an extent beyond the range of int
 std::vector<hsize_t> extents_of(const Hdf5File& file, const std::string& path, hid_t space);
 
-/// How many values extents hold, from the extent number `first` on.
-/// @throws IoError if a file of `file`'s size cannot hold as many values of `bytes` each
+/// Number of values in extents, from extent number `first` on.
+/// @throws IoError if a file of `file`'s size cannot contain as many values of `bytes` each
 /// @param packing how many times smaller the values may be in the file
 std::size_t count_values(const Hdf5File& file, const std::string& path,
                          const std::vector<hsize_t>& extents, std::size_t first, std::size_t bytes,
                          std::size_t packing);
 
-/// @throws IoError "<file>: <path> <what>; …": not a file of ours, or no longer
+/// @throws IoError "<file>: <path> <what>; …": not one of our files, or damaged
 [[noreturn]] void refuse(const Hdf5File& file, const std::string& path, const std::string& what);
 
 }  // namespace buckens::run_store

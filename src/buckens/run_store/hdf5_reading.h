@@ -13,26 +13,26 @@ namespace buckens::run_store {
 // function throws IoError with the file and the path for values of another kind or form, and for
 // text that is not UTF-8.
 
-/// Attributes of the group or data set at `path`. Empty lists where the attribute is missing.
+/// Attributes of the group or data set at `path`. Empty lists if the attribute is missing.
 std::vector<std::string> read_strings(const Hdf5File& file, const std::string& path,
                                       const std::string& attribute);
 std::vector<int> read_ints(const Hdf5File& file, const std::string& path,
                            const std::string& attribute);
 std::vector<double> read_doubles(const Hdf5File& file, const std::string& path,
                                  const std::string& attribute);
-/// First entry of a text attribute, empty where it is missing.
+/// First entry of a text attribute, empty if it is missing.
 std::string read_string(const Hdf5File& file, const std::string& path,
                         const std::string& attribute);
 
 /// Whole data sets, values in row-major order.
-/// @param columns the wanted extents are [any]; with more than one column, [any × columns]
+/// @param columns the required extents are [any]; with more than one column, [any × columns]
 std::vector<double> read_double_dataset(const Hdf5File& file, const std::string& path,
                                         std::size_t columns = 1);
 std::vector<int> read_int_dataset(const Hdf5File& file, const std::string& path,
                                   std::size_t columns = 1);
 std::vector<std::string> read_string_dataset(const Hdf5File& file, const std::string& path);
 
-/// The same without a wish for the extents.
+/// The same with any extents.
 std::vector<double> read_any_double_dataset(const Hdf5File& file, const std::string& path);
 
 /// Reads rows of a data set.

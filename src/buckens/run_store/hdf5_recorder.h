@@ -18,20 +18,20 @@
 
 namespace buckens::run_store {
 
-/// How long records may wait before they are handed to the system.
+/// How long records may wait before they are passed to the system.
 struct FlushRule {
   std::size_t records = 100;
-  /// Half of the second that may be lost, so that writing itself has the other half.
+  /// Half of the second that may be lost, leaving the other half for writing itself.
   std::chrono::milliseconds age{500};
-  /// More waiting bytes than this are written whatever their number.
+  /// More waiting bytes than this are written regardless of the number of records.
   std::size_t bytes = 16U << 20U;
 };
 
-/// Writes results.h5 while a run goes on.
+/// Writes results.h5 during a run.
 ///
-/// Records gather in memory and go to the file by the flush rule: the count is watched at each
-/// `write`, the age by a thread of its own, so that the rule also holds while a long step is being
-/// computed. The file appears under its name when it can be read.
+/// Records are collected in memory and written to the file by the flush rule: the count is checked
+/// at each `write`, the age by a separate thread, so that the rule also holds during a long step.
+/// The file appears under its name once it can be read.
 class Hdf5Recorder {
  public:
   /// @param writer  carries out the writes; must outlive this
@@ -42,19 +42,19 @@ class Hdf5Recorder {
                const results::RecordLayout& layout, const results::Geometry& geometry,
                const results::FieldLayout* fields, const std::string& title,
                const std::string& version, const FlushRule& rule);
-  /// Writes what waits, as far as that is possible.
+  /// Writes what is waiting, as far as possible.
   ~Hdf5Recorder();
   Hdf5Recorder(const Hdf5Recorder&) = delete;
   Hdf5Recorder& operator=(const Hdf5Recorder&) = delete;
 
-  /// @throws IoError, also for what the flushing thread met since the last call; the file then
-  ///   keeps what was flushed before, and every further call throws the same
+  /// @throws IoError, also for errors of the flushing thread since the last call; the file then
+  /// keeps what was flushed before, and every further call throws the same
   void write(const results::Record& record);
   /// A record of fields. @throws IoError as write()
   void write_fields(const results::Record& fields);
   /// Replaces the largest values so far. @throws IoError as write()
   void write_extremes(const std::vector<double>& values);
-  /// Writes what waits and completes the file. @throws IoError
+  /// Writes what is waiting and completes the file. @throws IoError
   void close();
 
  private:
@@ -76,7 +76,7 @@ class Hdf5Recorder {
   std::chrono::steady_clock::time_point oldest_;
   std::exception_ptr failure_;
   bool stopping_ = false;
-  std::thread thread_;  // last: starts when all else stands
+  std::thread thread_;  // last: starts when everything else is constructed
 };
 
 }  // namespace buckens::run_store

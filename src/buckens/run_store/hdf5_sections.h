@@ -8,13 +8,13 @@
 
 namespace buckens::run_store {
 
-/// Writes the cross-sections of a body's line elements below its group; nothing where it has none.
+/// Writes the cross-sections of a body's line elements below its group; nothing if it has none.
 void write_sections(const Hdf5File& file, const std::string& path,
                     const results::GeometryBody& body);
 
-/// Reads them back; a file without them leaves the body as it is.
+/// Reads them back; a file without them leaves the body unchanged.
 /// @param body whose line elements are known
-/// @throws IoError if the lists do not fit together
+/// @throws IoError if the lists are inconsistent
 void read_sections(const Hdf5File& file, const std::string& path, results::GeometryBody& body);
 
 }  // namespace buckens::run_store

@@ -25,10 +25,10 @@ class Hdf5Table {
 
   /// Appends records and makes them visible to readers.
   ///
-  /// The instants grow last: whoever reads them finds at least as many rows in every channel, at
-  /// any moment and after a crash.
-  /// @param values  the records one after the other, layout.num_values() each
-  /// @throws IoError; the file is then to be abandoned
+  /// The instants are extended last: a reader finds at least as many rows in every channel at any
+  /// moment, also after a crash.
+  /// @param values  consecutive records, layout.num_values() each
+  /// @throws IoError; the file must then be abandoned
   void append(Hdf5File& file, std::span<const double> times, std::span<const double> values);
 
   /// Closes the data sets.
@@ -51,7 +51,7 @@ class Hdf5Table {
   std::vector<Column> columns_;
   std::size_t row_size_ = 0;
   hsize_t num_records_ = 0;
-  std::vector<double> block_;  // one channel's share of the records
+  std::vector<double> block_;  // one channel's part of the records
 };
 
 }  // namespace buckens::run_store

@@ -10,9 +10,9 @@
 
 namespace buckens::run_store {
 
-/// The texts of a file, as another process has read them. HDF5 keeps texts in a heap of the file
-/// without check sums and copies as many bytes as that says: from a damaged file over its own
-/// memory. So a process does that which has nothing to lose.
+/// The texts of a file, as read by another process. HDF5 stores texts in a heap of the file without
+/// checksums and copies as many bytes as that says: a damaged file makes it overwrite memory. So a
+/// disposable process does it.
 class Hdf5Texts {
  public:
   /// What was found at a place: texts, or why there are none.
@@ -22,9 +22,9 @@ class Hdf5Texts {
   };
 
   void note(const std::string& place, Entry entry) { entries_[place] = std::move(entry); }
-  /// Null where nobody has looked.
+  /// Null if not read.
   const Entry* find(const std::string& place) const;
-  /// Whether texts are taken from here; otherwise they are noted.
+  /// Whether texts are taken from here; otherwise they are collected.
   bool is_complete() const { return is_complete_; }
 
   /// As bytes for a pipe, and back.
@@ -36,13 +36,13 @@ class Hdf5Texts {
   bool is_complete_ = false;
 };
 
-/// Reads a file with HDF5 in a process of its own first, which also shows whether HDF5 follows wild
-/// pointers in it or runs in circles.
+/// Reads a file with HDF5 in a separate process first, which also shows whether HDF5 crashes or
+/// hangs on it.
 /// @param file for the message
-/// @param read does what will be done here afterwards, with an Hdf5File that notes its texts;
-///        exceptions mean nothing, since they come again
+/// @param read does what will be done here afterwards, with an Hdf5File that collects its texts;
+/// exceptions are ignored, since they will occur again
 /// @return the texts to give to the Hdf5File here
-/// @throws IoError if that process does not come to its end, or not within a minute of work
+/// @throws IoError if that process does not finish, or not within a minute of processor time
 std::shared_ptr<Hdf5Texts> read_texts_apart(
     const std::filesystem::path& file,
     const std::function<void(const std::shared_ptr<Hdf5Texts>&)>& read);

@@ -8,16 +8,16 @@
 
 namespace buckens::run_store {
 
-/// How far two runs differ in one quantity.
+/// Difference of two runs in one quantity.
 struct QuantityDifference {
   std::string
-      quantity;  ///< path of the channel, with "translation" or "rotation" where it has both
+      quantity;  ///< path of the channel, with "translation" or "rotation" if it contains both
   std::string unit;
   double largest = 0;     ///< magnitude in the first run
   double difference = 0;  ///< largest of a component
   double at = 0;          ///< time of that [s], or number of the vibration
-  /// difference/largest; energies count relative to the largest energy of the run. Infinite where
-  /// only the second run has values other than zero.
+  /// difference/largest; energies relative to the largest energy of the run. Infinite if only the
+  /// second run has non-zero values.
   double relative = 0;
 };
 
@@ -33,11 +33,11 @@ struct RunComparison {
   double largest() const;
 };
 
-/// Compares what two runs recorded at common times, nothing interpolated.
+/// Compares what two runs recorded at common times, without interpolation.
 /// @param numbers_at_once of a channel that are in memory at the same time
-/// @throws InputError if they have no record time in common, or one holds vibrations and the other
-/// a
-///         motion
+/// @throws InputError if they have no record time in
+/// common, or one contains vibrations and the other a
+/// motion
 RunComparison compare_runs(const RunReader& first, const RunReader& second,
                            std::size_t numbers_at_once = std::size_t{1} << 22U);
 

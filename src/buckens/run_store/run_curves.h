@@ -15,7 +15,7 @@ struct RunCurve {
   std::vector<double> values;
 };
 
-/// The curves that a name means: a sensor (`tip`: all its components), one component (`tip.x`), its
+/// The curves denoted by a name: a sensor (`tip`: all its components), one component (`tip.x`), its
 /// length (`tip.norm`, vectors only), or the path of any recorded channel with few numbers
 /// (`energies/kinetic`, `joints/pin/force.x`).
 /// @throws InputError with the nearest names if there is nothing of this name

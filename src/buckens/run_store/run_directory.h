@@ -20,33 +20,33 @@ namespace buckens::run_store {
 
 struct RunDirectoryOptions {
   std::string title;       ///< of the model
-  std::string model_text;  ///< content of model.yaml: the model as it was read
+  std::string model_text;  ///< contents of model.yaml: the model as read
   FlushRule flush;
-  /// Whether an earlier run comes back where this one ends before begin().
+  /// Whether an earlier run is restored if this one ends before begin().
   bool keeps_earlier_run = true;
 };
 
-/// The directory that holds everything a run leaves behind. Layout:
+/// The directory with all the output of a run. Layout:
 /// docs/reference/run-directory.md.
 ///
-/// It can be read while the run goes on and after SIGKILL at any moment; of the records at most
-/// those of the last second are then missing. One process at a time writes into a directory.
+/// It can be read during the run and after SIGKILL at any moment; at most the records of the last
+/// second are then missing. One process at a time writes into a directory.
 class RunDirectory : public results::RecordSink {
  public:
   /// Creates the directory and its parents, or takes over that of an earlier run. Its results are
-  /// removed by begin(), or come back if this run ends without it. Files of others stay.
-  /// @throws IoError if the directory holds other things than a run, another run is writing into
-  ///   it, or it cannot be written
+  /// removed by begin(), or restored if this run ends without it. Other files are kept.
+  /// @throws IoError if the directory contains other things than a run, another run is writing into
+  /// it, or it cannot be written
   explicit RunDirectory(std::filesystem::path path, RunDirectoryOptions options = {});
   /// Without a call of `finish` the run counts as interrupted.
   ~RunDirectory() override;
 
   /// Creates results.h5 and sensors.csv. @throws IoError
   void begin(const results::RecordLayout& layout, const results::Geometry& geometry) override;
-  /// @throws IoError: from then on nothing is recorded any more, what was written stays readable
+  /// @throws IoError: from then on nothing more is recorded, what was written stays readable
   void write(const results::Record& record) override;
   /// Completes all files; summary.json even if completing another one fails. Before begin() an
-  /// earlier run with results is put back in its place instead.
+  /// earlier run with results is restored instead.
   /// @throws IoError unless `write` has thrown the same before
   void finish(const results::RunSummary& summary) override;
   void begin_fields(const results::FieldLayout& layout) override;
@@ -59,7 +59,7 @@ class RunDirectory : public results::RecordSink {
 
   const std::filesystem::path& path() const { return path_; }
   bool is_complete() const { return finished_; }  ///< `finish` has been called
-  /// An earlier run is back, because this one ended before begin().
+  /// An earlier run was restored, because this one ended before begin().
   bool has_earlier_run_back() const { return has_earlier_run_back_; }
 
  private:

@@ -15,14 +15,14 @@
 
 namespace buckens::run_store {
 
-/// Reads a run directory: of a finished run, of one that goes on in another process, or of one that
+/// Reads a run directory: of a finished run, of one in progress in another process, or of one that
 /// was killed.
 ///
-/// It sees the records that were complete when it was made. The file may be damaged or made by
-/// anybody: what does not have the form of a run is refused before it is used.
+/// It sees the records that were complete when it was created. The file may be damaged or made by
+/// anybody: anything that does not have the form of a run is refused before use.
 class RunReader {
  public:
-  /// @throws IoError if the directory holds no run, one without any results yet, or a damaged one
+  /// @throws IoError if the directory contains no run, one without results yet, or a damaged one
   explicit RunReader(const std::filesystem::path& directory);
 
   RunStatus status() const { return status_; }
@@ -35,7 +35,7 @@ class RunReader {
   const results::RecordLayout& layout() const { return layout_; }
 
   /// The channels of sensors in the order of the model file, which is that of the columns of
-  /// sensors.csv; in alphabetical order where that file is missing.
+  /// sensors.csv; in alphabetical order if that file is missing.
   std::vector<const results::Channel*> sensors() const;
 
   std::size_t num_records() const { return times_.size(); }
@@ -56,7 +56,7 @@ class RunReader {
   /// A field at some instants, given by increasing indices into field_times().
   /// @throws IoError if there is no such field or it cannot be read
   std::vector<double> read_fields(std::string_view path, std::span<const std::size_t> rows) const;
-  /// Values that exist once: "extremes/bodies/<body>/nodes/von_mises". Empty where they are
+  /// Values that exist once: "extremes/bodies/<body>/nodes/von_mises". Empty if they are
   /// missing.
   /// @throws IoError if they cannot be read
   std::vector<double> read_fixed(std::string_view path) const;

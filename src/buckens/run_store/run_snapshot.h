@@ -10,7 +10,7 @@
 
 namespace buckens::run_store {
 
-/// One instant of a run: a record, and the record of fields that belongs to it.
+/// One instant of a run: a record, and the corresponding record of fields.
 struct Instant {
   double t = 0;  ///< [s]
   std::size_t record = 0;
@@ -20,21 +20,21 @@ struct Instant {
 /// Which instants of a run are taken.
 struct InstantChoice {
   std::vector<double> times;  ///< the nearest instants to these [s]; empty: `count` of them
-  std::size_t count = 100;    ///< most, evenly spread, the first and the last among them; 0: all
+  std::size_t count = 100;    ///< maximum, evenly spread from first to last; 0: all
 };
 
 /// The chosen instants, increasing. Of runs with fields only those that have them.
-/// @throws InputError if a time lies outside the run, IoError if the run has no records
+/// @throws InputError if a time is outside the run, IoError if the run has no records
 std::vector<Instant> choose_instants(const RunReader& run, const InstantChoice& choice);
 
-/// Where a body's frame is. Bodies that were not recorded stand at the origin.
+/// Pose of a body's frame. Bodies that were not recorded are at the origin.
 spatial::Pose pose_of(const RunReader& run, const std::string& body, std::size_t record);
 
-/// Displacements of all nodes in body axes [m]; zero where none were recorded.
+/// Displacements of all nodes in body axes [m]; zero if none were recorded.
 Eigen::Matrix3Xd displacements_of(const RunReader& run, const results::GeometryBody& body,
                                   std::size_t record);
 
-/// The shells of a body, counted behind its solids.
+/// The shells of a body, numbered after its solids.
 std::vector<int> shells_of(const results::GeometryBody& body);
 
 /// The quantities recorded of a body at "nodes", "elements" or "shells": the last parts of their

@@ -13,8 +13,8 @@ namespace buckens::run_store {
 /// sensors.csv: the channels `sensors/<name>` as a table for spreadsheets.
 ///
 /// First column "t [s]", then "name [unit]" for scalars and "name.x [unit]" … for vectors (numbers
-/// from 1 where the components have no names). Numbers carry 17 significant digits, so that they
-/// read back as the very same doubles. Each line goes to the system as soon as it is complete.
+/// from 1 if the components have no names). Numbers have 17 significant digits, so that they read
+/// back as exactly the same doubles. Each line is passed to the system as soon as it is complete.
 class SensorsCsv {
  public:
   SensorsCsv() = default;

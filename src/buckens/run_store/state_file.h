@@ -9,21 +9,21 @@
 
 namespace buckens::run_store {
 
-/// Writes a saved state into a file, aside and renamed: readers see a whole state or none.
+/// Writes a saved state to a file atomically: readers see a whole state or none.
 ///
 /// An HDF5 file: of numbers, counts and texts a group each with `names` (joined by line ends),
-/// `lengths` and `values`. The last kStateTrailer bytes are text and say what file this is, and its
-/// checksum.
+/// `lengths` and `values`. The last kStateTrailer bytes are text that identifies the file and
+/// contains its checksum.
 /// @throws IoError
 void write_state(const base::SavedValues& state, const std::filesystem::path& path);
 
-/// @throws IoError if the file cannot be read, is none of a state, of another format, cut short or
-///   damaged
+/// @throws IoError if the file cannot be read, is not a saved state, has another format, is
+/// truncated or damaged
 base::SavedValues read_state(const std::filesystem::path& path);
 
-/// The content of such a file.
+/// The contents of such a file.
 std::string state_bytes(const base::SavedValues& state);
-/// The bytes of an HDF5 file with the trailer that belongs to them.
+/// The bytes of an HDF5 file with their trailer.
 std::string sealed(std::string_view content);
 /// @param name of the file in messages
 base::SavedValues parse_state(std::string_view bytes, const std::string& name);

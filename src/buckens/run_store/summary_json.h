@@ -8,10 +8,10 @@
 
 namespace buckens::run_store {
 
-/// Where a run stands, the entry "status" of summary.json.
+/// Status of a run, the entry "status" of summary.json.
 ///
 /// `starting`: nothing recorded yet. `running`: records are being written, or the program was
-/// killed. `finished`, `interrupted`: ended in order, with all figures.
+/// killed. `finished`, `interrupted`: ended properly, with all figures.
 enum class RunStatus { starting, running, finished, interrupted };
 
 std::string to_string(RunStatus status);
@@ -25,7 +25,7 @@ std::string status_json(RunStatus status, const std::string& title, const std::s
 std::string summary_json(const results::RunSummary& summary, const std::string& started,
                          const std::string& ended);
 
-/// True if the text is the summary.json of a run of this program, of whatever status.
+/// True if the text is the summary.json of a run of this program, with any status.
 bool is_summary_json(std::string_view text);
 
 /// Entry "status" of a summary.json. @throws IoError if there is none; `where` names the file

@@ -9,21 +9,21 @@
 
 namespace buckens::stepping {
 
-/// How a flexible body answers loads within a step, as the iteration of frames and joints sees it:
-/// small matrices between the rows of its interface, FM (42), and the values of these rows at the
-/// start of a step.
+/// Response of a flexible body to loads within a step, as used by the iteration of frames and
+/// joints: small matrices between the rows of its interface, FM (42), and the values of these rows
+/// at the start of a step.
 ///
-/// With G = Y K̂⁻¹ Nᵀ the answer to unit loads along the rows N, and D that to a load of the
+/// G = Y K̂⁻¹ Nᵀ is the response to unit loads along the rows N, and D that to a load of the
 /// position correction. The rows are those of the interface and, unless the coupling keeps nothing
-/// at all, the six patterns c_ab. Who holds the mesh and its factor fills the matrices at set-up:
-/// BodyStepOperator does so in this process.
+/// at all, the six patterns c_ab. The owner of the mesh and its factor fills the matrices at
+/// set-up: BodyStepOperator does so in this process.
 class BodyAnswer {
  public:
   virtual ~BodyAnswer() = default;
 
-  /// N d, N ḋ, N d̈ and N times the algorithmic accelerations; patterns that the body's terms do not
-  /// use may be left at zero.
-  /// @param pool shares the rows of large bodies; the result is the same
+  /// N d, N ḋ, N d̈ and N times the algorithmic accelerations; patterns that the body's terms do
+  /// not use may be zero.
+  /// @param pool processes the rows of large bodies in parallel, with the same result
   virtual void row_values(const model::BodyState& state, linalg::Vector& y, linalg::Vector& y_dot,
                           linalg::Vector& y_ddot, linalg::Vector& y_alg,
                           TaskPool* pool = nullptr) const = 0;
@@ -33,9 +33,9 @@ class BodyAnswer {
   Eigen::Index num_interface_rows() const { return interface_.rows(); }
   /// N G: values of all rows per load along each, before the factor c.
   const linalg::Matrix& compliance() const { return compliance_; }
-  /// The same between rows of the interface only: what joints see.
+  /// The same between rows of the interface only: what joints need.
   const linalg::Matrix& interface_compliance() const { return interface_; }
-  /// N D − N G: what a correction load changes of the interface values besides the correction
+  /// N D − N G: the change of the interface values by a correction load besides the correction
   /// itself. Zero where corrects_outside().
   const linalg::Matrix& correction_answer() const { return correction_; }
   /// compliance() and correction_answer() of a body with fewer variables than rows; else empty.

@@ -6,8 +6,8 @@
 
 namespace buckens::stepping {
 
-/// One body's share of an iteration of the small Newton: what its equations leave open, and how it
-/// answers corrections and multipliers. Works in memory of its own; nothing is allocated after the
+/// One body's part in an iteration of the small Newton: the residual of its equations, and its
+/// response to corrections and multipliers. Has its own buffers; nothing is allocated after the
 /// first call.
 class BodyIteration {
  public:
@@ -22,23 +22,23 @@ class BodyIteration {
   Eigen::Matrix<double, 6, 6> frame_compliance(const BodyStep& step,
                                                const dynamics::BodyMotion& motion) const;
 
-  /// What the equations of motion leave open at fixed multipliers, as a change of u and of y.
+  /// Residual of the equations of motion at fixed multipliers, as a change of u and of y.
   /// @param frame_load at the evaluation instant
   void find_residual(const BodyStep& step, const dynamics::BodyMotion& motion,
                      const Vector6& frame_load);
-  /// Size of what find_residual() found [m].
+  /// Size of the residual of find_residual() [m].
   double residual_size() const;
-  /// How the body moves under the row forces that close positions.
-  /// @param correction what is of no use to the body is set to zero
+  /// Motion of the body under the row forces that close positions.
+  /// @param correction what does not apply to the body is set to zero
   void answer_correction(const BodyStep& step, dynamics::BodyResponse& correction);
 
-  /// Changes in metres; not-a-number where a motion is none.
+  /// Changes in metres; NaN if a motion is not a number.
   struct Moved {
     double frame = 0;      ///< change of the frame
     double interface = 0;  ///< change of interface values
     double motion = 0;     ///< of the frame in the whole step
   };
-  /// Adds residual, correction and the answer to the row forces that close velocities.
+  /// Adds residual, correction and the response to the row forces that close velocities.
   Moved advance(BodyStep& step, const dynamics::BodyResponse& correction,
                 const dynamics::BodyResponse& response);
 
@@ -60,7 +60,7 @@ class BodyIteration {
   linalg::Vector change_;
 };
 
-/// The larger number; not-a-number wins, so that it cannot hide.
+/// The larger number; NaN wins, so that it cannot hide.
 double larger(double a, double b);
 
 }  // namespace buckens::stepping

@@ -34,23 +34,23 @@ struct BodyStep {
   Eigen::VectorXd correction_load;  ///< e
   Eigen::VectorXd y_correction;     ///< N G e
 
-  /// Prepares everything but the free response.
-  /// @param pool shares the rows of large bodies; the result is the same
+  /// Prepares everything except the free response.
+  /// @param pool processes the rows of large bodies in parallel, with the same result
   void start(const model::BodyState& state, const BodyAnswer* answer, const Scheme& scheme,
              TaskPool* pool = nullptr);
 
   /// Motions are written to `out`, whose buffers are reused.
   void motion_at_end(const Scheme& scheme, const BodyAnswer* answer,
                      dynamics::BodyMotion& out) const;
-  /// The same with the pose that the velocities alone lead to, and the shape of the start where the
-  /// body deforms without rates.
+  /// The same with the pose that the velocities alone lead to, and the initial shape if the body
+  /// deforms without rates.
   void uncorrected_motion(const Scheme& scheme, const BodyAnswer* answer,
                           dynamics::BodyMotion& out) const;
   void motion_at_evaluation(const Scheme& scheme, const BodyAnswer* answer,
                             dynamics::BodyMotion& out) const;
   /// All moments of the frame equation at a motion of this step.
   body::DeformedMoments moments(const body::Body& body, const dynamics::BodyMotion& motion) const;
-  /// Takes all corrections of positions back.
+  /// Undoes all corrections of positions.
   void drop_correction();
   /// Sets `load`: interface load and centrifugal weights, FM (24), at the evaluation instant.
   /// @param interface loads of joints and forces, @param w angular velocity there

@@ -12,18 +12,18 @@ namespace buckens::stepping {
 
 class BodyStepOperator;
 
-/// Where the factor of a step matrix may come from.
+/// Possible sources of the factor of a step matrix.
 struct FactorSource {
-  /// Of a body that may have the same matrices to the last bit; then its factor serves both.
+  /// A body that may have bitwise the same matrices; both then share its factor.
   const BodyStepOperator* twin = nullptr;
-  /// Where other simulations may have the factor; null: nowhere.
+  /// Exchange through which other simulations may have the factor; null: none.
   linalg::SolveExchange* exchange = nullptr;
-  /// Who makes it, if nobody has it.
+  /// Makes the factor if nobody has it.
   linalg::MakeFactor make = linalg::make_cholesky;
 };
 
-/// Everything of one flexible body that a step of fixed length needs: one factorisation of
-/// K̂ = m M + c C + k K, and the answers to unit interface loads computed from it once.
+/// Everything a step of fixed length needs of one flexible body: one factorisation of K̂ = m M + c
+/// C + k K, and the responses to unit interface loads computed from it once.
 ///
 /// The rows N are those of the interface and, unless the coupling keeps nothing at all, the six
 /// patterns c_ab: their values c_ab·d make up J₁, and loads along them are the centrifugal load of
@@ -31,18 +31,18 @@ struct FactorSource {
 ///
 /// A step is one solve; interface forces cost a thin product only, FM (37)–(42). LargeStep says
 /// what is solved. All columns are sieved. Bodies of at most 24 variables, such as the parts of a
-/// divided beam, multiply by a dense inverse in place of the sparse solve; reduced bodies, whose K̂
+/// divided beam, multiply by a dense inverse instead of the sparse solve; reduced bodies, whose K̂
 /// is diagonal, divide.
 class BodyStepOperator final : public BodyAnswer {
  public:
   BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
                    const FactorSource& source = {});
-  /// Whether a body has the step matrix of this one.
+  /// Whether a body has the same step matrix as this one.
   bool fits(const body::FlexiblePart& part) const;
 
   /// x ← K̂⁻¹ x; small bodies sieve the result, others leave that to the caller.
   void solve_right_side(linalg::Vector& x, TaskPool* pool = nullptr);
-  /// The factor that several bodies may share; empty where the solve needs none.
+  /// The factor that several bodies may share; empty if the solve needs none.
   const linalg::Factor* shared_factor() const {
     return inverse_.size() > 0 || is_diagonal() ? nullptr : factor_.get();
   }
@@ -50,15 +50,15 @@ class BodyStepOperator final : public BodyAnswer {
   /// x ← Y K̂⁻¹ x, outside of steps: counts as set-up.
   void solve(linalg::Vector& x);
 
-  /// Adds c G f, the answer to loads along the rows of N, to a piece of a vector.
-  /// @param load f, weights of the patterns included
-  /// @param first row at which the piece begins
+  /// Adds c G f, the response to loads along the rows of N, to a piece of a vector.
+  /// @param load f, including weights of the patterns
+  /// @param first first row of the piece
   void add_answer(const Eigen::VectorXd& load, Eigen::Index first,
                   Eigen::Ref<linalg::Vector> piece) const;
   /// Adds G e, the position correction by the load e, which carries no velocity.
   void add_correction(const Eigen::VectorXd& e, Eigen::Index first,
                       Eigen::Ref<linalg::Vector> piece) const;
-  /// Adds (D − G) e, what the strain of the correction does to the motion of the step.
+  /// Adds (D − G) e, the effect of the strain of the correction on the motion of the step.
   void add_correction_answer(const Eigen::VectorXd& e, Eigen::Index first,
                              Eigen::Ref<linalg::Vector> piece) const;
 
@@ -71,22 +71,22 @@ class BodyStepOperator final : public BodyAnswer {
   /// Rows of the interface, then the six patterns.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
-  /// The vectors c_ab as columns, null where N has no rows of them.
+  /// The vectors c_ab as columns, null if N has no rows of them.
   const linalg::Matrix* patterns() const {
     return N_.rows() > num_interface_rows() ? &part_->invariants.centrifugal_patterns() : nullptr;
   }
   Eigen::Index num_dofs() const { return part_->num_dofs(); }
   const body::Sieve& sieve() const { return part_->sieve; }
 
-  /// Formed anew: a step needs its factor and its diagonal only.
+  /// Formed on each call: a step only needs its factor and its diagonal.
   linalg::SparseMatrix K_hat() const;
   const linalg::Vector& K_hat_diagonal() const { return diagonal_; }
   const InertialLoad& inertial() const { return inertial_; }
   bool is_diagonal() const { return diagonal_inverse_.size() > 0; }
   double factor_entries() const { return factor_ ? factor_->num_factor_entries() : 0.0; }
-  /// Bytes that each of the two passes of a solve reads; 0 where the factor is that of a twin.
+  /// Bytes that each of the two passes of a solve reads; 0 if the factor is that of a twin.
   double factor_bytes() const { return factor_ && !is_shared_ ? factor_->bytes() : 0.0; }
-  /// 1, or 0 where the factor is that of a twin or of another simulation, or K̂ is diagonal.
+  /// 1, or 0 if the factor is that of a twin or of another simulation, or K̂ is diagonal.
   long factorisations() const { return is_shared_ || is_diagonal() ? 0 : 1; }
   long setup_solves() const { return setup_solves_; }
 

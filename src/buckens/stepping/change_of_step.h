@@ -6,14 +6,14 @@
 
 namespace buckens::stepping {
 
-/// Whether the state's algorithmic accelerations belong to steps of another length than scheme.h.
+/// Whether the state's algorithmic accelerations are for another step length than the scheme's.
 bool must_rescale(const model::State& state, const Scheme& scheme);
 
 /// Moves the algorithmic accelerations from t + δ·h_old to t + δ·h_new, δ the method's offset:
 ///
 ///     a ← ẍ + (h_new/h_old)(a − ẍ)
 ///
-/// Without this a changed step is an error of first order.
+/// Without this, changing the step is a first-order error.
 void rescale_algorithmic(model::State& state, const Scheme& scheme);
 
 }  // namespace buckens::stepping

@@ -18,24 +18,24 @@ std::optional<double> stiffness_damping(const body::FlexiblePart& part);
 ///
 ///     K̂⁻¹ C b = β' b + K̂⁻¹ ζ M b,   β' = β/(k + cβ),   ζ = α − β'(m + cα),
 ///
-/// so that b joins a under one product with M and β'b is added after the solve. M itself acts node
-/// by node through the scalar mass matrix where that is all of it (solids): a third of the bytes.
+/// so that b joins a under one product with M and β'b is added after the solve. M itself is applied
+/// node by node as scalar mass matrix where that is all of it (solids): a third of the bytes.
 class InertialLoad {
  public:
   InertialLoad(const body::FlexiblePart& part, const Scheme& scheme);
 
   /// y = M x. Allocates nothing once `y` has its size.
-  /// @param pool shares the nodes of solids; the result is the same
+  /// @param pool processes nodes of solids in parallel, with the same result
   void multiply_mass(const linalg::Vector& x, linalg::Vector& y, TaskPool* pool = nullptr) const;
   /// y ← y + C x.
   void add_damping(const linalg::Vector& x, linalg::Vector& y) const {
     y.noalias() += part_->C * x;
   }
-  /// What of b joins a: ζ, zero if undamped or damped otherwise.
+  /// Factor of b added to a: ζ, zero if undamped or not proportionally damped.
   double zeta() const { return zeta_; }
-  /// What of b is to be added to the solution: β', zero if undamped or damped otherwise.
+  /// Factor of b added to the solution: β', zero if undamped or not proportionally damped.
   double share() const { return share_; }
-  /// Whether b matters at all.
+  /// Whether b is needed at all.
   bool is_damped() const { return part_->is_damped(); }
   bool is_proportional() const { return is_proportional_; }
   bool is_by_node() const { return is_by_node_; }

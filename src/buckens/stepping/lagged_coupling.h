@@ -8,20 +8,20 @@
 
 namespace buckens::stepping {
 
-/// The inertial coupling, FM (21)–(24), that a large solve takes as given, and how far that is from
-/// what its result gives.
+/// The inertial coupling, FM (21)–(24), that a large solve treats as given, and how far that is
+/// from the coupling of its result.
 ///
 /// A change ΔF of the nodal load F is judged relative to the whole coupling load of the body,
 ///
 ///     ‖ΔF‖ / √(‖F‖² + ‖ĉ‖²),      ‖f‖² = Σ fᵢ²/K̂ᵢᵢ,
 ///
-/// ĉ the centrifugal load of the undeformed body. The norm of K̂⁻¹ itself costs the very solve that
-/// is to be decided on; the diagonal stands in for it (docs/theory/08-coupling.md).
+/// ĉ the centrifugal load of the undeformed body. The norm of K̂⁻¹ itself would cost the very solve
+/// that is being decided on; the diagonal replaces it (docs/theory/08-coupling.md).
 class LaggedCoupling {
  public:
   LaggedCoupling(const body::Body& body, const BodyStepOperator& op);
 
-  /// How far the coupling is from what the step was computed with.
+  /// Distance of the coupling from the one used to compute the step.
   struct Gap {
     bool load_changed = false;   ///< by more than the tolerance
     bool frame_changed = false;  ///< the same of moments of the frame
@@ -31,7 +31,7 @@ class LaggedCoupling {
     bool is_settled() const { return !load_changed && !frame_changed; }
   };
 
-  /// Takes as given what the last steps suggest for the step from `state`.
+  /// Extrapolates the coupling from the last steps for the step from `state`.
   /// @param history number of valid coupling entries in the state
   void start(const model::BodyState& state, int history, double t, TaskPool* pool);
   /// Evaluates with the result of a solve and compares.
@@ -40,14 +40,14 @@ class LaggedCoupling {
   /// @param L length of the model, for Gap::motion [m]
   Gap evaluate(const BodyStep& step, const LargeStep& large, const model::BodyState& after,
                double t, double tolerance, double L, TaskPool* pool);
-  /// Takes as given what was evaluated: the moments and, if it changed, the load.
+  /// Adopts what was evaluated: the moments and, if it changed, the load.
   void take_over();
 
   const model::Coupling& used() const { return used_; }
   model::Coupling& evaluated() { return evaluated_; }
   /// Change of the load from what was used to what was evaluated.
   const linalg::Vector& change() const { return change_; }
-  /// Whether take_over() brought another load, so that a further solve is due.
+  /// Whether take_over() changed the load, so that another solve is needed.
   bool load_changed() const { return load_changed_; }
 
  private:

@@ -7,22 +7,22 @@
 
 namespace buckens::stepping {
 
-/// The n-sized share of one flexible body in a step: right-hand side, what follows from its
+/// The n-sized part of a step of one flexible body: right-hand side, what follows from its
 /// solution, and the state at the end.
 ///
-/// Vectors of a large mesh are read from memory each time, as the factor goes through the caches
-/// between. So each is read as rarely as can be: all that the past says is a combination of d, ḋ, d̈
-/// and the algorithmic accelerations a at the start (Scheme), and is formed where it is needed;
-/// a further solve of the step takes the change of the load only. With m interface rows and c
-/// columns of them and patterns, these numbers per variable pass through memory, besides the
-/// factor:
+/// Vectors of a large mesh are read from memory each time, since the factor passes through the
+/// caches in between. So each is read as rarely as possible: everything from the past is a
+/// combination of d, ḋ, d̈ and the algorithmic accelerations a at the start (Scheme), and is formed
+/// where it is needed; another solve in the step takes only the change of the load. With m
+/// interface rows and c columns of them and patterns, these numbers per variable pass through
+/// memory in addition to the factor:
 ///
 ///     form_right_side    4 read, 1 written, a product with M;    the change of a load: none
 ///     take_solution      5 + 6 (sieve) + 6 (patterns) read, 1 written
 ///     complete           5 + 6 (sieve) + c + 2 m read, 4 written
 ///
-/// The rows go in parts to the threads of a pool; results do not depend on their number. Once the
-/// vectors have their sizes nothing is allocated.
+/// The rows are distributed over the threads of a pool; results do not depend on their number. Once
+/// the vectors have their sizes, nothing is allocated.
 class LargeStep {
  public:
   explicit LargeStep(BodyStepOperator& op);
@@ -31,7 +31,7 @@ class LargeStep {
   /// x₀ = x + offset, x⁺ = x + (x_e − x₀)/θ.
   /// @param load F, nodal load at the evaluation instant, n; empty for none
   void form_right_side(const model::BodyState& before, const linalg::Vector& load, TaskPool* pool);
-  /// Forms that of the change of x⁺ by a change of F.
+  /// Forms the right-hand side for the change of x⁺ by a change of F.
   void form_right_side_of_change(const linalg::Vector& change, TaskPool* pool);
   /// The right-hand side, to be solved in place.
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
@@ -40,13 +40,13 @@ class LargeStep {
   /// @param y_free N x⁺; zero for patterns that the body's terms do not use
   void take_solution(const model::BodyState& before, Eigen::VectorXd& y_free, TaskPool* pool);
 
-  /// Adds the answers to loads along N, FM (42), and forms the nodal state at the end.
+  /// Adds the responses to loads along N, FM (42), and forms the nodal state at the end.
   /// @param load along the rows of N, centrifugal weights included
   /// @param correction load of the position correction e
   void complete(const model::BodyState& before, const Eigen::VectorXd& load,
                 const Eigen::VectorXd& correction, model::BodyState& after, TaskPool* pool);
 
-  /// Where the equations of motion hold, after complete(): `after` itself if that is the end.
+  /// State where the equations of motion hold, after complete(): `after` itself at the end.
   const linalg::Vector& d_e(const model::BodyState& after) const {
     return holds_at_end_ ? after.d : d_e_;
   }
@@ -75,9 +75,9 @@ class LargeStep {
       return {s * d, s * rate, s * acceleration, s * algorithmic};
     }
   };
-  // Of at most six rigid motions: needs no memory of its own.
+  // Of at most six rigid motions: needs no allocation.
   using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
-  /// What is kept of the sums of a part.
+  /// Sums of one part.
   struct PartSums {
     Amplitudes rigid;
     Eigen::Matrix<double, 6, 1> patterns;
@@ -110,7 +110,7 @@ class LargeStep {
   linalg::Vector scratch_, damped_;
   Amplitudes rigid_;
   std::vector<PartSums> sums_;
-  linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty where the equations hold at the end
+  linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty if the equations hold at the end
   bool is_finite_ = true;
   long solves_ = 0;
 };

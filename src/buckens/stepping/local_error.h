@@ -11,16 +11,16 @@
 
 namespace buckens::stepping {
 
-/// How large the errors of all steps together may be. Both are shares, without unit.
+/// Admissible total error of all steps. Both are dimensionless fractions.
 struct ErrorTolerance {
   double relative = 1e-3;  ///< of the mechanism's size, of 1 rad, of a body's largest deformation
-  double absolute = 1e-9;  ///< of the mechanism's size, admitted for deformations in addition
+  double absolute = 1e-9;  ///< of the mechanism's size, additionally admissible for deformations
 };
 
-/// Error of one step relative to what is admitted.
+/// Error of one step relative to the admissible one.
 struct ErrorEstimate {
   enum class Quantity { position, rotation, deformation };
-  double ratio = 0;  ///< 1: just admitted
+  double ratio = 0;  ///< 1: just admissible
   std::size_t body = 0;
   Quantity quantity = Quantity::position;
 };
@@ -32,22 +32,22 @@ const char* to_string(ErrorEstimate::Quantity quantity);
 ///
 /// x‴ is the third divided difference of positions over four instants; where the motion begins, its
 /// rates stand in for missing instants. Accelerations are not used: those of stiff vibrations are
-/// (ωh)² times larger than the motion, and would ask for steps that resolve every one of them.
+/// (ωh)² times larger than the motion, and would require steps that resolve every one of them.
 class LocalError {
  public:
   LocalError(const model::Model& model, const ErrorTolerance& tolerance);
 
-  /// Forgets the past: the motion begins here.
+  /// Discards the past: the motion starts here.
   void start(const model::State& state);
   bool has_begun() const { return !past_.empty(); }
   /// Error of the step from the last accepted state to `end`.
-  /// @param share of the whole tolerance that this step may use up
+  /// @param share of the total tolerance that this step may use
   ErrorEstimate estimate(const model::State& end, const Scheme& scheme, double share);
   /// Takes `end` as the next point of the motion.
   void accept(const model::State& end);
 
-  /// Saves what steps to come depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later steps depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
@@ -74,11 +74,11 @@ class LocalError {
 
   const model::Model& model_;
   ErrorTolerance tolerance_;
-  std::vector<linalg::Vector> scale_;  ///< per body and nodal variable: makes it a length
+  std::vector<linalg::Vector> scale_;  ///< per body and nodal variable: converts it to a length
   std::deque<Point> past_;             ///< last point first, at most three
   Start start_;
   std::vector<double> largest_;   ///< deformation so far, per body [m]
-  std::vector<double> expected_;  ///< from the first trial of all, per body [m]
+  std::vector<double> expected_;  ///< from the very first trial, per body [m]
   bool is_first_trial_ = true;
 };
 

@@ -12,18 +12,18 @@
 
 namespace buckens::stepping {
 
-/// The slow route of a step, for tests: one sparse saddle-point system in all unknowns at once.
+/// The slow alternative for a step, for tests: one sparse saddle-point system in all unknowns.
 ///
-/// Unknown are the increments of frames and nodal variables, the joint multipliers λ and the frame
-/// multipliers Λ of FM (21), (28), and for the stabilised index-2 positions the corrections of
-/// frames and nodal variables with multipliers E and Λ_η of their own. Per iteration the whole
-/// system is assembled and factorised anew:
+/// The unknowns are the increments of frames and nodal variables, the joint multipliers λ and the
+/// frame multipliers Λ of FM (21), (28), and for the stabilised index-2 positions the corrections
+/// of frames and nodal variables with their own multipliers E and Λ_η. The whole system is
+/// assembled and factorised in each iteration:
 ///
 ///     W u − Gᵀλ = …     K̂ Δ + k K η − PΛ − NᵀGᵀλ = …     PᵀΔ = …     ġ(end) = 0
 ///     W κ − GᵀE = 0     K̂ η − PΛ_η − NᵀGᵀE = 0           Pᵀη = 0     g(end) = 0
 ///
-/// No sieve, no interface compliance, no condensation: it shares with Stepper the physics
-/// (dynamics) and the coefficients of the method (Scheme), and must end in the same state. Coupling
+/// No sieve, no interface compliance, no condensation: it shares the physics (dynamics) and the
+/// coefficients of the method (Scheme) with Stepper, and must arrive at the same state. Coupling
 /// terms are iterated together with everything else. Cost per step: several factorisations of an
 /// indefinite matrix of twice the number of unknowns.
 class MonolithicStepper {
@@ -33,9 +33,9 @@ class MonolithicStepper {
                     std::vector<int> rows_in_use);
   ~MonolithicStepper();
 
-  /// Advances `state` by one step, until changes are down to rounding or
+  /// Advances `state` by one step, iterating until changes are at rounding or at
   /// `settings.newton_tolerance` relative to the motion of the step.
-  /// @throws NumericalError if the iteration does not settle; `state` is then unchanged
+  /// @throws NumericalError if the iteration does not converge; `state` is then unchanged
   StepReport step(model::State& state);
 
   const Scheme& scheme() const { return scheme_; }
@@ -54,7 +54,7 @@ class MonolithicStepper {
   void fixed_part();
   void fixed_body(const Part& part);
   void fixed_corrections();
-  /// Forms the fixed part anew if a force law has changed its regime since.
+  /// Forms the fixed part again if a force law has changed its regime since.
   void follow_regimes();
   void add_product(const std::vector<Entry>& row, const std::vector<Entry>& column, double factor,
                    bool row_corrects, bool column_corrects);
@@ -76,7 +76,7 @@ class MonolithicStepper {
   std::vector<linalg::Triplet> fixed_;  // what does not change within a step
   linalg::SparseMatrix fixed_matrix_;
   dynamics::SoftRows soft_;
-  // Of the corrections of positions: directions as predicted, stiffness of the regimes that hold.
+  // For the corrections of positions: predicted directions, stiffness of the current regimes.
   dynamics::SoftRows correcting_;
   std::vector<dynamics::SystemRow> predicted_rows_;
   dynamics::Constraints end_, evaluation_;

@@ -12,16 +12,16 @@ namespace buckens::stepping {
 /// configuration.
 ///
 /// Which rows are independent can change as a mechanism moves: of three parallel cranks on one
-/// coupler, each hands over to the others once a turn. Rank-revealing QR of the Jacobian times the
+/// coupler, each becomes redundant once per turn. Rank-revealing QR of the Jacobian times the
 /// step's compliance, rows scaled to unit length.
 /// @param rows all joint rows
 /// @param compliance one entry per body
 linalg::RowRank select_rows(const model::Model& model, const std::vector<dynamics::SystemRow>& rows,
                             const std::vector<dynamics::BodyCompliance>& compliance);
 
-/// The rows of `independent` from which a further one follows, as far as a thousandth of their
-/// combination: those that contradict it where it does not hold. Ascending.
-/// Cost: least squares by conjugate gradients; meant for messages.
+/// The rows of `independent` from which another one follows, leaving out those with less than a
+/// thousandth of the combination: the rows that contradict it if it does not hold. Ascending. Cost:
+/// least squares by conjugate gradients; meant for messages.
 std::vector<int> rows_behind(const model::Model& model,
                              const std::vector<dynamics::SystemRow>& rows,
                              const std::vector<dynamics::BodyCompliance>& compliance,

@@ -12,15 +12,15 @@
 
 namespace buckens::stepping {
 
-/// Watches whether joint rows hold, above all those that are left out because they follow from
+/// Watches whether joint rows are satisfied, above all those left out because they follow from
 /// others.
 ///
-/// Rows are compared on one scale: lengths as parts of the model's length, angles in rad.
+/// Rows are compared on one scale: lengths as fractions of the model's length, angles in rad.
 class RowWatch {
  public:
   explicit RowWatch(const model::Model& model);
 
-  /// Reports how far rows are open at the end of a step. Cost: one pass over the residuals.
+  /// Reports the residuals of rows at the end of a step. Cost: one pass over the residuals.
   /// @param place_in_use per row, −1 for those not in use
   /// @return a row not in use that contradicts the others by more than a millionth; −1: none
   int look(const dynamics::JointResiduals& residuals, const std::vector<int>& place_in_use,
@@ -30,11 +30,11 @@ class RowWatch {
   bool has_open_rows() const { return has_open_rows_; }
   void rows_are_chosen() { has_open_rows_ = false; }
 
-  /// Saves what steps to come depend on, or takes it back. @throws InputError where it does not fit
+  /// Saves or restores what later steps depend on. @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
-  /// What to say of a row that look() returned: its joint, the joints it contradicts, the instant
-  /// and how far it is open.
+  /// Message about a row that look() returned: its joint, the joints it contradicts, the instant
+  /// and the size of its residual.
   /// @param rows all of them, @param in_use those in use, ascending
   std::string describe_contradiction(int row, double t, const dynamics::JointResiduals& residuals,
                                      const std::vector<dynamics::SystemRow>& rows,
@@ -43,7 +43,7 @@ class RowWatch {
 
  private:
   const model::Model& model_;
-  std::vector<double> size_;  // model's length of rows that are lengths, 1 of angles
+  std::vector<double> size_;  // model's length for rows that are lengths, 1 for angles
   double largest_gap_ = 0;    // of rows not in use so far
   bool has_open_rows_ = false;
 };

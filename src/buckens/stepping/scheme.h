@@ -12,7 +12,7 @@ enum class Method { generalized_alpha, newmark, hht, wilson };
 
 std::string to_string(Method method);
 
-/// What one coordinate x with rate ẋ knows about the coming step. With Δ the unknown increment:
+/// Prediction for one coordinate x with rate ẋ over the next step. With Δ the unknown increment:
 ///
 ///     x⁺ = x + Δ,            ẋ⁺ = s₁ Δ + velocity,   ẍ_e = s₂ Δ + acceleration,
 ///     x_e = x + θ Δ + offset,   ẋ_e = s_e Δ + mean_velocity
@@ -23,7 +23,7 @@ struct History {
   V velocity;
   V acceleration;
   V mean_velocity;
-  V predicted;  ///< Δ that the last accelerations suggest
+  V predicted;  ///< Δ predicted from the last accelerations
   V offset;     ///< zero unless Scheme::has_offset()
 };
 
@@ -43,13 +43,13 @@ class Scheme {
   /// @param h step [s] > 0
   /// @param parameter of the method: spectral radius at infinite frequency in [0, 1] for
   ///        generalised-α, α in [−1/3, 0] for HHT, θ ≥ 1.366 for Wilson; unused by Newmark
-  /// @throws InputError saying what lies out of its range and why
+  /// @throws InputError saying what is out of range and why
   Scheme(Method method, double h, double parameter);
 
   Method method;
   double h;
   double mass, damping, stiffness;  ///< K̂ = mass M + damping C + stiffness K
-  double force;                     ///< c: x⁺ answers a load f with c K̂⁻¹ f
+  double force;                     ///< c: response of x⁺ to a load f is c K̂⁻¹ f
   double end_rate;                  ///< s₁ [1/s]
   double acceleration_rate;         ///< s₂ [1/s²]
   double mean_rate;                 ///< s_e [1/s]
@@ -66,7 +66,7 @@ class Scheme {
     history(rate, acceleration, algorithmic, out);
     return out;
   }
-  /// The same into `out`, whose memory serves again.
+  /// The same into `out`, whose buffers are reused.
   template <class V>
   void history(const V& rate, const V& acceleration, const V& algorithmic, History<V>& out) const {
     if (method == Method::wilson) {
@@ -90,7 +90,7 @@ class Scheme {
     }
   }
 
-  /// Acceleration to be carried on: at t + h, for Newmark the mean of the step.
+  /// Acceleration to carry forward: at t + h, for Newmark the mean of the step.
   /// @param evaluated ẍ_e
   template <class V>
   V carried_acceleration(const V& acceleration_before, const V& evaluated) const {
@@ -108,7 +108,7 @@ class Scheme {
     }
   }
 
-  /// Algorithmic acceleration at the end of the step from the carried one there.
+  /// Algorithmic acceleration at the end of the step from the acceleration carried there.
   template <class V>
   V algorithmic(const V& acceleration_before, const V& algorithmic_before,
                 const V& acceleration) const {
@@ -129,15 +129,15 @@ class Scheme {
     }
   }
 
-  /// Whether accelerations of their own are carried beside the true ones.
+  /// Whether separate algorithmic accelerations are carried along with the true ones.
   bool has_algorithmic() const {
     return method == Method::generalized_alpha || method == Method::hht;
   }
-  /// Offset of the algorithmic acceleration: it approximates ẍ(t + offset·h). It has to move with h
-  /// when the step changes; see rescale_algorithmic().
+  /// Offset of the algorithmic acceleration: it approximates ẍ(t + offset·h). It has to be rescaled
+  /// when h changes; see rescale_algorithmic().
   double algorithmic_offset() const { return alpha_m_ - alpha_f_; }
 
-  /// κ: one step errs by κ h³ x‴, in a vibration by this share of displacement or of velocity over
+  /// κ: the error of one step is κ h³ x‴, for a vibration in displacement or in velocity over
   /// frequency, whichever is larger.
   double error_constant() const;
 

@@ -10,17 +10,17 @@ namespace buckens::stepping {
 
 /// Row values y = N A Nᵀ f of a body with few variables, through its variables.
 ///
-/// A part of a divided beam has six variables or twelve but eighteen rows of markers and patterns,
+/// A part of a divided beam has six or twelve variables but eighteen rows of markers and patterns,
 /// nearly all of them unit rows: N and Nᵀ cost a few additions and A is 6×6 or 12×12, where N A Nᵀ
 /// is 18×18.
 class SmallBodyAnswers {
  public:
   using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  /// Variables of a body for which this is meant.
+  /// Largest number of variables for which this is used.
   static constexpr int kMostVariables = 24;
 
   SmallBodyAnswers() = default;
-  /// @param A answers of the variables to loads on them, @param B to loads of a correction
+  /// @param A responses of the variables to loads on them, @param B to loads of a correction
   SmallBodyAnswers(const RowMatrix& N, linalg::Matrix A, linalg::Matrix B);
 
   bool empty() const { return n_ == 0; }

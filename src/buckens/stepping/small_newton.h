@@ -23,24 +23,24 @@ namespace buckens::stepping {
 ///
 /// Directions of the correction and the matrix of the iteration are those at the predicted
 /// configuration. Residuals are exact, so the result does not depend on the approximation. After
-/// the first step nothing is allocated unless other rows are taken into use.
+/// the first step nothing is allocated unless the rows in use change.
 class SmallNewton {
  public:
-  /// @param rows_in_use independent rows of λ; the others follow from them and are left at zero
+  /// @param rows_in_use independent rows of λ; the others follow from them and remain zero
   SmallNewton(const model::Model& model, const Scheme& scheme, const StepSettings& settings,
               std::vector<const BodyAnswer*> answers, std::vector<int> rows_in_use);
 
-  /// What force laws see in the step that follows; it outlives that. λ is read as it is iterated.
+  /// What force laws may use in the next step; must outlive it. λ is read as it is iterated.
   void use(const dynamics::Circumstances& around) { around_ = around; }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
   void prepare(std::vector<BodyStep>& bodies, double t);
 
-  /// Iterates until the motion no longer changes.
+  /// Iterates until the motion stops changing.
   /// @param lambda first guess and result [N, N m]
-  /// @throws NumericalError with the joint that resists, if it does not converge
+  /// @throws NumericalError naming the joint that resists, if it does not converge
   void iterate(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
-  /// Goes on from where iterate() ended in this step, after free responses or moments of `bodies`
+  /// Continues from where iterate() ended in this step, after free responses or moments of `bodies`
   /// changed. A change too small to move anything takes no iteration.
   void iterate_on(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda,
                   StepReport& report);
@@ -49,11 +49,11 @@ class SmallNewton {
   const dynamics::Forces& forces() const { return forces_; }
   const std::vector<dynamics::BodyMotion>& motions_at_end() const { return end_; }
   const std::vector<int>& rows_in_use() const { return rows_in_use_; }
-  /// How often other rows were taken into use because pivots dropped or a row opened.
+  /// How often the rows in use were changed because pivots dropped or a row opened.
   int num_selections() const { return num_selections_; }
 
-  /// Saves what steps to come depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later steps depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
@@ -62,11 +62,11 @@ class SmallNewton {
     double motion = 0;  ///< largest motion of the step [m]
   };
   void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda);
-  /// @return size of what the equations of motion of the bodies leave open [m]
+  /// @return size of the residual of the bodies' equations of motion [m]
   double find_residuals(const std::vector<BodyStep>& bodies);
-  /// One iteration from what evaluate() and find_residuals() found.
+  /// One iteration from the results of evaluate() and find_residuals().
   Change move(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
-  /// Evaluates and moves until settled. @param change of the iteration before, if there was one
+  /// Evaluates and moves until converged. @param change of the previous iteration, if any
   void settle(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, Change change,
               StepReport& report);
   void solve_correction(const std::vector<BodyStep>& bodies);
@@ -81,31 +81,31 @@ class SmallNewton {
     return scheme_.weight == 1.0 ? end_ : evaluation_;
   }
   /// Replaces ġ by that without position corrections and with shapes as at the start of the step: a
-  /// quasi-static shape that changes must not throw the mechanism about, Δλ ~ m w Δy/h.
+  /// changing quasi-static shape must not jolt the mechanism, Δλ ~ m w Δy/h.
   void keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end);
-  /// A joint row as it closes velocities: deformation without rates has no part in it.
+  /// A joint row for closing velocities: excludes deformation without rates.
   dynamics::SystemRow without_rates(dynamics::SystemRow row) const;
   bool corrects_positions() const;
-  /// Bodies and marker rows of everything that is to be condensed: rows in use, then the soft ones.
+  /// Bodies and marker rows of everything to be condensed: rows in use, then the soft ones.
   std::vector<dynamics::SystemRow> row_pattern(double t);
   void number_rows_in_use();
-  /// Hands the derivatives at this configuration to the condensation, soft rows last.
+  /// Passes the derivatives at this configuration to the condensation, soft rows last.
   void set_joint_rows(double t);
   void set_soft_rows();
-  /// Forms the matrix anew if a force law has changed its regime since. Position corrections are
-  /// then taken back: they weigh soft rows, and belong to one matrix. @return false if so
+  /// Forms the matrix again if a force law has changed its regime since. Position corrections are
+  /// then undone: they weigh soft rows, and belong to one matrix. @return false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
   /// Assembles and factorises S for the rows in use. @return false if it is singular
   bool condense(double t);
-  /// Asks again which rows are independent.
-  /// @param may_give_up whether fewer rows are taken, too
-  /// @return true if others are used from now on
+  /// Determines again which rows are independent.
+  /// @param may_give_up whether fewer rows may be used
+  /// @return true if the rows in use have changed
   bool select_rows_anew(double t, bool may_give_up);
-  /// Multipliers of rows that were given up are zero.
+  /// Multipliers of dropped rows are zero.
   void leave_to_rows_in_use(linalg::Vector& lambda) const;
-  /// Reports how far rows are open, and notes a row not in use that no longer follows from the
+  /// Reports the residuals of rows, and notes a row not in use that no longer follows from the
   /// others. Costs one pass over the rows per step.
-  /// @throws StepFailure naming the joints, if what such a row leaves open spoils the motion
+  /// @throws StepFailure naming the joints, if the residual of such a row spoils the motion
   void watch_rows(double t, StepReport& report);
   [[noreturn]] void fail(double t, const StepReport& report, const char* what) const;
 
@@ -115,14 +115,14 @@ class SmallNewton {
   std::vector<const BodyAnswer*> answers_;
   std::vector<int> rows_in_use_;
   std::vector<int> dependent_;  // at the last selection
-  bool gave_up_rows_ = false;   // fewer rows in use than hold elsewhere: a dead centre was hit
+  bool gave_up_rows_ = false;   // fewer rows in use than elsewhere: a dead centre was hit
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   RowWatch watch_;
   bool has_quasi_static_ = false;
   dynamics::Circumstances around_;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
-  std::vector<double> pivoted_;  // for a condensation that is yet to be made, see visit_saved()
+  std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()
 
   double rounding_length_;  // at the predicted configuration [m]
   dynamics::JointSet joints_;

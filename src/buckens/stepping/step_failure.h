@@ -5,8 +5,8 @@
 
 namespace buckens::stepping {
 
-/// A step did not settle or left the numbers. A shorter one may do; anything else that is thrown
-/// while stepping (a law without a value, say) would be met again.
+/// A step did not converge or produced non-finite numbers. A shorter one may work; any other
+/// exception while stepping (such as a law without a value) would occur again.
 class StepFailure : public NumericalError {
   using NumericalError::NumericalError;
 };

@@ -11,9 +11,9 @@ namespace buckens::stepping {
 
 /// Steppers for steps h, h/2, h/4, …: factorised when first needed, and kept.
 ///
-/// Memory is bounded: when a new one comes and more than Limits::most_kept would stay, or their
-/// factors would hold more than Limits::most_entries numbers together, those not used for longest
-/// go. The one used last and the new one stay in any case.
+/// Memory is bounded: when a new one is added and more than Limits::most_kept would be kept, or
+/// their factors would have more than Limits::most_entries numbers in total, the least recently
+/// used are dropped. The last used and the new one are always kept.
 class StepLadder {
  public:
   static constexpr int kMostRung = 20;
@@ -28,24 +28,24 @@ class StepLadder {
   StepLadder(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use)
       : StepLadder(model, settings, std::move(rows_in_use), Limits{}) {}
 
-  /// Stepper for steps h·2⁻ᵏ. The reference holds until the next call.
+  /// Stepper for steps h·2⁻ᵏ. The reference is valid until the next call.
   Stepper& rung(int k);
   /// The stepper that rung() returned last.
   Stepper& latest();
   /// h·2⁻ᵏ [s]
   double step(int k) const;
 
-  /// Of all rungs together, those given up included.
+  /// Of all rungs together, including dropped ones.
   SolveCounts counts(std::size_t body) const;
   StepSeconds seconds() const;
-  /// Factorisations made for one rung, all bodies together: one for bodies that share a factor,
-  /// none for reduced ones; again each time that a rung was given up and came back.
+  /// Factorisations done for one rung, all bodies together: one for bodies that share a factor,
+  /// none for reduced ones; again each time a dropped rung is needed again.
   long factorisations(int k) const;
-  /// Rungs that are kept at present.
+  /// Rungs currently kept.
   std::size_t num_kept() const { return rungs_.size(); }
 
-  /// Saves what steps to come depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later steps depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:

@@ -17,29 +17,29 @@ struct StepSettings {
   double newton_tolerance = 1e-10;  ///< change of positions relative to the step's motion
   double outer_tolerance = 1e-6;    ///< relative change of the coupling load
   bool iterate_coupling = false;    ///< to outer_tolerance; otherwise a second large solve is the
-                                    ///< last if its coupling load was right to 1e-4
+                                    ///< last if its coupling load was accurate to 1e-4
   int max_newton = 40;
   int max_outer = 30;
-  int threads = 1;  ///< ≥ 1; has no influence on results
+  int threads = 1;  ///< ≥ 1; does not influence results
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
-  /// Who factorises the step matrices of bodies; an exchange brings its own.
+  /// Factorises the step matrices of bodies; an exchange has its own.
   linalg::MakeFactor make_factor = linalg::make_cholesky;
 
-  /// The parameter that the method takes, for Scheme.
+  /// The parameter of the method, for Scheme.
   double method_parameter() const {
     return method == Method::hht ? alpha : method == Method::wilson ? theta : rho_inf;
   }
 };
 
-/// What one step took and how well it closed.
+/// Effort and residuals of one step.
 struct StepReport {
   int newton_iterations = 0;
-  int large_solve_rounds = 0;    ///< large solves of the body that took most; 0: all rigid
+  int large_solve_rounds = 0;    ///< large solves of the body that needed most; 0: all rigid
   double position_residual = 0;  ///< max |g| [m] or [-]
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest
-  /// The same of all rows on one scale: lengths as parts of the model's length, angles as they are.
+  /// The same for all rows on one scale: lengths as fractions of the model's length, angles in rad.
   double opening = 0;          ///< [-]
   double opening_rate = 0;     ///< [1/s]
   int most_open_row = -1;      ///< of λ, where the opening is largest

@@ -30,10 +30,10 @@ struct StepSeconds {
 
 /// Advances a mechanism by steps of one length with one factorisation per flexible body.
 ///
-/// With several threads, bodies advance at the same time, and large solves are shared between two;
-/// the result is the same to the last bit. Bodies with equal matrices share one factor and solve
-/// together. Once the first steps have been taken, a step allocates nothing at all, unless other
-/// joint rows are taken into use, its length changes, or several simulations solve together.
+/// With several threads, bodies advance concurrently, and large solves are shared between two; the
+/// result is bitwise the same. Bodies with equal matrices share one factor and solve together. Once
+/// the first steps have been taken, a step allocates nothing at all, unless the joint rows in use
+/// or its length change, or several simulations solve together.
 ///
 /// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the
 /// small Newton in frame coordinates and λ; a thin product to complete the nodal variables;
@@ -45,17 +45,17 @@ class Stepper {
   Stepper(const model::Model& model, const StepSettings& settings, std::vector<int> rows_in_use);
   ~Stepper();
 
-  /// Advances `state` by one step. The step before may have had another length.
-  /// @throws StepFailure naming joint or body that resists; `state` is then unchanged bit for bit
+  /// Advances `state` by one step. The previous step may have had another length.
+  /// @throws StepFailure naming the joint or body that resists; `state` is then bitwise unchanged
   StepReport step(model::State& state) { return step(state, state); }
-  /// The same into `after`, which may be `before`; its memory serves again.
+  /// The same into `after`, which may be `before`; its buffers are reused.
   StepReport step(const model::State& before, model::State& after);
 
-  /// Threads for the steps to come, ≥ 1.
+  /// Threads for the following steps, ≥ 1.
   void use_threads(int threads);
 
   SolveCounts counts(std::size_t body) const;
-  /// What a flexible body would leave out at a state if it kept these terms only, see
+  /// What a flexible body would leave out at a state if it kept only these terms, see
   /// neglected_share(). No product with K or C is formed where has_balance() holds.
   double neglected(std::size_t body, const model::State& state,
                    const body::CouplingTerms& kept) const;
@@ -66,16 +66,16 @@ class Stepper {
   /// Lowest elastic frequency of a flexible body [rad/s], see lowest_frequency.h.
   double lowest_frequency(std::size_t body);
   const StepSeconds& seconds() const { return seconds_; }
-  /// Numbers in the factors of all bodies: what this stepper needs of memory.
+  /// Numbers in the factors of all bodies: the memory that this stepper needs.
   double factor_entries() const;
   /// Bytes that one pass over the factors of all bodies reads.
   double factor_bytes() const;
   const Scheme& scheme() const { return scheme_; }
-  /// How often the joint equations in use were chosen anew.
+  /// How often the joint equations in use were changed.
   int num_row_selections() const { return newton_->num_selections(); }
 
-  /// Saves what steps to come depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later steps depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
@@ -106,7 +106,7 @@ class Stepper {
   std::vector<LaggedCoupling::Gap> gaps_;  // per body
   std::unique_ptr<TaskPool> pool_;         // empty with one thread
   model::State next_;
-  linalg::Vector lambda_;  // of the step that is being taken
+  linalg::Vector lambda_;  // of the current step
   double stepped_to_ = 0;  // end of the last step [s]
   bool has_stepped_ = false;
   Eigen::Index num_dofs_ = 0;      // of all bodies

@@ -14,7 +14,7 @@ namespace buckens::stepping {
 /// How far to go and how long steps may be.
 struct MarchSettings {
   double duration = 0;                      ///< [s]
-  long longest_steps = 1;                   ///< how many of the longest steps make the duration
+  long longest_steps = 1;                   ///< number of longest steps in the duration
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
 };
 
@@ -25,22 +25,22 @@ struct RungUse {
   long factorisations = 0;  ///< all bodies together
 };
 
-/// What was tried in vain.
+/// Rejected steps.
 struct MarchReport {
   long accepted = 0;
   long rejected = 0;  ///< error above the tolerance
-  long failed = 0;    ///< not settled
+  long failed = 0;    ///< not converged
 };
 
-/// Goes from 0 to the end of a run by steps h·2⁻ᵏ.
+/// Advances from 0 to the end of a run by steps h·2⁻ᵏ.
 ///
-/// With a tolerance k follows the estimated error of each step, of which each may make as large a
-/// share of the tolerance as it is long: together they make no more than the tolerance. While a
-/// step is shortened for an event, such as a load that sets in, it keeps the share of the step that
-/// was tried first; in the steps after it that fades by halves. Without a tolerance k is 0. A step
-/// that does not settle is tried again with half its length, at most kMostHalvings times;
-/// afterwards the march returns to the given step as soon as that fits the grid again. Steps of
-/// length h·2⁻ᵏ begin at multiples of it, so times are exact and the end is met.
+/// With a tolerance, k follows the estimated error of each step, which may use a share of the
+/// tolerance in proportion to its length: in total they stay within the tolerance. While a step is
+/// shortened for an event, such as the onset of a load, it keeps the share of the step that was
+/// tried first; in the following steps this fades by halves. Without a tolerance k is 0. A step
+/// that does not converge is repeated with half its length, at most kMostHalvings times; afterwards
+/// the march returns to the given step as soon as that fits the grid again. Steps of length h·2⁻ᵏ
+/// start at multiples of it, so times are exact and the end is reached exactly.
 class TimeMarch {
  public:
   static constexpr int kMostHalvings = 8;   ///< without tolerance
@@ -51,7 +51,7 @@ class TimeMarch {
             const MarchSettings& march);
 
   /// One accepted step from `before` to `after`, preceded by as many rejected ones as it takes.
-  /// `before` is not touched: what is rejected leaves no trace.
+  /// `before` is not changed: rejected steps leave no trace.
   /// @throws NumericalError naming the joint or body that resists, or whose error stays too large
   StepReport advance(const model::State& before, model::State& after);
 
@@ -60,15 +60,15 @@ class TimeMarch {
   double longest_step() const { return ladder_.step(0); }
   /// Length of the step that advance() will try next [s].
   double next_step() const { return ladder_.step(k_); }
-  /// Of the step taken last. The reference holds until the next step.
+  /// Of the last step. The reference is valid until the next step.
   Stepper& stepper() { return ladder_.latest(); }
   const StepLadder& ladder() const { return ladder_; }
   const MarchReport& report() const { return report_; }
   /// Rungs in use, from the longest step to the shortest.
   std::vector<RungUse> rungs() const;
 
-  /// Saves what steps to come depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later steps depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
@@ -87,8 +87,8 @@ class TimeMarch {
   ErrorEstimate estimate_;
   bool has_begun_ = false;
   int k_ = 0;
-  double spread_ = 0;         ///< time whose share of the tolerance the coming step may use up [s]
-  long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step there is
+  double spread_ = 0;         ///< time whose share of the tolerance the next step may use [s]
+  long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step
   MarchReport report_;
   std::vector<long> accepted_;  ///< per k
   std::string first_failure_;   ///< of the step being tried

@@ -12,8 +12,8 @@ namespace buckens::sweep {
 /// Name of the table in the directory of a sweep.
 inline constexpr char kSweepName[] = "sweep.csv";
 
-/// The table of a sweep in CSV: per variant its values, how it ended, effort and trust, and of
-/// every sensor the last value and the extremes over time. Cells that are not known are empty.
+/// The table of a sweep in CSV: for each variant its values, how it ended, effort and trust, and
+/// for every sensor the last value and the extremes over time. Unknown cells are empty.
 /// @param out directory of the sweep; finished runs are read from there
 std::string sweep_summary_csv(const std::filesystem::path& out, const SweepTable& table,
                               const SweepOutcome& outcome);

@@ -29,11 +29,11 @@ struct VariantOutcome {
 struct SweepProgress {
   const VariantOutcome* ended = nullptr;  ///< a variant that just ended
   std::size_t num_ended = 0, num_variants = 0;
-  double share = 0;  ///< of all steps, about
+  double share = 0;  ///< of all steps, approximately
 };
 
 struct SweepOptions {
-  int together = 6;  ///< variants that advance side by side and share solves
+  int together = 6;  ///< variants that advance together and share solves
   /// Called when variants end and after steps; returning false ends the sweep after these steps.
   std::function<bool(const SweepProgress&)> on_progress;
 };
@@ -45,14 +45,14 @@ struct SweepOutcome {
   long passes = 0;                       ///< times that a factor was read for them
 };
 
-/// Runs the variants of a model, each into a run directory of its own, `out`/NAME.
+/// Runs the variants of a model, each into its own run directory, `out`/NAME.
 ///
 /// Those that share a body's matrices share its factor, and their solves go together, see
-/// linalg::SolveExchange. Variants that an earlier sweep finished are kept if the model file, the
-/// files it names and their values are what they were. A variant that fails does not stop the
+/// linalg::SolveExchange. Variants finished by an earlier sweep are kept if the model file, the
+/// files it names and their values are unchanged. A variant that fails does not stop the
 /// others.
 /// @param overrides apply to all variants, before their own values
-/// @throws IoError if `out` cannot be made; whatever reading the model without variants throws
+/// @throws IoError if `out` cannot be created; whatever reading the model without variants throws
 SweepOutcome run_variants(const std::filesystem::path& model,
                           const std::vector<std::string>& overrides, const SweepTable& table,
                           const std::filesystem::path& out, const SweepOptions& options);

@@ -16,17 +16,17 @@ namespace buckens::analysis {
 /// @param refinement r > 1, how many times finer
 double two_grid_factor(double refinement);
 
-/// The same where the further run has no error of this kind: the difference, times 1.25.
+/// The same if the further run has no error of this kind: the difference, times 1.25.
 double exact_factor();
 
-/// Says by how much the sensors of a run may be off, from further runs that each improve one thing.
+/// Estimates the uncertainty of the sensors of a run from further runs that each improve one thing.
 class ErrorEstimate {
  public:
   /// @param run must outlive the estimate
   explicit ErrorEstimate(const SensorCurves& run);
 
-  /// Adds what a further run says. Values are compared at equal times, between the records of the
-  /// further one along straight lines.
+  /// Adds a further run. Values are compared at equal times, interpolated linearly between its
+  /// records.
   void add(results::ErrorSource source, const SensorCurves& further);
   void note(std::string text) { out_.notes.push_back(std::move(text)); }
   void set_incomplete() { out_.is_complete = false; }

@@ -9,24 +9,24 @@
 
 namespace buckens::analysis {
 
-/// Whether meshes become finer or coarser, by a factor of two.
+/// Whether to make meshes finer or coarser, by a factor of two.
 enum class MeshChange { finer, coarser };
 
-/// What has become of the meshes of a model.
+/// What was done to the meshes of a model.
 struct MeshRefinement {
   std::vector<std::string> changed;    ///< bodies
-  std::vector<std::string> unchanged;  ///< flexible bodies whose meshes the program did not make
+  std::vector<std::string> unchanged;  ///< flexible bodies whose meshes were not generated
   /// Parts of STEP files with their size of elements [m]; not changed here.
   std::vector<std::pair<std::string, double>> geometries;
   bool is_possible = true;  ///< false: a number of divisions cannot be halved
   double growth = 1;        ///< largest factor of nodal variables of a body
 };
 
-/// Divides the meshes that the program generates twice or half as finely. Sensors at numbered line
-/// elements keep their places.
+/// Divides generated meshes twice or half as finely. Sensors at numbered line elements keep their
+/// positions.
 MeshRefinement refine_meshes(model::ModelDescription& description, MeshChange change);
 
-/// Lets bodies made of beams be carried by twice as many frames where they have elements for that.
+/// Gives bodies made of beams twice as many frames if they have enough elements.
 /// @return their names
 std::vector<std::string> refine_frames(model::ModelDescription& description);
 

@@ -19,14 +19,14 @@ struct ErrorRunOptions {
   int threads = 1;
 };
 
-/// Runs the variants of a model and states by how much the sensors of its run may be off.
+/// Runs the variants of a model and states the uncertainty of the sensors of its run.
 ///
 /// A variant that cannot be built or run does not end the others: a note says why.
 /// @param run sensors of the run itself, finished
 results::ErrorStatement state_errors(const ErrorVariants& variants, const SensorCurves& run,
                                      const ErrorRunOptions& options = {});
 
-/// Reasons to doubt a run that its error statement gives.
+/// Reasons to doubt a run, from its error statement.
 std::vector<std::string> doubts(const results::ErrorStatement& statement);
 
 }  // namespace buckens::analysis

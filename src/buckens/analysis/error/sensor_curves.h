@@ -18,11 +18,11 @@ struct SensorCurve {
   std::vector<double> values;  ///< one per record
 };
 
-/// Keeps the sensors of a run in memory, and passes everything on but the end.
+/// Keeps the sensors of a run in memory, and passes on everything except the end.
 class SensorCurves : public results::RecordSink {
  public:
-  /// @param next gets what comes, without finish(); null: nothing
-  /// @param watched bodies of which the largest deformation is kept
+  /// @param next receives everything except finish(); may be null
+  /// @param watched bodies whose largest deformation is kept
   explicit SensorCurves(results::RecordSink* next = nullptr, std::vector<std::string> watched = {})
       : next_(next), watched_(std::move(watched)) {}
 
@@ -38,7 +38,7 @@ class SensorCurves : public results::RecordSink {
   /// Null if there is none with this name.
   const SensorCurve* find(const std::string& name) const;
   /// Nodal displacements of a watched body at the record with the largest ones, one row per node;
-  /// empty where none are recorded.
+  /// empty if none are recorded.
   linalg::Matrix largest_deformation(const std::string& body) const;
   /// Empty until the run is over.
   const std::optional<results::RunSummary>& summary() const { return summary_; }

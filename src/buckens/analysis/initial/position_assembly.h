@@ -7,7 +7,7 @@
 
 namespace buckens::analysis {
 
-/// Moves undeformed bodies by the least change (in the mass metric) until all joints close at
+/// Moves undeformed bodies as little as possible (in the mass metric) until all joints close at
 /// state.t: damped Newton with step limits, redundant joints allowed.
 /// @return the largest remaining |g|
 /// @throws ModelError naming the joint that cannot be closed, and its gap
@@ -15,9 +15,9 @@ double assemble_positions(const model::Model& model, const dynamics::MassMetric&
                           model::State& state);
 
 /// Adds the least velocities that satisfy all joints: first by the frames alone, so that undeformed
-/// bodies start with a rigid velocity field, then also by nodal velocities if something is left.
+/// bodies start with a rigid velocity field, then also by nodal velocities if necessary.
 /// @return the largest remaining |ġ|
-/// @throws ModelError naming the joint whose velocity cannot be met
+/// @throws ModelError naming the joint whose velocity cannot be satisfied
 double project_velocities(const model::Model& model, const dynamics::MassMetric& metric,
                           model::State& state);
 

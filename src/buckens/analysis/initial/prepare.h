@@ -17,16 +17,16 @@ struct Prepared {
   std::vector<int> rows_in_use;             ///< independent rows of λ
   std::vector<int> redundant_rows;          ///< those that follow from them
   std::vector<std::string> redundant_text;  ///< by joint: "hinge_2: 5 of 5 equations follow …"
-  std::vector<AssemblyMove> moves;          ///< what position assembly did to the bodies
+  std::vector<AssemblyMove> moves;          ///< moves of the bodies by position assembly
   std::vector<std::string> notes;           ///< what a user should know about the start
-  std::vector<std::string> warnings;        ///< of what was hardly meant
+  std::vector<std::string> warnings;        ///< about implausible values
   long setup_factorisations = 0;            ///< of a static start
 };
 
-/// Assembles positions, finds redundant joints, starts statically if asked for, projects velocities
+/// Assembles positions, finds redundant joints, starts statically if requested, projects velocities
 /// and computes accelerations at t = 0.
-/// @throws ModelError naming the joint that cannot be closed or the body that is not held, or where
-///         assembly is strict and moves a body
+/// @throws ModelError naming the joint that cannot be closed or the body that is not held, or if
+/// strict assembly would move a body
 Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric);
 
 }  // namespace buckens::analysis

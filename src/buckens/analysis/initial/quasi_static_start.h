@@ -9,14 +9,14 @@
 
 namespace buckens::analysis {
 
-/// Gives quasi-static bodies the deformation that belongs to their motion at the start.
+/// Gives quasi-static bodies the deformation that corresponds to their motion at the start.
 ///
-/// In turn: accelerations and joint forces of the mechanism whose bodies keep their shape, the
-/// deformation K η = load that these forces and the inertia of the motion cause, positions and
-/// velocities of the frames that close the joints again; until nothing changes [Popp, Dirr and
-/// Jahnke]. Without quasi-static bodies accelerations alone are computed.
+/// Alternates between accelerations and joint forces of the mechanism with fixed shapes, the
+/// deformation K η = load by these forces and the inertia of the motion, and positions and
+/// velocities of the frames that close the joints again, until nothing changes [Popp, Dirr and
+/// Jahnke]. Without quasi-static bodies only accelerations are computed.
 /// @param rows_in_use independent rows of λ
-/// @throws NumericalError naming a body whose deformation does not settle
+/// @throws NumericalError naming a body whose deformation does not converge
 void settle_accelerations(const model::Model& model, const dynamics::MassMetric& metric,
                           const std::vector<int>& rows_in_use, model::State& state);
 

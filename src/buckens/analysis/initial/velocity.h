@@ -6,11 +6,11 @@
 
 namespace buckens::analysis {
 
-/// Velocities as the model file gives them, before joints are considered.
+/// Velocities as given in the model file, before joints are considered.
 ///
-/// Those of a divided body are the ones of the whole: its parts get v + ω × r, and nodal velocities
-/// lose the rigid motion of the whole, not that of each part.
-/// @throws InputError for unknown bodies, motions out of the plane, nodal velocities of rigid
+/// For a divided body they refer to the whole: its parts get v + ω × r, and the rigid motion of the
+/// whole, not of each part, is removed from nodal velocities.
+/// @throws InputError for unknown bodies, out-of-plane motions, nodal velocities of rigid
 /// bodies
 void set_initial_velocities(const model::BuiltModel& built, model::State& state);
 

@@ -9,8 +9,8 @@
 
 namespace buckens::analysis {
 
-/// Says which bodies do not start with the velocities that the model file gives them, because the
-/// joints do not allow these. A sentence per body; bodies without given velocities are not judged.
+/// Reports bodies that do not start with the velocities given in the model file, because the joints
+/// do not allow them. A sentence per body; bodies without given velocities are not checked.
 /// @param given velocities as in the model file, @param projected those of the start
 std::vector<std::string> describe_velocity_changes(const model::BuiltModel& built,
                                                    const model::State& given,

@@ -12,14 +12,14 @@
 namespace buckens::analysis {
 
 /// Measures what the bodies' levels of inertial coupling leave out, and moves bodies with `auto` up
-/// where it becomes too much.
+/// when it becomes too much.
 ///
-/// A body moves up between steps, never down: to `first-order` where the terms that this leaves out
+/// A body moves up between steps, never down: to `first-order` if the terms that this leaves out
 /// stay below the tolerance, otherwise to `full`. Terms are judged by their largest share in ten
-/// steps, beside (|w|/ω₁)² and |ẇ|/ω₁²; a body without joints moves to `full` once |w| exceeds 0.03
-/// ω₁, because its spin about the middle axis is unstable. With other terms other accelerations
-/// belong to the same motion: they are computed anew, energy and momentum jump by what was
-/// neglected, and the jump is reported.
+/// steps, together with (|w|/ω₁)² and |ẇ|/ω₁²; a body without joints moves to `full` once |w|
+/// exceeds 0.03 ω₁, because its spin about the middle axis is unstable. With different terms the
+/// same motion has different accelerations: they are recomputed, energy and momentum jump by what
+/// was neglected, and the jump is reported.
 class CouplingWatch {
  public:
   CouplingWatch(const model::Model& model, const dynamics::MassMetric& metric,
@@ -33,15 +33,15 @@ class CouplingWatch {
   /// To be called after each step.
   void after_step(const stepping::Stepper& stepper, model::State& state);
 
-  /// Products with the stiffness or damping matrices of meshes so far: none after steps whose
-  /// balance of loads is known, see stepping::Stepper::has_balance().
+  /// Number of products with stiffness or damping matrices of meshes so far: none after steps with
+  /// a known balance of loads, see stepping::Stepper::has_balance().
   long num_products() const { return products_; }
 
   /// Level, its changes and the largest neglected share of each body.
   void fill(const model::State& state, results::RunSummary& summary) const;
 
-  /// Saves what later values depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later values depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
@@ -60,7 +60,7 @@ class CouplingWatch {
   /// What a body would leave out with these terms.
   double measure(std::size_t b, const stepping::Stepper& stepper, const model::State& state,
                  const body::CouplingTerms& kept);
-  /// Terms that the motion asks for, at least those in use.
+  /// Terms that the motion requires, at least those in use.
   body::CouplingTerms needed(std::size_t b, const stepping::Stepper& stepper,
                              const model::State& state);
   /// @return whether any body moved up

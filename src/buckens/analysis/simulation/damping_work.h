@@ -9,15 +9,15 @@
 
 namespace buckens::analysis {
 
-/// Energy that the structural damping of one flexible body takes, step by step.
+/// Energy dissipated by the structural damping of one flexible body, step by step.
 ///
 /// Where C = α M + β K and states satisfy the equations of motion (generalised-α, HHT), no product
-/// with K is needed: what the body is loaded with says what K d is,
+/// with K is needed: K d follows from the loads on the body,
 ///
-///     K (d + β ḋ) = F + Nᵀf − M (d̈ + α ḋ)      up to the span of P, which no d contains,
+///     K (d + β ḋ) = F + Nᵀf − M (d̈ + α ḋ)      up to the span of P, to which d has no component,
 ///
-/// and with ḋ of K d by two-step backward differences this is K d itself, to the order h². The step
-/// then took h α ḋᵀM ḋ + β/h Δᵀ K Δ, Δ = d⁺ − d. Otherwise, and for reduced bodies, ḋᵀC ḋ is
+/// and with the rate of K d by two-step backward differences this gives K d to order h². The step
+/// then dissipates h α ḋᵀM ḋ + β/h Δᵀ K Δ, Δ = d⁺ − d. Otherwise, and for reduced bodies, ḋᵀC ḋ is
 /// formed at every state. Theory: docs/theory/05-time-integration.md §6.
 class DampingWork {
  public:
@@ -26,15 +26,15 @@ class DampingWork {
   DampingWork(const model::Model& model, std::size_t body, const model::State& start,
               bool holds_at_states);
 
-  /// Energy taken between the last state and this one [J].
-  /// @param forces at this state, those of joints included
+  /// Energy dissipated between the last state and this one [J].
+  /// @param forces at this state, including those of joints
   double add(const model::State& state, const dynamics::Forces& forces);
 
-  /// Products with C or K so far.
+  /// Number of products with C or K so far.
   long num_products() const { return products_; }
 
-  /// Saves what later values depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later values depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:

@@ -8,13 +8,13 @@
 
 namespace buckens::analysis {
 
-/// The laws of time that drive joints, watched for what no mechanism can follow.
+/// Checks the laws of time that drive joints for what no mechanism can follow.
 class DriveLaws {
  public:
   explicit DriveLaws(const model::ModelDescription& description);
 
-  /// Refuses a law that jumps between two times: it would tear the mechanism to another position
-  /// without a motion between. What happens within 1/4096 of the interval counts as a jump.
+  /// Refuses a law that jumps between two times: it would move the mechanism to another position
+  /// instantaneously. A change within 1/4096 of the interval counts as a jump.
   /// @throws NumericalError with place, joint and law
   void check(double from, double to) const;
 

@@ -10,18 +10,18 @@
 
 namespace buckens::analysis {
 
-/// The largest strain anywhere in a mesh, from the strains that are recovered for its fields.
+/// The largest strain anywhere in a mesh, from the strains recovered for its fields.
 ///
-/// Of solids the largest principal strain at the nodes of the surface and where materials meet, of
-/// shells that of both sides at nodes, of beams and bars the axial strain of the fibre that is
-/// strained most, at their ends.
-/// Theory: docs/theory/18-stresses.md.
+/// For solids the largest principal strain at nodes of the surface and where
+/// materials meet, for shells that of both sides at nodes, for beams and bars the
+/// axial strain of the most strained fibre at their ends. Theory:
+/// docs/theory/18-stresses.md.
 class LargestStrain {
  public:
   explicit LargestStrain(const fem::FeModel& fe);
 
   /// @param d nodal variables
-  /// @param section_forces of all line elements, as fem::Recovery gives them
+  /// @param section_forces of all line elements, from fem::Recovery
   /// Cost: one pass over the elements at the surface, one sparse product for shells.
   double measure(const linalg::Vector& d, const linalg::Matrix& section_forces,
                  const fem::Recovery& recovery) const;

@@ -13,7 +13,7 @@
 
 namespace buckens::analysis {
 
-/// What can be said of an interface without running.
+/// Report on an interface without running.
 struct InterfaceReport {
   std::string name;
   bool is_rigid = false;
@@ -23,7 +23,7 @@ struct InterfaceReport {
   Eigen::Vector3d centre;  ///< model axes [m]
 };
 
-/// What can be said of one body without running.
+/// Report on one body without running.
 struct BodyReport {
   std::string name;
   bool is_flexible = false;
@@ -38,20 +38,20 @@ struct BodyReport {
   std::vector<std::string> markers;                 ///< names that joints and sensors can use
   std::optional<body::ReductionFigures> reduction;  ///< of reduced bodies
   std::vector<InterfaceReport> interfaces;
-  std::vector<SectionReport> sections;  ///< of beams, each way in which one lies once
+  std::vector<SectionReport> sections;  ///< of beams, each orientation once
 };
 
-/// What can be said of a distributed load without running.
+/// Report on a distributed load without running.
 struct LoadReport {
   std::string name, kind;
-  std::string place;  ///< as the model file names it; empty: all bodies
+  std::string place;  ///< as in the model file; empty: all bodies
   double extent = 0;
   std::string unit;                                  ///< of the extent: "m^2", "m", "kg", "m^3"
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< resultant at t = 0, world axes [N]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< at t = 0, about the mass centre [N m]
 };
 
-/// What can be said of a model without running: the content of `buckens check`.
+/// Report on a model without running: the contents of `buckens check`.
 struct ModelReport {
   std::vector<BodyReport> bodies;
   std::vector<LoadReport> distributed_loads;
@@ -60,7 +60,7 @@ struct ModelReport {
   int degrees_of_freedom = 0;                ///< of the mechanism with rigid bodies
   std::vector<std::string> redundant;        ///< by joint
   double assembly_gap = 0;                   ///< largest |g| left by assembly [m] or [-]
-  std::vector<AssemblyMove> moves;           ///< what assembly did to the bodies as placed
+  std::vector<AssemblyMove> moves;           ///< moves of the bodies by assembly
   double result_bytes = 0;                   ///< of results.h5, 0 without a simulation
   std::vector<ModeDamping> damping;          ///< of the lowest vibrations as assembled
   double step = 0, highest_frequency = 0;    ///< [s]; of the modes that loads excite [Hz]

@@ -10,10 +10,10 @@
 
 namespace buckens::analysis {
 
-/// Nodal values of bodies as tables, one row per node, in memory that stays where it is.
+/// Nodal values of bodies as tables, one row per node, at fixed addresses.
 ///
-/// The state itself cannot stay in place: a step needs its start and its end at once and exchanges
-/// the two. So a table is filled from the state of now when it is asked for.
+/// The state itself cannot stay in place: a step needs its start and its end at once and swaps the
+/// two. So a table is filled from the current state when requested.
 class NodalViews {
  public:
   using NodalMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;

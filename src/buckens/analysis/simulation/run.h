@@ -22,21 +22,21 @@
 
 namespace buckens::analysis {
 
-/// The parts of one simulation and the order in which they work; Simulation is its public face.
+/// The parts of one simulation and how they work together; Simulation is its public interface.
 class SimulationRun {
  public:
-  /// Sets everything up but records.
+  /// Sets up everything except records.
   SimulationRun(const model::BuiltModel& built, SimulationOptions options);
 
   void record_into(results::RecordSink& sink);
   /// @pre neither done nor stopped
   void step();
-  /// The same, and counts its time.
+  /// The same, and measures its time.
   void step_by_hand();
   results::RunSummary run();
   results::RunSummary finish();
 
-  /// Values of all channels at the state of now, in memory that stays in place.
+  /// Values of all channels at the current state, at a fixed address.
   const std::vector<double>& observe();
   const results::RecordLayout& layout() const { return observer_->layout(); }
   NodalViews& nodal_views() { return views_; }
@@ -92,16 +92,16 @@ class SimulationRun {
   std::optional<CouplingWatch> watch_;
   std::optional<results::Recorder> observer_;
   std::optional<RunRecording> recording_;
-  std::optional<base::SavedValues> restored_;  // until records have taken their share
+  std::optional<base::SavedValues> restored_;  // kept until it has been recorded
   results::RunSummary summary_;
   NodalViews views_;
   std::vector<double> observed_;  // values of all channels
   long observed_at_ = -1;         // number of steps, −1: out of date
-  long steps_ = 0;                // in all; 0 where step control leaves that open
+  long steps_ = 0;                // total; 0 if unknown because of step control
   long steps_taken_ = 0;
   bool has_begun_ = false;  // the record of the start is written
   bool is_stopped_ = false;
-  bool is_finished_ = false;  // records are ended
+  bool is_finished_ = false;  // records are finished
   bool has_new_inputs_ = false;
   bool has_quasi_static_ = false;
 };

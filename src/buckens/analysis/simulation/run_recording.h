@@ -14,35 +14,35 @@
 
 namespace buckens::analysis {
 
-/// Writes the records of a run into a sink as they fall due, and hands what they show to the
-/// statistics of the run.
+/// Writes the records of a run into a sink as they fall due, and passes them to the statistics of
+/// the run.
 class RunRecording {
  public:
-  /// What a recording follows; all of it outlives the recording.
+  /// What a recording depends on; all of it outlives the recording.
   struct Followed {
     const model::BuiltModel& built;
     const WorkAccount& work;
     RunStatistics& statistics;
     results::Recorder& recorder;
   };
-  /// @throws InputError, ModelError where something that is to be recorded makes no sense
+  /// @throws InputError, ModelError if something to be recorded is meaningless
   RunRecording(const Followed& run, const OutputPlan& plan, results::RecordSink& sink);
 
-  /// Advice where the results become very large, otherwise empty.
+  /// Advice if the results become very large, otherwise empty.
   std::string size_advice() const;
   /// Opens the sink.
   void begin();
-  /// Writes the state at which the run begins.
+  /// Writes the state at which the run starts.
   void write_start(const model::State& state) { write_record(state); }
-  /// Goes on after a time up to which nothing is to be written.
+  /// Continues after a time up to which nothing is written.
   void skip_to(double t);
-  /// Writes what is due between two states, interpolated where steps do not fall on it.
+  /// Writes what is due between two states, interpolated if steps do not coincide with it.
   /// @param is_last whether the run ends with this step
   void after_step(const model::State& before, const model::State& after, bool is_last);
   void finish(const results::RunSummary& summary);
 
-  /// Saves what later values depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later values depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
   /// Wall time of all records so far [s].
@@ -50,7 +50,7 @@ class RunRecording {
 
  private:
   double next_record() const { return static_cast<double>(records_) * plan_.every; }
-  /// @param levels energies and work in place of those of the state
+  /// @param levels energies and work instead of those of the state
   void write_record(const model::State& state,
                     const std::optional<results::EnergyLevels>& levels = {});
   void write_fields(const model::State& state);

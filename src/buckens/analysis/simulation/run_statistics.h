@@ -23,20 +23,20 @@ class RunStatistics {
   void set_lowest_frequency(std::size_t body, double omega) { lowest_frequency_[body] = omega; }
 
   void add_step(const stepping::StepReport& report, const model::State& state);
-  /// At each record: residual of the sieve, rotations inside bodies, energy error.
-  /// @param balance E − E₀ − W + D [J], @param scale energy at work so far [J]; the largest balance
-  ///        counts against the largest scale of the run
+  /// To be called at each record: residual of the sieve, rotations inside bodies, energy error.
+  /// @param balance E − E₀ − W + D [J], @param scale energy involved so far [J]; the largest
+  /// balance is divided by the largest scale of the run
   void add_record(const model::State& state, double balance, double scale);
 
   /// Fills counts, residuals, energy error and trust.
   void fill(const stepping::TimeMarch& march, results::RunSummary& summary) const;
 
-  /// Saves what was collected so far, or takes it back. @throws InputError where it does not fit
+  /// Saves or restores what was collected so far. @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  /// Warns where |ω| is no longer small against the lowest elastic frequency, which axial forces
-  /// that stiffen the body make up for.
+  /// Warns if |ω| is no longer small against the lowest elastic frequency, unless axial forces
+  /// stiffen the body.
   void judge_spin(std::size_t b, results::RunSummary& summary) const;
   void judge_shape(const model::WholeBody& whole, std::size_t most_bent,
                    const DeformationMeasure& found, results::RunSummary& summary) const;
@@ -56,7 +56,7 @@ class RunStatistics {
   bool is_finite_ = true;  // of all energies so far
   double largest_balance_ = 0;
   double energy_scale_ = 0;
-  std::vector<double> lowest_frequency_;                    // per body [rad/s], 0 where unknown
+  std::vector<double> lowest_frequency_;                    // per body [rad/s], 0 if unknown
   std::vector<double> largest_spin_;                        // per body, |ω| [rad/s]
   std::vector<std::unique_ptr<DeformationLimits>> limits_;  // per body, none for rigid ones
   std::vector<DeformationMeasure> deformation_;             // per body, largest

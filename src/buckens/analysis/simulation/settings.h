@@ -9,10 +9,10 @@ namespace buckens::analysis {
 
 stepping::Method method_of(model::IntegrationMethod method);
 
-/// How a step is taken, as the model asks for it. Threads and exchange are left as they begin.
+/// Step settings requested by the model. Threads and exchange keep their defaults.
 stepping::StepSettings step_settings(const model::SimulationSpec& spec);
 
-/// How far and in which steps: the longest is adjusted once so that a whole number fits.
+/// Duration and steps: the longest is adjusted once so that a whole number fits.
 stepping::MarchSettings march_settings(const model::SimulationSpec& spec);
 
 }  // namespace buckens::analysis

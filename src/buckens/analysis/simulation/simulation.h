@@ -16,12 +16,12 @@
 
 namespace buckens::analysis {
 
-/// How far a run has come.
+/// Progress of a run.
 struct Progress {
   double t = 0;         ///< simulated time [s]
   double duration = 0;  ///< [s]
   long step = 0;
-  long steps = 0;  ///< in all; 0 where step control leaves that open
+  long steps = 0;  ///< total; 0 if unknown because of step control
 };
 
 struct SimulationOptions {
@@ -30,8 +30,8 @@ struct SimulationOptions {
   std::function<bool(const Progress&)> on_progress;
   /// Why the run was stopped, for the summary: "interrupted by the user".
   std::string stop_reason = "stopped";
-  int threads = 1;  ///< ≥ 1; has no influence on results
-  /// Whether warnings of the set-up go to the log; they stand in the summary anyhow.
+  int threads = 1;  ///< ≥ 1; does not influence results
+  /// Whether warnings of the set-up go to the log; the summary has them anyway.
   bool tells_warnings = true;
   /// Shares factors and solves with other simulations that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
@@ -44,9 +44,9 @@ class SimulationRun;
 ///     Simulation simulation(load_model("slider_crank.yaml"));
 ///     while (simulation.step()) watch(simulation.sensor("angle")[0]);
 ///
-/// Views (sensor, values, displacements) lie in memory that stays where it is for the life of the
-/// simulation: a call brings it up to date and gives the same address each time. Steps pay nothing
-/// for them.
+/// Views (sensor, values, displacements) have fixed addresses for the lifetime of the simulation:
+/// a call updates the contents and returns the same address each time. They cost nothing in
+/// steps.
 class Simulation {
  public:
   /// Prepares: assembly, one factorisation per flexible body, consistent start.
@@ -62,28 +62,28 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   // ---- advance
-  /// Takes one accepted step. @return false if the end was reached before, or the run was stopped
-  /// @throws NumericalError naming the joint or body that resists; the state is then that before
+  /// Takes one accepted step. @return false if the end was already reached, or the run was stopped
+  /// @throws NumericalError naming the joint or body that resists; the state is then unchanged
   bool step();
-  /// Takes steps until one ends at t or beyond: steps stay on their grid.
+  /// Takes steps until one ends at or beyond t: steps stay on their grid.
   /// @return false if the end of the run or a stop came first
   /// @throws NumericalError as step()
   bool advance_to(double t);
   /// Takes steps until the end, or until something stops it, and finishes.
   ///
   /// A step that fails ends the run: the sink gets everything up to it and a summary with
-  /// `finished` false, then the error is thrown on.
+  /// `finished` false, then the error is rethrown.
   results::RunSummary run();
-  /// Ends the records and gives the summary; run() has done so already.
+  /// Finishes the records and returns the summary; run() does this itself.
   results::RunSummary finish();
-  /// Ends the run after the step being taken, or now.
+  /// Ends the run after the current step, or now.
   void stop();
   /// Called after each accepted step, in the order in which callbacks were given.
   void on_step(std::function<void(const StepView&)> callback);
-  /// Opens a sink, which from now on gets the records that the model asks for, the state of now
-  /// before the next step. It outlives the simulation's last step.
-  /// @pre no step was taken since the simulation was made or restored
-  /// @throws InputError, ModelError where a sensor makes no sense, IoError from the sink
+  /// Opens a sink, which from now on receives the records requested by the model, starting with the
+  /// current state before the next step. It must outlive the simulation's last step.
+  /// @pre no step was taken since the simulation was created or restored
+  /// @throws InputError, ModelError if a sensor is meaningless, IoError from the sink
   void record_into(results::RecordSink& sink);
 
   // ---- look
@@ -92,14 +92,14 @@ class Simulation {
   double end_time() const;  ///< of the run [s]
   long num_steps() const;   ///< taken so far, since t = 0
   bool is_done() const;     ///< the end is reached
-  /// The same object for the life of the simulation. Its vectors change places from step to step;
-  /// positions count from Model::origin.
+  /// The same object for the lifetime of the simulation. Its vectors are swapped from step to step;
+  /// positions are relative to Model::origin.
   const model::State& state() const;
-  /// Frame of a body: origin at the mass centre; rotation and velocities as the record has them.
-  /// @throws InputError naming the bodies there are
+  /// Frame of a body: origin at the mass centre; rotation and velocities as in the record. @throws
+  /// InputError naming the existing bodies
   body::FrameMotion frame(const std::string& body) const;
   /// Current values of a recorded quantity, "joints/hinge/force", "energies/total".
-  /// @return a view that stays in place and is brought up to date by the next call for any path
+  /// @return a view with a fixed address, updated by the next call for any path
   /// @throws InputError naming the nearest path
   Eigen::Map<const Eigen::VectorXd> values(const std::string& path) const;
   /// Current values of a sensor of the model.
@@ -107,24 +107,24 @@ class Simulation {
   using NodalMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   /// Nodal displacements and rotations of a flexible body in its axes, one row per node.
   Eigen::Map<const NodalMatrix> displacements(const std::string& body) const;
-  /// Their rates. @throws InputError for bodies with several frames, whose nodes have several
+  /// Their rates. @throws InputError for bodies with several frames, whose nodes have several rates
   Eigen::Map<const NodalMatrix> velocities(const std::string& body) const;
 
   // ---- act
-  /// Gives a force or torque of the model a value in place of its law, from now on: [N] or [N m],
-  /// axes as the load has them. Before the first step accelerations follow at once; later the value
-  /// acts as a law that jumps here would.
-  /// @throws InputError naming the loads that take values
+  /// Gives a force or torque of the model a value instead of its law, from now on: [N] or [N m], in
+  /// the axes of the load. Before the first step accelerations follow at once; later the value acts
+  /// like a law that jumps here.
+  /// @throws InputError naming the loads that accept values
   void set_load(const std::string& load, const Eigen::Vector3d& value);
-  /// Gives the load back to its law.
+  /// Returns the load to its law.
   void release_load(const std::string& load);
 
   // ---- save and go on
-  /// All that a continuation needs that is equal bit for bit.
+  /// Everything needed to continue bit for bit.
   base::SavedValues save() const;
-  /// Goes on from there. The model must be the same but for its title and duration.
+  /// Continues from there. The model must be the same except for its title and duration.
   /// @pre no step was taken
-  /// @throws InputError saying what differs; the simulation is then of no further use
+  /// @throws InputError saying what differs; the simulation is then unusable
   void restore(const base::SavedValues& saved);
 
  private:

@@ -16,12 +16,12 @@ struct ExcitedBand {
   std::vector<double> excited;  ///< ascending
 };
 
-/// Number of free vibrations that a report gives and excited_band() judges by.
+/// Number of free vibrations in a report and used by excited_band().
 inline constexpr int kReportedModes = 10;
 
 /// The lowest free vibrations of a body of the model file, of its undivided mesh; none if rigid. A
-/// reduced body has those of its basis, a quasi-static one those that its mesh would have.
-/// Cost: one dense eigenproblem up to 600 DOF, a factorisation of its own above.
+/// reduced body has those of its basis, a quasi-static one those its mesh would have. Cost: one
+/// dense eigenproblem up to 600 DOF, a factorisation of its own above.
 body::FreeModes reported_modes(const model::Model& model, const model::WholeBody& whole);
 
 /// From the ten lowest free vibrations: a mode counts as excited if it gives more than 1 % of the
@@ -34,16 +34,16 @@ ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whol
 ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whole,
                          const body::FreeModes& modes);
 
-/// What to say of a step: whether a band is followed (twelve steps per period), damped in its
-/// upper part, or not followed at all. Empty if all is well.
+/// Advice on a step: whether a band is resolved (twelve steps per period), damped in its upper
+/// part, or not resolved at all. Empty if all is well.
 ///
-/// Only vibrations that the records can show matter, those with two records per period at least:
-/// what faster ones do to slow motion is static, and that a long step gives as well.
+/// Only vibrations that the records can show count, those with at least two records per period: the
+/// effect of faster ones on slow motion is static, which a long step also gives.
 /// @param h step [s], @param every time between records [s]
 std::string judge_step(const std::string& body, const ExcitedBand& band, double h, double every);
 
-/// A warning about a lowest free vibration above 1 MHz, which no machine part has: most often a
-/// length, a density or a modulus is in another unit than was meant. Empty: none.
+/// A warning about a lowest free vibration above 1 MHz, which no machine part has: usually a
+/// length, a density or a modulus is in the wrong unit. Empty: none.
 /// @param omega [rad/s]
 std::string judge_frequency(const std::string& body, double omega);
 

@@ -9,7 +9,7 @@ namespace buckens::analysis {
 
 class Simulation;
 
-/// What a callback sees after an accepted step, and what it can do there.
+/// What a callback can see and do after an accepted step.
 class StepView {
  public:
   StepView(Simulation& simulation, double step) : simulation_(&simulation), step_(step) {}

@@ -12,8 +12,8 @@
 
 namespace buckens::analysis {
 
-/// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule, so
-/// its error is of the order h² like that of the steps. What the damping of meshes takes comes from
+/// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule,
+/// so its error is of order h² like that of the steps. Dissipation in meshes comes from
 /// DampingWork.
 class WorkAccount {
  public:
@@ -23,19 +23,19 @@ class WorkAccount {
   /// Adds the work between the last state and this one.
   void add(const model::State& state);
 
-  /// To be called where inputs of the last state were changed: the next step begins with them.
+  /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
 
   const results::WorkBalance& work() const { return work_; }
   /// What work() was before the last add().
   const results::WorkBalance& work_before() const { return work_before_; }
-  /// ∫|P| dt [J]: measures how much energy went through the mechanism.
+  /// ∫|P| dt [J]: a measure of the energy that passed through the mechanism.
   double turnover() const { return turnover_; }
-  /// Products with the stiffness or damping matrices of meshes so far.
+  /// Number of products with stiffness or damping matrices of meshes so far.
   long num_products() const;
 
-  /// Saves what later values depend on, or takes it back.
-  /// @throws InputError where it does not fit
+  /// Saves or restores what later values depend on.
+  /// @throws InputError if it does not fit
   void visit_saved(const base::SaveVisit& visit);
 
  private:

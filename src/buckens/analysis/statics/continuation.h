@@ -13,20 +13,20 @@
 
 namespace buckens::analysis {
 
-/// An equilibrium on a static path with what is needed to go on from it.
+/// An equilibrium on a static path with what is needed to continue from it.
 struct PathPoint {
   StaticPoint point;
   StaticBalance balance;
   double position = 0;       ///< along the path, in full steps
-  linalg::Vector direction;  ///< scaled unknowns per full step; empty where A is singular
+  linalg::Vector direction;  ///< scaled unknowns per full step; empty if A is singular
   double load_rate = 0;      ///< change of the load factor per full step
-  int iterations = 0;        ///< Newton iterations that led here
+  int iterations = 0;        ///< Newton iterations to get here
   /// Stiffness per mass along the free motions [1/s²], ascending; empty: not examined.
   std::optional<linalg::Vector> stiffness;
   std::string kind;  ///< "limit point", "bifurcation" or empty
 };
 
-/// How far one full step goes: neither the load factor nor any body moves farther.
+/// Size of one full step: bounds the change of the load factor and the motion of every body.
 struct PathScale {
   double load_factor = 0.1;   ///< |Δμ| > 0
   double motion = 0.05;       ///< rad, or of the model's length
@@ -38,9 +38,9 @@ struct PathScale {
 ///     r(x, μ) = 0,   n_xᵀ Δx + n_μ Δμ = s
 ///
 /// Newton on the bordered system [A b; n_xᵀ n_μ], b = ∂r/∂μ, which is regular at limit points where
-/// A is not. The plane is that of the direction of the path, in the unknowns scaled by the model's
-/// length; its axes are weighted such that a full step is one in PathScale. With load control n_x
-/// is zero. Theory: docs/theory/12-static-paths.md.
+/// A is not. The plane is normal to the path, in the unknowns scaled by the model's length; its
+/// axes are weighted so that a full step is one in PathScale. With load control n_x is zero.
+/// Theory: docs/theory/12-static-paths.md.
 class StaticContinuation {
  public:
   /// @param start an equilibrium
@@ -54,15 +54,15 @@ class StaticContinuation {
   PathPoint begin(const StaticPoint& start, double sign);
 
   /// The equilibrium `step` ≤ 1 full steps ahead.
-  /// @return nothing if Newton does not lead there; resisting() then says where it ended
-  /// @param may_branch accept a point where the path branches, so that no direction can be told: it
-  ///        keeps that of `from`
+  /// @return empty if Newton does not converge; resisting() then says where it ended
+  /// @param may_branch accept a point where the path branches and has no unique direction: it keeps
+  /// that of `from`
   std::optional<PathPoint> ahead(const PathPoint& from, double step, bool may_branch = false);
 
   /// The equilibrium at a given load factor near a point of the path.
   std::optional<PathPoint> at_load_factor(const PathPoint& near, double load_factor);
 
-  /// The same point with independent joint rows chosen anew: they may change along a path.
+  /// The same point with independent joint rows chosen again: they may change along a path.
   std::optional<PathPoint> with_new_rows(const PathPoint& at);
 
   /// Cosine of the angle between the path's directions, weighted like a step.
@@ -78,7 +78,7 @@ class StaticContinuation {
   double position_residual(const PathPoint& at) const;
 
  private:
-  /// Plane in which Newton moves, and the direction that leads on across it.
+  /// Plane in which Newton moves, and the direction across it along the path.
   struct Plane {
     linalg::Vector x;
     double load_factor = 0;

@@ -14,9 +14,9 @@ namespace buckens::analysis {
 
 /// Pseudo-transient continuation of a mechanism towards equilibrium.
 ///
-/// Each iteration is an implicit step of W q̇ = force: Newton with W/τ² added. τ grows where steps
-/// are short or the unbalanced force falls, and shrinks where they are long or would lead uphill
-/// (negative curvature), so that Newton takes over near an equilibrium only.
+/// Each iteration is an implicit step of W q̇ = force: Newton with W/τ² added. τ grows if steps are
+/// short or the unbalanced force falls, and shrinks if they are long or would lead uphill (negative
+/// curvature), so that Newton takes over only near an equilibrium.
 class StaticDescent {
  public:
   StaticDescent(const model::Model& model, const dynamics::MassMetric& metric,
@@ -28,7 +28,7 @@ class StaticDescent {
   void run();
   /// Stiffness of the configuration along its free motions.
   std::optional<StaticModes> modes();
-  /// The softest of them, however many there are.
+  /// The softest of them, for any number.
   std::optional<StaticModes> softest();
   /// Leaves a saddle along `shape` so that the largest rotation or relative displacement is
   /// `amount`.
@@ -40,7 +40,7 @@ class StaticDescent {
   int iterations() const { return iterations_; }
   double force_residual() const;
   double largest_force() const { return largest_force_; }
-  /// σ that matters [1/s²]: the square of the rate at which the start would leave its place.
+  /// Relevant σ [1/s²]: the square of the rate at which the start would move away.
   double reference() const { return reference_; }
 
  private:
@@ -70,12 +70,12 @@ class StaticDescent {
   StaticBalance balance_;
   linalg::Vector residual_;
   double force_ = 1;           // scale [N]
-  double reference_ = 1;       // σ that matters [1/s²]
+  double reference_ = 1;       // relevant σ [1/s²]
   double sigma_ = 1;           // 1/τ² [1/s²]
   double start_force_ = 0;     // largest load at the start [N]
   double largest_force_ = 0;   // at the start or the point [N]
   double force_rounding_ = 0;  // of stiff springs [N]
-  double no_force_ = 0;        // moves nothing, see set_scales() [N]
+  double no_force_ = 0;        // negligible force, see set_scales() [N]
   int iterations_ = 0;
   int row_choices_ = 0;
 };

@@ -9,15 +9,15 @@
 
 namespace buckens::analysis {
 
-/// Static response of a free flexible body, d = K⁺ f, the rigid motion left to its frame, with the
-/// answers to unit loads on its interface.
+/// Static response of a free flexible body, d = K⁺ f, with the rigid motion left to its frame, and
+/// the responses to unit loads on its interface.
 ///
-/// One sparse Cholesky factor of its own, one solve per interface row; both apart from those of the
-/// time steps. Theory: docs/theory/06-initial-state.md §3.
+/// Needs its own sparse Cholesky factor and one solve per interface row, counted separately from
+/// those of the time steps. Theory: docs/theory/06-initial-state.md §3.
 class ElasticCompliance {
  public:
-  /// @param body a flexible body that outlives this object
-  /// @throws ModelError if the mesh can move without strain other than as a rigid body
+  /// @param body a flexible body, must outlive this object
+  /// @throws ModelError if the mesh has strain-free motions other than rigid ones
   explicit ElasticCompliance(const body::Body& body);
 
   /// K⁺ f for a nodal load f.
@@ -27,9 +27,9 @@ class ElasticCompliance {
   const linalg::Matrix& columns() const { return columns_; }
   /// N K⁺ Nᵀ: interface values per interface load; symmetric, positive semidefinite.
   const linalg::Matrix& interface() const { return interface_; }
-  /// Numbers of the held variables, as many as there are rigid motions.
+  /// Indices of the held variables, as many as there are rigid motions.
   const std::vector<int>& held() const { return inverse_.held(); }
-  /// Large solves so far, those of the columns included.
+  /// Large solves so far, including those for the columns.
   long num_solves() const { return inverse_.solves(); }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace buckens::analysis {
 
-/// What a search for equilibrium found.
+/// Result of a search for equilibrium.
 struct StaticReport {
   int iterations = 0;
   int factorisations = 0;        ///< of stiffness matrices, one per flexible body
@@ -20,7 +20,7 @@ struct StaticReport {
   double largest_force = 0;      ///< largest single force, at start or end [N]
   double position_residual = 0;  ///< largest |g| of the joints
   /// Smallest stiffness per mass along a free motion [1/s²], about the square of the lowest static
-  /// frequency: zero without restoring force. Empty where nothing can move or it was not examined.
+  /// frequency: zero without restoring force. Empty if nothing can move or it was not examined.
   std::optional<double> lowest_stiffness;
   std::vector<std::string> notes;  ///< what a user should know
 };
@@ -29,25 +29,25 @@ struct StaticReport {
 /// with all joints closed and all velocities zero; λ is that of the equilibrium.
 ///
 /// Newton on frames, interface values and λ with the meshes condensed by K⁺, guided by a vanishing
-/// inertia W/τ² (pseudo-transient continuation): the path is that of strongly damped motion, hence
-/// it leads downhill, whatever the start. An equilibrium that turns out unstable is left along its
-/// unstable motion. Joints that rigid bodies cannot close are closed by deformation (preload).
-/// Converged at 1e-9 of the largest force. Cost: one factor of K and one solve per interface row
-/// for each flexible body, then small sparse systems. Theory: docs/theory/06-initial-state.md.
+/// inertia W/τ² (pseudo-transient continuation): the path is that of strongly damped motion, so it
+/// leads downhill from any start. An unstable equilibrium is left along its unstable motion. Joints
+/// that rigid bodies cannot close are closed by deformation (preload). Converged at 1e-9 of the
+/// largest force. Cost: one factor of K and one solve per interface row for each flexible body,
+/// then small sparse systems. Theory: docs/theory/06-initial-state.md.
 /// @param state assembled, or as close as rigid bodies come
-/// @throws ModelError naming the body and the direction in which nothing holds it, or the joint
-/// that
-///         cannot be closed
+/// @throws ModelError naming the body and the direction in
+/// which nothing holds it, or the joint that cannot be
+/// closed
 /// @throws NumericalError if no equilibrium is found within 400 iterations
 StaticReport find_static_equilibrium(const model::Model& model, model::State& state);
 
-/// The same where the mass metric is there already.
+/// The same if the mass metric already exists.
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
                                      model::State& state);
 
 class StaticDescent;
 
-/// Descends until the equilibrium is stable as far as can be told; fills lowest_stiffness and
+/// Descends until the equilibrium is stable as far as can be determined; fills lowest_stiffness and
 /// notes.
 /// @throws ModelError, NumericalError as find_static_equilibrium()
 void settle_statically(const model::Model& model, StaticDescent& descent, StaticReport& report);

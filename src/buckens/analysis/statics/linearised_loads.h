@@ -7,7 +7,7 @@
 
 namespace buckens::analysis {
 
-/// Where the coordinates of one body lie among those that joints and loads can see.
+/// Positions of the coordinates of one body among those that joints and loads use.
 struct BodyCoordinates {
   int first = 0;         ///< of its coordinates
   int rotations = 0;     ///< frame rotations along Body::rotation_basis
@@ -18,23 +18,23 @@ struct BodyCoordinates {
   int size() const { return num_frame() + rows; }
 };
 
-/// How joints and loads answer small motions of the bodies: what statics, stability and vibrations
-/// are linearised by. Coordinates s body by body: frame, then interface values.
+/// Response of joints and loads to small motions of the bodies: the linearisation for statics,
+/// stability and vibrations. Coordinates s body by body: frame, then interface values.
 ///
 /// Central differences of the loads and of Gᵀλ with λ held; bodies without common neighbours are
-/// moved together. Steps are 1e-5: rad for rotations, those of nodes too, otherwise of the model's
-/// length. That balances rounding (1e-16/step) and curvature (step²) whatever the unit of length.
+/// moved together. Steps are 1e-5: in rad for rotations, also of nodes, else relative to the
+/// model's length. That balances rounding (1e-16/step) and curvature (step²) in any unit.
 class LinearisedLoads {
  public:
   explicit LinearisedLoads(const model::Model& model);
 
-  /// −∂(loads on one body)/∂(coordinates of another that it feels, or of itself).
+  /// −∂(loads on one body)/∂(coordinates of another that affects it, or of itself).
   struct Block {
     std::size_t on, by;
     Eigen::MatrixXd stiffness;  ///< coordinates of `on` × of `by`
   };
-  /// All blocks that are not zero by themselves; their order and sizes are always the same.
-  /// @param motions where; rates are taken as they are
+  /// All structurally non-zero blocks; their order and sizes are always the same.
+  /// @param motions at which to linearise; rates are used as given
   std::vector<Block> stiffness(const std::vector<dynamics::BodyMotion>& motions, double t,
                                const linalg::Vector& lambda, double load_factor = 1.0) const;
 
@@ -54,8 +54,8 @@ class LinearisedLoads {
   std::vector<BodyCoordinates> bodies_;
   int size_ = 0;
   std::vector<Eigen::VectorXd> lengths_;              // of the interface rows of each body
-  std::vector<std::vector<std::size_t>> neighbours_;  // that feel a body's motion, itself too
-  std::vector<std::vector<std::size_t>> colors_;      // no body feels two of one
+  std::vector<std::vector<std::size_t>> neighbours_;  // affected by a body, including itself
+  std::vector<std::vector<std::size_t>> colors_;      // no body is affected by two of one group
 };
 
 }  // namespace buckens::analysis

@@ -25,14 +25,14 @@ class StaticPathRecord {
   StaticPathRecord(const model::BuiltModel& built, const dynamics::MassMetric& metric,
                    const Compliances& compliances, double time, results::RecordSink& sink);
 
-  /// @throws InputError if `stop` names no sensor
+  /// @throws InputError if `stop` does not name a sensor
   void begin(const PathPoint& start);
   void write(const PathPoint& at);
-  /// Notes the point written last as critical.
+  /// Marks the last written point as critical.
   void add_critical_point(const PathPoint& at);
   /// Whether the sensor of `stop` has passed its value between the last two records.
   bool passed_stop() const { return passed_stop_; }
-  /// Completes the summary and hands it to the sink.
+  /// Completes the summary and passes it to the sink.
   void finish(double load_factor);
 
   results::RunSummary summary;
@@ -58,7 +58,7 @@ class StaticPathRecord {
   dynamics::Forces loads_before_;  // applied loads at factor one
   results::WorkBalance work_;
   double energy_scale_ = 0, largest_balance_ = 0;
-  std::optional<std::size_t> stop_;  // place among the values of a record
+  std::optional<std::size_t> stop_;  // index in the values of a record
   std::optional<double> stop_before_;
   bool passed_stop_ = false;
   std::vector<double> largest_rotation_;

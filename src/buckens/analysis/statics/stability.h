@@ -8,24 +8,24 @@
 
 namespace buckens::analysis {
 
-/// Stiffness of an equilibrium along the motions that the joints leave, per mass of the frames.
+/// Stiffness of an equilibrium along the motions that the joints allow, per mass of the frames.
 struct StaticModes {
   linalg::Vector stiffness;  ///< κ [1/s²], ascending: below zero unstable, zero without restoring
   linalg::Matrix shapes;     ///< scaled steps (frames, interfaces, multipliers), one column each
-  double tolerance = 0;      ///< |κ| below this is zero as far as finite differences can tell
+  double tolerance = 0;      ///< |κ| below this is zero to within finite differences
 };
 
 /// Solves (A − κ W) u = 0 on the motions u of the frames that keep the joints closed, with the
 /// meshes following statically. A is the tangent of the last linearise(), symmetrised.
 ///
 /// Dense in the frame coordinates, one solve each.
-/// @param sigma shift > 0 of the order of the κ that matter [1/s²]
-/// @return nothing above 600 frame coordinates, or where A + σW is singular
+/// @param sigma shift > 0 of the order of the relevant κ [1/s²]
+/// @return empty above 600 frame coordinates, or if A + σW is singular
 std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma);
 
-/// The softest of these motions alone, by inverse iteration: for any number of frame coordinates.
-/// Good to a few digits, which tells a mechanism from a soft spring.
-/// @return nothing where A + σW is singular
+/// Only the softest of these motions, by inverse iteration: for any number of frame coordinates.
+/// Accurate to a few digits, which distinguishes a mechanism from a soft spring.
+/// @return empty if A + σW is singular
 std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma);
 
 /// "(0, 0, 1)": a unit vector to three digits.
@@ -36,8 +36,8 @@ std::string describe_motion(const model::Model& model, const StaticSystem& syste
                             const StaticPoint& point, const linalg::Vector& step);
 
 /// The same for motions that occur together, such as all those without restoring force: "in any
-/// direction" and "about any axis" where no single one stands out.
-/// @param steps one column each, the first counts for which body moves most
+/// direction" and "about any axis" if there is no single one. @param steps one column each, the
+/// first determines which body moves most
 std::string describe_motions(const model::Model& model, const StaticSystem& system,
                              const StaticPoint& point, const linalg::Matrix& steps);
 

@@ -26,17 +26,17 @@ StaticPoint static_point(const model::Model& model, const model::State& state);
 void set_static_state(const StaticPoint& point, const dynamics::Forces& forces,
                       const Compliances& compliances, model::State& state);
 
-/// Largest rotation of a node in the body frame [rad]; zero for rigid bodies and without rotations.
+/// Largest rotation of a node in the body frame [rad]; zero for rigid bodies or without rotations.
 double largest_nodal_rotation(const body::Body& body, const linalg::Vector& d);
 
-/// Beyond this nodal rotation linear elasticity in one frame is a stretch [rad].
+/// Nodal rotation beyond which linear elasticity in one frame is doubtful [rad].
 inline constexpr double kLargestNodalRotation = 0.1;
 
-/// Share of the model's length (of 1 rad) to which joints close in a configuration: kClosed, or
+/// Fraction of the model's length (of 1 rad) to which joints close in a configuration: kClosed, or
 /// rounding far from the origin.
 double closed_share(const model::Model& model, const StaticPoint& point);
 
-/// Force that rounding of positions leaves in the springs of a model [N].
+/// Force in the springs of a model due to rounding of positions [N].
 double spring_rounding(const model::Model& model, const std::vector<dynamics::BodyMotion>& motions);
 
 /// Largest single force that acts in a configuration [N]: weights, loads, joints; torques count

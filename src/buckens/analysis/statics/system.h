@@ -61,7 +61,7 @@ class StaticSystem {
   const std::vector<int>& rows_in_use() const { return rows_in_use_; }
 
   enum class Share { frame, elastic, joint };
-  /// To which equation (and unknown) an index belongs.
+  /// The kind of equation (and unknown) at an index.
   Share share(int index) const { return shares_[static_cast<std::size_t>(index)]; }
   /// Body of a frame or elastic index.
   std::size_t body_at(int index) const;

@@ -3,12 +3,12 @@
 
 namespace buckens::analysis {
 
-// When a model is at rest and closed: what assembly, continuation and descent agree on.
+// Tolerances for a model at rest and closed, shared by assembly, continuation and descent.
 inline constexpr double kForceTolerance = 1e-9;  ///< of the largest force
 inline constexpr double kClosed = 1e-12;         ///< of the model's length, about 1e4 roundings
-/// Of the distance from the origin where that is more than the model's length: some ten roundings.
+/// Of the distance from the origin if that exceeds the model's length: about ten roundings.
 inline constexpr double kPositionRounding = 4e-15;
-/// Of the model's length: a gap of dependent equations that is closed as far as anyone can tell.
+/// Of the model's length: a gap of dependent equations that counts as closed.
 inline constexpr double kDependentGap = 1e-9;
 
 }  // namespace buckens::analysis

@@ -131,7 +131,7 @@ inline constexpr double kArea = 0.02 * 0.03;
 inline constexpr double kIz = 0.03 * 0.02 * 0.02 * 0.02 / 12;  // ∫ y² dA: bending in x-y
 inline constexpr double kRhoA = 7800 * kArea;
 
-/// Place of a marker in the world.
+/// Position of a marker in the world.
 inline Vector3d place(const model::Model& m, const model::State& state, const std::string& body,
                       const std::string& marker) {
   model::MarkerId id;

@@ -9,8 +9,8 @@
 
 namespace buckens::analysis {
 
-/// Puts vibrations into a sink as a run does with its instants: record k (at "time" k) is the k-th
-/// vibration of all reports in turn. Channels:
+/// Writes vibrations to a sink like the instants of a run: record k (at "time" k) is the k-th
+/// vibration of all reports in order. Channels:
 ///
 ///     modes/body              {}      number of the free body in /geometry, −1: the system
 ///     modes/number            {}      of the vibration in its report, from 1
@@ -18,11 +18,11 @@ namespace buckens::analysis {
 ///     modes/generalised_mass  {}      [kg]
 ///     modes/error             {}      bound of the relative error of ω² + μ
 ///     modes/effective_mass    {3}     along x, y, z [kg]; zero for free bodies
-///     bodies/<body>/pose          {7}     where the body rests
+///     bodies/<body>/pose          {7}     pose of the body at rest
 ///     bodies/<body>/motion        {6}     rotation of its frame [rad], body axes; translation [m]
 ///     bodies/<body>/displacement  {N, 6}  nodal motion in body axes [m, rad]
 ///
-/// Shapes are scaled as Vibration says.
+/// Shapes are scaled as in Vibration.
 /// @throws IoError from the sink
 void record_vibrations(const model::BuiltModel& built, const std::vector<VibrationReport>& reports,
                        results::RecordSink& sink);

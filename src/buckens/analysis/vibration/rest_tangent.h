@@ -9,7 +9,7 @@
 
 namespace buckens::analysis {
 
-/// Coordinates of one body, with its momenta behind them.
+/// Coordinates of one body, followed by its momenta.
 struct RestBody : BodyCoordinates {
   int momenta = 0;  ///< relative momentum l = Lᵀd of a deformed body: 0 or 3
 
@@ -22,18 +22,18 @@ struct RestTangent {
   std::vector<RestBody> bodies;
   int size = 0;
   linalg::SparseMatrix rows;       ///< G: independent joint equations over s, G s = 0
-  linalg::SparseMatrix stiffness;  ///< Γ: loads on s per s, with minus; symmetric
-  double asymmetry = 0;            ///< ‖Γ − Γᵀ‖/‖Γ‖ before it was made symmetric
+  linalg::SparseMatrix stiffness;  ///< Γ: minus the loads on s per s; symmetric
+  double asymmetry = 0;            ///< ‖Γ − Γᵀ‖/‖Γ‖ before symmetrising
 };
 
 enum class RestLoads {
   springs,  ///< stiffness of springs and bushings alone, as if nothing were loaded
-  all       ///< derivative of all loads and joint forces: gravity and preload, too
+  all       ///< derivative of all loads and joint forces, including gravity and preload
 };
 
 /// Linearises joints and loads at rest.
 ///
-/// `all`: as LinearisedLoads; right where the state is an equilibrium.
+/// `all`: as LinearisedLoads; correct if the state is an equilibrium.
 /// @param state velocities are taken as zero
 RestTangent rest_tangent(const model::Model& model, const model::State& state,
                          const std::vector<int>& rows_in_use, RestLoads loads);

@@ -16,7 +16,7 @@ namespace buckens::analysis {
 ///
 /// x holds, body by body, the frame coordinates and the nodal variables. K is block-diagonal (zero
 /// for frames) plus Γ on the coordinates s = E x that joints and loads see; M holds the frames, the
-/// meshes and, where bodies are deformed, their gyration L between both.
+/// meshes and, for deformed bodies, their coupling L between the two.
 ///
 /// (K + μM)⁻¹ on the admissible motions needs one Cholesky factor of K_b + μM_b per flexible body,
 /// the sieve, and one small LU in s and λ:
@@ -35,7 +35,7 @@ class SystemPencil {
   int size() const { return size_; }
   /// First unknown of a body: its frame coordinates, then its nodal variables.
   int first(std::size_t body) const { return first_[body]; }
-  /// Motions of the frames that satisfy all joints and meet no resistance, M-orthonormal.
+  /// Motions of the frames that satisfy all joints without resistance, M-orthonormal.
   linalg::Matrix zero_modes() const;
 
   /// xᵀKx of each body's mesh, then of joints and loads.

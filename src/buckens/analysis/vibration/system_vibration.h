@@ -10,9 +10,9 @@ namespace buckens::analysis {
 
 /// Position about which a system vibrates.
 enum class RestPosition {
-  /// As assembled: nothing is loaded, springs have their stiffness, joint forces none.
+  /// As assembled: without loads, springs have their stiffness, joints no forces.
   initial,
-  /// Static equilibrium under gravity and loads, whose change with the motion counts, too.
+  /// Static equilibrium under gravity and loads, including their change with the motion.
   static_equilibrium
 };
 
@@ -26,7 +26,7 @@ struct SystemVibrationSettings {
 
 /// Undamped vibrations of the assembled system: full meshes, joints included, with effective
 /// masses and the shares of the bodies in the potential energy. Motions without resistance
-/// (mechanisms, free bodies) are counted apart. Theory: docs/theory/04-free-vibration.md §5.
+/// (mechanisms, free bodies) are counted separately. Theory: docs/theory/04-free-vibration.md §5.
 /// @throws ModelError if the system cannot be assembled or has no equilibrium
 /// @throws NumericalError if the iteration does not converge
 VibrationReport system_vibrations(const model::BuiltModel& built,

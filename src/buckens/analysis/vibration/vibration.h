@@ -10,7 +10,7 @@
 
 namespace buckens::analysis {
 
-/// Motion of one body in a vibration, relative to where it rests.
+/// Motion of one body in a vibration, relative to its position at rest.
 struct BodyShape {
   /// Rotation of the frame in body axes [rad], then its translation in world axes [m].
   Eigen::Matrix<double, 6, 1> frame = Eigen::Matrix<double, 6, 1>::Zero();
@@ -18,11 +18,11 @@ struct BodyShape {
 };
 
 /// One vibration. Its shape is scaled so that the largest displacement of a node or frame is 1 m;
-/// where nothing is displaced (torsion of a straight beam), the largest rotation times the size of
-/// its body is 1 m.
+/// if nothing is displaced (torsion of a straight beam), the largest rotation times the size of its
+/// body is 1 m.
 struct Vibration {
   double square = 0;            ///< ω² [1/s²]; negative: the position is unstable
-  double frequency = 0;         ///< [Hz]; 0 where ω² is negative
+  double frequency = 0;         ///< [Hz]; 0 if ω² is negative
   double generalised_mass = 0;  ///< twice the kinetic energy at (1 m) ω [kg]
   double residual = 0;  ///< ‖Kφ − ω²Mφ‖/‖ω²Mφ‖, see body::FreeFreeModes; bodies only
   double error = 0;     ///< bound of the relative error of ω² + μ, see body::FreeFreeModes
@@ -30,11 +30,11 @@ struct Vibration {
   double damping_ratio = 0;           ///< of critical damping, see damping_ratio(); systems only
   /// Mass that a support moving along x, y, z sees in this mode [kg]; systems only.
   std::array<double, 3> effective_mass{};
-  /// Of a free body one entry, of a system one per body of the model.
+  /// One entry for a free body, one per body of the model for a system.
   std::vector<BodyShape> shape;
 };
 
-/// What the eigenproblem took.
+/// Effort for the eigenproblem.
 struct VibrationWork {
   std::string method;
   double shift = 0;           ///< μ [1/s²]

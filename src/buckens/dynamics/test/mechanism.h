@@ -18,7 +18,7 @@
 
 namespace buckens::test {
 
-/// Builds models in code, straight from bodies and joints, for tests that need no model file.
+/// Builds models directly from bodies and joints, for tests that need no model file.
 class Mechanism {
  public:
   explicit Mechanism(std::optional<spatial::Plane> planar = std::nullopt) {
@@ -94,7 +94,7 @@ class Mechanism {
     return out;
   }
 
-  /// Joint between markers as they stand now.
+  /// Joint between markers in their current positions.
   void add_joint(joints::JointType type, const model::MarkerId& first,
                  const model::MarkerId& second,
                  const Eigen::Vector3d& axis_F = Eigen::Vector3d::UnitZ(),

@@ -15,28 +15,28 @@ namespace buckens::mesh_io {
 struct AbaqusReading {
   AbaqusLines lines;
   AbaqusDeck deck;
-  AbaqusScope* scope;                     ///< where definitions go at the moment
+  AbaqusScope* scope;                     ///< current target of definitions
   fem::MaterialSpec* material = nullptr;  ///< that of the last *MATERIAL
   /// Of *SYSTEM: nodes are at axes × coordinates + origin.
   Eigen::Matrix3d system_axes = Eigen::Matrix3d::Identity();
   Eigen::Vector3d system_origin = Eigen::Vector3d::Zero();
-  std::int64_t num_generated = 0;  ///< nodes and elements by *NGEN and its kin
+  std::int64_t num_generated = 0;  ///< nodes and elements from *NGEN and the like
   std::string interaction;         ///< of the last *SURFACE INTERACTION, in capitals
-  AbaqusLink* coupling = nullptr;  ///< of the last *COUPLING, until its kind is known
+  AbaqusLink* coupling = nullptr;  ///< of the last *COUPLING, until its type is known
   std::map<std::string, fem::ImportNote> repeated;  ///< notes that are counted, by their text
 
-  SkipList& skip;  ///< what the model file wants left out
+  SkipList& skip;  ///< what the model file asks to leave out
 
   AbaqusReading(const std::filesystem::path& path, SkipList& left_out)
       : lines(path), scope(&deck.root), skip(left_out) {}
 
-  /// Adds a note, or counts it if it is there.
+  /// Adds a note, or counts it if it is already there.
   /// @param is_expected see fem::ImportNote
   void note(DeckPlace place, const std::string& text, bool is_expected = false);
   /// Value of a parameter.
   /// @throws InputError if it is missing or empty
   const std::string& parameter(const DeckKeyword& keyword, const char* key) const;
-  /// Value of a parameter, empty if it is not there.
+  /// Value of a parameter, empty if it is missing.
   std::string optional_parameter(const DeckKeyword& keyword, const char* key) const;
 };
 
@@ -50,7 +50,7 @@ void read_node_set(AbaqusReading& in, const DeckKeyword& keyword);
 void read_element_set(AbaqusReading& in, const DeckKeyword& keyword);
 void read_surface(AbaqusReading& in, const DeckKeyword& keyword);
 
-// Nodes and elements that are described in place of listed.
+// Nodes and elements that are generated rather than listed.
 void read_ngen(AbaqusReading& in, const DeckKeyword& keyword);
 void read_nfill(AbaqusReading& in, const DeckKeyword& keyword);
 void read_ncopy(AbaqusReading& in, const DeckKeyword& keyword);
@@ -88,11 +88,11 @@ void read_tie(AbaqusReading& in, const DeckKeyword& keyword);
 void read_surface_interaction(AbaqusReading& in, const DeckKeyword& keyword);
 void read_surface_behavior(AbaqusReading& in, const DeckKeyword& keyword);
 void read_contact_pair(AbaqusReading& in, const DeckKeyword& keyword);
-/// Makes ties of the contact pairs that cannot open, once all interactions are known.
+/// Turns contact pairs that cannot open into ties, once all interactions are known.
 void add_tied_contacts(AbaqusReading& in);
 void read_distributing_coupling(AbaqusReading& in, const DeckKeyword& keyword);
 
-/// The set with this name in a map of sets, made if it is not there.
+/// The set with this name in a map of sets, created if missing.
 AbaqusSet& set_called(std::map<std::string, AbaqusSet>& sets, const std::string& name);
 
 /// Three numbers of a row; empty cells are 0.

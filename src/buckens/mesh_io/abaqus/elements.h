@@ -10,7 +10,7 @@
 
 namespace buckens::mesh_io {
 
-/// What elements of a type are to a body.
+/// What elements of a type mean for a body.
 enum class AbaqusRole {
   solid,
   shell,
@@ -19,7 +19,7 @@ enum class AbaqusRole {
   mass,            ///< MASS
   rotary_inertia,  ///< ROTARYI
   spring,          ///< SPRING2, SPRINGA
-  plane,           ///< CPS, CPE: passed over beside others, shells where there are no others
+  plane,           ///< CPS, CPE: ignored beside others, shells if there are no others
   left_out,        ///< dashpots, connectors, rigid and surface elements
 };
 
@@ -35,15 +35,15 @@ struct AbaqusElementType {
   AbaqusRole role;
   fem::CellKind kind;
   int num_nodes;               ///< in the deck; −1: any number
-  std::string_view becomes;    ///< what it becomes where that is not obvious
+  std::string_view becomes;    ///< what it becomes if not obvious
   bool shear_flexible = true;  ///< of beams
 };
 
 /// Null if the type is not known.
 const AbaqusElementType* find_abaqus_element(std::string_view name);
 
-/// Corners of the faces S1, S2, … of a solid, as places among its nodes, counter-clockwise seen
-/// from inside as Abaqus lists them; empty for other shapes.
+/// Corners of the faces S1, S2, … of a solid, as indices into its nodes, counter-clockwise seen
+/// from inside as listed by Abaqus; empty for other shapes.
 std::span<const std::vector<int>> abaqus_faces(fem::CellKind kind);
 
 /// Corners of the edges with mid-side nodes, in the order of these nodes, which follow the corners;

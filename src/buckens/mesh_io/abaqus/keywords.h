@@ -5,14 +5,14 @@
 
 namespace buckens::mesh_io {
 
-/// What a keyword that no card reads is to a body.
+/// What a keyword that no card reads means for a body.
 enum class KeywordRole {
-  silent,      ///< nothing to say of it
-  elsewhere,   ///< loads, supports and initial values: the model file has them
+  silent,      ///< nothing to report
+  elsewhere,   ///< loads, supports and initial values: belong in the model file
   weightless,  ///< neither mass nor stiffness of a linear elastic body: contact, heat, output …
-  nonlinear,   ///< what a material does beyond linear elasticity
-  periodic,    ///< the deck is a sector or a part of what is repeated
-  holding,     ///< mass, stiffness or a connection: refused unless the model file leaves it out
+  nonlinear,   ///< material behaviour beyond linear elasticity
+  periodic,    ///< the deck is one sector of a repeated structure
+  holding,     ///< mass, stiffness or a connection: refused unless skipped
   unknown,
 };
 

@@ -26,28 +26,28 @@ struct DeckKeyword {
   };
 
   std::string name;     ///< capitals without star and blanks: "SOLIDSECTION"; empty: a lone star
-  std::string written;  ///< as a message names it: "*SOLID SECTION"
+  std::string written;  ///< as in messages: "*SOLID SECTION"
   std::vector<Parameter> parameters;
   DeckPlace place;
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  /// Null if the parameter is not there; empty if it has no value.
+  /// Null if the parameter is missing; empty if it has no value.
   const std::string* find(std::string_view key) const;
 };
 
-/// A data line, cut at its commas.
+/// A data line, split at its commas.
 struct DeckRow {
-  std::vector<std::string_view> cells;  ///< without blanks around; they live as long as the deck
+  std::vector<std::string_view> cells;  ///< trimmed; valid as long as the deck
   bool continues = false;               ///< the line ends with a comma
   DeckPlace place;
 
   std::string_view cell(std::size_t i) const { return i < cells.size() ? cells[i] : ""; }
 };
 
-/// The lines of a deck of Abaqus or CalculiX, with those of the files that it includes in place.
+/// The lines of a deck of Abaqus or CalculiX, including those of included files in their places.
 ///
 /// Comments and empty lines are left out, keyword lines that end with a comma are joined. Files
-/// that include each other in a circle, nested too deeply or too large together are refused.
+/// that include each other in a cycle, are nested too deeply or too large in total are refused.
 class AbaqusLines {
  public:
   /// @throws IoError if the file cannot be read, InputError if it is no text
@@ -58,11 +58,11 @@ class AbaqusLines {
 
   /// Goes to the next keyword, past data lines that were not read. False at the end.
   bool next_keyword(DeckKeyword& out);
-  /// The next data line of the keyword. False where another keyword or the end comes.
+  /// The next data line of the keyword. False if another keyword or the end follows.
   bool next_row(DeckRow& out) { return next_row(out, false); }
-  /// The same, with empty lines as rows without cells: they stand for values left out.
+  /// The same, with empty lines as rows without cells: they represent omitted values.
   bool next_row_or_blank(DeckRow& out) { return next_row(out, true); }
-  /// First value of the data line that comes next; empty if none does. Nothing is taken.
+  /// First value of the next data line; empty if there is none. Nothing is consumed.
   std::string first_cell_ahead();
   /// Reads the data lines of a keyword from another file: `*NODE, INPUT=nodes.txt`.
   void include(const std::string& name, DeckPlace place);
@@ -90,12 +90,12 @@ class AbaqusLines {
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<int> stack_;  ///< open files, the innermost last
   std::size_t bytes_ = 0;
-  bool has_line_ = false;  ///< a line was looked at but not taken
+  bool has_line_ = false;  ///< a line was peeked at but not consumed
   std::string_view line_;
   DeckPlace place_;
 };
 
-/// Capitals, as Abaqus compares names: they differ in case only if quoted, which is rare.
+/// Upper case, as Abaqus compares names: case only matters for quoted ones, which are rare.
 std::string upper(std::string_view text);
 
 }  // namespace buckens::mesh_io

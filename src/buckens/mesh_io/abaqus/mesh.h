@@ -13,13 +13,13 @@
 
 namespace buckens::mesh_io {
 
-/// Makes the neutral mesh of a deck: instances in place, elements in blocks of one type and
-/// property, names prefixed by their instance where there are several.
+/// Makes the neutral mesh of a deck: instances placed, elements in blocks of one type and property,
+/// names prefixed by their instance if there are several.
 class AbaqusMesh {
  public:
   AbaqusMesh(const AbaqusDeck& deck, const AbaqusLines& lines);
 
-  /// @throws InputError with the place of what cannot be
+  /// @throws InputError with the place of anything invalid
   fem::ImportedMesh run();
 
  private:
@@ -29,10 +29,10 @@ class AbaqusMesh {
   };
 
   bool labels_meet() const;
-  /// Whether a scope has elements that fill or span space.
+  /// Whether a scope has volume or surface elements.
   bool has_bodies() const;
-  /// What an element becomes: plane ones are shells where there is nothing else, and bars without a
-  /// section beside solids and shells are the edges of a mesh generator.
+  /// What an element becomes: plane ones are shells if there is nothing else, and bars without a
+  /// section beside solids and shells are left-over edges of a mesh generator.
   AbaqusRole role_of(int scope, int element) const;
   void refuse_without_elements() const;
   double mean_thickness(int scope, int element);
@@ -60,7 +60,7 @@ class AbaqusMesh {
   const AbaqusLines& lines_;
   AbaqusNames names_;
   fem::ImportedMesh out_;
-  /// Per placed scope and element: the section, −1 without.
+  /// Per placed scope and element: the section, −1: none.
   std::vector<std::vector<int>> section_of_;
   /// By file and line of the section, placed scope, kind, whether beams shear, thickness.
   std::map<std::tuple<int, int, int, fem::PropertyKind, bool, double>, int> properties_;

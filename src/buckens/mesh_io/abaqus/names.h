@@ -21,17 +21,17 @@ namespace buckens::mesh_io {
 struct AbaqusPlaced {
   const AbaqusScope* scope = nullptr;
   std::string instance;  ///< empty: the assembly or a deck without parts
-  /// p → rotation p + origin leads from the part to the assembly.
+  /// p → rotation p + origin maps the part to the assembly.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   int first_node = 0;   ///< in the whole mesh
-  int num_nodes = 0;    ///< those that are defined twice alike count once
+  int num_nodes = 0;    ///< identical duplicates count once
   LabelIndex nodes;     ///< to the whole mesh
-  LabelIndex elements;  ///< to places counted through the blocks of the scope
+  LabelIndex elements;  ///< to indices through the blocks of the scope
   std::vector<int> first_of_block;
   int num_elements = 0;
 
-  /// A block of the scope and a place in it.
+  /// A block of the scope and an index in it.
   std::pair<const AbaqusElements*, std::size_t> at(int element) const;
 };
 
@@ -41,7 +41,7 @@ struct AbaqusFace {
   int element = 0;
   std::vector<int> corners;  ///< nodes of the whole mesh
   std::vector<int> nodes;    ///< with those at mid-sides
-  bool is_edge = false;      ///< of a shell: it gives nodes but no face
+  bool is_edge = false;      ///< of a shell: provides nodes but no face
 };
 
 /// Elements of one placed scope each.
@@ -52,7 +52,7 @@ struct AbaqusElementAt {
   auto operator<=>(const AbaqusElementAt&) const = default;
 };
 
-/// Looks up what the names and numbers of a deck mean, in the scope where they stand.
+/// Looks up the meaning of names and numbers of a deck in the scope in which they occur.
 class AbaqusNames {
  public:
   /// Numbers nodes and elements.
@@ -65,14 +65,14 @@ class AbaqusNames {
   const std::vector<std::int64_t>& labels() const { return labels_; }
 
   /// Nodes of a reference on a data line, ascending: a number is that of a node, as in CalculiX,
-  /// also where a set has this number for its name.
-  /// @throws InputError if there is no such thing
+  /// even if a set has this number as its name.
+  /// @throws InputError if it does not exist
   std::vector<int> nodes(int scope, const std::string& reference, DeckPlace place);
-  /// Nodes of a set by the name that a parameter gives (NSET=2): a set of this name stands above a
-  /// node of this number.
+  /// Nodes of a set by the name given by a parameter (NSET=2): a set of this name takes precedence
+  /// over a node of this number.
   std::vector<int> nodes_of_set(int scope, const std::string& name, DeckPlace place);
-  /// Nodes of a reference in the order in which those of two sets make pairs: by their numbers, of
-  /// sets with UNSORTED as they are written.
+  /// Nodes of a reference in the order in which two sets are paired: by number, or as written for
+  /// sets with UNSORTED.
   std::vector<int> nodes_in_order(int scope, const std::string& reference, DeckPlace place);
   /// The one node of a reference. @throws InputError also if there are several
   int node(int scope, const std::string& reference, DeckPlace place);
@@ -87,8 +87,8 @@ class AbaqusNames {
   std::vector<AbaqusElementAt> elements(int scope, const AbaqusSet& set) {
     return members(scope, set, known_elements_);
   }
-  /// Nodes of a surface, each with what belongs to it of the faces (an area), of the edges of
-  /// shells (a length) or, of a surface of nodes, what the deck says (1 by default).
+  /// Nodes of a surface, each with its share of the faces (an area), of the edges of shells (a
+  /// length) or, for a surface of nodes, the value in the deck (1 by default).
   std::map<int, double> surface_nodes(int scope, const AbaqusSurface& surface);
   /// The same by the name of the surface.
   std::map<int, double> surface_nodes(int scope, const std::string& name, DeckPlace place);
@@ -96,7 +96,7 @@ class AbaqusNames {
   std::vector<AbaqusFace> faces(int scope, const std::string& name, DeckPlace place);
   /// Per node whether a shell or beam gives it rotations.
   std::vector<bool> turning_nodes() const;
-  /// Nodes of an element, those at mid-sides included.
+  /// Nodes of an element, including those at mid-sides.
   std::vector<int> element_nodes(const AbaqusElementAt& at) const;
 
  private:
@@ -112,8 +112,8 @@ class AbaqusNames {
                      DeckPlace place) const;
   int find_instance(const std::string& name) const;
   std::string described(int scope) const;
-  /// Notes that a set is being looked up. @throws InputError if it is already, or sets nest too
-  /// deep
+  /// Marks a set as being looked up. @throws InputError if it already is, or sets are nested too
+  /// deeply
   void open(const AbaqusSet& set);
   template <class Entry>
   using KnownSets = std::map<std::pair<int, const AbaqusSet*>, std::vector<Entry>>;
@@ -123,7 +123,7 @@ class AbaqusNames {
   template <class Entry>
   void add_part(int scope, const AbaqusSet& set, const AbaqusSetPart& part,
                 std::vector<Entry>& out);
-  /// Adds the numbers of a range that there are. @return how many these are
+  /// Adds the existing numbers of a range. @return how many these are
   template <class Entry>
   std::size_t add_range(int scope, const AbaqusSetPart::Range& range,
                         std::vector<Entry>& out) const;
@@ -141,8 +141,8 @@ class AbaqusNames {
   std::vector<AbaqusPlaced> scopes_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<std::int64_t> labels_;
-  std::vector<const AbaqusSet*> open_sets_;  ///< being looked up, to find circles
-  /// Sets that were looked up: sets of sets would be walked through again and again.
+  std::vector<const AbaqusSet*> open_sets_;  ///< being looked up, to detect cycles
+  /// Sets already looked up: sets of sets would otherwise be traversed again and again.
   KnownSets<int> known_nodes_;
   KnownSets<AbaqusElementAt> known_elements_;
   std::size_t num_entries_ = 0;           ///< of these sets together

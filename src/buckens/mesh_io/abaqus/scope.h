@@ -17,9 +17,9 @@
 #include "buckens/mesh_io/abaqus/elements.h"
 #include "buckens/mesh_io/abaqus/lines.h"
 
-/// What a deck says, before names and numbers are looked up. Names are kept as written; they are
-/// compared in capitals. A "reference" is a number or the name of a set, perhaps with an instance
-/// before it: "12", "BEARING", "ROD-1.BEARING".
+/// The contents of a deck, before names and numbers are looked up. Names are kept as written and
+/// compared in upper case. A "reference" is a number or the name of a set, optionally preceded by
+/// an instance: "12", "BEARING", "ROD-1.BEARING".
 namespace buckens::mesh_io {
 
 struct AbaqusNodes {
@@ -33,7 +33,7 @@ struct AbaqusElements {
   const AbaqusElementType* type = nullptr;
   std::vector<std::int64_t> ids;
   std::vector<std::int64_t> nodes;  ///< type->num_nodes per element
-  /// Per element of beams a node that gives direction 1 of the section, −1: none.
+  /// For each beam element the node that gives direction 1 of the section, −1: none.
   std::vector<std::int64_t> direction_nodes;
   std::vector<DeckPlace> places;
 };
@@ -54,7 +54,7 @@ struct AbaqusSetPart {
 struct AbaqusSet {
   std::string name;
   bool is_internal = false;
-  bool is_unsorted = false;  ///< in pairs of sets its nodes count in the order of the deck
+  bool is_unsorted = false;  ///< in pairs of sets its nodes are in the order of the deck
   std::vector<AbaqusSetPart> parts;
 };
 
@@ -88,7 +88,7 @@ struct AbaqusSection {
   std::string orientation;
   double area = 1;  ///< of bars
   std::optional<double> thickness;
-  bool has_nodal_thickness = false;  ///< that of *NODAL THICKNESS stands above the other
+  bool has_nodal_thickness = false;  ///< that of *NODAL THICKNESS takes precedence
   double offset = 0;                 ///< of the nodes' surface from the middle one, in thicknesses
   std::vector<Layer> layers;
   std::optional<fem::SectionSpec> shape;
@@ -101,7 +101,7 @@ struct AbaqusOrientation {
   std::string system;  ///< "RECTANGULAR" or one that is not supported
   /// Columns 1, 2, 3, after the additional rotation.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  /// Axis of the additional rotation, 0…2, which is near the normal of shells; none: not given.
+  /// Axis of the additional rotation, 0…2, close to the normal of shells; none: not given.
   std::optional<int> normal;
   DeckPlace place;
 };
@@ -141,7 +141,7 @@ struct AbaqusSpring {
   std::string element_set;
   std::array<int, 2> variables = {-1, -1};  ///< of SPRING2, from 0
   double stiffness = 0;
-  bool is_turned = false;  ///< the directions are in axes of their own, ORIENTATION=
+  bool is_turned = false;  ///< the directions are in their own axes, ORIENTATION=
   DeckPlace place;
 };
 
@@ -171,11 +171,11 @@ struct AbaqusContact {
 struct AbaqusLink {
   AbaqusLinkKind kind = AbaqusLinkKind::kinematic;
   std::string name;
-  std::string reference;  ///< the node that leads
+  std::string reference;  ///< the leading node
   /// The nodes that follow: references on data lines, node sets, surfaces or element sets.
   std::vector<std::string> nodes, node_sets, surfaces, element_sets;
   std::array<bool, 6> variables = {true, true, true, true, true, true};
-  bool is_turned = false;        ///< the variables are in axes of their own, ORIENTATION=
+  bool is_turned = false;        ///< the variables are in their own axes, ORIENTATION=
   std::optional<double> radius;  ///< *COUPLING, INFLUENCE RADIUS=
   std::vector<double> weights;   ///< of `nodes`; empty: 1 each
   DeckPlace place;
@@ -191,7 +191,7 @@ struct AbaqusEquation {
   DeckPlace place;
 };
 
-/// What stands between *PART and *END PART, or in a deck without parts.
+/// Contents between *PART and *END PART, or of a deck without parts.
 struct AbaqusScope {
   std::string name;
   AbaqusNodes nodes;
@@ -211,17 +211,17 @@ struct AbaqusScope {
   std::vector<AbaqusThickness> thicknesses;
 };
 
-/// A part placed in the assembly: first moved, then turned.
+/// A part placed in the assembly: first translated, then rotated.
 struct AbaqusInstance {
   std::string name;
-  AbaqusScope scope;  ///< a copy of the part, with what the instance adds
+  AbaqusScope scope;  ///< a copy of the part, with the additions of the instance
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< a point of the axis of rotation
   DeckPlace place;
 };
 
-/// A type of elements that the model file wants left out.
+/// A type of elements that the model file asks to leave out.
 struct AbaqusSkippedType {
   std::string name;
   AbaqusElementType type;
@@ -235,7 +235,7 @@ struct AbaqusDeck {
   std::vector<AbaqusInstance> instances;
   std::map<std::string, fem::MaterialSpec> materials;  ///< by name in capitals
   std::set<std::string> tied_interactions;             ///< of contact, in capitals
-  std::set<std::string> laminae;  ///< those by their constants in a plane, in capitals
+  std::set<std::string> laminae;  ///< those given by their constants in a plane, in capitals
   std::vector<fem::ImportNote> notes;
 };
 

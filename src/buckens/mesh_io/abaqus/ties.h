@@ -9,9 +9,9 @@
 namespace buckens::mesh_io {
 
 /// Ties slave nodes to the faces of master surfaces: *TIE. Each node follows the point of the
-/// master nearest to it by the shape functions there; one beside the surface keeps its distance and
-/// turns with the face, so that the body moves rigidly without strain whatever the gap. The
-/// relations become equations of the mesh.
+/// master nearest to it by the shape functions there; one away from the surface keeps its distance
+/// and rotates with the face, so that rigid motion causes no strain for any gap. The relations
+/// become equations of the mesh.
 ///
 /// Nodes farther away than the position tolerance (by default 5 % of the mean size of a master
 /// face, as in Abaqus) stay free. Rotations are tied where slave and master both have them.

@@ -9,13 +9,13 @@
 
 namespace buckens::mesh_io {
 
-/// How Gmsh writes one shape of element.
+/// Gmsh's representation of one element shape.
 struct GmshElement {
   int type = 0;  ///< Gmsh's number
   const char* name = "";
   int num_nodes = 0;
   fem::CellKind kind = fem::CellKind::tet4;
-  /// Gmsh's place of each of our nodes; empty: the same order. Shorter than num_nodes where nodes
+  /// Gmsh's index of each of our nodes; empty: the same order. Shorter than num_nodes if nodes
   /// within faces and volumes are left out.
   std::vector<int> places;
 };

@@ -24,11 +24,11 @@ class GmshReader {
   /// @param nodes their numbers, in Gmsh's order
   void add_element(const GmshElement& element, std::int64_t id, const std::vector<int>& groups,
                    const std::vector<std::int64_t>& nodes);
-  /// The element with a number of Gmsh's. @throws InputError for those that have no place here
+  /// The element type with a Gmsh number. @throws InputError for unsupported ones
   const GmshElement& element_of(std::int64_t type) const;
-  /// Gives their names to groups whose dimension was not said. Call it at the end.
+  /// Names groups whose dimension was not given. Call it at the end.
   void name_groups();
-  /// Makes sure that the section ends here.
+  /// Checks that the section ends here.
   void expect_end(const std::string& section);
 
   // One number, from text or binary.
@@ -49,9 +49,9 @@ class GmshReader {
   std::map<std::int64_t, std::string> names_of_any_;  // of groups without a dimension
 };
 
-/// Sections of version 2. @return false for a section that is not known
+/// Sections of version 2. @return false for an unknown section
 bool read_section_2(GmshReader& reader, const std::string& section);
-/// Sections of version 1, which has no head: $NOD and $ELM.
+/// Sections of version 1, which has no header: $NOD and $ELM.
 bool read_section_1(GmshReader& reader, const std::string& section);
 
 /// Entities of version 4 carry the physical groups of their elements.

@@ -9,8 +9,8 @@
 
 namespace buckens::mesh_io {
 
-/// Reads the matrices and the table of nodes that a model file names, in SI units.
-/// @param directory where relative names of files begin
+/// Reads the matrices and the table of nodes named in a model file, in SI units.
+/// @param directory for relative file names
 /// @throws InputError with file and line, IoError if a file cannot be read
 std::shared_ptr<const fem::BodyMatrices> read_body_matrices(const fem::MatricesSpec& spec,
                                                             const std::filesystem::path& directory);

@@ -20,11 +20,11 @@ struct MatrixEntry {
   int line = 0;
 };
 
-/// A square matrix as a file holds it, in the units of the file.
+/// A square matrix from a file, in the units of the file.
 struct MatrixFile {
   std::string file;
   bool is_labelled = false;  ///< by nodes and variables
-  bool is_triangle = false;  ///< entries beyond the diagonal stand for two
+  bool is_triangle = false;  ///< off-diagonal entries represent two
   std::int64_t size = 0;     ///< rows; of labelled matrices 0
   std::vector<MatrixEntry> entries;
 
@@ -34,7 +34,7 @@ struct MatrixFile {
 /// Reads a matrix: Matrix Market (coordinate or array, real or integer, general or symmetric), or
 /// what *MATRIX OUTPUT of Abaqus writes as text (FORMAT=MATRIX INPUT: row node, row variable,
 /// column node, column variable, value; FORMAT=COORDINATE: row, column, value), which is also that
-/// of CalculiX (.sti, .mas). The format is told by the content.
+/// of CalculiX (.sti, .mas). The format is recognised by the contents.
 /// @throws InputError with file and line, IoError if the file cannot be read
 MatrixFile read_matrix_file(const std::filesystem::path& path);
 

@@ -12,7 +12,7 @@
 
 namespace buckens::mesh_io {
 
-/// A node of a body that is given by matrices.
+/// A node of a body given by matrices.
 struct TableNode {
   std::int64_t number = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -28,7 +28,7 @@ struct MatrixNodeTable {
   SourceLocation where(const TableNode& node) const { return {file, node.line, 1}; }
 };
 
-/// Reads a CSV table with a heading: node, x, y, z and perhaps ux, uy, uz, rx, ry, rz.
+/// Reads a CSV table with a heading: node, x, y, z and optionally ux, uy, uz, rx, ry, rz.
 /// @throws InputError with file and line, IoError if the file cannot be read
 MatrixNodeTable read_matrix_node_table(const std::filesystem::path& path);
 

@@ -13,7 +13,7 @@
 
 namespace buckens::mesh_io {
 
-/// Elements with a block of their own.
+/// Elements with their own block.
 enum class NastranElementKind {
   tetra,
   pyramid,
@@ -39,7 +39,7 @@ constexpr const char* name_of(NastranElementKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-/// A GRID as it is written.
+/// A GRID as written.
 struct NastranGrid {
   static constexpr std::int64_t kBlank = -1;
   std::int64_t id = 0;
@@ -49,7 +49,7 @@ struct NastranGrid {
   NastranPlace place;
 };
 
-/// An element as it is written.
+/// An element as written.
 struct NastranElement {
   std::int64_t id = 0;
   std::int64_t property = 0;
@@ -57,14 +57,14 @@ struct NastranElement {
   int num_nodes = 0;
   std::uint32_t first_node = 0;  ///< in NastranBulk::element_nodes
   std::int32_t details = -1;     ///< in NastranBulk::shells or lines
-  /// Of elements of NASTRAN-95: the card that the property is on, "MAT1" if it is a material.
+  /// Of elements of NASTRAN-95: the card of the property, "MAT1" if it is a material.
   const char* property_card = nullptr;
   NastranPlace place;
 };
 
 /// Fields of shells beyond nodes and property, where any is given.
 struct NastranShellDetails {
-  bool has_system = false;        ///< MCID in place of THETA
+  bool has_system = false;        ///< MCID instead of THETA
   std::int64_t system = 0;        ///< MCID
   double theta = 0;               ///< [degrees]
   double offset = 0;              ///< ZOFFS
@@ -74,7 +74,7 @@ struct NastranShellDetails {
 
 /// Fields of CBAR and CBEAM beyond nodes and property.
 struct NastranLineDetails {
-  bool has_orientation = false;       ///< else that of BAROR or BEAMOR counts
+  bool has_orientation = false;       ///< otherwise that of BAROR or BEAMOR applies
   std::int64_t orientation_node = 0;  ///< G0; 0: the vector counts
   std::array<double, 3> orientation = {0, 0, 0};
   bool basic_orientation = false;  ///< vector in the basic system, not in that of the first node
@@ -84,13 +84,13 @@ struct NastranLineDetails {
   std::array<std::array<bool, 6>, 2> pins{};         ///< PA, PB: released in the axes of the beam
 };
 
-/// BAROR or BEAMOR: what elements have that do not say otherwise.
+/// BAROR or BEAMOR: defaults of elements.
 struct NastranLineDefaults {
   std::int64_t property = 0;  ///< 0: none
   NastranLineDetails line;
 };
 
-/// The bulk data as they are written: numbers read, references not yet followed.
+/// The bulk data as written: numbers read, references not yet resolved.
 struct NastranBulk {
   std::vector<NastranGrid> grids;
   std::int64_t default_cp = 0;  ///< GRDSET
@@ -100,7 +100,7 @@ struct NastranBulk {
   std::vector<NastranShellDetails> shells;
   std::vector<NastranLineDetails> lines;
   NastranLineDefaults bar_defaults, beam_defaults;
-  /// Cards that are read when something refers to them, and those of which there are few.
+  /// Cards that are read when referred to, and those of which there are few.
   std::map<std::string, std::vector<NastranCard>> cards;
   double weight_to_mass = 1;  ///< PARAM,WTMASS
 
@@ -108,8 +108,8 @@ struct NastranBulk {
   const std::vector<NastranCard>& cards_named(const std::string& name) const;
 };
 
-/// Reads all cards but those to leave out. Cards that carry no part of a mesh are noted, with how
-/// many there are.
+/// Reads all cards except those to leave out. Cards that are not part of a mesh are noted with
+/// their number.
 /// @throws InputError with the place for what cannot be read, and for cards that change the
 /// structure and are not supported
 NastranBulk read_nastran_bulk(NastranCardReader& reader, SkipList& skip, NastranNotes& notes);

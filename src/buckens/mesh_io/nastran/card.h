@@ -11,7 +11,7 @@
 
 namespace buckens::mesh_io {
 
-/// One field of a card, where it stands in the text of its file.
+/// One field of a card, with its position in the text of its file.
 struct NastranField {
   const char* begin = nullptr;
   std::uint32_t size = 0;  ///< 0: blank
@@ -20,8 +20,8 @@ struct NastranField {
 
 /// One bulk data entry with its continuations: the name and the data fields.
 ///
-/// Fields are counted from 0 behind the name, eight to a line of small fields, in all formats. The
-/// manuals count from 2: their field 2 is number 0 here, and messages say "field 2". Blank fields
+/// Fields are numbered from 0 after the name, eight per line of small fields, in all formats. The
+/// manuals number from 2: their field 2 is number 0 here, and messages say "field 2". Blank fields
 /// at the end are not stored.
 class NastranCard {
  public:
@@ -36,7 +36,7 @@ class NastranCard {
   /// Upper-case text, "" for a blank field.
   std::string word(int i) const;
   bool is_integer(int i) const;
-  /// Whether a letter comes first.
+  /// Whether the first character is a letter.
   bool is_word(int i) const;
 
   /// @throws InputError with the place of the field, also where it is blank
@@ -56,7 +56,7 @@ class NastranCard {
   /// @throws InputError: first line, name and number of the card
   [[noreturn]] void fail(const std::string& text) const;
   SourceLocation where() const { return {file->name, line, 1}; }
-  /// The second of two elements on one card, as NASTRAN-95 writes those of four fields.
+  /// The second of two elements on one card, as in NASTRAN-95 for those of four fields.
   NastranCard second_half() const;
   /// Name and number: "CQUAD4 17".
   std::string label() const;

@@ -14,17 +14,17 @@ namespace buckens::mesh_io {
 
 /// Joins the lines of the bulk data section to cards.
 ///
-/// A continuation follows its card directly, or has the mark that the card announces, wherever it
-/// stands behind it. Lines that repeat others (NastranReplication) become cards of their own.
+/// A continuation follows its card directly, or has the mark announced by the card, anywhere after
+/// it. Lines that repeat others (NastranReplication) become separate cards.
 class NastranCardReader {
  public:
-  /// @param first a line of the bulk data that was taken from the source already
+  /// @param first a line of the bulk data that was already taken from the source
   explicit NastranCardReader(NastranSource& source, std::optional<NastranLine> first = {})
       : source_(source), pending_(first) {}
 
-  /// Puts the next card into `card`, whose memory is used again. Its text lives as long as source
-  /// and reader. @return false at the end
-  /// @throws InputError for lines that are no cards and lost continuations
+  /// Puts the next card into `card`, whose buffers are reused. Its text lives as long as source and
+  /// reader. @return false at the end
+  /// @throws InputError for lines that are not cards and lost continuations
   bool next(NastranCard& card);
 
   /// Whether the section was closed by ENDDATA; valid after next() returned false.
@@ -44,7 +44,7 @@ class NastranCardReader {
   std::optional<NastranLine> pending_;  // read ahead
   bool found_end_ = false;
   NastranReplication replication_;
-  NastranLine repeating_;  // the line that replication_ carries out
+  NastranLine repeating_;  // the line being executed by replication_
 
   // All further lines, once a continuation was not where it should be.
   struct Ahead {

@@ -8,10 +8,10 @@
 
 namespace buckens::mesh_io {
 
-/// Adds what ties nodes together: RBE2 and RBAR as rigid links, RBE3 as averages, MPC as equations
+/// Adds connections between nodes: RBE2 and RBAR as rigid links, RBE3 as averages, MPC as equations
 /// in mesh axes.
-/// @param mpc_set of the case control; without case control all sets count, or that of one MPCADD
-/// @throws InputError for what cannot be taken over exactly
+/// @param mpc_set of the case control; without it all sets apply, or those of one MPCADD
+/// @throws InputError for what cannot be represented exactly
 void add_nastran_connections(const NastranBulk& bulk, bool has_control,
                              const std::optional<std::int64_t>& mpc_set,
                              const NastranCoordinates& coordinates, NastranNotes& notes,

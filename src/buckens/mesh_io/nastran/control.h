@@ -22,12 +22,12 @@ struct NastranControlSet {
   std::int64_t id = 0;
   bool all = false;
   std::vector<NastranRange> members;
-  std::vector<NastranRange> except;  ///< taken out of the ranges before
+  std::vector<NastranRange> except;  ///< excluded from the preceding ranges
   const NastranFile* file = nullptr;
   int line = 0;
 };
 
-/// What of the executive and case control sections a mesh needs.
+/// What a mesh needs from the executive and case control sections.
 struct NastranControl {
   bool present = false;
   int num_lines = 0;
@@ -36,13 +36,13 @@ struct NastranControl {
   std::vector<NastranControlSet> sets;
 };
 
-/// Whether a text is a deck of Nastran whatever its file is called: BEGIN BULK stands in it.
+/// Whether a text is a deck of Nastran, whatever its file name: it contains BEGIN BULK.
 bool has_nastran_bulk_data(std::string_view text);
 
-/// Reads what stands before BEGIN BULK, if the deck has such a part: if its main file has a line
-/// BEGIN BULK or starts with an executive or case control statement.
+/// Reads the part before BEGIN BULK, if the deck has one: if its main file has a line BEGIN BULK or
+/// starts with an executive or case control statement.
 /// @param first_bulk_line set to a line that was taken from the source but belongs to the bulk data
-/// @throws InputError if BEGIN BULK is missing, or if subcases ask for different MPC
+/// @throws InputError if BEGIN BULK is missing, or if subcases request different MPC
 NastranControl read_nastran_control(NastranSource& source,
                                     std::optional<NastranLine>& first_bulk_line);
 

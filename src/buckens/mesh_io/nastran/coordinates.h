@@ -13,7 +13,7 @@
 
 namespace buckens::mesh_io {
 
-/// Decks give angles in degrees [rad].
+/// Angles in decks are in degrees [rad].
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The coordinate systems of a deck and where its nodes are.
@@ -22,11 +22,11 @@ inline constexpr double kDegree = std::numbers::pi / 180.0;
 /// until the basic system 0. Angles are in degrees: (r, θ, z) and (r, θ from z, φ from x).
 class NastranCoordinates {
  public:
-  /// @throws InputError for systems and nodes that are missing, differ under one number, depend on
-  /// themselves or have no three points
+  /// @throws InputError for systems and nodes that are missing, defined differently under one
+  /// number, circular or without three points
   NastranCoordinates(const NastranBulk& bulk, NastranNotes& notes);
 
-  /// Nodes in order of the deck, doubles left out; basic system.
+  /// Nodes in the order of the deck, without duplicates; basic system.
   const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
   const std::vector<std::int64_t>& node_ids() const { return node_ids_; }
 
@@ -34,7 +34,7 @@ class NastranCoordinates {
   int find_node(std::int64_t id) const { return nodes_.find(id); }
   /// Index of a node. @throws InputError if it is missing; `user` says what needs it
   int node(std::int64_t id, const std::string& user, const NastranPlace& place) const;
-  /// A node that the deck does not have, for ends of offsets. @return its index
+  /// Adds a node that is not in the deck, for ends of offsets. @return its index
   int add_node(const Eigen::Vector3d& position);
 
   /// Axes of a system as columns at a point of the basic system.
@@ -46,7 +46,7 @@ class NastranCoordinates {
                            const NastranPlace& place) const;
   bool is_rectangular(std::int64_t system, const NastranPlace& place) const;
 
-  /// The system in which variables at a node are counted (CD).
+  /// The displacement system of a node (CD).
   std::int64_t displacement_system(int node) const {
     return displacement_systems_[static_cast<std::size_t>(node)];
   }
@@ -78,7 +78,7 @@ class NastranCoordinates {
   Eigen::Vector3d node_position(int grid) const;
   static Eigen::Vector3d point_of(const System& system, const Eigen::Vector3d& point);
 
-  std::vector<NastranGrid> grids_;  // without doubles, defaults filled in
+  std::vector<NastranGrid> grids_;  // without duplicates, defaults filled in
   NastranIds nodes_;
   std::vector<System> systems_;
   std::unordered_map<std::int64_t, std::size_t> system_of_;

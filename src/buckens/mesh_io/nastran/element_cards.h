@@ -7,8 +7,8 @@ namespace buckens::mesh_io {
 
 /// Adds an element to the bulk data if the card is one of those in NastranElementKind.
 ///
-/// Solids have either their corners or all nodes. CTRIAR and CQUADR count as CTRIA3 and CQUAD4,
-/// elements of NASTRAN-95 as their successors.
+/// Solids have either their corners or all nodes. CTRIAR and CQUADR are treated as CTRIA3 and
+/// CQUAD4, elements of NASTRAN-95 as their successors.
 /// @return false if it is another card
 /// @throws InputError for missing or repeated nodes
 bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes& notes);

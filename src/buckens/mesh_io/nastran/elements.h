@@ -10,8 +10,8 @@ namespace buckens::mesh_io {
 /// Puts the elements of a deck into blocks: one per shape, card and property.
 ///
 /// Mid-side nodes come in the order of fem::CellKind: Nastran lists vertical edges before upper
-/// ones. Ends of beams with offsets become nodes of their own, held by rigid links. Non-structural
-/// mass becomes point masses at the nodes.
+/// ones. Ends of beams with offsets become separate nodes, held by rigid links. Non-structural mass
+/// becomes point masses at the nodes.
 /// @return numbers of the elements, in the order in which blocks count them
 /// @throws InputError for missing nodes, properties and materials, and for numbers used twice
 std::vector<std::int64_t> add_nastran_elements(const NastranBulk& bulk,

@@ -11,15 +11,15 @@
 
 namespace buckens::mesh_io {
 
-/// Ties one node to another at the same place in all components but those released, by a rigid link
-/// or by equations.
+/// Ties one node to another at the same position in all components except those released, by a
+/// rigid link or by equations.
 /// @param axes as columns @param released three translations and three rotations in these axes
 void tie_nastran_nodes(int node, int follower, const Eigen::Matrix3d& axes,
                        const std::array<bool, 6>& released, const std::string& name, int line,
                        fem::ImportedMesh& mesh);
 
-/// The end of a beam with pin flags: a node of its own at the place of another, tied to it in all
-/// components but those released.
+/// The end of a beam with pin flags: a separate node at the position of another, tied to it in all
+/// components except those released.
 /// @param axes of the beam as columns
 /// @param released three translations and three rotations in these axes
 /// @param name for the tie @return index of the new node

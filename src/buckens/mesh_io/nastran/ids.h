@@ -9,11 +9,11 @@
 
 namespace buckens::mesh_io {
 
-/// Finds the index of a number among many: sorted once, searched by halving.
+/// Finds the index of a number among many: sorted once, binary search.
 class NastranIds {
  public:
   NastranIds() = default;
-  /// @param ids the index of each is its place; of equal ones the first counts
+  /// @param ids the index of each is its position; of equal ones the first counts
   explicit NastranIds(const std::vector<std::int64_t>& ids) {
     sorted_.reserve(ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) sorted_.push_back({ids[i], static_cast<int>(i)});
@@ -22,7 +22,7 @@ class NastranIds {
     }
   }
 
-  /// −1 if the number is not there.
+  /// −1 if the number does not exist.
   int find(std::int64_t id) const {
     const auto entry = first_from(id);
     return entry == sorted_.end() || entry->first != id ? -1 : entry->second;

@@ -15,31 +15,31 @@
 
 namespace buckens::mesh_io {
 
-/// The materials of a deck, taken over when something is made of them.
+/// The materials of a deck, imported when used.
 ///
 /// MAT1 becomes isotropic. Solids and shells have the G of its E and NU, as in Nastran; where that
-/// of the deck differs, beams have theirs in a material of its own. MAT8 becomes orthotropic with
-/// E3 = E2 and without contraction across, which thin shells do not feel; so does MAT2 if it is
+/// of the deck differs, beams use it in a separate material. MAT8 becomes orthotropic with E3 = E2
+/// and without transverse contraction, which does not affect thin shells; so does MAT2 if it is
 /// orthotropic in its axes, and MAT9 for solids. Others are left to the model file.
 class NastranMaterials {
  public:
-  /// What an element can be made of.
+  /// What a material is used for.
   enum class Use { solid, shell, beam, bar };
 
-  /// @throws InputError if two cards have one number
+  /// @throws InputError if two cards have the same number
   NastranMaterials(const NastranBulk& bulk, const NastranNames& names, NastranNotes& notes);
 
   bool has(std::int64_t id) const { return cards_.contains(id); }
-  /// Why the material with this number cannot be used for that, "" if it can.
+  /// Why the material with this number cannot be used for this, "" if it can.
   /// @param user says what is made of it
   std::string lack(std::int64_t id, Use use, const std::string& user) const;
   /// Name of the material with this number.
-  /// @throws InputError if it is missing or cannot be used for that
+  /// @throws InputError if it is missing or cannot be used for this
   std::string name(std::int64_t id, Use use, const std::string& user, const NastranPlace& place);
-  /// Whether directions matter in it; false if it is missing.
+  /// Whether it depends on direction; false if it is missing.
   bool has_directions(std::int64_t id) const;
 
-  /// Those taken over, densities times PARAM,WTMASS.
+  /// Imported materials, densities times PARAM,WTMASS.
   std::vector<fem::MaterialSpec> take() { return std::move(specs_); }
 
  private:

@@ -16,11 +16,11 @@ namespace buckens::mesh_io {
 ///     $ Femap Property 3 : housing                         ("Femap with NX Nastran", Material)
 class NastranNames {
  public:
-  /// Takes a comment line, from its dollar sign on. Others than the above are passed over.
+  /// Reads a comment line, starting at its dollar sign. Others than the above are ignored.
   void add_comment(std::string_view line);
 
-  /// Name of a property with this number, "" if none was given. Names of components count where
-  /// the deck names no properties: older decks number both alike.
+  /// Name of a property with this number, "" if none was given. Names of components are used if the
+  /// deck names no properties: older decks give both the same numbers.
   std::string property(std::int64_t id) const;
   /// Name of a material, "" if none was given.
   std::string material(std::int64_t id) const;

@@ -10,7 +10,7 @@
 
 namespace buckens::mesh_io {
 
-/// File and line of something that a deck says.
+/// File and line of an item in a deck.
 struct NastranPlace {
   const NastranFile* file = nullptr;
   int line = 0;
@@ -18,7 +18,7 @@ struct NastranPlace {
   SourceLocation where() const { return {file->name, line, 1}; }
 };
 
-/// What a reader did not take over, the same said once and counted.
+/// What a reader did not import; repetitions are counted and reported once.
 class NastranNotes {
  public:
   /// @param main_file notes of other files name theirs

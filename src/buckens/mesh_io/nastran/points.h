@@ -8,8 +8,8 @@ namespace buckens::mesh_io {
 
 /// Adds point masses (CONM2) and springs (CBUSH with PBUSH, stiffness only).
 ///
-/// A spring between distant nodes that acts across their line gets a place of its own with a rigid
-/// link to either node, since its forces turn the nodes; without those links a turn of the body
+/// A spring between distant nodes that acts across their line gets its own location with a rigid
+/// link to each node, since its forces rotate the nodes; without those links a rotation of the body
 /// would stretch it.
 /// @throws InputError for missing nodes, systems and properties
 void add_nastran_points(const NastranBulk& bulk, NastranCoordinates& coordinates,

@@ -19,25 +19,25 @@
 
 namespace buckens::mesh_io {
 
-/// The properties of a deck, taken over when an element has them.
+/// The properties of a deck, imported when an element uses them.
 ///
-/// A shell property stands once per thickness, offset and direction that its elements have, always
-/// under the same name.
+/// A shell property occurs once per thickness, offset and direction of its elements, always under
+/// the same name.
 class NastranProperties {
  public:
-  /// @throws InputError if two cards of one family have one number
+  /// @throws InputError if two cards of one family have the same number
   NastranProperties(const NastranBulk& bulk, const NastranNames& names,
                     const NastranCoordinates& coordinates, NastranMaterials& materials,
                     NastranNotes& notes);
 
-  /// Index of the property of an element; its kind tells which cards count.
-  /// @param nodes places of the corners of a shell; else not used
-  /// One that the deck does not have, or gives in a way that is not supported, is left to the model
-  /// file: see fem::ImportedProperty::lacking.
+  /// Index of the property of an element; its kind tells which cards apply.
+  /// @param nodes positions of the corners of a shell; otherwise not used
+  /// One that is missing or not supported is left to the model file: see
+  /// fem::ImportedProperty::lacking.
   /// @throws InputError if its card cannot be read
   int of(const NastranElement& element, const std::vector<Eigen::Vector3d>& nodes);
 
-  /// Non-structural mass per area or length, as the file weighs.
+  /// Non-structural mass per area or length, in the file's unit of mass.
   double nonstructural_mass(int property) const { return more(property).mass; }
   /// Of the section's y axis from Nastran's, about x [rad].
   double section_angle(int property) const { return more(property).angle; }
@@ -65,7 +65,7 @@ class NastranProperties {
   /// Of material direction 1 of a shell.
   struct Direction {
     std::optional<Eigen::Matrix3d> axes;  ///< none: it is that of the first side
-    double angle = 0;                     ///< by which it is turned from there [rad]
+    double angle = 0;                     ///< by which it is rotated from there [rad]
   };
 
   /// Card, thickness, offset, first axis (zero: the first side), angle.

@@ -9,23 +9,23 @@
 
 namespace buckens::mesh_io {
 
-/// Lines that say what they are by the line before: `=` repeats a field, `==` the rest of the line,
-/// `*4` or `*(4)` adds to a number, `/` adds what the field before adds, `%(7)` goes to 7 in equal
-/// steps; `=3` or `=(3)` in the first field repeats the whole three times.
+/// Lines that refer to the line before: `=` repeats a field, `==` the rest of the line,
+/// `*4` or `*(4)` adds to a number, `/` adds the same as the field before, `%(7)` goes to 7 in
+/// equal steps; `=3` or `=(3)` in the first field repeats the whole three times.
 class NastranReplication {
  public:
-  /// Remembers a line that others may repeat.
+  /// Stores a line that others may repeat.
   void remember(const NastranRow& row) { before_ = row; }
 
-  /// Whether copies are still to be made.
+  /// Whether there are more copies to make.
   bool is_going_on() const { return copies_left_ > 0; }
 
-  /// Takes a line that begins with `=`.
+  /// Reads a line that begins with `=`.
   /// @throws InputError if there is nothing to repeat, or more than a million lines are made
   void begin(const NastranRow& row, const NastranLine& line);
 
   /// The next copy, valid as long as this object.
-  /// @throws InputError if something is added to what is no number
+  /// @throws InputError if something is added to a field that is not a number
   NastranRow next(const NastranLine& line);
 
  private:

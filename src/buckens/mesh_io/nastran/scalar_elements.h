@@ -8,12 +8,12 @@ namespace buckens::mesh_io {
 
 /// CELAS1 to CELAS4, CMASS1 to CMASS4 and SPOINT as springs and masses of the body.
 ///
-/// Inside a body forces must be in balance whichever way it lies. So a spring must act on the same
-/// direction at both its ends; off its line it is placed midway, with rigid arms. Scalar points
-/// without mass are eliminated: springs in a row become one. Springs to ground are left out, as
-/// supports are. Masses at a node count where they are the same in all three directions, as moments
-/// of inertia about any axis.
-/// @throws InputError for what has no such meaning
+/// Inside a body, forces must balance in any orientation. So a spring must act in the same
+/// direction at both ends; if not along its line, it is placed midway with rigid arms. Scalar
+/// points without mass are eliminated: springs in a row become one. Springs to ground are left out,
+/// like supports. Masses at a node are used if they are the same in all three directions, as
+/// moments of inertia about any axis.
+/// @throws InputError for anything without such a meaning
 void add_nastran_scalar_elements(const NastranBulk& bulk, NastranCoordinates& coordinates,
                                  NastranNotes& notes, fem::ImportedMesh& mesh);
 

@@ -12,21 +12,21 @@ struct NastranShapeConstants {
   double A = 0;
   double I1 = 0, I2 = 0, I12 = 0;  ///< ∫y², ∫z², ∫yz about the centroid
   double J = 0;
-  double K1 = 0, K2 = 0;  ///< shares of the area that carry shear along y and z
+  double K1 = 0, K2 = 0;  ///< fractions of the area that carry shear along y and z
   /// Centroid from the shear centre.
   double y = 0, z = 0;
   std::vector<std::array<double, 2>> corners;  ///< outermost points from the centroid (y, z)
 };
 
-/// How many dimensions a shape of PBARL and PBEAML has that is made of plates or is a hexagon: I,
-/// I1, T, T1, T2, L, CHAN, CHAN1, CHAN2, CROSS, H, Z, HAT, BOX1, HEXA. @return 0: it is none of
+/// Number of dimensions of a shape of PBARL and PBEAML that is made of plates or is a hexagon:
+/// I, I1, T, T1, T2, L, CHAN, CHAN1, CHAN2, CROSS, H, Z, HAT, BOX1, HEXA. @return 0: none of
 /// them
 int num_nastran_shape_dimensions(std::string_view type);
 
 /// Area and second moments are exact for plates with sharp corners. Torsion: of open sections
 /// ⅓ Σ l t³ along the middle lines, of closed ones Bredt's formula, of the hexagon Saint-Venant's
 /// A⁴/(40 Ip). Shear: the plates along the force. Shear centre: T, L: where middle lines meet; I
-/// and CHAN: formula of thin walls; others: at the centroid.
+/// and CHAN: thin-wall formula; others: at the centroid.
 /// @return area 0 if the plates do not fit together
 NastranShapeConstants nastran_shape(std::string_view type, const std::vector<double>& dimensions);
 

@@ -10,10 +10,10 @@
 
 namespace buckens::mesh_io {
 
-/// Cross-section of a beam or rod as a property card gives it.
+/// Cross-section of a beam or rod from a property card.
 ///
 /// Plane 1 of Nastran holds its y axis: I1 = ∫ y² dA is `Iz` here, I2 is `Iy`. Sections with I12
-/// are turned into their principal axes.
+/// are rotated into their principal axes.
 struct NastranSection {
   fem::SectionSpec section;
   std::int64_t material = 0;
@@ -23,13 +23,13 @@ struct NastranSection {
   bool is_bar = false;          ///< there is an area, but no bending and no torsion
   /// Of the neutral axis from the line between the nodes (y, z), in Nastran's axes.
   std::array<double, 2> offset = {0, 0};
-  /// Why there is no section, where the card can be read but not used; else "".
+  /// Why there is no section if the card can be read but not used; else "".
   std::string lacking;
 };
 
-/// Reads PBAR, PBARL, PBEAM, PBEAML; tapered beams get the mean section. Beams of CBEAM lie in the
-/// neutral axis, to which torsion then belongs, too.
-/// @throws InputError for what cannot be read
+/// Reads PBAR, PBARL, PBEAM, PBEAML; tapered beams get the mean section. Beams of CBEAM are on the
+/// neutral axis, to which torsion then also refers.
+/// @throws InputError if it cannot be read
 NastranSection read_nastran_beam_section(const NastranCard& card, NastranNotes& notes);
 
 /// Reads the area of PROD, PTUBE or CONROD.

@@ -15,7 +15,7 @@ namespace buckens::mesh_io {
 
 /// One file of a deck.
 struct NastranFile {
-  std::string name;  ///< as messages show it
+  std::string name;  ///< as shown in messages
   std::string text;
 };
 
@@ -26,13 +26,13 @@ struct NastranLine {
   std::string_view text;  ///< in NastranFile::text
 };
 
-/// Gives the text of an included file. @throws IoError
+/// Returns the text of an included file. @throws IoError
 using LoadNastranFile = std::function<std::string(const std::filesystem::path&)>;
 
 /// The lines of a deck in order, those of included files in place of their INCLUDE.
 ///
-/// Comments are taken out, names in them kept. A file may be included once: a second time would
-/// repeat its numbers, be it a cycle or not.
+/// Comments are removed, names in them kept. A file may be included only once: a second time would
+/// repeat its numbers, whether in a cycle or not.
 class NastranSource {
  public:
   /// @param name of the main file, as the user named it
@@ -58,14 +58,14 @@ class NastranSource {
   std::filesystem::path resolve(const std::string& argument, const NastranFile& from) const;
 
   std::deque<NastranFile> files_;
-  std::vector<std::string> keys_;  // of files_: what makes them the same; empty before INCLUDE
+  std::vector<std::string> keys_;  // of files_: identifies them; empty before INCLUDE
   std::vector<Open> open_;
   std::size_t total_size_ = 0;  // of included files
   LoadNastranFile load_;
   NastranNames names_;
 };
 
-/// Reads an included file. Only regular files: a pipe could keep the reader waiting for ever.
+/// Reads an included file. Only regular files: a pipe could block the reader forever.
 /// @throws IoError
 std::string load_nastran_file(const std::filesystem::path& path);
 

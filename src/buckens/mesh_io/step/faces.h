@@ -10,7 +10,7 @@
 
 namespace buckens::mesh_io {
 
-/// What a STEP file says about a face. The mesh has its nodes and its sides of elements as the sets
+/// Data of a STEP file about a face. The mesh has its nodes and its element faces as the sets
 /// `face_<number>`.
 struct StepFace {
   int number = 0;
@@ -18,11 +18,11 @@ struct StepFace {
   std::vector<std::string> labels;
 };
 
-/// Adds the face sets that colours and labels of the file make: `color_255_0_0`, `bearing seat`.
+/// Adds the face sets for colours and labels of the file: `color_255_0_0`, `bearing seat`.
 void add_face_names(fem::ImportedMesh& mesh, const std::vector<StepFace>& faces);
 
 /// Adds the face set and node set of one entry of `faces` of a model file.
-/// @throws InputError at the entry if no face answers to it
+/// @throws InputError at the entry if no face matches it
 void name_faces(fem::ImportedMesh& mesh, const std::vector<StepFace>& faces,
                 const fem::GeometryFaceSpec& spec);
 

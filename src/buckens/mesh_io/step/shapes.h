@@ -8,13 +8,13 @@
 
 namespace buckens::mesh_io {
 
-/// A face of the glued part and a colour that it has, or that the face had of which it is a piece.
+/// A face of the glued part and its colour, or that of the face it is a piece of.
 struct ColoredShape {
   int face = 0;
   GmshLibrary::Color color = {0, 0, 0, 0};
 };
 
-/// What became of the solids of a STEP file when those that touch were glued.
+/// Result of gluing the touching solids of a STEP file.
 struct GluedShapes {
   std::vector<ColoredShape> colors;  ///< a face between two solids may have two
   int lost = 0;                      ///< coloured faces of which no pieces could be found
@@ -25,12 +25,12 @@ struct GluedShapes {
 /// The last part of a name such as "Shapes/assembly/rod", or volume_<number>.
 std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid);
 
-/// Loads a file into a new model and gives solids that touch common faces.
+/// Loads a file into a new model and gives touching solids common faces.
 ///
-/// The library forgets colours of faces that it cuts. Their pieces are found by place: they lie in
-/// the box of the face and have together its area and its centre.
+/// The library loses the colours of faces that it cuts. Their pieces are found by position: they
+/// are inside the bounding box of the face and together have its area and its centre.
 ///
-/// @param solid name or number (by their order in the file) of the one that stays; empty: all
+/// @param solid name or number (by their order in the file) of the one to keep; empty: all
 GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file,
                        const std::string& solid);
 

@@ -15,7 +15,7 @@ inline fem::ImportedMesh read_deck(const std::string& text) {
   return read_nastran_text(text, "deck.bdf");
 }
 
-/// The message with which a deck is refused; "" if it is read.
+/// The message refusing a deck; "" if it is read.
 inline std::string refusal(const std::string& text) {
   try {
     read_deck(text);

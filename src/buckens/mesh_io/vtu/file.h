@@ -20,8 +20,8 @@ struct VtuArray {
                               std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
   std::string name;
-  int components = 1;                        ///< numbers per point or cell, which follow each other
-  Values values;                             ///< written with the type that they have here
+  int components = 1;                        ///< numbers per point or cell, consecutive
+  Values values;                             ///< written with the type they have here
   std::vector<std::string> component_names;  ///< as many as components, or none
 };
 
@@ -43,10 +43,10 @@ std::uint8_t vtk_cell_type(fem::CellKind kind);
 
 /// The grid as an XML file of VTK (version 1.0): little-endian, raw appended, compressed with zlib
 /// in blocks of 64 KiB.
-/// @throws InputError if an array does not have as many numbers as its components ask for
+/// @throws InputError if the length of an array does not match its components
 std::string vtu_bytes(const VtuGrid& grid);
 
-/// Writes vtu_bytes() so that a reader sees all of it or what was there before. @throws IoError
+/// Writes vtu_bytes() atomically: a reader sees all of it or the old contents. @throws IoError
 void write_vtu(const std::filesystem::path& path, const VtuGrid& grid);
 
 /// One instant of a collection.

@@ -67,7 +67,7 @@ struct DeflectionBase {
   Kind kind = chord;
   base::MarkerRef marker;  ///< for `other` only: a marker of the same body
 
-  DeflectionBase(Kind k = chord) : kind(k) {}
+  DeflectionBase(Kind k = chord) : kind(k) {}  // NOLINT: a kind is a base
   friend bool operator==(const DeflectionBase& base, Kind k) { return base.kind == k; }
 };
 

@@ -47,7 +47,7 @@ inline results::Record field_record(double t) {
   return out;
 }
 
-/// @param records written; fields go with every third
+/// @param records written; fields with every third
 inline void write_fields_run(const std::filesystem::path& path, std::size_t records,
                              bool finish = true) {
   RunDirectory run(path, {.title = "sample", .model_text = "buckens: 1\n", .flush = {}});

@@ -62,7 +62,7 @@ inline results::RecordLayout sample_layout(int nodes = 3) {
   return layout;
 }
 
-/// Values that tell from which record and place they come.
+/// Values that identify their record and place.
 inline double sample_value(std::size_t record, std::size_t position) {
   return static_cast<double>(record) + std::sin(static_cast<double>(position));
 }

@@ -18,7 +18,7 @@ inline void expect_same(const model::Coupling& a, const model::Coupling& b) {
   EXPECT_EQ(a.moments.l_dot, b.moments.l_dot);
 }
 
-/// Every number of both is the same to the last bit.
+/// All numbers of both are bitwise equal.
 inline void expect_same(const model::State& a, const model::State& b) {
   EXPECT_EQ(a.t, b.t);
   EXPECT_EQ(a.lambda, b.lambda);
