@@ -86,6 +86,7 @@ std::vector<std::size_t> records_between(const run_store::RunReader& run,
 std::vector<double> taken(const std::vector<double>& values,
                           const std::vector<std::size_t>& records) {
   std::vector<double> out;
+  out.reserve(records.size());
   for (const std::size_t i : records) out.push_back(values[i]);
   return out;
 }
