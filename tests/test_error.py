@@ -328,6 +328,46 @@ def test_what_cannot_be_assessed_is_named(state):
     assert "several frames" in note
 
 
+SHELLS = """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 2, 1, 0
+*ELEMENT, TYPE=S4, ELSET=PLATE
+1, 1, 2, 5, 4
+2, 2, 3, 6, 5
+"""
+
+
+@pytest.mark.parametrize("body", ["shells", "matrices"])
+def test_sensors_say_which_error_they_lack(buckens, state, tmp_path, body):
+    # A shell of a file and a body of given matrices: no further run shows what their meshes are worth.
+    if body == "shells":
+        (tmp_path / "plate.inp").write_text(SHELLS)
+        text = ("buckens: 1\ngravity: [0, 0, -9.81]\nbodies: {part: {mesh: {file: plate.inp, section: {thickness: 20 mm, "
+                "material: {E: 210 GPa, nu: 0.3, rho: 7850}}}}}\njoints: {hold: {fixed: {between: [ground, part/n1]}}}\n"
+                "simulation: {duration: 2 ms, step: 0.1 ms}\noutput: {sensors: {tip: {position: part/n6}}}\n")
+        reason = "comes from a file"
+    else:
+        folder = SOURCE / "examples" / "gyro_rotor"
+        for name in ("rotor_mass.mtx", "rotor_stiffness.mtx", "rotor_nodes.csv"):
+            (tmp_path / name).write_text((folder / name).read_text())
+        text = ("buckens: 1\ngravity: [0, 0, -9.81]\nbodies: {part: {matrices: {mass: rotor_mass.mtx, "
+                "stiffness: rotor_stiffness.mtx, nodes: rotor_nodes.csv}}}\n"
+                "joints: {hold: {fixed: {between: [ground, part/n1]}}}\n"
+                "simulation: {duration: 2 ms, step: 0.1 ms}\noutput: {sensors: {tip: {position: part/n9}}}\n")
+        reason = "matrices, which have no elements"
+    summary = state(text)
+    for stated in summary["errors"]["sensors"].values():
+        assert stated["not_assessed"] == ['mesh of "part"'] and list(stated["peak"]["parts"]) == ["time step"]
+    assert [note for note in summary["errors"]["notes"] if 'mesh of "part"' in note and reason in note]
+    # The table shows them as lower bounds; a run that leaves nothing out has none.
+    assert ">= " in buckens("run", "model.yaml", "-o", "again", "--error").must(0).out
+    assert all(s["not_assessed"] == [] for s in state(PENDULUM)["errors"]["sensors"].values())
+
+
 def test_chaos_is_not_resolved(state):
     model = (SOURCE / "examples" / "double_pendulum" / "double_pendulum.yaml").read_text()
     summary = state(model, "--set=simulation.duration=20 s", "--set=simulation.step=20 ms")

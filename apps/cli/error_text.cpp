@@ -31,17 +31,20 @@ std::string error_text(const results::ErrorStatement& errors) {
   std::vector<std::string> head = {"sensor", "unit", "peak", "+-"};
   for (const results::ErrorSource& source : errors.sources) head.push_back(source.name);
   head.insert(head.end(), {"end", "+-", "curve +-"});
+  // Uncertainties that lack a source are lower bounds.
+  const char* const sign = errors.unassessed.empty() ? "" : ">= ";
   std::vector<std::vector<std::string>> rows = {head};
   for (const results::SensorErrors& sensor : errors.sensors) {
     const double size = std::max(std::abs(sensor.peak.value), sensor.range);
     if (size <= kRounding * sensor.scale && sensor.scale > 0.0) continue;
     rows.push_back({sensor.name, sensor.unit,
                     number_with(sensor.peak.value, sensor.peak.uncertainty),
-                    share(sensor.peak.uncertainty)});
+                    sign + share(sensor.peak.uncertainty)});
     for (const double part : sensor.peak.parts) rows.back().push_back(share(part));
     rows.back().push_back(number_with(sensor.last.value, sensor.last.uncertainty));
-    rows.back().push_back(share(sensor.last.uncertainty));
-    rows.back().push_back(sensor.is_resolved ? share(sensor.curve.uncertainty) : "not resolved");
+    rows.back().push_back(sign + share(sensor.last.uncertainty));
+    rows.back().push_back(sensor.is_resolved ? sign + share(sensor.curve.uncertainty)
+                                             : "not resolved");
   }
   std::string out = "error statement\n" + text_table(rows);
   for (const results::ErrorSource& source : errors.sources) {

@@ -103,6 +103,7 @@ Json errors_json(const results::ErrorStatement& errors) {
     sensors[sensor.name] = {{"unit", sensor.unit},
                             {"resolved", sensor.is_resolved},
                             {"sampling", sensor.sampling},
+                            {"not_assessed", errors.unassessed},
                             {"peak", uncertain_json(sensor.peak, errors.sources)},
                             {"final", uncertain_json(sensor.last, errors.sources)},
                             {"curve", uncertain_json(sensor.curve, errors.sources)}};

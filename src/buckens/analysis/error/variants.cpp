@@ -64,6 +64,25 @@ class VariantList {
         {{name, std::move(what), refinement, factor, 0, 0.0}, std::move(description)});
   }
 
+  void leave_out(const std::string& what, const std::string& why) {
+    out_.notes.push_back(what + ": " + why);
+    out_.unassessed.push_back(what);
+  }
+
+  /// Why the mesh of a body can be neither refined nor judged by its strains.
+  std::string why_not_refined(const std::string& name) const {
+    const auto spec = std::find_if(base_.bodies.begin(), base_.bodies.end(),
+                                   [&](const body::BodySpec& body) { return body.name == name; });
+    if (std::holds_alternative<fem::MatricesSpec>(spec->kind)) {
+      return "the body is given by matrices, which have no elements to refine";
+    }
+    if (std::holds_alternative<fem::StructureSpec>(spec->kind)) {
+      return "its elements are given one by one and cannot be refined";
+    }
+    return "it comes from a file and cannot be refined, and strains tell the error of solids in "
+           "one frame only; compare with a finer file";
+  }
+
   void add_time_step() {
     ModelDescription finer = base_;
     model::SimulationSpec& run = *finer.simulation;
@@ -84,11 +103,7 @@ class VariantList {
     ModelDescription other = base_;
     MeshRefinement done = refine_meshes(other, MeshChange::finer);
     for (const std::string& name : done.unchanged) {
-      if (recovered(name)) continue;
-      out_.notes.push_back(fmt::format(
-          "mesh of \"{}\": the program did not make it and cannot refine it, and it is no mesh of "
-          "solids whose strains would tell",
-          name));
+      if (!recovered(name)) leave_out(fmt::format("mesh of \"{}\"", name), why_not_refined(name));
     }
     if (!done.geometries.empty()) return add_meshes_of_parts(std::move(other), done);
     if (done.changed.empty()) return;
@@ -99,12 +114,11 @@ class VariantList {
     other = base_;
     done = refine_meshes(other, MeshChange::coarser);
     if (!done.is_possible) {
-      out_.notes.push_back(fmt::format(
-          "mesh: twice as many elements each way would be too many ({:.2g} unknowns in place of "
-          "{:.2g}), and the divisions are not even, so that a coarser mesh cannot be compared; "
-          "make them even",
-          8 * unknowns_, unknowns_));
-      return;
+      return leave_out(
+          "mesh", fmt::format("twice as many elements each way would be too many ({:.2g} unknowns "
+                              "in place of {:.2g}), and the divisions are not even, so that a "
+                              "coarser mesh cannot be compared; make them even",
+                              8 * unknowns_, unknowns_));
     }
     // Seen from the coarser mesh the error of this one is 1/r² of its own.
     add("mesh", "half as many elements each way", 2, two_grid_factor(2) / 4, std::move(other));
@@ -112,8 +126,7 @@ class VariantList {
 
   void add_meshes_of_parts(ModelDescription other, const MeshRefinement& done) {
     if (!remesh_ || unknowns_ * kFinerElements * kFinerElements * kFinerElements > kMostUnknowns) {
-      out_.notes.push_back("mesh: finer meshes of the parts of STEP files would be too large");
-      return;
+      return leave_out("mesh of parts of STEP files", "finer ones would be too large");
     }
     auto sizes = done.geometries;
     for (auto& part : sizes) part.second /= kFinerElements;
@@ -126,8 +139,8 @@ class VariantList {
       }
     }
     if (!done.changed.empty()) {
-      out_.notes.push_back(fmt::format("mesh of {}: not refined, since the parts of STEP files are",
-                                       list(done.changed)));
+      leave_out(fmt::format("mesh of {}", list(done.changed)),
+                "not refined, since the parts of STEP files are");
     }
     add("mesh", "elements of two thirds of their size", kFinerElements,
         two_grid_factor(kFinerElements), std::move(other));
@@ -145,6 +158,15 @@ class VariantList {
     return recovered_error(body.flexible->mesh(), deformed);
   }
 
+  bool has_shells(const std::string& name) const {
+    const auto& whole = model_.wholes[static_cast<std::size_t>(model_.find_whole(name))];
+    const auto& body = model_.bodies[static_cast<std::size_t>(whole.first)];
+    const auto& blocks = body.flexible->mesh().blocks;
+    return std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
+      return block->is_shell() && block->num_elements() > 0;
+    });
+  }
+
   void add_meshes_of_files() {
     ModelDescription other = base_;
     std::string what;
@@ -153,6 +175,10 @@ class VariantList {
       if (!share || !scale_moduli(spec, 1.0 - *share)) continue;
       what += fmt::format("{}stiffness of \"{}\" less by {:.2g} %", what.empty() ? "" : ", ",
                           spec.name, 100.0 * *share);
+      if (has_shells(spec.name)) {
+        leave_out(fmt::format("shells of \"{}\"", spec.name),
+                  "strains tell the error of solids only");
+      }
     }
     if (!what.empty()) add("mesh of files", what, 0, kSafetyOfRecovery, std::move(other));
   }
@@ -183,8 +209,8 @@ class VariantList {
     bool is_reduced = false, is_full = unknowns_ <= kMostUnknowns;
     for (body::BodySpec& spec : other.bodies) {
       if (spec.flexibility == body::Flexibility::quasi_static) {
-        out_.notes.push_back(fmt::format(
-            "modes of \"{}\": what a quasi-static body leaves out is not assessed", spec.name));
+        leave_out(fmt::format("modes of \"{}\"", spec.name),
+                  "what a quasi-static body leaves out is not assessed");
       } else if (!spec.reduction.is_none()) {
         is_reduced = true;
         improve(spec.reduction, is_full);
