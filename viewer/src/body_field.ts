@@ -1,4 +1,5 @@
-import { FieldValues, sourcesOf, type FieldSource } from './fields';
+import { FieldValues } from './field_values';
+import { sourcesOf, type FieldSource } from './fields';
 import type { FramePlace } from './interpolation';
 import type { Body } from './run';
 import type { Painted } from './surface_values';

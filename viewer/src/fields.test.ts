@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { BodyField } from './body_field';
 import { aligned, allTimes, valueAt } from './chart';
-import { fieldItems, FieldValues, history, indexAt, pointOf, rangeOfRun, sourcesOf } from './fields';
+import { indexAt, pointOf } from './field_point';
+import { FieldValues, history, rangeOfRun } from './field_values';
+import { fieldItems, sourcesOf } from './fields';
 import { decodeRun, nodeNumber, nodeNumbered } from './run';
 import { magnitude, misesOf, principalOf } from './tensor';
 import { kVariants, rows } from '../tests/fixture.mjs';

@@ -1,7 +1,5 @@
-import { MergedRows, rangeOf, type Rows } from './rows';
+import { MergedRows, type Rows } from './rows';
 import type { Body, Field, Run } from './run';
-import { magnitude, misesOf, planeMisesOf, principalOf } from './tensor';
-import type { FramePlace } from './interpolation';
 
 /** Something that can be shown in colour. */
 export interface FieldItem {
@@ -13,7 +11,7 @@ export interface FieldItem {
 }
 
 /** How the numbers of one place become one. */
-type Reduction =
+export type Reduction =
   | { kind: 'pick'; component: number }
   | { kind: 'magnitude' }
   | { kind: 'mises' }
@@ -204,110 +202,4 @@ export function fieldItems(runs: Run[]): FieldItem[] {
   }
   const rank = ({ group }: FieldItem) => (kGroupOrder.indexOf(group) + 1 || kGroupOrder.length + 1);
   return [...items.values()].sort((a, b) => rank(a) - rank(b));
-}
-
-/** Number of places at which a source has a value. */
-export function numPlaces({ rows, stride }: FieldSource): number {
-  return rows.width / stride;
-}
-
-function reduce(reduction: Reduction, row: ArrayLike<number>, at: number): number {
-  switch (reduction.kind) {
-    case 'pick':
-      return row[at + reduction.component]!;
-    case 'magnitude':
-      return magnitude(row, at);
-    case 'mises':
-      return misesOf(row, at);
-    case 'planeMises':
-      return planeMisesOf(row, at);
-    case 'principal':
-      return principalOf(row, at, reduction.component);
-  }
-}
-
-/** Works out the values of one source; keeps its memory from frame to frame. */
-export class FieldValues {
-  readonly values: Float32Array;
-  private readonly row: Float32Array;
-
-  constructor(readonly source: FieldSource) {
-    this.values = new Float32Array(numPlaces(source));
-    const same = source.stride === 1 && source.reduction.kind === 'pick';
-    this.row = same ? this.values : new Float32Array(source.rows.width);
-  }
-
-  at(place: FramePlace): Float32Array {
-    const { rows, stride, reduction } = this.source;
-    rows.interpolate(place, this.row);
-    if (this.row === this.values) return this.values;
-    for (let i = 0; i < this.values.length; i++) {
-      this.values[i] = reduce(reduction, this.row, stride * i);
-    }
-    return this.values;
-  }
-}
-
-/** Value of a source at one of its places in every frame. */
-export function history(of: FieldSource, index: number, frames: number): Float32Array {
-  const out = new Float32Array(frames);
-  const row = new Float32Array(of.stride);
-  for (let frame = 0; frame < frames; frame++) {
-    for (let k = 0; k < of.stride; k++) row[k] = of.rows.value(frame, of.stride * index + k);
-    out[frame] = reduce(of.reduction, row, 0);
-  }
-  return out;
-}
-
-/** Least and largest value of an item in all frames; [0, 0] if it has none. */
-export function rangeOfRun(runs: Run[], id: string): [number, number] {
-  let [low, high] = [Infinity, -Infinity];
-  for (const body of runs.flatMap((run) => run.bodies)) {
-    for (const of of sourcesOf(body).filter(({ item }) => item.id === id)) {
-      const single = of.stride === 1 && of.reduction.kind === 'pick';
-      const values = single ? null : new FieldValues(of);
-      for (let index = 0; index < of.rows.frames; index++) {
-        const [a, b] = values ? rangeOf(values.at({ index, fraction: 0 })) : of.rows.range(index);
-        if (a < low) low = a;
-        if (b > high) high = b;
-      }
-    }
-  }
-  return low <= high ? [low, high] : [0, 0];
-}
-
-/** What the value of a body is asked at. */
-export interface FieldPoint {
-  node: number;
-  /** −1 where the point has none of them. */
-  place: number;
-  element: number;
-  line: number;
-  /** Of the line: 0 or 1. */
-  end: number;
-}
-
-/** Index of a point among the places of a source, −1 if it is none of them. */
-export function indexAt(of: FieldSource, point: FieldPoint): number {
-  const { node, place, element, line, end } = point;
-  const lineEnds = line < 0 ? -1 : 2 * line + end;
-  return { nodes: node, places: place, elements: element, lines: line, lineEnds }[of.on];
-}
-
-/** Which end of a line a node is. */
-export function endOf(body: Body, line: number, node: number): number {
-  return line >= 0 && body.elements[line]![1] === node ? 1 : 0;
-}
-
-/** Any way to a node's element and place, for nodes chosen by number. */
-export function pointOf(body: Body, node: number): FieldPoint {
-  const corner = body.faces ? body.faces.nodes.indexOf(node) : -1;
-  const line = body.elements.findIndex((ends) => ends.includes(node));
-  return {
-    node,
-    place: corner < 0 ? -1 : (body.faces!.places?.[corner] ?? -1),
-    element: corner < 0 ? -1 : body.faces!.elements[corner >> 2]!,
-    line,
-    end: endOf(body, line, node),
-  };
 }

@@ -51,4 +51,9 @@ export class Magnitudes {
   least(unit: string): number {
     return kRounding * (this.largest.get(unit) ?? 0);
   }
+
+  /** A range of values of this unit, [0, 0] if all of them read as zero. */
+  visible([low, high]: [number, number], unit: string): [number, number] {
+    return Math.max(Math.abs(low), Math.abs(high)) < this.least(unit) ? [0, 0] : [low, high];
+  }
 }

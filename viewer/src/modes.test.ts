@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { kVariants } from '../tests/fixture.mjs';
 import { BodyField } from './body_field';
-import { fieldItems, rangeOfRun } from './fields';
+import { rangeOfRun } from './field_values';
+import { fieldItems } from './fields';
 import { checkModes, ModeShapes } from './modes';
 import { Motion } from './motion';
 import { decodeRun, PageDataError } from './run';

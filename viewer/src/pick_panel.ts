@@ -3,7 +3,7 @@ import { el } from './dom';
 import { figure, prefixFor } from './quantity';
 import { isPickable, pickName, type Pick } from './picks';
 import { nodeNumbered, type Run } from './run';
-import { pointOf } from './fields';
+import { pointOf } from './field_point';
 import { orZero, type ChartContent, type Curve } from './chart';
 import type { FieldItem } from './fields';
 import type { Triple } from './page_data';

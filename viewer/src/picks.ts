@@ -1,6 +1,8 @@
 import * as THREE from 'three';
 import { BodyField } from './body_field';
-import { endOf, history, indexAt, pointOf, type FieldPoint, type FieldSource } from './fields';
+import { endOf, indexAt, pointOf, type FieldPoint } from './field_point';
+import { history } from './field_values';
+import type { FieldSource } from './fields';
 import { nodeNumber, numNodes, type Body, type Run } from './run';
 import type { BodyView } from './body_view';
 import type { Skin } from './skin';

@@ -89,3 +89,9 @@ export function startTheme(): void {
 export function onThemeChange(react: (theme: Theme) => void): void {
   listeners.push(react);
 }
+
+/** Light, dark, then as the system has it. */
+export function nextTheme(): void {
+  const next = { auto: 'light', light: 'dark', dark: 'auto' } as const;
+  chooseTheme(next[themeChoice()]);
+}
