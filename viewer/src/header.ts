@@ -1,6 +1,7 @@
 import { kRunNames } from './charts';
 import { modal, nameTable } from './dialog';
 import { el } from './dom';
+import { errorTable } from './error_table';
 import { namesOfRuns, titleOf } from './run_names';
 import { notices, summaryChips, trustReasons } from './run_summary';
 import { summaryGroups } from './summary_table';
@@ -27,6 +28,23 @@ function origin({ directory, changes }: Run): string[] {
   return directory ? [`Directory: ${directory}`, ...set] : set;
 }
 
+/** Sensors with what they may be off by, of runs with an error statement. */
+function errors({ summary }: Run): HTMLElement[] {
+  const table = errorTable(summary);
+  if (!table) return [];
+  const head = ['Sensor', 'Largest', 'At the end', 'Uncertainty of the largest from'];
+  const line = (tag: 'th' | 'td', cells: string[]) =>
+    el('tr', {}, ...cells.map((cell) => el(tag, {}, cell)));
+  const rows = table.rows.map(({ name, peak, final, split }) =>
+    line('td', [name, peak, final, split]),
+  );
+  return [
+    el('h3', {}, 'Sensors with their uncertainty'),
+    el('table', { class: 'errors' }, line('th', head), ...rows),
+    ...table.notes.map((note) => el('p', { class: 'made' }, note)),
+  ];
+}
+
 /** Warnings in full and every figure of the summary. */
 function details(run: Run): HTMLElement[] {
   const groups = summaryGroups(run.summary);
@@ -37,6 +55,7 @@ function details(run: Run): HTMLElement[] {
     el('p', { class: 'made' }, storageText(run)),
     ...list('Why the result needs a second look', trustReasons(run.summary)),
     ...list('Warnings', notices(run.summary)),
+    ...errors(run),
     ...groups.flatMap(({ title, rows }) => [el('h3', {}, title), nameTable(rows)]),
     ...(groups.length ? [] : [el('p', {}, 'The run left no summary.')]),
   ];

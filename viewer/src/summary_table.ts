@@ -83,7 +83,15 @@ const kGroups: Record<string, string> = {
 };
 
 /** What stands elsewhere on the page. */
-const kShownElsewhere = ['title', 'version', 'status', 'warnings', 'notes', 'interrupted'];
+const kShownElsewhere = [
+  'title',
+  'version',
+  'status',
+  'warnings',
+  'notes',
+  'interrupted',
+  'errors',
+];
 
 function isTree(value: unknown): value is Tree {
   return typeof value === 'object' && value !== null && !Array.isArray(value);
