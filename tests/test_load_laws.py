@@ -173,3 +173,39 @@ def test_a_load_that_nothing_can_take_is_refused(buckens, tmp_path):
                                              "no volume", "per-mass")
     model.write_text(bare + load.replace("KIND", "per-mass"))
     buckens("check", "gyro_rotor.yaml").must(0)
+
+
+# ---- drives at t = 0
+
+DRIVEN = """
+buckens: 1
+bodies:
+  wheel: {rigid: {mass: 1 kg, inertia: [0.1, 0.1, 0.2]}}
+joints:
+  hinge: {revolute: {between: [ground, wheel], axis: [0, 0, 1]}}
+  motor: {prescribed-rotation: {between: [ground, wheel], axis: [0, 0, 1], angle: "LAW"}}
+simulation: {duration: 0.1 s, step: 1 ms}
+output: {every: 10 ms, sensors: {turn: {joint-coordinate: hinge}, kinetic: {energy: kinetic}, torque: {joint-torque: motor}}}
+"""
+
+
+def test_a_drive_with_a_kink_at_the_start_moves_as_after_it(buckens, tmp_path):
+    # What the law does before t = 0 is no part of the motion: full speed from the first instant on, no torque.
+    (tmp_path / "model.yaml").write_text(DRIVEN.replace("LAW", "3*max(t, 0)"))
+    buckens("run", "model.yaml", "-o", "out").must(0)
+    rows = [[float(x) for x in row] for row in list(csv.reader((tmp_path / "out" / "sensors.csv").open()))[1:]]
+    for t, angle, rate, kinetic, _, _, torque in rows:
+        # One-sided differences over 1e-7 s are good to 1e-9 of the rate.
+        assert angle == pytest.approx(3 * t, abs=1e-9) and rate == pytest.approx(3, rel=1e-8)
+        assert kinetic == pytest.approx(0.5 * 0.2 * 9, rel=1e-8) and abs(torque) < 1e-4
+
+
+@pytest.mark.parametrize("law, code, words", [
+    ("sqrt(t)", 4, ["model.yaml:7:", "joint \"motor\"", "unbounded speed", "t^2"]),
+    ("t^1.5", 0, ["joint \"motor\"", "acceleration", "unbounded at t = 0"]),
+    ("t^2.5", 0, []),
+])
+def test_drives_with_singular_derivatives_at_the_start(buckens, tmp_path, law, code, words):
+    (tmp_path / "model.yaml").write_text(DRIVEN.replace("LAW", law))
+    result = buckens("run", "model.yaml", "-o", "out").must(code, *words)
+    assert words or "motor" not in result.err

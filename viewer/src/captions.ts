@@ -10,7 +10,7 @@ export function notice(run: Run, panes: Pane[], playback: Playback): string {
   const fault = panes.find((pane) => pane.fault)?.fault;
   if (fault) return `The 3-D view needs WebGL, which this browser does not offer (${fault}).`;
   if (run.bodies.length === 0) return 'This run has no bodies to draw.';
-  if (run.times.length === 1) return 'Only one frame is stored: there is nothing to play.';
+  if (run.times.length === 1) return 'One stored frame only: there is nothing to play.';
   if (!playback.canPlay) return 'All frames are at one time: there is nothing to play.';
   return '';
 }

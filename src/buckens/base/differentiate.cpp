@@ -115,4 +115,55 @@ std::optional<double> derivative(const std::function<double(double)>& f, double 
   return fallback;
 }
 
+namespace {
+
+// Distance of one-sided differences: short against whatever a mechanism does.
+constexpr double kAhead = 1e-7;
+constexpr double kAheadOfSecond = 1e-5;
+// Slopes that differ by this share, and by kNoSlope of the slope over longer times, make a kink.
+constexpr double kKink = 1e-2;
+constexpr double kNoSlope = 1e-6;
+// A difference that grows as much while its distance shrinks to a sixteenth has no limit.
+constexpr double kGrowth = 1.5;
+
+/// Second-order one-sided difference.
+double ahead(const std::function<double(double)>& f, double t, double h, int order) {
+  if (order == 1) return (-3.0 * f(t) + 4.0 * f(t + h) - f(t + 2.0 * h)) / (2.0 * h);
+  return (2.0 * f(t) - 5.0 * f(t + h) + 4.0 * f(t + 2.0 * h) - f(t + 3.0 * h)) / (h * h);
+}
+
+double mean_slope(const std::function<double(double)>& f, double t) {
+  double out = 0;
+  for (const double s : {1e-3, 1e-2, 1e-1, 1.0}) {
+    const double slope = std::abs(f(t + s) - f(t)) / s;
+    if (std::isfinite(slope)) out = std::max(out, slope);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> starting_derivative(const std::function<double(double)>& f, double t,
+                                          int order) {
+  const std::optional<double> central = derivative(f, t, order);
+  const std::optional<double> slope = derivative(f, t, 1);
+  const double slope_ahead = ahead(f, t, kAhead, 1);
+  if (!std::isfinite(slope_ahead)) return central;
+  const bool is_two_sided = slope && std::isfinite(f(t - kAhead));
+  const double off = is_two_sided ? std::abs(*slope - slope_ahead) : HUGE_VAL;
+  const double rounding = 100.0 * kEps * std::max(std::abs(f(t)), std::abs(f(t + kAhead))) / kAhead;
+  const bool is_kink = off > kKink * std::max(std::abs(slope_ahead), std::abs(slope.value_or(0))) &&
+                       off > kNoSlope * mean_slope(f, t) && off > rounding;
+  if (!is_kink) return central;
+  const double h = order == 1 ? kAhead : kAheadOfSecond;
+  const double value = ahead(f, t, h, order);
+  const double nearer = ahead(f, t, h / 16.0, order);
+  const double noise = 100.0 * kEps * std::max(std::abs(f(t)), std::abs(f(t + h)));
+  const bool grows = std::abs(nearer) > kGrowth * std::abs(value) &&
+                     std::abs(nearer) * std::pow(h / 16.0, order) > noise;
+  if (!grows) return value;
+  // No limit, as of the second derivative of t^1.5: nothing is right.
+  return is_two_sided && central ? central : 0.0;
+}
+
 }  // namespace buckens::base

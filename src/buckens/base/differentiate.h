@@ -17,4 +17,10 @@ namespace buckens::base {
 /// @return empty if f is not finite in the nearest neighbourhood of t
 std::optional<double> derivative(const std::function<double(double)>& f, double t, int order);
 
+/// Derivative of order 1 or 2 where a motion starts: of f to the right of t alone if f is not
+/// defined to the left, or its slope differs there (a kink at t); otherwise derivative().
+/// @return empty if f is not finite to the right of t
+std::optional<double> starting_derivative(const std::function<double(double)>& f, double t,
+                                          int order);
+
 }  // namespace buckens::base

@@ -46,13 +46,16 @@ class Formula final : public TimeLaw::Body {
   double differentiate(double t, int order) const {
     expression_({t});  // says what is wrong if the value itself does not exist
     const auto f = [this](double s) { return expression_.unchecked({s}); };
-    const std::optional<double> out = derivative(f, t, order);
+    // Motions start at t = 0: what a law does before is no part of it.
+    const std::optional<double> out =
+        t == 0.0 ? starting_derivative(f, t, order) : derivative(f, t, order);
     if (out) return *out;
     throw NumericalError(
         expression_.where(),
-        fmt::format("expression \"{}\" has no {} at t = {:.9g}: it is not defined on both sides of "
-                    "this time. Write it so that it is, e.g. with max(t, 0) in place of t",
-                    expression_.text(), order == 1 ? "rate" : "acceleration", t));
+        fmt::format(
+            "expression \"{}\" has no {} at t = {:.9g}: it is not defined around this time. "
+            "Write it so that it is, e.g. with max(t, 0) in place of t",
+            expression_.text(), order == 1 ? "rate" : "acceleration", t));
   }
 
   Expression expression_;

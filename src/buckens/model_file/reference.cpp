@@ -45,7 +45,7 @@ a mass (`N m` for `N m/rad`), but not between `Hz` and `rad/s`. Known units:
 )";
 
 constexpr const char* kValues = R"(
-**Expressions** may stand wherever a number may: `2*L`, `"L/2 + 10"`, `"2*pi*50 rad/s"`. They know the
+**Expressions** are allowed wherever numbers are: `2*L`, `"L/2 + 10"`, `"2*pi*50 rad/s"`. They know the
 entries of `parameters` (in SI), `pi`, `e`, and the functions sin, cos, tan, asin, acos, atan, atan2,
 sinh, cosh, tanh, exp, ln, log10, log2, sqrt, abs, sign, rint, min, max, sum, avg; powers are `^`,
 conditions `a < b ? x : y`. The unit, if any, is the ending after white space and multiplies the whole:
@@ -56,11 +56,11 @@ conditions `a < b ? x : y`. The unit, if any, is the ending after white space an
 )";
 
 constexpr const char* kLawRemarks = R"(
-A table must cover the simulation, unless `extrapolation: hold` lets its first and last value hold
-outside of its range. Where a law drives a joint its first
-and second derivatives are used: formulas are differentiated numerically to about eleven digits and
-must be defined on both sides of every time that occurs (write `max(t, 0)` where they are not), tables
-should be splines. CSV columns are separated by commas, semicolons or blanks; lines that begin with `#`
+A table must cover the simulation, unless `extrapolation: hold` extends it by its first and last value.
+Where a law drives a joint its first and second derivatives are used: formulas are differentiated
+numerically to about eleven digits and must be defined around every time that occurs; at t = 0 only what
+follows counts, so `max(t, 0)` starts with speed 1. A law whose speed is unbounded at t = 0 (`sqrt(t)`) is
+refused, one whose acceleration is (`t^1.5`) is warned about. Tables should be splines. CSV columns are separated by commas, semicolons or blanks; lines that begin with `#`
 and one heading line, whose first cell does not begin like a number, are skipped.
 
 **Markers** are written `ground` (the world), `rod` (the body frame, at the mass centre), `rod/origin`

@@ -15,6 +15,27 @@ namespace {
 constexpr int kHalvings = 12;
 // Below this share of its own size a law is rounding.
 constexpr double kRounding = 1e-10;
+// At the start: distances from this share of the duration, each a sixteenth of the one before.
+// Differences that grow by as much each time have no limit.
+constexpr double kStart = 1e-4;
+constexpr int kDistances = 4;
+constexpr double kGrowth = 1.5;
+
+/// Whether a one-sided difference quotient of a law grows without limit towards t = 0.
+bool grows(const base::TimeLaw& law, double duration, int order) {
+  double before = 0;
+  for (int k = 0; k < kDistances; ++k) {
+    const double h = kStart * duration / std::pow(16.0, k);
+    const double f0 = law.value(0), f1 = law.value(h), f2 = law.value(2.0 * h);
+    const double quotient = order == 1 ? (f1 - f0) / h : (f2 - 2.0 * f1 + f0) / (h * h);
+    const double rounding = 1e-14 * std::max({std::abs(f0), std::abs(f1), std::abs(f2)});
+    if (!(std::abs(quotient) * std::pow(h, order) > rounding)) return false;
+    if (k > 0 && !(std::abs(quotient) > kGrowth * before)) return false;
+    before = std::abs(quotient);
+  }
+  return true;
+}
+
 }  // namespace
 
 DriveLaws::DriveLaws(const model::ModelDescription& description) {
@@ -60,6 +81,26 @@ void DriveLaws::check(double from, double to) const {
                     "nothing can follow that: use a ramp or a smooth step instead",
                     drive.joint, drive.law.text(), f_a, f_b, drive.unit, b));
   }
+}
+
+std::vector<std::string> DriveLaws::check_start(double duration) const {
+  std::vector<std::string> out;
+  for (const Drive& drive : drives_) {
+    if (grows(drive.law, duration, 1)) {
+      throw NumericalError(
+          drive.where,
+          fmt::format("joint \"{}\": its law {} starts at t = 0 with unbounded speed; nothing can "
+                      "follow that: let it start with finite speed, better with none (t^2)",
+                      drive.joint, drive.law.text()));
+    }
+    if (grows(drive.law, duration, 2)) {
+      out.push_back(fmt::format(
+          "joint \"{}\": the acceleration of its law {} is unbounded at t = 0, and joint forces "
+          "oscillate in the first steps; let it start more smoothly, such as with t^2",
+          drive.joint, drive.law.text()));
+    }
+  }
+  return out;
 }
 
 std::vector<std::string> DriveLaws::corners(double duration) const {

@@ -18,6 +18,10 @@ class DriveLaws {
   /// @throws NumericalError with place, joint and law
   void check(double from, double to) const;
 
+  /// Warnings for laws whose acceleration has no bound at t = 0, such as t^1.5.
+  /// @throws NumericalError with place, joint and law if their rate has none, such as sqrt(t)
+  std::vector<std::string> check_start(double duration) const;
+
   /// Warnings for laws whose rate jumps within ]0, duration[: joint forces have spikes there.
   std::vector<std::string> corners(double duration) const;
 

@@ -85,6 +85,7 @@ void SimulationRun::set_up() {
     if (!move.is_large) summary_.notes.push_back(move.text());
   }
   for (const std::string& text : prepared_->notes) warn(text);
+  for (const std::string& text : drives_->check_start(spec_.duration)) warn(text);
   for (const std::string& text : drives_->corners(spec_.duration)) warn(text);
   advise_on_step();
   watch_->start(march_->stepper(), prepared_->state);

@@ -81,6 +81,25 @@ TEST(DriveLaws, WarnsOfTheCornersOfALinearTable) {
   EXPECT_TRUE(DriveLaws(wheel(line).d).corners(0.1).empty());
 }
 
+TEST(DriveLaws, RefusesAnUnboundedSpeedAndWarnsOfAnUnboundedAccelerationAtTheStart) {
+  for (const char* text : {"sqrt(t)", "3 + max(t, 0)^0.7", "sqrt(abs(t))"}) {
+    EXPECT_THAT([&] { DriveLaws(wheel(formula(text)).d).check_start(0.2); },
+                testing::ThrowsMessage<NumericalError>(
+                    AllOf(HasSubstr("\"motor\""), HasSubstr("unbounded speed"))))
+        << text;
+  }
+  for (const char* text : {"t^1.5", "max(t, 0)^1.5", "2*t + abs(t)^1.7"}) {
+    EXPECT_THAT(
+        DriveLaws(wheel(formula(text)).d).check_start(0.2),
+        testing::ElementsAre(AllOf(HasSubstr("\"motor\""), HasSubstr("unbounded at t = 0"))))
+        << text;
+  }
+  for (const char* text : {"150*t", "max(t, 0)", "3*t^2", "t^3", "sin(300*t)", "1 - cos(4000*t)",
+                           "7", "1e6 + 1e-3*t", "t < 0.05 ? 0 : (t - 0.05)^1.5"}) {
+    EXPECT_TRUE(DriveLaws(wheel(formula(text)).d).check_start(0.2).empty()) << text;
+  }
+}
+
 TEST(DriveLaws, TheWarningReachesTheSummary) {
   const Described m =
       wheel(TimeLaw::table({0, 0.05, 0.2}, {0, 0.1, 0.1}, base::Interpolation::linear));

@@ -192,7 +192,7 @@ TEST(TimeLaw, BadValuesNameFormulaPlaceAndTime) {
   EXPECT_THAT(text, HasSubstr("inf"));
   EXPECT_THROW(law("sqrt(t - 1)").value(0.0), NumericalError);
   EXPECT_THROW(law("sqrt(t - 1)").rate(0.0), NumericalError);
-  EXPECT_THAT(message([] { law("t^1.5").rate(0.0); }), HasSubstr("max(t, 0)"));
+  EXPECT_THAT(message([] { law("(t - 1)^1.5").rate(1.0); }), HasSubstr("max(t, 0)"));
   EXPECT_NEAR(law("log(t + 0.001)").rate(0.0), 1000, 1e-6);
 }
 
@@ -237,6 +237,23 @@ TEST(TimeLaw, DerivativesHoldAllAlongAFormulaThatCancels) {
     // three digits are lost where the widening stops early.
     EXPECT_NEAR(upswing.acceleration(t), 0.8 * M_PI / 15 * std::sin(2 * M_PI * t / 15), 1e-9) << t;
   }
+}
+
+TEST(TimeLaw, AtTheStartOnlyWhatFollowsCounts) {
+  // A kink at t = 0 has the slope on its right, as the motion that begins there.
+  EXPECT_NEAR(law("2*max(t, 0)").rate(0.0), 2.0, 1e-8);
+  EXPECT_NEAR(law("abs(t)").rate(0.0), 1.0, 1e-8);
+  EXPECT_NEAR(law("t < 0 ? 5 : 3 + 4*t + 6*t^2").rate(0.0), 4.0, 1e-6);
+  // One-sided differences of rounded values over 1e-5: (1e-5)^2 and 1e-16/1e-10.
+  EXPECT_NEAR(law("t < 0 ? 5 : 3 + 4*t + 6*t^2").acceleration(0.0), 12.0, 1e-3);
+  EXPECT_NEAR(law("t < 0 ? 0 : t + sin(t)").acceleration(0.0), 0.0, 1e-4);
+  // Not defined before the start; of the order of the root of the distance.
+  EXPECT_NEAR(law("t^1.5").rate(0.0), 0.0, 1e-3);
+  EXPECT_TRUE(std::isfinite(law("t^1.5").acceleration(0.0)));
+  // Elsewhere a kink is straddled as before, and smooth laws have all their digits.
+  EXPECT_NEAR(law("sin(150*t)").rate(0.0), 150.0, 1e-8);
+  EXPECT_EQ(law("1000 + 1e-3*t^2").rate(0.0), 0.0);
+  EXPECT_NEAR(law("3*t^2").acceleration(0.0), 6.0, 1e-9);
 }
 
 }  // namespace
