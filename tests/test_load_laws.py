@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of time and tables of loads, what is recorded and reported of loads, what is refused."""
 
+import csv
 import math
 import pathlib
 import sys

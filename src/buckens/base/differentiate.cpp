@@ -18,7 +18,7 @@ constexpr double kAgreement = 10.0;
 constexpr double kFirstDoubt = 20.0;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-/// One central difference with the rounding error to be expected of it.
+/// One central difference with its expected rounding error.
 struct Difference {
   double h = 0;
   double value = 0;
@@ -27,7 +27,7 @@ struct Difference {
 
 Difference central(const std::function<double(double)>& f, double t, double f_t, double h,
                    int order) {
-  // The distance that the two arguments really have.
+  // The actual distance of the two arguments.
   const volatile double ahead = t + h;
   const volatile double behind = t - h;
   const double f_ahead = f(ahead);
@@ -74,8 +74,8 @@ class ExtrapolationTable {
       const bool agrees = std::abs(row[k] - best.value) <= kAgreement * best.error;
       if (agrees && error < found.error) found = {row[k], error};
     }
-    // Two differences may agree by luck; an error that falls faster than this from row to row is
-    // not believed.
+    // Two differences may agree by chance; an error that falls faster than this per row is not
+    // trusted.
     if (count_ > 1) found.error = std::max(found.error, last_error_ / kFastestFall);
     if (count_ == 1) found.error *= kFirstDoubt;
     if (std::isfinite(found.error)) last_error_ = found.error;

@@ -26,8 +26,8 @@ SourceLocation shifted(SourceLocation where, int columns) {
   return where;
 }
 
-/// muParser knows assignments ("t = 3"), strings and lists of results; a law of time has no use for
-/// them, and an assignment would change what the formula means from then on.
+/// muParser supports assignments ("t = 3"), strings and lists of results; a law of time has no use
+/// for them, and an assignment would change the meaning of the formula from then on.
 void refuse_statements(const std::string& text, const SourceLocation& where) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char before = i > 0 ? text[i - 1] : ' ';

@@ -8,9 +8,9 @@ namespace buckens::base {
 
 namespace {
 
-// Longer words are no slips of the pen, and the cost is quadratic.
+// Longer words are not typing errors, and the cost is quadratic.
 constexpr std::size_t kLongestWord = 100;
-// Long enough for the keys and names of a model; of the nodes of a mesh nobody reads more.
+// Enough for the keys and names of a model; nobody reads more nodes of a mesh.
 constexpr std::size_t kMostListed = 60;
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }

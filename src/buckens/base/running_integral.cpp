@@ -38,7 +38,7 @@ constexpr double kFirstWidth = 1e-12;  // [s]; doubles 40 times on the way to 1 
 // Relative to t: a jump of f within such a panel is placed well enough.
 constexpr double kLeastWidth = 1e-12;
 constexpr std::size_t kMostPanels = 4000000;
-// Of one panel that t cuts short. A jump takes 50 of them; noise of f is not worth more.
+// For one panel truncated by t. A jump takes 50 of them; noise in f is not worth more.
 constexpr int kMostPieces = 500;
 
 struct Panel {
@@ -103,7 +103,7 @@ void RunningIntegral::advance(double t) const {
 
 double RunningIntegral::within_panel(double a, double b) const {
   double sum = 0;
-  // Depth first, so that near a jump few pieces wait.
+  // Depth first, so that few pieces are pending near a jump.
   std::vector<std::pair<double, double>> pieces = {{a, b}};
   for (int count = 0; !pieces.empty(); ++count) {
     const auto [from, to] = pieces.back();
@@ -125,7 +125,7 @@ double RunningIntegral::to(double t) const {
   if (!(t > 0.0)) return t < 0.0 ? within_panel(0.0, t) : 0.0;
   const std::lock_guard lock(mutex_);
   advance(t);
-  // The mark at which advance() would have stopped, had nothing later been asked for.
+  // Where advance() would have stopped if nothing later had been requested.
   const Mark& mark = *std::upper_bound(marks_.begin(), marks_.end(), t,
                                        [](double time, const Mark& m) { return time < m.reach; });
   return mark.sum + within_panel(mark.at, t);

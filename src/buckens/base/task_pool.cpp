@@ -35,7 +35,7 @@ struct TaskPool::Shared {
     }
   }
 
-  /// Takes tasks as long as there are any. @param lock of `mutex`, held on entry and return
+  /// Runs tasks as long as there are any. @param lock of `mutex`, held on entry and return
   void work(std::unique_lock<std::mutex>& lock) {
     while (next < count) {
       const int task = next++;

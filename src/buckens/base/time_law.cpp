@@ -62,7 +62,7 @@ class Formula final : public TimeLaw::Body {
   double scale_;
 };
 
-/// Piecewise cubic through points, of which the piecewise linear one is a case.
+/// Piecewise cubic through points; piecewise linear is a special case.
 class Table final : public TimeLaw::Body {
  public:
   Table(std::vector<double> times, std::vector<double> values, Interpolation interpolation,
@@ -183,7 +183,7 @@ class Table final : public TimeLaw::Body {
   SourceLocation where_;
 };
 
-/// What has a given rate and is zero at t = 0.
+/// The law with a given rate that is zero at t = 0.
 class Integral final : public TimeLaw::Body {
  public:
   explicit Integral(const TimeLaw& rate)

@@ -54,7 +54,7 @@ class Pass {
   void add_full(const SparseMatrix& W, int a, int b) {
     const auto n = static_cast<int>(W.rows());
     for (int j = 0; j < n; j += 2) {
-      // The last of an odd number goes beside itself, unheeded the second time.
+      // The last of an odd number is paired with itself and ignored the second time.
       const int next = std::min(j + 1, n - 1);
       if (a != b) {
         add_mixed_columns(W, a, b, j, next);

@@ -19,7 +19,7 @@ using linalg::Vector;
 
 namespace {
 
-/// Orthonormal columns Z with PᵀZ = 0, rigid motions without mass left out, too. Rows are scaled.
+/// Orthonormal columns Z with PᵀZ = 0, also without massless rigid motions. Rows are scaled.
 Matrix complement(const Matrix& Phi, const Sieve& sieve, const Vector& scale) {
   const Matrix P = scale.asDiagonal() * sieve.P();
   Matrix massless = Phi;

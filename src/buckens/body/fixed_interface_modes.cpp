@@ -24,7 +24,7 @@ using linalg::Vector;
 
 namespace {
 
-// Rows that follow from others leave 1e-16, others hardly less than 1e-4.
+// Dependent rows leave 1e-16, others rarely less than 1e-4.
 constexpr double kDependentColumn = 1e-10;
 constexpr double kModeTolerance = 1e-9;
 

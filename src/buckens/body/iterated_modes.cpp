@@ -107,8 +107,8 @@ double cautious_shift(const SparseMatrix& M, const SparseMatrix& K) {
 
 IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOperator op, int count,
                             double tolerance) {
-  // Where many of all modes are wanted the rigid ones of the penalty form would come among them,
-  // mixed with vibrations that share their eigenvalue.
+  // If a large part of all modes is wanted, the rigid ones of the penalty form would be among them,
+  // mixed with vibrations of the same eigenvalue.
   const bool may_meet_rigid_ones = op.penalty > 0.0 && 20 * count > M.rows();
   const linalg::InversePairs pairs = linalg::largest_inverse_pairs(
       M, op.inverse, may_meet_rigid_ones ? sieve.Phi() : Matrix(M.rows(), 0),

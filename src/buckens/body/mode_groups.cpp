@@ -31,7 +31,7 @@ FreeModes lowest_groups(int count, const ModeSolver& lowest) {
   for (int more = 1;; more *= 2) {
     const FreeModes found = lowest(count + more);
     const Index end = end_of_group(found.omega, count);
-    // The group may go on behind the last one that was asked for.
+    // The group may continue beyond the last requested one.
     if (end < count + more) return first_of(found, end);
   }
 }

@@ -21,8 +21,8 @@ using linalg::Vector;
 
 namespace {
 
-// Residuals whose mass is below this share of the largest follow from the others and the modes:
-// rounding leaves 1e-16 · (ω/ω₁)², a real one some 1e-6.
+// Residuals whose mass is below this fraction of the largest follow from the others and the modes:
+// rounding leaves 1e-16 · (ω/ω₁)², a real one about 1e-6.
 constexpr double kDependent = 1e-11;
 // Rounding of the sieve leaves 1e-15.
 constexpr double kStraining = 1e-9;
@@ -59,7 +59,7 @@ Matrix interface_loads(const FlexiblePart& part) {
   return Matrix(SparseMatrix(N.transpose()));
 }
 
-/// The loads that do more than accelerate the body as a whole: those whose sieved part is not
+/// The loads that do more than accelerate the body as a whole: those whose sieved part exceeds
 /// rounding.
 Matrix straining(const FlexiblePart& part, const Matrix& loads) {
   const Vector weight = part.fe.K.diagonal().unaryExpr(
@@ -76,7 +76,7 @@ Matrix straining(const FlexiblePart& part, const Matrix& loads) {
   return kept;
 }
 
-/// Straining loads and what they deform, K⁺f.
+/// Straining loads and the deformations K⁺f.
 struct StaticShapes {
   Matrix loads, shapes;
 };
@@ -88,7 +88,7 @@ StaticShapes static_shapes(const FlexiblePart& part, const ElasticInverse& inver
   return out;
 }
 
-/// What the shapes have beyond the modes, (1 − φφᵀM) s, M-orthonormal.
+/// The part of the shapes beyond the modes, (1 − φφᵀM) s, M-orthonormal.
 Matrix residuals(const SparseMatrix& M, const Matrix& modes, Matrix shapes) {
   const Vector whole = (shapes.transpose() * (M * shapes)).diagonal();
   // Twice, so that what is left is orthogonal to rounding.

@@ -183,7 +183,7 @@ Eigen::MatrixXd massless_motions(const Eigen::MatrixXd& M) {
 }
 
 /// Refuses variables that move neither mass nor an element: a reference node whose links leave it a
-/// motion of its own. Where elements resist, as ends of massless beams do, the motion follows.
+/// free motion. If elements resist, as ends of massless beams do, the motion follows.
 void refuse_massless(const std::string& body, const fem::FeModel& fe) {
   for (std::size_t node = 0; node < fe.dofs.node_dofs.size(); ++node) {
     std::vector<int> own;

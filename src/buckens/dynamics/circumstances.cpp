@@ -11,7 +11,7 @@ namespace buckens::dynamics {
 
 namespace {
 
-// A measured angle jumps at π; without memory nobody knows on which side it is.
+// A measured angle jumps at π; without memory the side is unknown.
 constexpr double kLargestUncounted = 3.0;
 
 /// Force and torque of a joint on its second marker.

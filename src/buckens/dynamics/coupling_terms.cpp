@@ -68,7 +68,7 @@ void extrapolate(const model::BodyState& state, int history, double t, model::Co
   const std::array<const model::Coupling*, 3> known = {&state.coupling, &state.coupling_before,
                                                        &state.coupling_earlier};
   auto count = static_cast<std::size_t>(std::clamp(history, 1, 3));
-  // Instants close together tell nothing about those far ahead; after a change of step they occur.
+  // Instants close together do not predict those far ahead; they occur after a change of step.
   const double ahead = t - known[0]->t;
   for (std::size_t k = 1; k < count; ++k) {
     if (known[k - 1]->t - known[k]->t < kLeastSpacing * ahead) count = k;

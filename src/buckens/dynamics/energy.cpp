@@ -9,8 +9,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// J and l of the kinetic energy that belongs to the terms a body keeps. Sets of terms that belong
-/// to none are judged by the exact one.
+/// J and l of the kinetic energy of the terms a body keeps. Sets of terms without one are judged by
+/// the exact one.
 body::DeformedMoments inertia(const body::Body& body, const model::BodyState& state) {
   body::DeformedMoments out;
   out.J = body.J0;

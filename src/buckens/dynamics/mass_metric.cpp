@@ -131,7 +131,7 @@ linalg::RowRank MassMetric::split(const std::vector<SystemRow>& rows) const {
 
 Vector least_multipliers(const model::Model& model, const MassMetric& metric,
                          const std::vector<SystemRow>& rows, const Vector& lambda) {
-  // λ = D x with D = 1 for forces, L for torques: the least |x| with the same image.
+  // λ = D x with D = 1 for forces, L for torques: the smallest |x| with the same image.
   Vector D(lambda.size());
   for (const model::Joint& joint : model.joints) {
     for (std::size_t k = 0; k < joint.rows.size(); ++k) {

@@ -11,7 +11,7 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Images = std::array<Vector6, RowBlocks::kMostRows>;
 
-// Where a pivot keeps less of its diagonal entry, about eight digits are lost without exchanges.
+// If a pivot keeps less of its diagonal entry, about eight digits are lost without exchanges.
 constexpr double kPoorPivot = 1e-8;
 
 std::vector<int> sizes_of(const RowBlocks& rows) {
@@ -20,7 +20,7 @@ std::vector<int> sizes_of(const RowBlocks& rows) {
   return sizes;
 }
 
-/// Pairs of blocks that touch the same body, every one once.
+/// Pairs of blocks that act on the same body, each once.
 std::vector<std::pair<int, int>> couples_of(const RowBlocks& rows, int num_bodies) {
   std::vector<std::vector<int>> on_body(static_cast<std::size_t>(num_bodies));
   std::vector<std::pair<int, int>> out;

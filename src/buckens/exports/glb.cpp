@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 using Colour = std::array<std::uint8_t, 4>;
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-// Shapes that add less than this share of the largest are left out.
+// Shapes that add less than this fraction of the largest are left out.
 constexpr double kLeastShape = 1e-5;
 constexpr int kTriangles = 4;  // modes of primitives
 constexpr int kLines = 1;
@@ -260,7 +260,7 @@ class GlbExporter {
       const spatial::Pose X = run_store::pose_of(run_, body.name, instants_[k].record);
       places.col(static_cast<Eigen::Index>(k)) = X.p.cast<float>();
       Eigen::Vector4d q = X.q.coeffs();
-      if (q.dot(before) < 0.0) q = -q;  // interpolation goes the short way
+      if (q.dot(before) < 0.0) q = -q;  // interpolation takes the short way
       before = q;
       const Eigen::Vector4f f = q.cast<float>();
       turns.push_back({f[0], f[1], f[2], f[3]});

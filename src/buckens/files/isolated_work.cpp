@@ -28,7 +28,7 @@ namespace buckens::files {
 
 namespace {
 
-constexpr char kEnd = '\x04';  // behind the output of work that came to its end
+constexpr char kEnd = '\x04';  // after the output of completed work
 
 /// To what the machine has. Sanitizers reserve more addresses than that for themselves.
 void limit_memory() {
@@ -82,7 +82,7 @@ void limit_time_from_now(double seconds) {
   ::getrlimit(RLIMIT_CPU, &limit);
   const auto so_far = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
   const auto until = static_cast<rlim_t>(std::clamp(so_far + seconds + 1, 1.0, 1e9));
-  // The hard limit stays: who has lowered it may not raise it again.
+  // The hard limit stays: once lowered it cannot be raised again.
   limit.rlim_cur = std::min(until, limit.rlim_max);
   ::setrlimit(RLIMIT_CPU, &limit);
 }

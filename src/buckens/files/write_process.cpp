@@ -54,8 +54,8 @@ bool receive_all(int socket, void* to, std::size_t size) {
 }
 
 // ---- the second process
-// The first one may have had other threads, whose locks are copied as they stood. So only system
-// calls are used here: no memory from the heap, no streams, no exceptions.
+// The first one may have had other threads, whose locks are copied as they were. So only system
+// calls are used here: no heap memory, no streams, no exceptions.
 
 constexpr int kSocket = 0;  // the only descriptor kept
 
@@ -89,7 +89,7 @@ class Room {
   std::size_t size_ = 0;
 };
 
-/// Receives a head and, where one comes along, a descriptor. @return false at the end of orders
+/// Receives a header and, if there is one, a descriptor. @return false at the end of requests
 bool receive_order(WriteOrder& order, int& file) {
   DescriptorParcel parcel;
   iovec part{&order, sizeof order};

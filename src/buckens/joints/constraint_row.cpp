@@ -153,7 +153,7 @@ void ConstraintRow::evaluate_coupling(const MarkerMotion& F, const MarkerMotion&
     case Kind::distance: {
       const double length = r.norm();
       out.g = length - offset_;
-      // Two points that coincide have no direction; assembly goes another way then.
+      // Two coincident points have no direction; assembly then proceeds differently.
       const Vector3d n = length > 0.0 ? Vector3d(r / length) : Vector3d::UnitX();
       out.J.segment<3>(3) = -n.transpose();
       out.J.segment<3>(9) = n.transpose();

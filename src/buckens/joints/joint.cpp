@@ -89,7 +89,7 @@ class RowCollector {
   std::vector<ConstraintRow> rows_;
 };
 
-/// Why a joint has no place in a planar model; empty if it has.
+/// Why a joint is not possible in a planar model; empty if it is.
 std::string refusal_in_plane(JointType type) {
   switch (type) {
     case JointType::cylindrical:

@@ -211,7 +211,7 @@ double& BlockLu::diagonal(int row) {
 
 template <int R>
 bool BlockLu::eliminate() {
-  // What the diagonal held is kept where a solve works.
+  // The original diagonal is kept in the workspace of solves.
   for (const Pivot& pivot : pivots_) {
     const int n = rows_of<R>(pivot.stored);
     for (int k = 0; k < n; ++k) {
@@ -238,7 +238,7 @@ bool BlockLu::eliminate() {
   return true;
 }
 
-/// Takes from the blocks between all neighbours of a pivot what goes through it.
+/// Updates the blocks between all neighbours of a pivot.
 template <int R>
 void BlockLu::update_later(const Pivot& pivot) {
   double* const values = values_.data();

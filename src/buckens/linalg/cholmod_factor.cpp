@@ -16,7 +16,7 @@ namespace buckens::linalg {
 
 namespace {
 
-// Below this size orderings differ by too little to try several.
+// Below this size orderings differ too little to try several.
 constexpr Eigen::Index kLarge = 3000;
 
 /// CHOLMOD with 32-bit indices.
@@ -45,7 +45,7 @@ struct Wide {
   static constexpr auto free_factor = cholmod_l_free_factor;
 };
 
-/// Thrown where indices do not reach.
+/// Thrown if indices are too narrow.
 struct TooLarge {};
 
 /// The lower triangle of a matrix as CHOLMOD reads it.
@@ -198,7 +198,7 @@ class FactorOf final : public CholmodFactor {
                                   : (8.0 + sizeof(Index)) * common_.lnz;
   }
 
-  /// Says what CHOLMOD failed at. @param bytes that it needed, as far as known
+  /// Reports a failure of CHOLMOD. @param bytes that it needed, as far as known
   [[noreturn]] void fail(const char* task, double bytes) const {
     if (common_.status == CHOLMOD_TOO_LARGE) throw TooLarge{};
     const std::string what = fmt::format("a matrix of size {}", size_);

@@ -14,7 +14,7 @@ namespace buckens::linalg {
 
 namespace {
 
-// METIS takes whole weights; this many units for the heaviest vertex resolve them well enough.
+// METIS takes integer weights; this many units for the heaviest vertex are fine enough.
 constexpr double kWeightUnits = 1000.0;
 
 /// Neighbours of all vertices in one list, with the number of edges to each.

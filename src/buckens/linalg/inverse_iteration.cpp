@@ -28,7 +28,7 @@ double longest_column(const Matrix& W, const Matrix& MW) {
   if (W.cols() == 0) return 0.0;
   return std::sqrt(std::max(0.0, W.cwiseProduct(MW).colwise().sum().maxCoeff()));
 }
-// A fresh block says nothing about missing pairs before it has gone through this many sweeps.
+// A fresh block tells nothing about missing pairs before this many sweeps.
 constexpr int kSearchSweeps = 3;
 constexpr int kSmoothing = 2;
 constexpr int kJudgedAfter = 2;
@@ -116,7 +116,7 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
                               Matrix* coefficients) {
   if (coefficients != nullptr) *coefficients = Matrix::Identity(W.cols(), W.cols());
   for (int pass = 0; pass < kMostPasses && W.cols() > 0; ++pass) {
-    // The first pass may have taken most of W away; what it left of M W is then rounding.
+    // The first pass may have removed most of W; what it left of M W is then rounding.
     if (pass == 1) MW = symmetric_product(M_, W);
     remove_known(W, MW, pass == 0 ? shares : nullptr);
     const Matrix G = inner_products(W, MW);
@@ -258,7 +258,7 @@ bool Subspace::is_changed(const Vector& before) const {
   return false;
 }
 
-/// Keeps what is there and goes on with a fresh block. @return false if there is nothing else
+/// Keeps the basis and continues with a fresh block. @return false if there is nothing else
 bool Subspace::search(bool is_exhausted) {
   ++searches_;
   restart(is_exhausted ? theta_.size() : wanted());

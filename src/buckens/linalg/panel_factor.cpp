@@ -15,7 +15,7 @@ namespace {
 
 // Bytes from which two threads pay: their start costs as much as some 50 kB of reading each.
 constexpr double kShared = 4e6;
-// Values of the source that are given up at a time: enough for the call to cost nothing.
+// Values of the source released at a time: enough to make the call negligible.
 constexpr std::ptrdiff_t kGivenUp = std::ptrdiff_t{1} << 20;
 
 using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
@@ -176,7 +176,7 @@ class PanelFactor::Layout {
     }
   }
 
-  /// Lets the memory of the source go as it has been read, so that both never exist as a whole.
+  /// Releases the memory of the source as it is read, so that both never exist as a whole.
   void give_up(int s) {
     const double* begin = source_.values + source_.values_begin[s];
     const double* end = begin + std::ptrdiff_t{source_.num_rows(s)} * source_.columns(s);
@@ -202,7 +202,7 @@ class PanelFactor::Layout {
   SubtreeGroups groups_;
   std::vector<int> place_;  // per column, within its group or the top
   Eigen::MatrixXd inverse_;
-  const double* read_begin_ = nullptr;  // of the source, not given up yet
+  const double* read_begin_ = nullptr;  // of the source, not yet released
   const double* read_end_ = nullptr;
 };
 

@@ -13,7 +13,7 @@ namespace buckens::linalg {
 
 namespace {
 
-// Up to this size dense QR is quicker and pivots better.
+// Up to this size dense QR is faster and pivots better.
 constexpr double kDenseEntries = 1e5;
 
 double largest_column(const SparseMatrix& A) {

@@ -10,8 +10,8 @@ namespace buckens::linalg {
 
 namespace {
 
-/// The OpenMP that the libraries below were built with, if they were. Found by name: this library
-/// itself is built without, so nothing else says which one it is.
+/// The OpenMP with which the libraries below were built, if any. Found by name: this library itself
+/// is built without it, so there is no other way to know.
 struct OpenMp {
   int (*max_threads)() = find<int (*)()>("omp_get_max_threads");
   void (*set_threads)(int) = find<void (*)(int)>("omp_set_num_threads");
@@ -60,7 +60,7 @@ SingleThread::SingleThread() {
     threads_ = open_mp().max_threads();
     levels_ = open_mp().max_levels();
     open_mp().set_threads(1);
-    // CHOLMOD asks for four threads by number, which only this overrules.
+    // CHOLMOD explicitly requests four threads, which only this overrides.
     open_mp().set_levels(0);
   }
   if (!blas_has_own_threads()) return;

@@ -16,7 +16,7 @@ namespace buckens::linalg {
 
 namespace {
 
-// Handing over to another thread costs some 10 µs; smaller factors are read faster than that.
+// Switching to another thread costs about 10 µs; smaller factors are read faster than that.
 constexpr double kLeastEntries = 2e4;
 
 /// 128 bits that tell matrices apart: two multiplicative hashes over pattern and values.
@@ -71,7 +71,7 @@ struct SolveExchange::Participant {
   std::exception_ptr refusal;  ///< of the solve
 };
 
-/// Whose turn it is: one participant's, or nobody's while the solves are carried out.
+/// Whose turn it is: one participant's, or nobody's during the solves.
 struct SolveExchange::Turns {
   std::mutex mutex;
   std::condition_variable changed;

@@ -8,7 +8,7 @@
 namespace buckens::linalg {
 
 namespace {
-// Below this growth the old pivots lose about eight digits: time to pivot anew.
+// Below this growth the old pivots lose about eight digits: pivot again.
 constexpr double kSmallestGrowth = 1e-8;
 constexpr double kSingular = 1e-14;
 }  // namespace

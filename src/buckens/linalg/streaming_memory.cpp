@@ -25,7 +25,7 @@ StreamingMemory::StreamingMemory(std::size_t count) : size_(count) {
   values_.reset(static_cast<double*>(std::aligned_alloc(unit, whole)));
   if (values_ == nullptr) throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
-  // A wish: what does not come true costs time only.
+  // Only a request: if not granted, it costs time only.
   if (unit == kHugePage) static_cast<void>(madvise(values_.get(), whole, MADV_HUGEPAGE));
 #endif
 }
@@ -36,7 +36,7 @@ void give_up_pages(const double* begin, const double* end) {
   const std::uintptr_t first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
   const std::uintptr_t last = reinterpret_cast<std::uintptr_t>(end) / page * page;
   if (first >= last) return;
-  // A wish as well; only memory of this process' own is ever passed here.
+  // Also only a request; only memory of this process is ever passed here.
   static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED));
 #else
   static_cast<void>(begin);

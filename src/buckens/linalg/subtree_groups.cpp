@@ -16,7 +16,7 @@ constexpr double kSharedBandwidth = 1.1;
 // Subtrees lighter than this share of all need no further division.
 constexpr double kLight = 1.0 / 64.0;
 constexpr int kMostDivisions = 2000;
-// Sharing that saves less than this costs more than it saves.
+// Splitting that saves less than this costs more than it saves.
 constexpr double kWorthwhile = 0.9;
 
 /// A cut through the tree: disjoint subtrees, heaviest first; all above them is the top.

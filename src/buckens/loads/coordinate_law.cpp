@@ -28,7 +28,7 @@ Projected project(const ProjectedForce& law, double rate) {
     viscous = out.damper_limit * elastic;
   }
   const double trial = -elastic - viscous;
-  // The set holds zero, so its ends are in order whatever a bound is made of.
+  // The set contains zero, so its ends are in order for any bound.
   out.bounded = std::clamp(trial, std::min(law.lowest, 0.0), std::max(law.highest, 0.0));
   out.is_cut = out.bounded != trial;
   out.whole += out.bounded;
@@ -61,7 +61,7 @@ Action CoordinateLaw::respond(const Sight& sight) const {
   out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
   out.along_coordinate = f.whole;
   out.regime = regime_of(law, f);
-  // Rest that follows leaves the spring as strained as it is: all power is lost.
+  // If rest follows, the spring stays as strained as it is: all power is dissipated.
   const bool is_straining = law.is_on && !(f.is_cut && law.is_yielding);
   out.stored_energy = 0.5 * law.stiffness * f.strain * f.strain;
   const double stored_rate = is_straining ? law.stiffness * f.strain * rate : 0.0;

@@ -42,7 +42,7 @@ ProjectedForce JointFriction::force(const Sight& sight) const {
   out.highest = mu * normal + data_.preload;
   out.lowest = -out.highest;
   out.stiffness = (data_.static_coefficient * normal + data_.preload) / data_.slip;
-  // Critical for the inertia that is moved: sticking ends no vibration above its bound.
+  // Critical for the moving inertia: sticking does not stop a vibration above its bound.
   out.damping = 2.0 * std::sqrt(out.stiffness * data_.inertia);
   out.outer_damping = data_.viscous;
   return out;

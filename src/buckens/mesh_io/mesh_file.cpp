@@ -38,7 +38,7 @@ bool is_of_nastran(const std::filesystem::path& path) {
   return first != std::string::npos && head[first] != '*' && has_nastran_bulk_data(head);
 }
 
-/// Decks say of every element what it is.
+/// Decks define the kind of every element.
 fem::ImportedMesh abaqus_deck(const std::filesystem::path& path, const fem::MeshWishes&,
                               SkipList& skip) {
   return is_of_nastran(path) ? read_nastran_deck(path, skip) : read_abaqus_deck(path, skip);

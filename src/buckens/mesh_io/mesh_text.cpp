@@ -17,7 +17,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
 
-/// A word for a message: short, and without bytes that a terminal would obey.
+/// A word for a message: short, and without control characters.
 std::string shown(std::string_view word) {
   std::string out;
   for (const char c : word.substr(0, 40)) {

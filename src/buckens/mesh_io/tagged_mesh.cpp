@@ -97,7 +97,7 @@ class GroupMesh {
   }
 
   TaggedMesh tagged_;
-  std::set<std::string> members_;  // groups that are elements wherever they lie
+  std::set<std::string> members_;  // groups that always become elements
   ImportedMesh mesh_;
   std::unordered_map<CornerKey, Side, CornerHash> sides_;  // of all surfaces
   std::unordered_map<CornerKey, bool, CornerHash> edges_;  // all lines: whether they are edges
@@ -296,8 +296,8 @@ void GroupMesh::add_surfaces() {
 }
 
 /// Lines in no group that are no edges, but that hang on nodes of elements, directly or by way of
-/// others: beams and bars whose section the model file has to give. To leave them out would change
-/// the stiffness without a word.
+/// others: beams and bars whose section the model file has to give. Leaving them out would silently
+/// change the stiffness.
 TaggedCells GroupMesh::joining_lines(const TaggedCells& cells) const {
   std::vector<bool> is_reached(tagged_.positions.size(), false);
   for (const fem::ImportedBlock& block : mesh_.blocks) {
@@ -393,8 +393,8 @@ void GroupMesh::add_sets() {
   }
 }
 
-/// Groups of points come first: where groups of several dimensions have one name, the set has the
-/// nodes of the one that says most about nodes.
+/// Groups of points come first: if groups of several dimensions have the same name, the set has the
+/// nodes of the most specific one.
 void GroupMesh::add_node_sets() {
   std::map<std::pair<int, int>, std::vector<int>> nodes;  // by dimension and group
   for (const TaggedCells& cells : tagged_.cells) {
@@ -426,7 +426,7 @@ void GroupMesh::add_node_sets() {
   }
 }
 
-/// Takes nodes out that only stood in the middle of faces and volumes.
+/// Removes nodes that were only in the middle of faces and volumes.
 void GroupMesh::drop_nodes() {
   if (tagged_.dropped_nodes.empty()) return;
   std::vector<int> number(mesh_.positions.size(), 0);

@@ -12,7 +12,7 @@ namespace buckens::model_file {
 namespace {
 
 /// Whether all values below are plain numbers. A unit, or an expression of parameters that may have
-/// one, tells that the author thought of units.
+/// one, shows that the author considered units.
 bool has_bare_numbers(const YamlNode& node) {
   if (node.is_scalar()) {
     return base::parse_number(node.text).has_value() ||

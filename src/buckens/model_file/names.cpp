@@ -173,7 +173,7 @@ void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& con
     if (!body.damping) body.damping = other->damping;
     // The variant's old content is destroyed here; nothing of it is used from now on.
     body.kind = std::variant(other->kind);
-    // What the keys of this body ask for was judged before it was known what it is made of.
+    // The keys of this body were checked before it was known what it is made of.
     fail_if_found(model::problem(body, *context.model), place);
   }
   load_body_mesh(body, context);

@@ -86,7 +86,7 @@ class OverrideWalk {
     example_ = field->note.example;
   }
 
-  /// A new entry is added, unless its name looks like a slip of the pen and only a part of it is
+  /// A new entry is added, unless its name looks like a typing error and only a part of it is
   /// given.
   void enter_named(const std::string& key, bool is_last) {
     YamlNode* found = child(key);
@@ -159,7 +159,7 @@ bool uses_name(const YamlNode& node, const std::string& name) {
                      [&](const YamlEntry& entry) { return uses(entry.value); });
 }
 
-/// A new parameter that nothing uses changes nothing: most likely it was to be another one.
+/// A new parameter that nothing uses changes nothing: most likely another one was meant.
 void require_use(const YamlNode& root, const std::string& name) {
   if (name.empty() || uses_name(root, name)) return;
   std::vector<std::string> known;

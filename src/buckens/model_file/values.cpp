@@ -158,7 +158,7 @@ Formula read_formula(const ReadPlace& place, const FieldNote& note,
   try {
     return {base::Expression(split.formula, variables, context.parameters, where), scale};
   } catch (const InputError& error) {
-    // The place comes first once more, so it is taken off here.
+    // The place is prepended again, so it is removed here.
     const std::string prefix = error.where().empty() ? "" : error.where().text() + ": ";
     std::string text = std::string(error.what()).substr(prefix.size());
     if (text.back() != '.' && text.back() != '?') text += '.';

@@ -153,7 +153,7 @@ Json modes_json(const run_store::RunReader& run, const FrameReader& reader) {
   return all;
 }
 
-/// How many frames keep the page below the size that browsers take well, and whether rounded.
+/// Number of frames that keeps the page below the size browsers handle well, and whether rounded.
 void choose_size(const run_store::RunReader& run, const std::vector<Shown>& shown,
                  const ViewPageOptions& options, ViewPageReport& report) {
   std::size_t plain = 1;  // numbers of a frame that stay float32

@@ -50,7 +50,7 @@ model::State interpolate(const model::State& before, const model::State& after, 
   out.lambda = multipliers_at(before, after, t);
   out.lambda_time = t;
   out.inputs = after.inputs;
-  out.memory = before.memory;  // whoever looks goes on from the start of the step
+  out.memory = before.memory;  // readers continue from the start of the step
   return out;
 }
 

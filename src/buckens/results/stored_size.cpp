@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kChunkBytes = 65536;
 constexpr std::size_t kMostChunkRows = 256;
-// Headers, attributes, index and names of a data set, with its share of what stands in /geometry:
+// Headers, attributes, index and names of a data set, with its share of /geometry:
 // 1.4 to 1.7 kB in the files of the examples.
 constexpr double kBooks = 1500;
 

@@ -52,7 +52,7 @@ Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProces
 Hdf5Recorder::~Hdf5Recorder() {
   try {
     close();
-  } catch (...) {  // close() says so to those who call it
+  } catch (...) {  // close() reports it to its caller
   }
 }
 

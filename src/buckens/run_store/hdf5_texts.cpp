@@ -28,7 +28,7 @@ void put_text(std::string& out, const std::string& text) {
   out += text;
 }
 
-/// Takes apart what was put together; the other process may have lost its wits.
+/// Decodes the message; the other process may have written nonsense.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : rest_(bytes) {}
@@ -102,7 +102,7 @@ std::shared_ptr<Hdf5Texts> read_texts_apart(
         const auto texts = std::make_shared<Hdf5Texts>();
         try {
           read(texts);
-        } catch (...) {  // comes again where it is expected
+        } catch (...) {  // will occur again where it is expected
         }
         return texts->packed();
       },

@@ -139,7 +139,7 @@ void RunDirectory::begin(const results::RecordLayout& layout, const results::Geo
 
 void RunDirectory::begin_fields(const results::FieldLayout& layout) { fields_ = layout; }
 
-/// What a recorder that failed has said is said again.
+/// The error of a failed recorder is reported again.
 void RunDirectory::guarded(const std::function<void()>& work) {
   if (!recorder_) throw IoError(fmt::format("{}: no record is expected now.", path_.string()));
   if (!failure_.empty()) throw IoError(failure_);
@@ -194,7 +194,7 @@ void RunDirectory::finish(const results::RunSummary& summary) {
     if (recorder_) recorder_->close();
     sensors_.close();
   } catch (const IoError& error) {
-    if (failure_.empty()) failure = std::current_exception();  // otherwise `write` has said so
+    if (failure_.empty()) failure = std::current_exception();  // otherwise `write` has reported it
     failure_ = error.what();
   }
   recorder_.reset();

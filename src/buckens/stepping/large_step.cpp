@@ -158,7 +158,7 @@ void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
   const bool corrects = !correction.isZero(0.0);
   clear_sums();
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
-    auto increment = after.d_alg.segment(first, size);  // until it gets what belongs there
+    auto increment = after.d_alg.segment(first, size);  // until it is assigned
     increment = free_.segment(first, size) - before.d.segment(first, size);
     increment.noalias() -= Phi.middleRows(first, size) * rigid_;
     op_->add_answer(load, first, increment);

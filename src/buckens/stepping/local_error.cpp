@@ -15,7 +15,7 @@ using linalg::Vector;
 namespace {
 
 // The first trial, over the longest step, shows roughly how far a body will deform. A tenth of it
-// is taken, so that a wild guess does not make later steps careless.
+// is used, so that a wild guess does not make later steps inaccurate.
 constexpr double kTrusted = 0.1;
 // Rounding of positions makes differences of 4e-16 of them: no step can be asked for less.
 constexpr double kDifferenceRounding = 4e-15;

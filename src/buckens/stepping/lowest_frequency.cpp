@@ -19,7 +19,7 @@ namespace {
 constexpr int kMostSolves = 100;
 // Error of ω² at which the iteration ends, as a share.
 constexpr double kSettled = 0.01;
-// Vectors whose share of mass beyond the others is below this add nothing.
+// Vectors whose mass beyond the others is below this fraction add nothing.
 constexpr double kNothingNew = 1e-10;
 
 constexpr double kDependentVector = 1e-10;

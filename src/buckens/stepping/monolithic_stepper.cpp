@@ -170,7 +170,7 @@ void MonolithicStepper::start(const model::State& state) {
     part.nodal_history = scheme_.history<Vector>(s.d_dot, s.d_ddot, s.d_alg);
     part.delta = part.nodal_history.predicted;
     part.eta = Vector::Zero(s.d.size());
-    // The step starts from the coupling that the steps before suggest, and W stays with it.
+    // The step starts from the coupling extrapolated from previous steps, and W keeps it.
     if (!s.terms.are_lagged()) {
       part.coupling = {};
     } else if (state.history > 0) {
@@ -462,7 +462,7 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
     ++report.newton_iterations;
     for (const auto& part : parts_) update_coupling(*part);
     evaluate(t);
-    // Rounding of positions bounds what can be reached; slow convergence is not taken for it.
+    // Rounding of positions limits what can be reached; slow convergence is not mistaken for it.
     if (change <= settings_.newton_tolerance * motion + 1e-15 * model_.length) return;
     if (before > 0 && change > 0.9 * before && change <= 1e-11 * model_.length) return;
     before = change;

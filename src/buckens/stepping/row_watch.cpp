@@ -12,12 +12,12 @@ namespace buckens::stepping {
 
 namespace {
 
-// A row that follows from others stays closed to rounding; beyond this it no longer follows, and
-// rows are chosen anew.
+// A dependent row stays closed to rounding; beyond this it is no longer dependent, and rows are
+// chosen again.
 constexpr double kOpenRow = 1e-9;
-// What assembly takes for closed is 1e-9, and rows that hand over to each other near a dead centre
-// open by less than 1e-8 until they are chosen anew. A row open by more than this contradicts the
-// others, and the motion is not the one that was asked for.
+// Assembly accepts 1e-9 as closed, and rows that replace each other near a dead centre open by less
+// than 1e-8 until they are chosen again. A row open by more than this contradicts the others, and
+// the motion is not the requested one.
 constexpr double kContradiction = 1e-6;
 // Methods that close velocities only let all rows drift together: no contradiction.
 constexpr double kMoreThanOthers = 10;
@@ -64,7 +64,7 @@ int RowWatch::look(const dynamics::JointResiduals& residuals, const std::vector<
     has_open_rows_ = true;
   }
   if (gap <= std::max(kContradiction, kMoreThanOthers * drift)) return -1;
-  has_open_rows_ = true;  // whoever tries again does so with rows chosen anew
+  has_open_rows_ = true;  // a retry uses newly chosen rows
   return open_row;
 }
 

@@ -205,7 +205,7 @@ std::vector<dynamics::SystemRow> SmallNewton::row_pattern(double t) {
       if (place >= 0) pattern[static_cast<std::size_t>(place)] = rows[static_cast<std::size_t>(k)];
     }
   }
-  // Soft rows without effect keep the bodies they belong to, so that the pattern never changes.
+  // Soft rows without effect keep their bodies, so that the pattern never changes.
   pattern.insert(pattern.end(), soft_.rows.begin(), soft_.rows.end());
   return pattern;
 }
@@ -248,8 +248,8 @@ bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
   dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
   linalg::RowRank rank = select_rows(model_, all.rows, compliance);
   dependent_ = std::move(rank.dependent);
-  // Fewer rows mean a dead centre. Near it the step goes on with those it has; where it is hit,
-  // they hold nothing for this step, and the motion carries the mechanism through.
+  // Fewer rows mean a dead centre. Near it the step continues with the rows it has; exactly at it,
+  // they hold nothing in this step, and the motion carries the mechanism through.
   const bool are_fewer = rank.independent.size() < rows_in_use_.size();
   if (rank.independent == rows_in_use_ || (are_fewer && !may_give_up)) return false;
   gave_up_rows_ = are_fewer;
@@ -405,8 +405,8 @@ void SmallNewton::iterate_on(std::vector<BodyStep>& bodies, double t, Vector& la
                              StepReport& report) {
   // Motions, rows and forces are those of the last evaluation.
   const double open = find_residuals(bodies);
-  // Left open in every step, rounding of positions adds up in rates, which are 1/h of them: whoever
-  // iterates the coupling to its end is not spared that.
+  // If left in every step, rounding of positions accumulates in rates, which are 1/h of them: this
+  // matters when the coupling is iterated to convergence.
   const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
   if (open <= kForeseen * admitted(motion_) + rounding) return;
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);

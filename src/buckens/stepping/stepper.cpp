@@ -21,30 +21,30 @@ using Eigen::Vector3d;
 using linalg::Vector;
 
 namespace {
-// Positions are known to rounding, accelerations to that over h². A coupling load that falls no
-// further from solve to solve has been reached, whatever the outer tolerance asks for, if what is
-// left is this small: relative to the load, or as motion relative to the model's length (where a
-// motion has barely begun).
+// Positions are known to rounding, accelerations to that over h². A coupling load that stops
+// falling from solve to solve has converged, whatever the outer tolerance, if the remainder is this
+// small: relative to the load, or as motion relative to the model's length (where a motion has
+// barely begun).
 constexpr double kCouplingRounding = 1e-9;
 constexpr double kPositionRounding = 1e-15;
 // Rounding changes from solve to solve without falling. A body whose inertia about some axis is
 // much larger deformed than undeformed, such as a thin bent rod about its length, converges by a
-// factor of 0.7 or so: that is no rounding, what is left is several times the last change.
+// factor of about 0.7: that is not rounding, the remainder is several times the last change.
 constexpr double kNoLongerFalls = 0.9;
-// What a second large solve may leave in the coupling load: its share of the motion in a step is
-// smaller by (h ω)² than that, far below what the method itself neglects.
+// What a second large solve may leave in the coupling load: its effect on the motion in a step is
+// smaller by (h ω)², far below the error of the method.
 constexpr double kSecondSolve = 1e-4;
-// Where the coupling load passes through zero, what matters is the motion that the rest would cause
-// in the step, relative to the model's length.
+// Where the coupling load passes through zero, the criterion is the motion that the rest would
+// cause in the step, relative to the model's length.
 constexpr double kSecondSolveMotion = 1e-9;
-// Ends of steps are counted by others, not summed.
+// Ends of steps are counted elsewhere, not summed.
 constexpr double kSameInstant = 1e-6;
-// Fewer variables in all bodies together are not worth waking a thread for.
+// With fewer variables in all bodies together, waking a thread does not pay.
 constexpr Eigen::Index kSharedDofs = 2000;
 constexpr int kPartsPerThread = 4;
 }  // namespace
 
-/// The n-sized share of one flexible body in a step, and its coupling.
+/// The n-sized part of one flexible body in a step, and its coupling.
 struct Stepper::Large {
   Large(const body::Body& body, BodyStepOperator& op) : step(op), coupling(body, op) {}
 
@@ -261,7 +261,7 @@ void Stepper::form_next_state(const model::State& state) {
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     s.terms = old.terms;
     if (!large_[b]) return;
-    // What is nodal was formed by complete(); the old memory serves the next step.
+    // complete() formed the nodal variables; the old buffers are reused in the next step.
     std::swap(s.coupling, large_[b]->coupling.evaluated());
     s.coupling_before = old.coupling;
     s.coupling_earlier = old.coupling_before;
@@ -337,7 +337,7 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   form_next_state(state);
   stepped_to_ = next_.t;
   has_stepped_ = true;
-  std::swap(end, next_);  // what was `end` lends its memory to the next step
+  std::swap(end, next_);  // the buffers of `end` are reused in the next step
   return report;
 }
 

@@ -15,12 +15,12 @@ namespace {
 
 constexpr long kTicks = 1L << TimeMarch::kShortestRung;  // per longest step
 
-// The error of a step falls with h³, the error that it may make with h. A new length aims at this
-// share of what is admitted; a step twice as long is taken when its error is expected to be below
+// The error of a step falls like h³, the admissible error like h. A new length aims at this
+// fraction of the admissible error; a step twice as long is taken when its expected error is below
 // it.
 constexpr double kAim = 0.8;
 constexpr double kPerHalving = 8.0;
-// How fast the error that is admitted to an event fades in the steps after it.
+// How fast the additional error admitted for an event fades in the following steps.
 constexpr double kFade = 0.5;
 constexpr int kMostAtOnce = 5;
 

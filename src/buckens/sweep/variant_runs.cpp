@@ -55,7 +55,7 @@ class Sweep {
   SweepOutcome run(const fs::path& model, const std::vector<std::string>& overrides) {
     model_ = model;
     overrides_ = overrides;
-    // What is wrong without any variant is no matter of the variants.
+    // Errors without any variant do not concern the variants.
     const model::ModelDescription base =
         model_file::read_model_file(model, overrides, step_meshes_);
     if (!base.simulation) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kSafetyOfTwo = 3.0;
 constexpr double kSafetyOfExact = 1.25;
-// What iterations and rounding leave open, as a share of the largest value of a sensor: the Newton
+// Error of iterations and rounding, as a fraction of the largest value of a sensor: the Newton
 // iteration ends at 1e-10, times the steps over which it adds up.
 constexpr double kIterations = 1e-9;
 // Two runs that differ by this share of the range of a curve say nothing about it.
@@ -31,8 +31,8 @@ struct Extremum {
   double value = 0, at = 0;
 };
 
-/// Vertex of the parabola through a record and those `stride` before and behind it; the record
-/// itself where there are none, or they are not evenly spaced (ends of runs).
+/// Vertex of the parabola through a record and those `stride` before and after it; the record
+/// itself if there are none, or they are not evenly spaced (ends of runs).
 Extremum vertex(const std::vector<double>& t, const std::vector<double>& x, std::size_t k,
                 std::size_t stride = 1) {
   Extremum out{x[k], t[k]};
@@ -57,9 +57,9 @@ Extremum extremum(const std::vector<double>& t, const std::vector<double>& x, do
   return vertex(t, x, extreme_record(x, sign));
 }
 
-/// What records at these distances leave open of an extremum, from the parabola through records
-/// twice as far apart. Parabolas err by the fourth power of the distance, but the extremum lies at
-/// another place between the records of either: the whole difference is taken, not a fifteenth.
+/// Error of an extremum due to the distance of records, from the parabola through records twice as
+/// far apart. Parabolas err by the fourth power of the distance, but the extremum is at a different
+/// position between the records of each: the whole difference is used, not a fifteenth.
 double sampling_error(const std::vector<double>& t, const std::vector<double>& x, double sign) {
   const std::size_t k = extreme_record(x, sign);
   return std::abs(vertex(t, x, k).value - vertex(t, x, k, 2).value);
@@ -79,7 +79,7 @@ double sign_of_peak(const std::vector<double>& x) {
   return std::abs(*most) >= std::abs(*least) ? 1.0 : -1.0;
 }
 
-/// A curve at an instant, straight between records.
+/// A curve at an instant, linear between records.
 double value_at(const std::vector<double>& t, const std::vector<double>& x, double when) {
   const double near = kSameInstant * std::max(std::abs(t.back()), std::abs(when));
   const auto next =
@@ -153,7 +153,7 @@ void ErrorEstimate::add(results::ErrorSource source, const SensorCurves& further
       errors.curve.at = at;
       errors.curve.value = value_at(run_.times(), own->values, at);
     }
-    // A curve that does not vary has no phase that could be lost.
+    // A curve that does not vary has no phase to lose.
     const bool varies = errors.range > kIterations * errors.scale;
     if (source.name == results::kTimeStepSource && varies && curve > kUnresolved * errors.range &&
         curve > kRelevant * errors.scale) {

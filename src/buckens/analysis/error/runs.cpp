@@ -13,7 +13,7 @@ namespace buckens::analysis {
 
 namespace {
 
-// With step control: fewer steps more than this do not tell an order.
+// With step control: fewer additional steps than this do not show an order.
 constexpr double kLeastRefinement = 1.2;
 // Of the largest value of a sensor.
 constexpr double kDoubtful = 0.1;
@@ -39,7 +39,7 @@ std::unique_ptr<SensorCurves> run_variant(const ErrorVariant& variant,
   return out->summary() && out->summary()->finished ? std::move(out) : nullptr;
 }
 
-/// Completes what only the run can tell. @return false if it says nothing
+/// Fills in what only the run shows. @return false if it shows nothing
 bool complete(results::ErrorSource& source, const results::RunSummary& own,
               const results::RunSummary& further) {
   source.steps = further.steps;
@@ -91,7 +91,7 @@ std::vector<std::string> doubts(const results::ErrorStatement& statement) {
   double most = kDoubtful;
   std::string unresolved;
   for (const results::SensorErrors& sensor : statement.sensors) {
-    // Energies contain the balance, which is nothing but error.
+    // Energies contain the balance, which is only error.
     if (sensor.unit == "J") continue;
     if (!sensor.is_resolved) unresolved += (unresolved.empty() ? "" : ", ") + sensor.name;
     if (sensor.peak.uncertainty <= most * sensor.scale) continue;

@@ -21,7 +21,7 @@ using model::ModelDescription;
 
 // Nodal variables up to which meshes are refined, and bodies taken without reduction.
 constexpr double kMostUnknowns = 100000;
-// Recovered strains miss a part of the error, on coarse meshes more than half of it.
+// Recovered strains underestimate the error, on coarse meshes by more than half.
 constexpr double kSafetyOfRecovery = 3;
 constexpr double kStandardTolerance = 1e-5;
 constexpr double kTolerancePart = 8;
@@ -40,7 +40,7 @@ class VariantList {
       : model_(built.model), base_(built.description), run_(run), remesh_(remesh) {
     base_.output.every = plan_output(base_).every;
     base_.output.field_output.reset();
-    // Bases of other meshes do not belong into the file of this one.
+    // Bases of other meshes must not be stored in the file of this one.
     for (body::BodySpec& spec : base_.bodies) spec.reduction.file.clear();
     for (const body::Body& body : model_.bodies) {
       if (body.is_flexible()) unknowns_ += static_cast<double>(body.flexible->mesh().M.rows());
@@ -153,7 +153,7 @@ class VariantList {
     if (deformed.size() == 0 || w < 0) return std::nullopt;
     const model::WholeBody& whole = model_.wholes[static_cast<std::size_t>(w)];
     const body::Body& body = model_.bodies[static_cast<std::size_t>(whole.first)];
-    // Parts of a divided body move against each other, and that strains nothing.
+    // Parts of a divided body move relative to each other without strain.
     if (whole.is_divided() || !body.is_flexible()) return std::nullopt;
     return recovered_error(body.flexible->mesh(), deformed);
   }

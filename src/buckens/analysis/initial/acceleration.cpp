@@ -23,7 +23,7 @@ namespace {
 constexpr int kMaxRounds = 100;
 constexpr double kSettled = 1e-13;
 
-/// Accelerations of one body as the rounds refine them.
+/// Accelerations of one body, refined in rounds.
 struct BodyAcceleration {
   body::DeformedMoments moments;
   Vector6 frame = Vector6::Zero();
@@ -96,7 +96,7 @@ class Accelerations {
     }
   }
 
-  /// M⁻¹ of a load; zero where deformation has no rates.
+  /// M⁻¹ of a load; zero if deformation has no rates.
   Vector mass_solve(const body::Body& body, Vector load) const {
     if (body.flexible->is_quasi_static) return Vector::Zero(load.size());
     body.flexible->sieve.apply_transposed(load);
@@ -130,7 +130,7 @@ class Accelerations {
     double change = 0.0;
     double size = 1e-300;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      // In equilibrium joints cancel what loads would do alone: that is the scale of rounding.
+      // In equilibrium joints cancel the effect of loads: that is the scale of rounding.
       size = std::max({size, size_of(frame[b]), size_of(b, nodal[b])});
       frame[b] += compliance_[b].frame * responses[b].frame_load;
       change = std::max(change, size_of(frame[b] - bodies_[b].frame));
@@ -166,7 +166,7 @@ class Accelerations {
     const Vector6 inertia =
         dynamics::frame_inertia(body, moments, s.frame.w, Vector3d::Zero(), Vector3d::Zero());
     Vector6 load = forces_.frame[b] - inertia;
-    // What stands in for missing inertia is part of the compliance but not of the motion.
+    // The substitute for missing inertia is part of the compliance but not of the motion.
     load.head<3>() += body.stand_in * now.frame.head<3>();
     frame = compliance_[b].frame * load;
     if (!body.is_flexible()) return;

@@ -15,12 +15,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Of the model's length, and in rad: more is not what placements by rounded numbers come to.
+// Of the model's length, and in rad: more than placements with rounded numbers cause.
 constexpr double kLargeMove = 1e-3;
-// The same below which a motion is rounding.
+// The same, below which a motion is rounding.
 constexpr double kNoMove = 1e-9;
 
-/// A joint that the bodies as placed leave open.
+/// A joint that is open with the bodies as placed.
 struct OpenJoint {
   const model::Joint* joint = nullptr;
   double gap = 0;    // [m]
@@ -58,13 +58,13 @@ bool touches(const model::Joint& joint, const model::WholeBody& whole) {
   return is_own(joint.first.body) || is_own(joint.second.body);
 }
 
-/// Whom to blame for the motion of a body: joints before drives, its own before those of others,
-/// and of these the one that is open most.
+/// The joint responsible for the motion of a body: joints before drives, its own before those of
+/// others, and of these the one with the largest gap.
 const OpenJoint* to_blame(const std::vector<OpenJoint>& open, const model::WholeBody& whole,
                           double length) {
   const OpenJoint* best = nullptr;
   const auto rank = [&](const OpenJoint& o) {
-    // A joint that is closed as far as anyone measures does not stand before an open drive.
+    // A joint that is practically closed does not precede an open drive.
     const bool is_open = !o.is_drive() && o.size(length) > kLargeMove;
     return std::tuple(is_open, touches(*o.joint, whole), o.size(length));
   };
@@ -106,7 +106,7 @@ std::optional<AssemblyMove> move_of(const model::Model& model, const model::Whol
 std::string AssemblyMove::text() const {
   std::string out = fmt::format("assembly ");
   const double way = translation.norm();
-  // What is a millionth of the other is its rounding, in whatever units.
+  // A millionth of the other is rounding, in any units.
   if (way > 0.0) {
     out += fmt::format("moved body \"{}\" by {:.4g} m along {}", body, way,
                        direction(translation / way));

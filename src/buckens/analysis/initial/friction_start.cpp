@@ -15,10 +15,10 @@ namespace {
 // Friction depends on reactions and changes them, by its coefficient times a ratio of levers each
 // time.
 constexpr int kReactionRounds = 8;
-// Laws answer each other, too.
+// Laws also react to each other.
 constexpr int kSweeps = 12;
 constexpr double kAtRest = 1e-9;
-// Central differences of rates in time [s]: curvature and rounding are both far below what matters.
+// Central differences of rates in time [s]: both curvature and rounding are negligible.
 constexpr double kTimeDifference = 1e-6;
 
 /// A law with a state, at rest.
@@ -51,7 +51,7 @@ class FrictionStart {
     return state_.memory.laws[model_.loads[law.load].first_state];
   }
 
-  /// The strain that the law admits in place of the one given.
+  /// The admissible strain of the law closest to the given one.
   double admitted(const RestingLaw& law, double strain) {
     const model::Load& load = model_.loads[law.load];
     const auto motions = dynamics::motions_of(model_, state_);
@@ -101,7 +101,7 @@ class FrictionStart {
            (2.0 * kTimeDifference);
   }
 
-  /// Strains one law so that its coordinate rests. @return change as a share of what it admits
+  /// Strains one law so that its coordinate rests. @return change as a fraction of its limit
   double relax(RestingLaw& law) {
     const double before = strain(law);
     const double open = acceleration(law);

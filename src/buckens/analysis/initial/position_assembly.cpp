@@ -26,7 +26,7 @@ namespace {
 constexpr int kMaxAssemblyIterations = 200;
 constexpr double kLargestRotation = 0.5;  // rad per iteration
 
-/// Answers closing demands with the least motion; redundant rows share it.
+/// Least motion that closes the rows; redundant rows share it.
 class LeastMotion {
  public:
   LeastMotion(const model::Model& model, std::vector<BodyCompliance> compliance,
@@ -46,7 +46,7 @@ class LeastMotion {
     std::vector<double> diagonal;
     diagonal.reserve(rows.size());
     double largest = 0.0;
-    // Compared as shares of the model's length: angles and lengths differ in unit.
+    // Compared as fractions of the model's length: angles and lengths differ in unit.
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const SystemRow& row = rows[k];
       const double length = lengths_[static_cast<Eigen::Index>(k)];
@@ -183,7 +183,7 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
   for (const body::Body& body : model.bodies) J.push_back(body.J0);
   const Vector lengths = dynamics::row_lengths(model);
   const auto shares = [&] { return constraints.g_dot.cwiseQuotient(lengths); };
-  // Of the rates [1/s]: velocities that fit already leave rounding of their own size.
+  // Of the rates [1/s]: consistent velocities leave rounding of their own size.
   double scale = 0.0;
   for (const model::BodyState& body : state.bodies) {
     scale = std::max({scale, body.frame.v.cwiseAbs().maxCoeff() / model.length,

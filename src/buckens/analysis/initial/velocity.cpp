@@ -69,7 +69,7 @@ class Setter {
 
   bool is_in_plane(const Vector3d& v, const Vector3d& w, const model::BodyState& s) const {
     const double left = (s.frame.v - v).norm() + (s.frame.w - w).norm();
-    // Parts sum up their velocities: rounding.
+    // The parts' velocities are summed: rounding.
     return left <= (whole_.is_divided() ? 1e-12 * (v.norm() + w.norm()) : 0.0);
   }
 

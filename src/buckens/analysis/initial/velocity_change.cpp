@@ -10,7 +10,7 @@ namespace buckens::analysis {
 
 namespace {
 
-// Velocities are written with four digits or so; what changes less of a body's speed was meant.
+// Velocities are written with about four digits; smaller changes of a body's speed are intended.
 constexpr double kNoticed = 1e-4;
 
 /// Without the rounding in components that are zero.
@@ -19,8 +19,8 @@ std::string text(const Eigen::Vector3d& v) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", shown(v[0]), shown(v[1]), shown(v[2]));
 }
 
-/// "its velocity by (0, 0.1, 0) to (0, 30.1, 0) m/s": the change itself, since what it leads to may
-/// look like what was given.
+/// "its velocity by (0, 0.1, 0) to (0, 30.1, 0) m/s": the change itself, since the result may look
+/// the same as what was given.
 std::string change_text(const char* what, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                         const char* unit) {
   return fmt::format("{} by {} to {} {}", what, text(to - from), text(to), unit);

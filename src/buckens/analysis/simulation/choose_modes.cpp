@@ -47,7 +47,7 @@ class ModeChoice {
     run.duration = run.has_step_control() ? kTrialShare * run.duration
                                           : std::min(run.duration, kTrialSteps * step);
     trial_.output.every = run.duration / kTrialRecords;
-    trial_.output.field_output.reset();  // their clock fits that of the run, and nobody looks
+    trial_.output.field_output.reset();  // their interval matches the run's, and nobody reads them
     for (body::BodySpec& spec : trial_.bodies) {
       if (spec.reduction.is_automatic()) automatic_.push_back(&spec);
     }
@@ -59,8 +59,8 @@ class ModeChoice {
   /// Half the variables of the smallest of the meshes.
   int most_modes() const { return most_modes_; }
 
-  /// @return largest distance of a marker from its place with full meshes, relative to the largest
-  ///         elastic displacement
+  /// @return largest distance of a marker from its position with full meshes, relative to the
+  /// largest elastic displacement
   double error_of(int modes) {
     if (full_.empty()) full_ = run();
     for (body::BodySpec* spec : automatic_) {
@@ -118,7 +118,7 @@ class ModeChoice {
     SensorValues sink;
     const auto built = model::build_model(trial_);
     SimulationOptions options;
-    options.tells_warnings = false;  // those of the run itself will be told
+    options.tells_warnings = false;  // those of the run itself will be reported
     simulate(*built, sink, options);
     return std::move(sink.values);
   }

@@ -17,8 +17,8 @@ using body::CouplingTerms;
 namespace {
 
 constexpr long kWindow = 10;  // steps between decisions
-// Loads of inertia deform a body by (w² + |ẇ|)/ω₁² of its size; below this share of the tolerance
-// their part in even smaller loads does not matter.
+// Inertia loads deform a body by (w² + |ẇ|)/ω₁² of its size; below this fraction of the tolerance
+// their part in even smaller loads is negligible.
 constexpr double kNoDeformation = 1e-3;
 constexpr double kUnsupportedSpin = 0.03;  // |w|/ω₁
 
@@ -48,7 +48,7 @@ CouplingWatch::CouplingWatch(const model::Model& model, const dynamics::MassMetr
 
 bool CouplingWatch::is_measured(const Watched& body, const model::BodyState& state) const {
   if (state.d.size() == 0 || state.terms == CouplingTerms{}) return false;
-  // Where nothing depends on it, now and then is enough.
+  // If nothing depends on it, now and then is enough.
   return body.is_automatic || steps_ % kWindow == 0;
 }
 
@@ -115,7 +115,7 @@ bool CouplingWatch::decide(const stepping::Stepper& stepper, model::State& state
 }
 
 void CouplingWatch::start(const stepping::Stepper& stepper, model::State& state) {
-  // A body may have to move twice: accelerations at the new level can ask for more.
+  // A body may have to move up twice: accelerations at the new level may require more.
   for (int round = 0; round < 2; ++round) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       if (!bodies_[b].is_automatic) continue;
@@ -146,7 +146,7 @@ void CouplingWatch::fill(const model::State& state, results::RunSummary& summary
     const model::WholeBody& whole = model_.wholes[k];
     const auto first = static_cast<std::size_t>(whole.first);
     if (!model_.bodies[first].is_flexible()) continue;
-    // Several frames of a body may stand at several levels.
+    // The frames of a body may have different levels.
     std::vector<std::string> at_start;
     std::vector<std::string> now;
     double neglected = 0;

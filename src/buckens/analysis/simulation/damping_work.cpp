@@ -10,7 +10,7 @@ namespace buckens::analysis {
 using linalg::Vector;
 
 namespace {
-// Lengths of steps that are the same but for the rounding of summed times.
+// Lengths of steps that are equal except for the rounding of summed times.
 constexpr double kSameStep = 1e-6;
 }  // namespace
 
@@ -29,7 +29,7 @@ DampingWork::DampingWork(const model::Model& model, std::size_t body, const mode
     return;
   }
   beta_ = *beta;
-  // Any step will do: only products with M are asked for.
+  // Any step will do: only products with M are needed.
   mass_.emplace(part, stepping::Scheme(stepping::Method::newmark, 1.0, 0.0));
   power_ = mass_power(s);
   d_ = s.d;

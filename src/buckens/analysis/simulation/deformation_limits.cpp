@@ -24,9 +24,9 @@ constexpr double kLargeRotation = 0.1;   // rad
 constexpr double kLargeStrain = 0.05;    // linear strain errs by half of it
 constexpr double kDoubtedStrain = 0.10;  // the same at an error of 5 %
 constexpr double kDoubtedError = 0.05;   // of deflections under axial loads
-// More frames make axial loads this small, with which deflections err by less than 5 %.
+// More frames reduce axial loads to this, where deflections err by less than 5 %.
 constexpr double kSafeAxialLoad = 0.045;
-constexpr double kNoBending = 1e-6;   // rad; what bends less has no deflections that could err
+constexpr double kNoBending = 1e-6;   // rad; below this there is no bending that could err
 constexpr double kStraight = 0.9998;  // cosine of a kink of about 1°
 
 Vector3d displacement(const fem::FeModel& fe, int node, const Vector& d) {
@@ -74,7 +74,7 @@ Moments moments_of(const fem::FeModel& fe, std::span<const int> nodes, const Vec
   return out;
 }
 
-/// Displacement gradient that fits the nodes of an element best; along the line only for lines.
+/// Displacement gradient that best fits the nodes of an element; for lines along the line only.
 Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
   const Moments m = moments_of(fe, nodes, d);
   if (nodes.size() == 2) return m.ux / m.xx.trace();
@@ -105,14 +105,14 @@ double rotation_of(const fem::FeModel& fe, const fem::ElementBlock& block, int e
   return 0.5 * Vector3d(G(2, 1) - G(1, 2), G(0, 2) - G(2, 0), G(1, 0) - G(0, 1)).norm();
 }
 
-/// Relative error of deflections that do not feel an axial load.
+/// Relative error of deflections that neglect an axial load.
 double bending_error(const DeformationMeasure& found) {
   const double softening =
       found.compression < 1.0 ? found.compression / (1.0 - found.compression) : HUGE_VAL;
   return std::max(found.tension / (1.0 + found.tension), softening);
 }
 
-/// What to say of axial loads that bending does not feel; empty: nothing.
+/// Verdict on axial loads that bending neglects; empty: nothing.
 std::string doubt_axial_load(const DeformedBody& body, const DeformationMeasure& found) {
   const double error = bending_error(found);
   if (body.is_stiffened || error <= kDoubtedError) return {};

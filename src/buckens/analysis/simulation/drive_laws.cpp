@@ -58,7 +58,7 @@ void DriveLaws::check(double from, double to) const {
     double f_a = drive.law.value(a);
     double f_b = drive.law.value(b);
     double halfway = 0;
-    // Follow the half in which more happens. A smooth law changes 64 times less in 64 times less
+    // Follow the half with the larger change. A smooth law changes 64 times less in 64 times less
     // time, a jump stays.
     for (int halving = 0; halving < kHalvings; ++halving) {
       if (halving == kHalvings / 2) halfway = std::abs(f_b - f_a);

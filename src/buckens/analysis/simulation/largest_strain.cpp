@@ -94,7 +94,7 @@ double LargestStrain::measure(const Vector& d, const linalg::Matrix& section_for
     const Vector rows = shells_->rows() * d;
     TensorColumns strains = rows.reshaped(6, rows.size() / 6);
     include_principal(shells_->surface(strains).strain, largest);
-    strains.bottomRows<3>() *= -1.0;  // what bending does to the other side
+    strains.bottomRows<3>() *= -1.0;  // bending on the other side
     include_principal(shells_->surface(strains).strain, largest);
   }
   return largest;

@@ -21,7 +21,7 @@ namespace buckens::analysis {
 
 namespace {
 
-/// What mesh and mass properties say; `fe` is null for rigid bodies.
+/// Report from mesh and mass properties; `fe` is null for rigid bodies.
 void describe(const fem::FeModel* fe, const body::FreeModes& modes, BodyReport& out) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(out.inertia);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -83,7 +83,7 @@ BodyReport report_body(const model::Model& model, const model::WholeBody& whole,
   return out;
 }
 
-/// Mass centre of the bodies from `first` on that a load acts on.
+/// Mass centre of the bodies from `first` on, on which a load acts.
 Eigen::Vector3d centre_of(const model::Model& model, const model::State& state,
                           const std::vector<int>& bodies) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();

@@ -13,7 +13,7 @@ namespace buckens::analysis {
 
 namespace {
 
-// About this many records where the model file does not say `every`.
+// About this many records if the model file has no `every`.
 constexpr double kDefaultRecords = 500;
 constexpr double kMostRecords = 1e7;
 constexpr double kLargeFile = 4e9;  // bytes
@@ -51,7 +51,7 @@ OutputPlan plan_output(const model::ModelDescription& description) {
                                  *output.field_output->every, plan.every,
                                  static_cast<double>(plan.fields_stride) * plan.every));
   }
-  // At the start, every so many records, and at the end.
+  // At the start, at every n-th record, and at the end.
   plan.field_records =
       std::ceil((plan.records - 1.0) / static_cast<double>(plan.fields_stride) - 1e-6) + 1.0;
   return plan;
@@ -59,7 +59,7 @@ OutputPlan plan_output(const model::ModelDescription& description) {
 
 double OutputPlan::bytes(const results::RecordLayout& layout,
                          const results::FieldLayout& fields) const {
-  // A last record comes at the end where that is no multiple of the time between two.
+  // There is a last record at the end if that is not a multiple of the interval.
   const double rows = std::ceil(records - 1e-6);
   return results::stored_bytes(layout, rows, sizeof(double)) +
          results::stored_bytes(fields.fields, std::min(field_records, rows), sizeof(float)) +

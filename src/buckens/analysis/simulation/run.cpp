@@ -45,7 +45,7 @@ SimulationRun::SimulationRun(const model::BuiltModel& built, SimulationOptions o
   setup_seconds_ = seconds_since(created_);
 }
 
-/// Equations that hold within a step leave a quasi-static body no shape at its end.
+/// Equations that hold within a step do not determine a quasi-static shape at its end.
 void SimulationRun::check_method() {
   const bool is_within = spec_.method == model::IntegrationMethod::newmark ||
                          spec_.method == model::IntegrationMethod::wilson;
@@ -103,7 +103,7 @@ void SimulationRun::advise_on_step() {
     for (int b = whole.first; b < whole.first + whole.count; ++b) {
       const body::Body& body = built_.model.bodies[static_cast<std::size_t>(b)];
       if (!body.is_flexible()) continue;
-      // Beyond this size the free vibrations cost factorisations of their own: `check` has them.
+      // Beyond this size the free vibrations need extra factorisations: `check` has them.
       if (body.num_dofs() > kAdvisedDofs) {
         set_lowest_frequency(b, march_->stepper().lowest_frequency(static_cast<std::size_t>(b)));
         continue;
@@ -150,7 +150,7 @@ void SimulationRun::record_into(results::RecordSink& sink) {
   setup_seconds_ += seconds_since(start);
 }
 
-/// Sensors count from the state at which they are first looked at.
+/// Sensors refer to the state at which they are first evaluated.
 void SimulationRun::begin_records() {
   if (has_begun_) return;
   has_begun_ = true;
@@ -209,12 +209,12 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
   try {
     const stepping::StepReport report = march_->advance(before, after);
     drives_->check(before.t, after.t);
-    // The step has closed velocities with the shapes that quasi-static bodies had at its start.
+    // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
     return report;
   } catch (const NumericalError&) {
     after = before;
-    // A law that jumps makes any step fail, and says more than the joint that gave way.
+    // A law that jumps makes any step fail, and explains more than the failing joint.
     drives_->check(before.t, reach);
     throw;
   }

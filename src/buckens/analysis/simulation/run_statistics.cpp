@@ -133,7 +133,7 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
 
 namespace {
 
-/// What the meshes of other programs lack because the model file wants parts of them left out.
+/// What imported meshes lack because the model file asks to leave parts out.
 void doubt_meshes(const model::ModelDescription& description, results::RunSummary& summary) {
   for (const body::BodySpec& body : description.bodies) {
     const auto* mesh = std::get_if<fem::MeshSpec>(&body.kind);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the accounts of a run save, so that a continued run reports the whole of it.
+// What the statistics of a run save, so that a continued run reports all of it.
 #include <string>
 
 #include "buckens/analysis/simulation/coupling_watch.h"

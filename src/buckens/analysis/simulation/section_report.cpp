@@ -52,7 +52,7 @@ SectionReport report_of(const fem::BeamBlock& beams, int e, const std::vector<fe
   return out;
 }
 
-/// In a plane the way to lie is that across it; a line may point anywhere.
+/// In a plane the orientation is that across it; a line may point anywhere.
 bool is_same(const SectionReport& a, const SectionReport& b) {
   const bool has_same_section = is_near(a.width, b.width) && is_near(a.height, b.height) &&
                                 is_near(a.EI_y, b.EI_y) && is_near(a.EI_z, b.EI_z);

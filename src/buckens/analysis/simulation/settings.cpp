@@ -7,7 +7,7 @@
 namespace buckens::analysis {
 
 namespace {
-// With `step: auto` the longest step is this part of the duration.
+// With `step: auto` the longest step is this fraction of the duration.
 constexpr long kStepsOfLongest = 100;
 }  // namespace
 

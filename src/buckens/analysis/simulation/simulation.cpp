@@ -13,7 +13,7 @@ namespace buckens::analysis {
 
 namespace {
 
-// Ends of steps are counted, times asked for are written in decimals.
+// Ends of steps are counted, requested times are decimal numbers.
 constexpr double kSameTime = 1e-9;
 
 std::size_t find_whole(const model::Model& model, const std::string& name) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a simulation shows, takes and saves between steps.
+// What a simulation shows, accepts and saves between steps.
 #include <algorithm>
 #include <utility>
 
@@ -28,7 +28,7 @@ std::pair<std::string, std::string> split_line(const std::string& line) {
   return {line.substr(0, at), line.substr(at + 2)};
 }
 
-/// What two lists of lines differ in, the first few of them.
+/// The first few differences of two lists of lines.
 std::string differences(const std::vector<std::string>& saved,
                         const std::vector<std::string>& here) {
   std::vector<std::string> out;
@@ -60,7 +60,7 @@ const std::vector<double>& SimulationRun::observe() {
   begin_records();
   if (observed_at_ == steps_taken_) return observed_;
   model::State& state = prepared_->state;
-  // λ of a step may belong to an instant within it; records have it at its end.
+  // λ of a step may refer to an instant within it; records have it at its end.
   linalg::Vector own = state.lambda;
   if (steps_taken_ > 0) state.lambda = results::multipliers_at(before_, state, state.t);
   const results::Record record = observer_->record(state, work_->work());

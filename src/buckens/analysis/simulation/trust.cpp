@@ -10,7 +10,7 @@ namespace buckens::analysis {
 
 namespace {
 
-// What drawings are made to; Newton iterations leave 1e-12 at most.
+// Tolerance of drawings; Newton iterations leave 1e-12 at most.
 constexpr double kOpenJoint = 1e-6;
 // Visible in a curve of velocities.
 constexpr double kOpenRate = 1e-4;
@@ -48,7 +48,7 @@ void EnergyTrust::add_record(const model::State& state) {
   for (std::size_t b = 0; b < leaves_out_.size(); ++b) {
     if (!model_.bodies[b].is_flexible()) continue;
     const body::CouplingTerms& terms = state.bodies[b].terms;
-    // These three follow from a kinetic energy each.
+    // Each of these three derives from a kinetic energy.
     const bool keeps_energy = terms == body::CouplingTerms{} ||
                               terms == body::CouplingTerms::first_order() ||
                               terms == body::CouplingTerms::none();

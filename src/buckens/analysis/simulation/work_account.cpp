@@ -42,8 +42,8 @@ long WorkAccount::num_products() const {
 void WorkAccount::add(const model::State& state) {
   const Powers now = powers(state);
   const double h = state.t - t_;
-  // Joints take −λ·g_t from their drives. A λ that belongs to mid-step meets the mean of g_t; one
-  // that belongs to a later instant (Wilson) is taken back to the end of the step.
+  // Joints receive −λ·g_t from their drives. A λ at mid-step is multiplied by the mean of g_t; one
+  // at a later instant (Wilson) is interpolated to the end of the step.
   const bool is_mean = state.lambda_time < state.t - 0.25 * h;
   linalg::Vector lambda = state.lambda;
   if (state.lambda_time > state.t + 0.25 * h) {

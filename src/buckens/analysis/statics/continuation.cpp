@@ -20,7 +20,7 @@ using Share = StaticSystem::Share;
 namespace {
 
 constexpr int kMaxIterations = 15;
-// Farther from the prediction than this [rad, or of the model's length] lies another equilibrium.
+// Farther from the prediction than this [rad, or of the model's length] it is another equilibrium.
 constexpr double kFarFromPrediction = 0.5;
 
 /// [A b; nᵀ c]
@@ -93,7 +93,7 @@ StaticContinuation::Plane StaticContinuation::load_plane() const {
 
 StaticContinuation::Plane StaticContinuation::plane(const PathPoint& at) const {
   if (scale_.load_control) return load_plane();
-  // Multipliers take no part: their size says nothing about how far a mechanism has come.
+  // Multipliers are excluded: their size says nothing about how far a mechanism has moved.
   Plane out{at.direction, at.load_rate / (scale_.load_factor * scale_.load_factor)};
   for (int k = 0; k < system_->size(); ++k) {
     if (system_->share(k) == Share::joint) out.x[k] = 0.0;
@@ -122,7 +122,7 @@ bool StaticContinuation::factorise(const StaticPoint& point, const StaticBalance
       bordered(system_->tangent(0.0), scale_.load_factor * load_derivative(point), plane.x,
                scale_.load_factor * plane.load_factor);
   if (lu_ && lu_->factorise(tangent)) return true;
-  lu_.emplace(tangent);  // anew: the pivots of another configuration may be of no use here
+  lu_.emplace(tangent);  // again: pivots of another configuration may be bad here
   return lu_->factorise(tangent);
 }
 
@@ -167,7 +167,7 @@ void StaticContinuation::polish_and_lead_on(PathPoint& at, const Plane& plane) {
   step << -residual, 0.0;
   lu_->solve_in_place(step);
   if (step.allFinite() && motion(step.head(n)) < kFarFromPrediction) {
-    // One more Newton step goes down to rounding; where it is there already, it is not taken.
+    // One more Newton step reaches rounding; if already there, it is not taken.
     const StaticPoint better = moved(at.point, step);
     StaticBalance balance = system_->balance(better);
     if (misfit(system_->residual(better, balance)) < misfit(residual)) {
@@ -215,7 +215,7 @@ PathPoint StaticContinuation::begin(const StaticPoint& start, double sign) {
 std::optional<PathPoint> StaticContinuation::with_new_rows(const PathPoint& at) {
   choose_rows(at.point);
   PathPoint from = at;
-  // Rows that are left out exert no force; Newton shares theirs out.
+  // Dropped rows exert no force; Newton redistributes theirs.
   for (int k = 0; k < model_.num_constraint_rows(); ++k) {
     const std::vector<int>& rows = system_->rows_in_use();
     if (!std::binary_search(rows.begin(), rows.end(), k)) from.point.lambda[k] = 0.0;

@@ -27,9 +27,9 @@ constexpr double kLongestStep = 0.3;      // rad, or of the model's length
 constexpr double kLongStep = 0.2;         // leaves the path of damped motion: more inertia
 constexpr double kShortStep = 0.1;        // follows it well: less inertia
 constexpr double kFarFromBalance = 1e-2;  // of the largest force: only there steps must go downhill
-constexpr double kLeastInertia = 1e-9;  // of σ that matters: lets directions without stiffness rest
-// A force that moves no point by this share of the model's length is rounding: an unloaded path
-// begins with multipliers of that size.
+constexpr double kLeastInertia = 1e-9;  // of relevant σ: keeps directions without stiffness at rest
+// A force that moves no point by this fraction of the model's length is rounding: an unloaded path
+// starts with multipliers of that size.
 constexpr double kNoMotion = 1e-18;
 constexpr double kFarTurned = 40.0;  // rad
 constexpr double kFarMoved = 20.0;   // model lengths
@@ -147,7 +147,7 @@ void StaticDescent::run() {
 
 bool StaticDescent::factorise(const SparseMatrix& tangent) {
   if (lu_ && lu_->factorise(tangent)) return true;
-  lu_.emplace(tangent);  // anew: the pivots of another configuration may be of no use here
+  lu_.emplace(tangent);  // again: pivots of another configuration may be bad here
   return lu_->factorise(tangent);
 }
 
@@ -161,7 +161,7 @@ Vector StaticDescent::find_step() {
     if (regular && step.allFinite() && !leads_uphill(tangent, step)) {
       return std::min(1.0, kLongestStep / motion_size(step)) * step;
     }
-    if (attempt == 15) {  // more inertia does not help: perhaps other rows do
+    if (attempt == 15) {  // more inertia does not help: other rows may
       choose_rows();
       system_->linearise(point_, balance_);
       sigma_ = reference_;
@@ -174,9 +174,9 @@ Vector StaticDescent::find_step() {
 }
 
 bool StaticDescent::leads_uphill(const SparseMatrix& tangent, const Vector& step) const {
-  // Near a saddle Newton's method may end there; the way on is then known exactly.
+  // Near a saddle Newton's method may end there; the direction onwards is then known exactly.
   if (force_residual() < kFarFromBalance * largest_force_) return false;
-  // Work of the step on the tangent, with the multipliers' share taken as if joints were closed.
+  // Work of the step on the tangent, with the multipliers' part as if joints were closed.
   double whole = 0.0;
   Vector frame_only = step;
   for (int k = 0; k < system_->size(); ++k) {
@@ -232,7 +232,7 @@ void StaticDescent::polish() {
     Vector step = -residual_;
     if (before == 0.0 || !factorise(tangent)) return;
     lu_->solve_in_place(step);
-    // A step that is no longer small says that the direction has no stiffness.
+    // A step that is no longer small shows that the direction has no stiffness.
     if (!step.allFinite() || motion_size(step) > kLongestStep) return;
     point_ = system_->moved(best, step);
     evaluate();

@@ -50,7 +50,7 @@ void note_large_rotations(const model::Model& model, const model::State& state,
   }
 }
 
-/// Those without restoring force: any mixture of them is as good as the one that comes first.
+/// Those without restoring force: any combination of them is as good as the first.
 linalg::Matrix free_motions(const StaticModes& modes) {
   Eigen::Index count = 0;
   while (count < modes.stiffness.size() && modes.stiffness[count] <= modes.tolerance) ++count;

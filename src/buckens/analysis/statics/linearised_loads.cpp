@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDifference = 1e-5;
 
-/// Bodies that feel a body's motion, itself too.
+/// Bodies affected by a body's motion, including itself.
 std::vector<std::vector<std::size_t>> neighbours_of(const model::Model& model) {
   std::vector<std::vector<std::size_t>> out(model.bodies.size());
   for (std::size_t b = 0; b < out.size(); ++b) out[b].push_back(b);
@@ -36,7 +36,7 @@ std::vector<std::vector<std::size_t>> neighbours_of(const model::Model& model) {
   return out;
 }
 
-/// Greedy colours, distance two: no body feels two bodies of one colour.
+/// Greedy distance-two colouring: no body is affected by two bodies of one colour.
 std::vector<std::vector<std::size_t>> colors_of(
     const std::vector<std::vector<std::size_t>>& neighbours) {
   std::vector<std::vector<std::size_t>> colors;

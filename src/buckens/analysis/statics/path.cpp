@@ -100,7 +100,7 @@ class Path {
   StaticPathRecord record_;
   std::optional<StaticContinuation> continuation_;
   std::optional<PathPoint> now_;
-  double reference_ = 1;  // stiffness that matters [1/s²]
+  double reference_ = 1;  // relevant stiffness [1/s²]
   double step_ = 1;       // length of the next step, in full steps
   int points_ = 1;
 };
@@ -252,7 +252,7 @@ PathPoint Path::next_point() {
                   now_->point.load_factor, continuation_->resisting(), remedy));
 }
 
-/// Writes what lies on the way to `next`, and it; true at the last load factor.
+/// Writes the points up to and including `next`; true at the last load factor.
 bool Path::take(const PathPoint& found) {
   PathPoint next = found;
   examine(next);
@@ -342,7 +342,8 @@ std::vector<PathPoint> Path::critical_points(const PathPoint& next) {
   const auto fewer = std::min(unstable(from), unstable(next));
   const auto change = std::abs(unstable(from) - unstable(next));
   if (change <= (has_limit ? 1 : 0)) return out;
-  // Of several that change, the last; a limit point among them is not told from a bifurcation.
+  // Of several that change, the last; a limit point among them is not distinguished from a
+  // bifurcation.
   const auto index = fewer + change - 1;
   const double tolerance = 1e-9 * std::abs((*from.stiffness)[index] - (*next.stiffness)[index]);
   auto branching = refine(

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kSensors = "sensors/";
 
-/// Loads that the load factor multiplies, at factor one.
+/// Loads scaled by the load factor, at factor one.
 dynamics::Forces applied_loads(const model::Model& model, const StaticPoint& point, double t) {
   std::vector<dynamics::BodyMotion> motions(point.poses.size());
   for (std::size_t b = 0; b < motions.size(); ++b) {
@@ -119,7 +119,7 @@ void StaticPathRecord::watch_stop(double value) {
 results::WorkBalance StaticPathRecord::add_work(const PathPoint& at) {
   const dynamics::Forces loads = applied_loads(model_, at.point, state_.t);
   if (before_) {
-    // Trapezoidal rule: exact where loads are linear in the way.
+    // Trapezoidal rule: exact if loads are linear in the displacement.
     double work = 0.0;
     for (std::size_t b = 0; b < loads.frame.size(); ++b) {
       const spatial::Pose& from = before_->poses[b];

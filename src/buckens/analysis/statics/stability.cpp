@@ -23,7 +23,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 namespace {
 
 constexpr std::size_t kDenseLimit = 600;
-// Motions that the joints forbid answer a load by rounding only.
+// Motions that the joints prevent respond to a load by rounding only.
 constexpr double kForbidden = 1e-11;
 // Finite differences are good to about 1e-10 of the largest stiffness.
 constexpr double kZeroStiffness = 1e-9;
@@ -134,7 +134,7 @@ std::size_t most_moved(const model::Model& model, const StaticSystem& system, co
   return worst;
 }
 
-/// "along (0, 0, 1)", or what several directions come to.
+/// "along (0, 0, 1)", or the text for several directions.
 std::string span_text(const Matrix& directions, const char* one, const char* plane,
                       const char* any) {
   constexpr double kSameDirection = 1e-3;

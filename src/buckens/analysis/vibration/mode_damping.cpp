@@ -18,7 +18,7 @@ namespace buckens::analysis {
 namespace {
 
 constexpr int kCheckedModes = 6;
-// `buckens check` answers at once; larger systems take factorisations of minutes.
+// `buckens check` answers quickly; larger systems would need minutes of factorisation.
 constexpr Eigen::Index kMostCheckedUnknowns = 30000;
 // A ratio is meant for vibrations of that body, at frequencies near those that it names.
 constexpr double kOwnShare = 0.9;
@@ -91,7 +91,7 @@ ModeDamping describe(const model::BuiltModel& built, const VibrationReport& vibr
   return out;
 }
 
-/// Tells of the first vibration of each body that has another ratio than asked for.
+/// Reports the first vibration of each body whose ratio differs from the requested one.
 void compare(const model::BuiltModel& built, ModeDampingReport& out) {
   for (const body::BodySpec& spec : built.description.bodies) {
     const auto found = std::find_if(out.modes.begin(), out.modes.end(), [&](const auto& mode) {

@@ -95,7 +95,7 @@ void SystemPencil::add_masses() {
     const body::Body& body = model_.bodies[b];
     const RestBody& place = tangent_.bodies[b];
     put_block(first_[b], first_[b], blocks_[b].W, mass);
-    // What stands in for missing inertia in the blocks A₀ is taken out again by Γ.
+    // The substitute for missing inertia in the blocks A₀ is subtracted again by Γ.
     const auto& T = body.rotation_basis;
     put_block(place.first, place.first, -(T.transpose() * body.stand_in * T), gyration);
     if (!body.is_flexible()) continue;
@@ -262,7 +262,7 @@ Matrix SystemPencil::zero_modes() const {
     if (size > 0.0) joints.row(k) /= size;
   }
   const Matrix free = null_space(joints, kNoResistance);
-  // Resistance in units of the compliance, so that forces and torques weigh alike.
+  // Resistance in units of the compliance, so that forces and torques have equal weight.
   const Matrix resistance =
       scale_.asDiagonal() * Matrix(tangent_.stiffness * Matrix(columns * free));
   const Matrix lone = null_space(resistance, kNoResistance);

@@ -56,7 +56,7 @@ void check_node_numbers(const Structure& structure, const Blocks& blocks) {
   }
 }
 
-/// Refuses nodes without elements that hold them and meshes in several pieces.
+/// Refuses nodes not held by elements and meshes in several pieces.
 void check_connected(const std::vector<Node>& nodes, const Blocks& blocks, const NodeLinks& links) {
   std::vector<int> parent(nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -106,8 +106,8 @@ std::array<bool, 6> kept_variables(std::optional<spatial::Plane> planar) {
   return kept;
 }
 
-/// Followers that no element holds turn with their reference; references turn if what follows them
-/// has a lever or turns itself.
+/// Followers not held by an element rotate with their reference; references rotate if their
+/// followers have a lever arm or rotate themselves.
 void give_rotations_to_links(const Structure& structure, const std::vector<bool>& held,
                              std::vector<bool>& turns) {
   const auto place = [&](int node) {
@@ -153,7 +153,7 @@ DofMap number_dofs(const Structure& structure, const Blocks& blocks,
       }
     }
   }
-  // A mass on a spring turns if it has inertia.
+  // A mass on a spring rotates if it has inertia.
   for (int m = 0; m < structure.masses.num_elements(); ++m) {
     const auto node = static_cast<std::size_t>(structure.masses.ends(m)[0]);
     if (!held[node] && !structure.masses.inertia(m).isZero(0.0)) turns[node] = true;

@@ -21,7 +21,7 @@ namespace {
 // Share of the norm of K up to which a rigid motion counts as free: far above the rounding of
 // matrices written with twelve digits, far below any spring to ground.
 constexpr double kStrainTolerance = 1e-9;
-// Larger matrices are judged by their 2×2 minors alone: a factorisation here would take as long as
+// Larger matrices are only judged by their 2×2 minors: a factorisation here would take as long as
 // that of the simulation.
 constexpr int kMostFactored = 6000;
 // Shift that lets massless variables pass.

@@ -18,8 +18,8 @@ using linalg::Triplet;
 
 namespace {
 
-// Masses of a body agree in the three directions within this share; matrices are often written with
-// seven digits or so.
+// Masses of a body agree in the three directions within this fraction; matrices are often written
+// with about seven digits.
 constexpr double kSameMass = 1e-6;
 // Entries of blocks that are to be multiples of the unit matrix: above rounding of their sums.
 constexpr double kSameEntry = 1e-10;
@@ -262,7 +262,7 @@ class IntegralMaker {
   }
 
   /// A block r between the translations of a node and a common rotation is that of points whose
-  /// first moment is S, r = −S×; c_ab takes S_a e_b from it. What of r is not skew is shared out
+  /// first moment is S, r = −S×; c_ab takes S_a e_b from it. The non-skew part of r is distributed
   /// so that c_ab − c_ba stays exact.
   void add_offsets(int node, const Matrix& T) {
     Matrix3d r;

@@ -96,7 +96,7 @@ std::vector<int> divide_chain(const std::vector<Holder>& lines, const std::vecto
     const Holder& line = lines[static_cast<std::size_t>(chain[static_cast<std::size_t>(k)])];
     const double middle = (passed + 0.5 * line.length) / total;
     const int wanted = std::min(count - 1, static_cast<int>(middle * count));
-    // Every part gets an element: not more than one new part each, and enough left for the rest.
+    // Every part gets an element: at most one new part each, and enough left for the rest.
     part = k == 0 ? 0 : std::clamp(wanted, part, part + 1);
     part = std::max(part, count - 1 - (last - k));
     part_of[static_cast<std::size_t>(chain[static_cast<std::size_t>(k)])] = part;
@@ -156,9 +156,9 @@ bool is_connected(const linalg::Graph& graph) {
   return pieces <= 1;
 }
 
-/// The elements and how they hang together: solids by their faces, lines and shells by their
-/// nodes. With
-/// `faces` null every common node counts.
+/// The elements and their connections: solids by their faces, lines
+/// and shells by their nodes. With `faces` null every common node
+/// counts.
 linalg::Graph graph_of(const std::vector<Holder>& holders, std::size_t first_shell,
                        const Pairs& pairs, const std::set<Pair>* faces) {
   linalg::Graph graph;
@@ -298,8 +298,8 @@ std::vector<int> choose_parts(const Structure& structure, int count) {
   const auto at_node = holders_at_nodes(structure.nodes.size(), holders);
   if (const auto chain = as_chain(holders, at_node)) return divide_chain(holders, *chain, count);
   const Pairs pairs = node_pairs(at_node);
-  // Solids that share an edge or a node only could turn about it: such pairs count only where the
-  // mesh falls to pieces without them.
+  // Solids that share only an edge or a node could rotate about it: such pairs only count if the
+  // mesh would fall apart without them.
   const std::set<Pair> faces = face_neighbours(structure);
   const std::size_t first_shell =
       holders.size() - static_cast<std::size_t>(structure.shells.num_elements());

@@ -20,8 +20,8 @@ namespace {
 using FitMatrix = Eigen::Matrix<double, 6, 6>;
 using FitVector = Eigen::Matrix<double, 6, 1>;
 
-// Share of the largest eigenvalue below which the fit leaves a motion open: nodes within 1e-6 of
-// their size from a line tell no rotation about it.
+// Fraction of the largest eigenvalue below which the fit does not determine a motion: nodes within
+// 1e-6 of their extent from a line do not define a rotation about it.
 constexpr double kOpenMotion = 1e-12;
 // Share of a motion that may be open through rounding.
 constexpr double kRoundedMotion = 1e-6;

@@ -22,11 +22,11 @@ using linalg::Triplet;
 
 namespace {
 
-// Share of the largest coefficient below which a row has become rounding.
+// Fraction of the largest coefficient below which a row is rounding.
 constexpr double kNothing = 1e-10;
 // Share of the largest coefficient that the wanted variable must have to be eliminated.
 constexpr double kPivot = 1e-6;
-// Share by which coefficients of files may miss rigid motion through rounding; they are mended.
+// Fraction by which coefficients of files may violate rigid motion by rounding; they are corrected.
 constexpr double kRounding = 1e-4;
 
 using Row = std::map<int, double>;  // coefficient by variable, in a fixed order
@@ -34,7 +34,7 @@ using Row = std::map<int, double>;  // coefficient by variable, in a fixed order
 constexpr std::array<const char*, 6> kVariables = {"x",          "y",          "z",
                                                    "rotation x", "rotation y", "rotation z"};
 
-/// The rigid motions that the variables of a mesh know: fewer in planar models.
+/// The rigid motions that the variables of a mesh can represent: fewer in planar models.
 struct RigidMotions {
   Eigen::Matrix<double, Eigen::Dynamic, 6> columns;  // zero where a motion leaves the plane
   Eigen::VectorXd size;                              // of each variable: 1 or 1/length
@@ -87,7 +87,7 @@ class Eliminator {
     return dofs_.node_dofs.at(static_cast<std::size_t>(node))[static_cast<std::size_t>(variable)];
   }
   const Vector3d& place(int node) const { return nodes_[static_cast<std::size_t>(node)].position; }
-  /// Takes in Σ row = 0.
+  /// Adds the equation Σ row = 0.
   void eliminate(const Row& row, int wanted);
   Row replaced(const Row& row) const;
   int pivot_of(const Row& row, int wanted) const;
@@ -196,7 +196,7 @@ void Eliminator::add(const AverageLink& link) {
   }
 }
 
-/// Mends rounding of the coefficients, so that rigid motion stays possible to the last digit.
+/// Corrects rounding of the coefficients, so that rigid motion stays possible to the last digit.
 void Eliminator::require_free(Row& row, const std::string& label) const {
   Eigen::MatrixXd motions(static_cast<Eigen::Index>(row.size()), 6);
   Eigen::VectorXd c(motions.rows());

@@ -54,8 +54,8 @@ void complete(const std::vector<Node>& nodes, const Eigen::VectorXd& areas, Node
   region.spread = spread_of(nodes, region);
 }
 
-/// Nodes on a line, such as the edge of a shell, tell a rotation about it if they have rotations of
-/// their own: these count in the fit like displacements at a tenth of the region's radius.
+/// Nodes on a line, such as the edge of a shell, define a rotation about it if they have rotations:
+/// these count in the fit like displacements at a tenth of the region's radius.
 void count_rotations(const Structure& structure, NodeRegion& region) {
   if (region.turns()) return;
   std::vector<bool> turns(structure.nodes.size(), false);
@@ -217,7 +217,7 @@ PointRows region_rows(const std::vector<Node>& nodes, const DofMap& dofs, const 
   Matrix3d inverse = Matrix3d::Zero();
   if (out.has_rotation) inverse = region.spread.inverse();
   const Matrix3d offset = cross_matrix(at - region.centre);
-  // What the spread has besides that of the places belongs to the rotations of the nodes.
+  // The part of the spread beyond that of the positions comes from the rotations of the nodes.
   const double own = (region.spread - spread_of(nodes, region)).trace() / 3.0;
   const bool counts_rotations = own > kOnLine * region.spread.trace();
   for (std::size_t k = 0; k < region.nodes.size(); ++k) {

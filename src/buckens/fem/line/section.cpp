@@ -40,7 +40,7 @@ std::vector<Eigen::Vector2d> rim(double radius) {
   return points;
 }
 
-/// Turns from y to z. Corners of 15°, so that drawing can tell them from edges.
+/// Runs from y to z. Corners of 15°, so that drawing can distinguish them from edges.
 SectionLoop round_loop(double radius) {
   constexpr int kCorners = 24;
   SectionLoop loop;

@@ -100,7 +100,7 @@ MeshConnection connect(const ImportedMesh& mesh) {
     if (own == 0) {
       out.free_nodes.push_back(node);
     } else if (parts.root(node) == node) {
-      ++out.pieces;  // links join used nodes only, so that one of them stands for each piece
+      ++out.pieces;  // links only join used nodes, so that one of them represents each piece
     }
   }
   return out;
@@ -150,7 +150,8 @@ std::vector<std::pair<int, int>> coincident_nodes(const ImportedMesh& mesh) {
         for (near[2] = least[2]; near[2] <= most[2]; ++near[2]) compare_with(near);
       }
     }
-    // One node stands for all at a place, so that many at one place cost no more than their number.
+    // One node represents all at a position, so that many at one position cost no more than their
+    // number.
     if (!out.empty() && out.back().second == node) continue;
     const auto [entry, is_new] = cells.try_emplace(cell, node);
     if (is_new) continue;

@@ -175,8 +175,8 @@ void Selection::choose_nodes() {
   }
 }
 
-/// Reference nodes that no element has belong to the side to which links join them, through
-/// however many links.
+/// Reference nodes without elements belong to the side to which links join them, through any number
+/// of links.
 void Selection::spread_over_links(Node from, Node other) {
   std::vector<std::vector<std::size_t>> links_at(nodes_.size());
   std::vector<std::size_t> waiting(joined_.size());

@@ -27,7 +27,7 @@ void straighten(ImportedMesh& mesh, const int* nodes) {
 
 int straighten_inverted(ImportedMesh& mesh) {
   int count = 0;
-  // An element with straight edges is in order, so each round leaves fewer that can fail.
+  // An element with straight edges is valid, so each round leaves fewer that can fail.
   for (bool changed = true; changed;) {
     changed = false;
     for (const ImportedBlock& block : mesh.blocks) {

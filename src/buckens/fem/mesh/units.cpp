@@ -9,9 +9,9 @@ namespace buckens::fem {
 
 namespace {
 
-// Bounds beyond which a number is taken for one in another unit. Few parts are wider than 20 m, the
-// blades of wind turbines among them; parts of 20 mm and more are everyday. Parts that are meshed
-// are above half a millimetre. Rubber has 1 MPa, diamond 1.2 TPa; osmium 22 600 kg/m³, aerogels 1
+// Bounds beyond which a number is assumed to be in another unit. Few parts are wider than 20
+// m, such as blades of wind turbines; parts of 20 mm and more are common. Meshed parts are
+// above half a millimetre. Rubber has 1 MPa, diamond 1.2 TPa; osmium 22 600 kg/m³, aerogels 1
 // kg/m³.
 constexpr double kLargest = 20.0, kSmallest = 5e-4;
 constexpr double kSoftest = 5e5, kStiffest = 3e12;

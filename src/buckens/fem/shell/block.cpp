@@ -53,7 +53,7 @@ ShellVectors own_normals(const ShellVectors& x) {
   ShellVectors out(3, x.cols());
   for (Eigen::Index k = 0; k < x.cols(); ++k) out.col(k) = own_normal(x, k).normalized();
   if (!is_shell_quadratic(x.cols())) return out;
-  // Nodes near a quarter of their sides turn a corner over, or leave it without tangents.
+  // Nodes near the quarter points of their sides fold a corner over, or leave it without tangents.
   const double centre = is_shell_triangle(x.cols()) ? 1.0 / 3 : 0.0;
   const Eigen::Matrix<double, 3, 2> tangents =
       x * shell_shape(x.cols(), centre, centre).slope.transpose();
@@ -141,7 +141,7 @@ void ShellBlock::choose_directors(const std::vector<Node>& nodes) {
       Vector3d sum = Vector3d::Zero();
       for (const Corner& corner :
            at_node[static_cast<std::size_t>(at(e).nodes[static_cast<std::size_t>(k)])]) {
-        const double cosine = corner.normal.dot(n);  // negative where a neighbour is turned over
+        const double cosine = corner.normal.dot(n);  // negative if a neighbour is reversed
         if (std::abs(cosine) < kSmooth) continue;
         sum += std::copysign(corner.angle, cosine) * corner.normal;
       }

@@ -104,10 +104,10 @@ Rows<nodes> strain_rows(const Matrix3d& inverse, const SolidShape& shape) {
   return B;
 }
 
-/// The rule of the stiffness of an element. Fourteen points of a tetrahedron lie so near to its
-/// corners that those bent by a node on an edge may have some of them turned over; four points,
-/// with which other programs integrate, are enough then: they leave no motion without energy,
-/// either.
+/// The rule of the stiffness of an element. Fourteen points of a tetrahedron are so
+/// close to its corners that some may be inverted if an edge is bent by its node; four
+/// points, which other programs use, then suffice: they also leave no motion without
+/// energy.
 const ShapeRule& stiffness_rule(SolidKind kind, const NodeVectors& x) {
   static const ShapeRule four = [] {
     const double b = (5.0 - std::sqrt(5.0)) / 20.0;
@@ -178,7 +178,7 @@ double solid_least_volume(SolidKind kind, const NodeVectors& x) {
   const double in_stiffness = least_volume(stiffness_rule(kind, x), x);
   if (!(in_stiffness > 0.0)) return in_stiffness;
   const double in_mass = least_volume(mass_rule(kind), x);
-  // Points near a corner may lie outside as long as what they take away leaves every motion a mass.
+  // Points near a corner may be outside as long as every motion keeps a positive mass.
   const bool has_mass =
       in_mass > 0.0 || solid_volume_products(kind, x).llt().info() == Eigen::Success;
   return has_mass ? in_stiffness : in_mass;

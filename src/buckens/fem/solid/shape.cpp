@@ -59,8 +59,8 @@ SolidFace make_face(const std::vector<int>& corners, const SolidTopology& elemen
   return face;
 }
 
-/// A quadratic face falls into its corners, each with two mid-side nodes, and what is between the
-/// mid-side nodes.
+/// A quadratic face is divided into its corners, each with two mid-side nodes, and the area between
+/// the mid-side nodes.
 void add_pieces(const SolidFace& face, std::vector<std::array<int, 4>>& pieces) {
   const auto piece = [](const std::vector<int>& n) {
     return std::array<int, 4>{n[0], n[1], n[2], n.size() == 4 ? n[3] : -1};

@@ -181,8 +181,8 @@ void read_aligned_nodes(AbaqusReading& in, DeckRow row, const std::string& type)
   }
 }
 
-/// What does not hold a free body: the mean rotation of nodes, which only a support or a load would
-/// use, and distances that are merely bounded.
+/// What does not constrain a free body: the mean rotation of nodes, which only a support or a load
+/// would use, and distances that are only bounded.
 bool pass_over_mpc(AbaqusReading& in, DeckRow& row, const std::string& type) {
   if (type != "MEANROT" && type != "DIST") return false;
   in.note(row.place,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact that cannot open or slide holds parts together as *TIE does; other contact is passed
-// over.
+// Contact that cannot open or slide holds parts together like *TIE; other contact is
+// ignored.
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/abaqus/cards.h"

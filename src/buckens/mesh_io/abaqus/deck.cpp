@@ -84,7 +84,7 @@ class DeckReader {
   }
 
  private:
-  /// Some decks have a stray line before the first keyword; files that are no decks have many.
+  /// Some decks have a stray line before the first keyword; files that are not decks have many.
   void check_beginning() {
     DeckRow row;
     if (in_.lines.next_row(row)) before_keywords_ = row.place;

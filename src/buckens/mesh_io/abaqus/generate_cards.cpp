@@ -23,7 +23,7 @@ constexpr std::int64_t kMostMade = 50'000'000;
 constexpr int kDeepestCopied = 100;
 constexpr std::int64_t kLargestCopy = 999'999'999;
 
-/// Refuses with the way out that all keywords have.
+/// Refuses, with the remedy common to all keywords.
 [[noreturn]] void refuse_generator(AbaqusReading& in, const DeckKeyword& keyword,
                                    const std::string& what) {
   in.lines.fail(keyword.place, fmt::format("{} {}{}", keyword.written, what,

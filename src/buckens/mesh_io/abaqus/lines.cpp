@@ -115,7 +115,7 @@ void AbaqusLines::open(const fs::path& path, const DeckPlace* from) {
                               "are read",
                               stack_.size(), sources_.size(), kDeepest, kMostFiles));
     }
-    // Reading a pipe or a terminal would wait for ever.
+    // Reading a pipe or a terminal could wait forever.
     if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
       fail(*from, fmt::format("\"{}\" is not a file that can be included", path.string()));
     }

@@ -44,7 +44,7 @@ fem::ImportNote AbaqusMesh::note_at(DeckPlace place, std::string text, int count
   return {std::move(text), place.line, count};
 }
 
-/// With several instances the names of their parts would meet.
+/// With several instances the names of their parts would clash.
 std::string AbaqusMesh::prefixed(int scope, const std::string& name) const {
   if (scope == 0 || names_.scopes().size() <= 2) return name;
   return names_.scopes()[static_cast<std::size_t>(scope)].instance + "." + name;
@@ -264,7 +264,7 @@ void AbaqusMesh::add_masses(int scope) {
 void AbaqusMesh::add_sets(int scope) {
   const AbaqusScope& own = *names_.scopes()[static_cast<std::size_t>(scope)].scope;
   for (const auto& [key, set] : own.node_sets) {
-    // Also sets that are not handed on are looked at: they may refer to what is not there.
+    // Sets that are not passed on are checked as well: they may refer to missing things.
     auto nodes = names_.nodes(scope, set);
     if (!set.is_internal) out_.node_sets.push_back({prefixed(scope, set.name), std::move(nodes)});
   }

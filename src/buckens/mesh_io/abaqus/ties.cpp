@@ -170,7 +170,7 @@ void TieMaker::add(int scope, const AbaqusTie& tie) {
   }
   MasterFaces master(faces, names_.positions());
   const double reach = tie.tolerance.value_or(kTieTolerance * master.mean_size());
-  // Beyond the reach only to say how far the nodes are; rounding must not untie what touches.
+  // Beyond the reach only to report how far the nodes are; rounding must not untie what touches.
   const double slack = kNoGap * master.mean_size();
   master.index(reach + slack);
   int untied = 0, again = 0, num_tied = 0, gaps = 0, hinges = 0;

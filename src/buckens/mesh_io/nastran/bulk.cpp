@@ -52,7 +52,7 @@ const Names& harmless_names() {
   return names;
 }
 
-/// Whether a name is that of an element that the structure would lack.
+/// Whether a name is that of an element that the structure would be missing.
 bool is_unknown_element(std::string_view name) {
   const bool is_rigid = name.starts_with("RBE") || name.starts_with("CRBE") ||
                         name.starts_with("CRIG") || name == "CRBAR" || name == "CRROD" ||
@@ -60,7 +60,7 @@ bool is_unknown_element(std::string_view name) {
   return is_rigid || (name.starts_with('C') && !harmless_names().contains(name));
 }
 
-/// Cards without which the structure would be another one.
+/// Cards without which the structure would be different.
 std::string reason_to_refuse(std::string_view name) {
   static const std::map<std::string_view, const char*> reasons = {
       {"CQUAD", "hyperelastic shells are not supported; mesh with CQUAD4"},

@@ -103,14 +103,14 @@ Fields free_fields(std::string_view text) {
   return out;
 }
 
-/// Takes the mark of continuation out of a free line, if it has one.
+/// Removes the continuation mark from a free line, if it has one.
 std::string_view take_mark(const NastranLine& line, const NastranRow& row, Fields& fields) {
   const std::size_t place = row.num_data + 1;
   const auto is_sign = [&](std::string_view field) {
     return row.repeats() ? field.starts_with('+') : is_mark(field);
   };
   std::string_view mark;
-  // Behind the four of a large field a number is data that should stand on the next line.
+  // After the four of a large field a number is data that should be on the next line.
   const bool is_behind = fields.size() == place + 1 &&
                          (row.num_data == NastranRow::kSize || !nastran_real(fields.back()));
   if (is_behind || (fields.size() > 1 && is_sign(fields.back()))) {

@@ -173,8 +173,8 @@ void ScalarBuilder::add_spring(const NastranCard& card) {
   connect(ends[0], ends[1], k);
 }
 
-/// Points without mass stand still between their springs: each is replaced by springs between all
-/// its neighbours, k_a k_b / Σk.
+/// Massless points are in equilibrium between their springs: each is replaced by springs between
+/// all its neighbours, k_a k_b / Σk.
 void ScalarBuilder::eliminate_points() {
   constexpr std::size_t kMostNeighbours = 100;
   for (auto at = graph_.begin(); at != graph_.end(); at = graph_.begin()) {

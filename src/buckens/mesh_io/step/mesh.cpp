@@ -56,8 +56,8 @@ class TemporaryDirectory {
 
 constexpr unsigned kSeconds = 120;  // of computing, to read the file and glue its solids
 constexpr int kMostTimeouts = 2;    // after which no further trial begins
-// Chords of coarse meshes lose volume at curved faces, a third at four elements to a turn; edges on
-// the true surface lose next to nothing, but straightened ones can reach into a bore.
+// Chords of coarse meshes lose volume at curved faces, a third at four elements per circle; edges
+// on the true surface lose almost nothing, but straightened ones can reach into a bore.
 constexpr double kLeastFlat = 0.6, kLeastCurved = 0.97, kMostVolume = 1.03;
 
 void check_step(const std::string& text, const std::string& file) {
@@ -70,7 +70,7 @@ void check_step(const std::string& text, const std::string& file) {
                    "the STEP file is cut off: END-ISO-10303-21 is missing at its end");
 }
 
-/// What the lines of the other process say.
+/// The output lines of the other process.
 class Told {
  public:
   Told(const std::string& lines, const std::vector<std::string>& names, StepMesh& out)
@@ -163,7 +163,7 @@ class Trials {
 
  private:
   [[noreturn]] void refuse(std::string reason) const {
-    const std::size_t at = reason.find(task_.step);  // the copy is nothing to the user
+    const std::size_t at = reason.find(task_.step);  // the copy is of no interest to the user
     if (at != std::string::npos) {
       reason.replace(at, task_.step.size(), fs::path(file_).filename().string());
     }

@@ -177,7 +177,7 @@ std::string style_of(const NamedFace& face, std::size_t& next) {
       n + 6, n + 5, n + 7, n + 6, face.number);
 }
 
-// As long as each other: to move the rest of a large file for each of them would take minutes.
+// Of equal length: moving the rest of a large file for each of them would take minutes.
 constexpr std::string_view kStyled = "STYLED_ITEM", kIgnored = "IGNORED_ONE";
 static_assert(kStyled.size() == kIgnored.size());
 
@@ -230,7 +230,7 @@ ColoredStep color_named_faces(const std::string& step) {
   const std::size_t end = step.rfind("ENDSEC;");
   if (faces.empty() || context.empty() || end == std::string::npos) return {};
   out.text = step.substr(0, end);
-  // The colours that the file has itself would stand above those of names.
+  // The colours of the file itself would take precedence over those of names.
   ignore_styles(out.text);
   std::size_t next = largest + 1;
   std::string items;

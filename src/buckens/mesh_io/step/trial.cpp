@@ -33,12 +33,12 @@ constexpr int kPasses = 2;
 // Elements turned inside out for which Gmsh moves nodes at all: 1059 in a thin tube took it a
 // minute on a busy machine, and all stayed as they were.
 constexpr int kMostMoved = 300;
-// Of computing, for the mesh and again for its second order. Parts take up to 1e-4 s an element;
-// 350 000 elements where a few thousand were expected took 20 s. What takes much longer usually
+// Of processor time, for the mesh and again for its second order. Parts take up to 1e-4 s per
+// element; 350 000 elements instead of a few thousand took 20 s. What takes much longer usually
 // never ends.
 constexpr double kMeshSeconds = 100, kSecondsPerElement = 1e-3;
 
-/// Times of the parts of the work, for those who wait.
+/// Times of the parts of the work, for users who wait.
 class Watch {
  public:
   std::string lap(const char* what) {
@@ -244,7 +244,7 @@ class Trial {
     }
   }
 
-  /// The first error says what has happened, later ones what came of it.
+  /// The first error says what happened, later ones are consequences.
   std::string failure() const {
     const auto said = gmsh_.messages();
     const auto error = std::find_if(said.begin(), said.end(), [](const std::string& line) {
@@ -276,7 +276,7 @@ class Trial {
     return out;
   }
 
-  /// Elements that stay turned inside out are straightened later: no error of Gmsh ends this.
+  /// Elements that stay inverted are straightened later: Gmsh's errors are ignored here.
   void curve() {
     gmsh_.set_number("General.AbortOnError", 0);
     gmsh_.set_order(2);

@@ -45,7 +45,7 @@ class LoadBuilder {
   }
 
  private:
-  /// Forces act in the plane, torques about its normal; anything else would be dropped silently.
+  /// Forces act in the plane, torques about its normal; anything else would be silently dropped.
   /// @param R_WA axes of the load; those of a marker keep their angles with the normal
   void require_in_plane(const std::array<base::TimeLaw, 3>& value, const Matrix3d& R_WA,
                         bool moment, const Load& load, const SourceLocation& where) {

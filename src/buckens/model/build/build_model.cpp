@@ -332,8 +332,8 @@ class Builder {
     return box;
   }
 
-  /// Lets positions count from near the mechanism if it lies far away: they keep all digits that
-  /// the model file gives them, and nothing depends on the place.
+  /// Makes positions relative to an origin near the mechanism if it is far away: they keep all
+  /// digits of the model file, and nothing depends on the location.
   void move_origin(const Vector3d& centre) {
     if (centre.norm() <= kFarAway * model_.length) return;
     // Few digits, so that differences to what the model file says are exact.

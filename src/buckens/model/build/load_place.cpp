@@ -26,7 +26,7 @@ int beam_number(const std::string& text) {
 
 namespace {
 
-/// What to do where a mesh has nothing of a kind that could be named.
+/// The remedy if a mesh has nothing of a kind that could be named.
 std::string remedy_without(const std::string& kind) {
   if (kind == "face") return "select nodes of its surface by an entry under `interfaces`";
   return "define sets in the program that made the mesh, or load the whole body";

@@ -20,10 +20,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Lever arms, as shares of the model's length, that rounding of places leaves stay far below this,
-// those of a mechanism above.
+// Lever arms, as fractions of the model's length: those due to rounding of positions are far below
+// this, those of a mechanism above.
 constexpr double kNoArm = 1e-6;
-// Of the least inertia that joints may give: what stands in for a missing one makes iterations
+// Of the least inertia that joints may give: with the substitute for a missing one, iterations
 // converge by about this factor.
 constexpr double kStandIn = 1e-2;
 constexpr double kProbe = 0.1;  // rad, and rad/s
@@ -161,7 +161,7 @@ class MasslessRotations {
                     model_.bodies[b].name, text(axis), joint.name));
   }
 
-  /// What a load does, at a reaction of some size where it sees one.
+  /// The effect of a load, with a reaction of some size if it depends on one.
   loads::Action probe(const Load& load, double t, const spatial::MarkerMotion& first,
                       const spatial::MarkerMotion& second) const {
     loads::Sight sight{t, first, second, {}, {}, nullptr};
@@ -211,7 +211,7 @@ class MasslessRotations {
         try {
           largest = std::max(largest, std::abs(torque(load, b, axis, t, angle, rate, size)));
         } catch (const NumericalError&) {
-          continue;  // a law without a value there: the run says so when it comes to it
+          continue;  // a law without a value there: the run reports it when it gets there
         }
       }
       if (!(largest > kNoArm * size / kInstants)) continue;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// The choice of a basis in words: part of the key under which it is kept. It tells of everything
-/// that a basis depends on, rules that have changed included.
+/// The choice of a basis in words: part of the key under which it is kept. It includes everything
+/// that a basis depends on, including changed rules.
 std::string describe(const body::BodySpec& spec) {
   const body::ReductionSpec& r = spec.reduction;
   std::string out =

@@ -127,7 +127,7 @@ fem::Section make_section(const fem::SectionSpec& spec) {
       for (const auto& point : s.stress_points) {
         section.stress_points.emplace_back(point[0], point[1]);
       }
-      // Stress points lie where the section ends: what is around them is closer to its shape.
+      // Stress points are at the outline of the section: their hull approximates its shape.
       const fem::SectionLoop around = fem::convex_hull(section.stress_points);
       if (around.size() >= 3) section.outline = {around};
       return section;

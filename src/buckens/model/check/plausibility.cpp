@@ -92,7 +92,7 @@ class Doubts {
       body.fields(*this);
       look_at_size(body);
     } else {
-      below("at", [&] { visit(body.at); });  // the rest is said of the other body
+      below("at", [&] { visit(body.at); });  // the rest is reported for the other body
     }
   }
   template <class T>
@@ -134,7 +134,7 @@ class Doubts {
     }
   }
 
-  // ---- what is hardly meant
+  // ---- what is implausible
   void add(const std::string& key, std::string text, std::string likely,
            bool only_without_unit = false) {
     below(key, [&] {
@@ -192,7 +192,7 @@ class Doubts {
     where_ = where;
   }
 
-  /// Constants of a file are in its units, which it does not say.
+  /// Constants of a file are in its units, which it does not state.
   void look_at_file(const fem::MeshSpec& mesh) {
     for (const fem::MaterialSpec& material : mesh.imported->materials) {
       const std::size_t before = out_.size();
@@ -244,7 +244,7 @@ class Doubts {
 }  // namespace
 
 std::vector<Doubt> doubtful_values(const ModelDescription& description) {
-  ModelDescription copy = description;  // field lists give members to be filled
+  ModelDescription copy = description;  // field lists return mutable members
   return Doubts().run(copy);
 }
 

@@ -9,8 +9,8 @@ namespace buckens::model {
 
 namespace {
 
-// No measure in SI units is larger, and fourth powers of it, such as second moments of area, are
-// still numbers.
+// No quantity in SI units is larger, and its fourth powers, such as second moments of area, are
+// still finite.
 constexpr double kLargestNumber = 1e60;
 
 }  // namespace

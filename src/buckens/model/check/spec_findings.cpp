@@ -14,7 +14,7 @@ namespace buckens::model {
 namespace {
 
 constexpr double kMostSteps = 1e10;
-// Third differences of positions carry a few times their rounding.
+// Third differences of positions contain a few times their rounding.
 constexpr double kLeastTolerance = 1e-13;
 constexpr int kMostStaticPoints = 1000000;
 
