@@ -9,6 +9,8 @@
 
 #include "cli/text_table.h"
 
+#include "buckens/results/unassessed.h"
+
 namespace buckens::cli {
 
 namespace {
@@ -32,7 +34,7 @@ std::string error_text(const results::ErrorStatement& errors) {
   for (const results::ErrorSource& source : errors.sources) head.push_back(source.name);
   head.insert(head.end(), {"end", "+-", "curve +-"});
   // Uncertainties that lack a source are lower bounds.
-  const char* const sign = errors.unassessed.empty() ? "" : ">= ";
+  const char* const sign = results::unassessed(errors).empty() ? "" : ">= ";
   std::vector<std::vector<std::string>> rows = {head};
   for (const results::SensorErrors& sensor : errors.sensors) {
     const double size = std::max(std::abs(sensor.peak.value), sensor.range);

@@ -46,8 +46,6 @@ struct ErrorStatement {
   std::vector<ErrorSource> sources;
   std::vector<SensorErrors> sensors;
   std::vector<std::string> notes;  ///< what could not be assessed, and why
-  /// What no uncertainty contains, "mesh of \"plate\"": where there is any they are lower bounds.
-  std::vector<std::string> unassessed;
   bool is_complete = true;  ///< false: interrupted before all runs were made
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/base/errors.h"
+#include "buckens/results/unassessed.h"
 
 namespace buckens::run_store {
 
@@ -103,7 +104,7 @@ Json errors_json(const results::ErrorStatement& errors) {
     sensors[sensor.name] = {{"unit", sensor.unit},
                             {"resolved", sensor.is_resolved},
                             {"sampling", sensor.sampling},
-                            {"not_assessed", errors.unassessed},
+                            {"not_assessed", results::unassessed(errors)},
                             {"peak", uncertain_json(sensor.peak, errors.sources)},
                             {"final", uncertain_json(sensor.last, errors.sources)},
                             {"curve", uncertain_json(sensor.curve, errors.sources)}};

@@ -29,8 +29,6 @@ class ErrorEstimate {
   /// records.
   void add(results::ErrorSource source, const SensorCurves& further);
   void note(std::string text) { out_.notes.push_back(std::move(text)); }
-  /// Names something that no uncertainty contains.
-  void leave_out(std::string what) { out_.unassessed.push_back(std::move(what)); }
   void set_incomplete() { out_.is_complete = false; }
 
   results::ErrorStatement statement() const;

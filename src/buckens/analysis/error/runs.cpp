@@ -57,7 +57,6 @@ results::ErrorStatement state_errors(const ErrorVariants& variants, const Sensor
                                      const ErrorRunOptions& options) {
   ErrorEstimate estimate(run);
   for (const std::string& note : variants.notes) estimate.note(note);
-  for (const std::string& what : variants.unassessed) estimate.leave_out(what);
   for (std::size_t k = 0; k < variants.variants.size(); ++k) {
     const ErrorVariant& variant = variants.variants[k];
     if (options.on_begin) options.on_begin(variant.source, k, variants.variants.size());
@@ -71,13 +70,11 @@ results::ErrorStatement state_errors(const ErrorVariants& variants, const Sensor
       if (complete(source, *run.summary(), *further->summary())) {
         estimate.add(std::move(source), *further);
       } else {
-        estimate.leave_out(variant.source.name);
         estimate.note(fmt::format("{}: not assessed, {} takes {} steps in place of {}",
                                   variant.source.name, variant.source.what,
                                   further->summary()->steps, run.summary()->steps));
       }
     } catch (const std::exception& error) {
-      estimate.leave_out(variant.source.name);
       estimate.note(fmt::format("{}: not assessed, the run with {} failed: {}", variant.source.name,
                                 variant.source.what, error.what()));
     }

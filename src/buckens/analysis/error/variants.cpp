@@ -64,9 +64,9 @@ class VariantList {
         {{name, std::move(what), refinement, factor, 0, 0.0}, std::move(description)});
   }
 
+  /// Notes what no uncertainty contains, as results::unassessed() reads it.
   void leave_out(const std::string& what, const std::string& why) {
     out_.notes.push_back(what + ": " + why);
-    out_.unassessed.push_back(what);
   }
 
   /// Why the mesh of a body can be neither refined nor judged by its strains.

@@ -22,7 +22,6 @@ struct ErrorVariant {
 struct ErrorVariants {
   std::vector<ErrorVariant> variants;
   std::vector<std::string> notes;
-  std::vector<std::string> unassessed;  ///< see results::ErrorStatement
 };
 
 /// Remeshes the parts of STEP files.
