@@ -58,7 +58,7 @@ std::string text_of(const base::MarkerRef& marker) {
 }
 
 Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model) {
-  // Places of loads have markers of their own, "#load NAME", which trial runs observe
+  // Places of distributed loads have their own markers, "#load NAME", which trial runs observe
   // (analysis/choose_modes). build_model() knows them and refuses others of this kind.
   if (marker.marker.starts_with('#')) return std::nullopt;
   if (marker.is_ground()) {
