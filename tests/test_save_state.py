@@ -77,7 +77,34 @@ LAWS = SLIDER_CRANK.replace("simulation:", """  rub: {slide-friction: {joint: gu
 simulation:""", 1).replace("  sensors:", "  sensors:\n    turns: {joint-coordinate: shaft}", 1)
 
 
+# Rigid rows: a stop with impacts, friction that sticks without motion, a rope that comes taut.
+RIGID = SLIDER_CRANK.replace("simulation:", """  rub: {hinge-friction: {joint: big_end, static: 0.3, radius: 10 mm, preload: 0.1 N m, stick: rigid}}
+  buffer: {slide-stop: {joint: way, from: -20 mm, to: 20 mm, restitution: 0.6}}
+  leash: {rope: {between: [crank/shaft, ball], length: 0.48 m, restitution: 0.3}}
+simulation:""", 1).replace("joints:\n", """  ball: {rigid: {mass: 50 g, inertia: [0, 0, 1e-6]}, at: {position: ["r + L", 0, 0]}}
+joints:
+  way: {prismatic: {between: [slider, ball], axis: [1, 0, 0]}}
+""", 1)
+
+
+# A double pendulum whose elbow strikes its stop.
+ELBOW = """buckens: 1
+gravity: [0, -9.81, 0]
+planar: xy
+bodies:
+  upper: {rigid: {mass: 1 kg, com: [0.5, 0, 0], inertia: [0, 0, 0.08]}, markers: {b: {position: [1, 0, 0]}}}
+  lower: {rigid: {mass: 1 kg, com: [0.5, 0, 0], inertia: [0, 0, 0.08]}, at: {position: [1, 0, 0]}}
+joints:
+  shoulder: {revolute: {between: [ground, upper/origin]}}
+  elbow: {revolute: {between: [upper/b, lower/origin]}}
+loads: {stop: {hinge-stop: {joint: elbow, from: -40 deg, to: 60 deg, restitution: 0.5}}}
+simulation: {duration: 2 s, step: 5 ms, tolerance: 1e-4}
+output: {every: 20 ms, sensors: {elbow: {joint-coordinate: elbow}, lost: {energy: dissipated}}}
+"""
+
 CASES = {
+    "rigid rows": (model(RIGID), 0.0301),
+    "rigid rows, step control": (model(ELBOW), 1.31),
     "laws of joint coordinates": (model(LAWS), 0.0301),
     "laws, newmark": (model(LAWS, step="method: newmark"), 0.0301),
     "laws, step control": (model(LAWS, step="tolerance: 1e-4"), 0.03),

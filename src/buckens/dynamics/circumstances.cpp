@@ -26,6 +26,14 @@ spatial::Wrench reaction_of(const model::Joint& joint, const linalg::Vector& lam
   return {sum.head<3>().transpose(), sum.tail<3>().transpose()};
 }
 
+/// How the rigid row of a law stands.
+loads::RowStand stand_of(const model::Load& load, const Circumstances& around,
+                         const double* states) {
+  if (around.stands != nullptr) return (*around.stands)[static_cast<std::size_t>(load.rigid_row)];
+  if (states == nullptr) return {};
+  return {static_cast<int>(states[0]), states[1]};
+}
+
 }  // namespace
 
 Circumstances circumstances_of(const model::State& state) {
@@ -78,6 +86,7 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
   if (around.memory != nullptr && around.memory->laws.size() > 0) {
     sight.states = around.memory->laws.data() + own.first_state;
   }
+  if (own.rigid_row >= 0) sight.stand = stand_of(own, around, sight.states);
   return sight;
 }
 

@@ -12,6 +12,8 @@ struct Circumstances {
   const model::LoadInputs* inputs = nullptr;
   const model::RowMemory* memory = nullptr;  ///< as at the start of the step
   const linalg::Vector* lambda = nullptr;    ///< multipliers at the instant
+  /// Of rigid rows at the instant, one per Load::rigid_row; null: as in the memory.
+  const std::vector<loads::RowStand>* stands = nullptr;
 };
 
 /// Those of a state.

@@ -58,6 +58,7 @@ void Forces::reset(const model::Model& model) {
   active_power = 0;
   dissipation = 0;
   regimes.clear();
+  rigid.clear();
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
@@ -95,6 +96,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     out.active_power += action.active_power;
     out.dissipation += action.dissipation;
     if (load.coordinate >= 0) out.regimes.push_back(action.regime);
+    if (load.rigid_row >= 0) out.rigid.push_back(action.row);
   }
 }
 
@@ -118,6 +120,8 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
   out.rows.clear();
   out.stiffness.clear();
   out.damping.clear();
+  out.rigid.clear();
+  out.is_closed.clear();
   std::vector<loads::SoftRow>& rows = out.of_one;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
@@ -132,6 +136,8 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
       out.rows.push_back(system_row(model, load.first, first, load.second, second, row.J));
       out.stiffness.push_back(row.stiffness);
       out.damping.push_back(row.damping);
+      out.rigid.push_back(load.rigid_row);
+      out.is_closed.push_back(row.is_rigid ? 1 : 0);
     }
   }
 }

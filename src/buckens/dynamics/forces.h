@@ -14,10 +14,11 @@ struct Forces {
   std::vector<Eigen::Matrix<double, 6, 1>> frame;
   /// Per body: loads on the interface rows, num_interface_rows() each.
   std::vector<Eigen::VectorXd> interface;
-  double stored_energy = 0;  ///< in springs [J]
-  double active_power = 0;   ///< of loads and dampers [W], not counting stored energy
-  double dissipation = 0;    ///< dissipated by dampers, negative part of active_power [W]
-  std::vector<int> regimes;  ///< of laws on joint coordinates, see loads::Action::regime
+  double stored_energy = 0;            ///< in springs [J]
+  double active_power = 0;             ///< of loads and dampers [W], not counting stored energy
+  double dissipation = 0;              ///< dissipated by dampers, negative part of active_power [W]
+  std::vector<int> regimes;            ///< of laws on joint coordinates, see loads::Action::regime
+  std::vector<loads::RigidRow> rigid;  ///< one per Load::rigid_row
 
   void reset(const model::Model& model);
 };
@@ -45,6 +46,8 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 struct SoftRows {
   std::vector<SystemRow> rows;
   std::vector<double> stiffness, damping;
+  std::vector<int> rigid;              ///< Load::rigid_row, −1 of rows that give way
+  std::vector<char> is_closed;         ///< of rigid rows; false of rows that give way
   std::vector<int> regimes;            ///< as in Forces
   std::vector<loads::SoftRow> of_one;  ///< scratch
 };

@@ -7,9 +7,8 @@ namespace {
 
 double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
                    const std::vector<BodyMotion>& motions) {
-  const model::Joint& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
-  return coordinate.law.fraction(evaluate_marker(model, joint.first, motions).motion,
-                                 evaluate_marker(model, joint.second, motions).motion);
+  return coordinate.law.fraction(evaluate_marker(model, coordinate.first, motions).motion,
+                                 evaluate_marker(model, coordinate.second, motions).motion);
 }
 
 }  // namespace

@@ -36,7 +36,23 @@ JointCoordinate JointCoordinate::displacement(const Vector3d& axis_F, const Vect
   return out;
 }
 
+JointCoordinate JointCoordinate::length() {
+  JointCoordinate out;
+  out.kind_ = Kind::length;
+  return out;
+}
+
+namespace {
+/// Direction from F to M; any where they coincide.
+Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
+  const Vector3d r = M.p - F.p;
+  const double length = r.norm();
+  return length > 0.0 ? Vector3d(r / length) : Vector3d::UnitX();
+}
+}  // namespace
+
 double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) const {
+  if (kind_ == Kind::length) return (M.p - F.p).norm();
   const Vector3d axis = F.R * axis_F_;
   if (kind_ == Kind::displacement) return axis.dot(M.p - F.p) - offset_;
   const Vector3d x = F.R * x_F_;
@@ -46,6 +62,12 @@ double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) c
 
 spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const MarkerMotion& M) const {
   spatial::PairRow J = spatial::PairRow::Zero();
+  if (kind_ == Kind::length) {
+    const Vector3d n = line_of(F, M);
+    J.segment<3>(3) = -n.transpose();
+    J.segment<3>(9) = n.transpose();
+    return J;
+  }
   const Vector3d axis = F.R * axis_F_;
   if (kind_ == Kind::angle) {
     J.segment<3>(0) = -axis.transpose();
@@ -58,9 +80,28 @@ spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const Marke
   return J;
 }
 
+double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
+                             const spatial::MarkerBias& bias_F,
+                             const spatial::MarkerBias& bias_M) const {
+  if (kind_ == Kind::length) {
+    const Vector3d n = line_of(F, M);
+    const Vector3d r_dot = M.v - F.v;
+    const double length = (M.p - F.p).norm();
+    const double across = r_dot.squaredNorm() - n.dot(r_dot) * n.dot(r_dot);
+    return n.dot(bias_M.a - bias_F.a) + (length > 0.0 ? across / length : 0.0);
+  }
+  const Vector3d axis = F.R * axis_F_;
+  const Vector3d axis_rate = F.w.cross(axis);
+  if (kind_ == Kind::angle) {
+    return axis.dot(bias_M.alpha - bias_F.alpha) + axis_rate.dot(M.w - F.w);
+  }
+  const Vector3d axis_bias = bias_F.alpha.cross(axis) + F.w.cross(axis_rate);
+  return axis_bias.dot(M.p - F.p) + 2.0 * axis_rate.dot(M.v - F.v) + axis.dot(bias_M.a - bias_F.a);
+}
+
 CountedValue JointCoordinate::follow(const CountedValue& before, double fraction) const {
   CountedValue out{before.turns, fraction};
-  if (kind_ == Kind::displacement) return out;
+  if (kind_ != Kind::angle) return out;
   const double jump = fraction - before.fraction;
   if (jump > 0.5 * kTurn) --out.turns;
   if (jump < -0.5 * kTurn) ++out.turns;

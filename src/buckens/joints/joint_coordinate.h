@@ -14,11 +14,12 @@ struct CountedValue {
   double value() const;
 };
 
-/// Angle or displacement of marker M relative to marker F about or along an axis fixed in F. Both
-/// are zero as placed. The axis is also fixed in M if a joint ensures that.
+/// Angle or displacement of marker M relative to marker F about or along an axis fixed in F, both
+/// zero as placed; or the length of the line between them. The axis is also fixed in M if a joint
+/// ensures that.
 class JointCoordinate {
  public:
-  enum class Kind { angle, displacement };
+  enum class Kind { angle, displacement, length };
 
   /// @param axis_F unit vector in F, @param R_FM_placed orientation of M in F as placed
   static JointCoordinate angle(const Eigen::Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed);
@@ -26,14 +27,20 @@ class JointCoordinate {
   static JointCoordinate displacement(const Eigen::Vector3d& axis_F,
                                       const Eigen::Vector3d& r_F_placed);
 
+  static JointCoordinate length();
+
   Kind kind() const { return kind_; }
   const Eigen::Vector3d& axis() const { return axis_F_; }
 
-  /// Angle within the turn [rad], or displacement [m].
+  /// Angle within the turn [rad], displacement or length [m].
   double fraction(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
   /// J: the rate of the coordinate is J V.
   spatial::PairRow derivatives(const spatial::MarkerMotion& F,
                                const spatial::MarkerMotion& M) const;
+  /// Part of the coordinate's acceleration that does not come from those of the bodies'
+  /// coordinates.
+  double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M) const;
   /// The counted value closest to `before`.
   CountedValue follow(const CountedValue& before, double fraction) const;
 

@@ -7,6 +7,23 @@
 
 namespace buckens::loads {
 
+/// How a rigid row stands: its force, and which part of its set the force is in. Laws number the
+/// parts as they need; 0 is a row that does nothing.
+struct RowStand {
+  int regime = 0;
+  double force = 0;  ///< along the joint coordinate [N] or [N m]
+};
+
+/// A row that does not give way: while it is closed its force is whatever keeps it closed.
+struct RigidRow {
+  bool is_closed = false;
+  bool holds_position = false;  ///< otherwise its rate only
+  double gap = 0;               ///< of the position, to be closed [m] or [rad]
+  double slip = 0;              ///< of the rate, to be closed [m/s] or [rad/s]
+  double given = 0;             ///< force of a row that is not closed [N] or [N m]
+  RowStand next;                ///< where its set puts it: equal to where it stands, or a change
+};
+
 /// The effect of a force element at one configuration.
 struct Action {
   spatial::Wrench on_first;   ///< on the first marker, world components
@@ -19,14 +36,16 @@ struct Action {
   double dissipation = 0;       ///< power dissipated by dampers, negative part of active_power [W]
   double along_coordinate = 0;  ///< force along its joint coordinate [N] or [N m]
   int regime = 0;  ///< which of its tangents applies; a change makes them be formed again
+  RigidRow row{};  ///< of laws with a rigid row
 };
 
 /// A direction in which a force element resists: the generalised displacement x with ẋ = J V causes
 /// the generalised force −k x − c ẋ. Used only for the tangent of the step's iteration.
 struct SoftRow {
   spatial::PairRow J = spatial::PairRow::Zero();
-  double stiffness = 0;  ///< [N/m] or [N m/rad]
-  double damping = 0;    ///< [N s/m] or [N m s/rad]
+  double stiffness = 0;   ///< [N/m] or [N m/rad]
+  double damping = 0;     ///< [N s/m] or [N m s/rad]
+  bool is_rigid = false;  ///< closed without any give; stiffness and damping say nothing
 };
 
 /// A joint coordinate at one instant: an angle including whole turns [rad] or a displacement [m].
@@ -45,6 +64,7 @@ struct Sight {
   CoordinateMotion coordinate{};   ///< of laws on a joint coordinate
   spatial::Wrench reaction{};      ///< of the law's joint, on the second marker, world axes
   const double* states = nullptr;  ///< num_states() at the start of the step; null: all zero
+  RowStand stand{};                ///< of laws with a rigid row: as it is now
 };
 
 /// A force law between two marker frames. An applied load has the ground as its second marker.
@@ -74,6 +94,9 @@ class ForceElement {
   virtual void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
     append_soft_rows(sight.first, sight.second, rows);
   }
+
+  /// Whether its soft row is a rigid one. Its first two states are RowStand::regime and force.
+  virtual bool is_rigid() const { return false; }
 
   /// Number of states that it keeps from step to step.
   virtual int num_states() const { return 0; }

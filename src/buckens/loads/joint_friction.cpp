@@ -11,10 +11,11 @@ constexpr double kAtOnce = 1e-3;  // [s]
 
 void JointFriction::start_states(const Sight& sight, double* states) const {
   const double rate = sight.coordinate.rate;
-  if (std::abs(rate) * kAtOnce > data_.slip) states[0] = std::copysign(data_.slip, rate);
+  const double slip = bound_.data().slip;
+  if (std::abs(rate) * kAtOnce > slip) states[0] = std::copysign(slip, rate);
 }
 
-double JointFriction::load(const Sight& sight) const {
+double FrictionBound::load(const Sight& sight) const {
   const Vector3d axis = sight.first.R * axis_F_;
   const auto along = [&](const Vector3d& v) { return std::abs(v.dot(axis)); };
   const auto across = [&](const Vector3d& v) { return Vector3d(v - axis * v.dot(axis)).norm(); };
@@ -29,22 +30,49 @@ double JointFriction::load(const Sight& sight) const {
   return out;
 }
 
+double FrictionBound::coefficient(double rate) const {
+  const double slowness = data_.stribeck_rate > 0.0 ? std::abs(rate) / data_.stribeck_rate : 0.0;
+  return data_.dynamic_coefficient +
+         (data_.static_coefficient - data_.dynamic_coefficient) * std::exp(-slowness * slowness);
+}
+
 ProjectedForce JointFriction::force(const Sight& sight) const {
-  const double normal = load(sight);
-  const double rate = std::abs(sight.coordinate.rate);
-  const double slowness = data_.stribeck_rate > 0.0 ? rate / data_.stribeck_rate : 0.0;
-  const double mu =
-      data_.dynamic_coefficient +
-      (data_.static_coefficient - data_.dynamic_coefficient) * std::exp(-slowness * slowness);
+  const FrictionData& data = bound_.data();
+  const double load = bound_.load(sight);
   ProjectedForce out;
   out.is_yielding = true;
   out.strain = (sight.states != nullptr ? sight.states[0] : 0.0) + sight.coordinate.change;
-  out.highest = mu * normal + data_.preload;
+  out.highest = bound_.at(load, sight.coordinate.rate);
   out.lowest = -out.highest;
-  out.stiffness = (data_.static_coefficient * normal + data_.preload) / data_.slip;
+  out.stiffness = (data.static_coefficient * load + data.preload) / data.slip;
   // Critical for the moving inertia: sticking does not stop a vibration above its bound.
-  out.damping = 2.0 * std::sqrt(out.stiffness * data_.inertia);
-  out.outer_damping = data_.viscous;
+  out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
+  out.outer_damping = data.viscous;
+  return out;
+}
+
+void RigidFriction::start_states(const Sight& sight, double* states) const {
+  const double rate = sight.coordinate.rate;
+  states[0] = std::abs(rate) * kAtOnce <= bound_.data().slip ? 1 : rate > 0.0 ? 2 : 3;
+}
+
+RigidRow RigidFriction::row(const Sight& sight) const {
+  const double rate = sight.coordinate.rate;
+  const double load = bound_.load(sight);
+  RigidRow out;
+  out.next = sight.stand;
+  out.is_closed = sight.stand.regime <= 1;
+  out.slip = rate;
+  if (out.is_closed) {
+    const double most = bound_.at(load, 0.0);
+    if (std::abs(sight.stand.force) > most) {
+      out.next = {sight.stand.force < 0.0 ? 2 : 3, std::copysign(most, sight.stand.force)};
+    }
+    return out;
+  }
+  const double direction = sight.stand.regime == 2 ? 1.0 : -1.0;
+  out.given = -direction * bound_.at(load, rate) - bound_.data().viscous * rate;
+  if (direction * rate < 0.0) out.next = {1, out.given};
   return out;
 }
 

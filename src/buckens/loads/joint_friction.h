@@ -2,6 +2,7 @@
 #pragma once
 
 #include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/rigid_law.h"
 
 namespace buckens::loads {
 
@@ -21,6 +22,26 @@ struct FrictionData {
   double torque_radius = 0;   ///< at which sliding joints carry axial torque; 0: ignored
 };
 
+/// How much a joint resists at one instant.
+class FrictionBound {
+ public:
+  /// @param axis_F unit vector of the joint in the first marker
+  FrictionBound(const FrictionData& data, const Eigen::Vector3d& axis_F)
+      : data_(data), axis_F_(axis_F) {}
+
+  /// Resistance that the reaction causes per unit of the coefficient [N] or [N m].
+  double load(const Sight& sight) const;
+  /// μ(ξ̇): from the coefficient of sticking down to that of sliding.
+  double coefficient(double rate) const;
+  /// b = μ N + b₀ at this load and rate [N] or [N m].
+  double at(double load, double rate) const { return coefficient(rate) * load + data_.preload; }
+  const FrictionData& data() const { return data_; }
+
+ private:
+  FrictionData data_;
+  Eigen::Vector3d axis_F_;
+};
+
 /// Dry friction on a joint coordinate by elastic stick with return mapping.
 ///
 /// Within the bound b = μ N + b₀ the joint sticks by a spring that breaks away at the given slip;
@@ -29,21 +50,34 @@ struct FrictionData {
 class JointFriction final : public CoordinateLaw {
  public:
   /// @param axis_F unit vector of the joint in the first marker
-  JointFriction(const FrictionData& data, const Eigen::Vector3d& axis_F)
-      : data_(data), axis_F_(axis_F) {}
+  JointFriction(const FrictionData& data, const Eigen::Vector3d& axis_F) : bound_(data, axis_F) {}
 
   /// A joint that covers its slip within a millisecond slides from the start.
   void start_states(const Sight& sight, double* states) const override;
 
-  /// Resistance due to the reaction per unit of the coefficient [N] or [N m].
-  double load(const Sight& sight) const;
+  double load(const Sight& sight) const { return bound_.load(sight); }
 
  private:
   ProjectedForce force(const Sight& sight) const override;
   bool is_yielding() const override { return true; }
 
-  FrictionData data_;
-  Eigen::Vector3d axis_F_;
+  FrictionBound bound_;
+};
+
+/// Dry friction that sticks rigidly: a row that closes the rate of its coordinate as long as the
+/// bound admits the force. Regimes: 1 sticks; 2 and 3 slide forwards and backwards.
+class RigidFriction final : public RigidLaw {
+ public:
+  /// @param axis_F unit vector of the joint in the first marker
+  RigidFriction(const FrictionData& data, const Eigen::Vector3d& axis_F) : bound_(data, axis_F) {}
+
+  /// Sticks at rest, slides where it moves.
+  void start_states(const Sight& sight, double* states) const override;
+
+ private:
+  RigidRow row(const Sight& sight) const override;
+
+  FrictionBound bound_;
 };
 
 }  // namespace buckens::loads

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -77,11 +78,13 @@ struct SlideSpringSpec : JointLaw {
   }
 };
 
-/// Ends of the free range of a joint.
+/// Ends of the free range of a joint: elastic with a stiffness, rigid without.
 struct JointStop : JointLaw {
-  std::optional<double> from, to;  ///< [rad] or [m]
-  double stiffness = 0;            ///< [N m/rad] or [N/m]
-  double damping = 0;              ///< [N m s/rad] or [N s/m]
+  std::optional<double> from, to;     ///< [rad] or [m]
+  std::optional<double> stiffness;    ///< [N m/rad] or [N/m]
+  double damping = 0;                 ///< [N m s/rad] or [N s/m]
+  std::optional<double> restitution;  ///< of rigid stops, 0 … 1
+  std::optional<double> threshold;    ///< [rad/s] or [m/s]
 
   template <class Visitor>
   void stop_fields(Visitor& visit, bool turns) {
@@ -95,22 +98,34 @@ struct JointStop : JointLaw {
               .in(turns ? base::kAngle : base::kLength)
               .like(turns ? "90 deg" : "50 mm")
               .otherwise("no stop on this side"));
-    visit(base::field("stiffness", stiffness, "of the stops")
+    visit(base::field("stiffness", stiffness, "of elastic stops")
               .in(turns ? base::kRotationalStiffness : base::kStiffness)
-              .required()
               .positive()
-              .like(turns ? "1e4 N m/rad" : "1e6 N/m"));
+              .like(turns ? "1e4 N m/rad" : "1e6 N/m")
+              .otherwise("the stops are rigid"));
     visit(base::field("damping", damping,
-                      "of the stops; its force is at most that of their stiffness")
+                      "of elastic stops; its force is at most that of their stiffness")
               .in(turns ? base::kRotationalDamping : base::kDamping)
               .non_negative()
               .like(turns ? "10 N m s/rad" : "100 N s/m"));
+    visit(base::field("restitution", restitution,
+                      "share of the speed of approach with which a rigid stop is left again, 0 … 1")
+              .non_negative()
+              .like("0.4")
+              .otherwise("0: it stays there until it is pulled off"));
+    visit(base::field("threshold", threshold,
+                      "speed of approach up to which a rigid stop is not left again")
+              .in(turns ? base::kAngularVelocity : base::kVelocity)
+              .positive()
+              .like(turns ? "1e-3 rad/s" : "1 mm/s")
+              .otherwise(turns ? "1e-3 rad/s" : "a thousandth of the model's size per second"));
   }
 };
 
 struct HingeStopSpec : JointStop {
   static constexpr const char* kKey = "hinge-stop";
-  static constexpr const char* kDoc = "elastic stops of the angle of a joint, which never pull";
+  static constexpr const char* kDoc =
+      "elastic or rigid stops of the angle of a joint, which never pull";
   static constexpr bool kTurns = true;
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -121,13 +136,18 @@ struct HingeStopSpec : JointStop {
 struct SlideStopSpec : JointStop {
   static constexpr const char* kKey = "slide-stop";
   static constexpr const char* kDoc =
-      "elastic stops of the displacement of a joint, which never pull";
+      "elastic or rigid stops of the displacement of a joint, which never pull";
   static constexpr bool kTurns = false;
   template <class Visitor>
   void fields(Visitor& visit) {
     stop_fields(visit, kTurns);
   }
 };
+
+/// How dry friction sticks.
+enum class FrictionStick { elastic, rigid };
+
+constexpr std::array<const char*, 2> choice_names(FrictionStick) { return {"elastic", "rigid"}; }
 
 /// Dry friction, from the joint's own reaction.
 struct JointFrictionBase : JointLaw {
@@ -137,7 +157,8 @@ struct JointFrictionBase : JointLaw {
   double viscous = 0;              ///< [N m s/rad] or [N s/m]
   double preload = 0;              ///< [N m] or [N]
   std::optional<double> slip;      ///< [rad] or [m]
-  std::optional<double> length;    ///< of the bearing [m]
+  FrictionStick stick = FrictionStick::elastic;
+  std::optional<double> length;  ///< of the bearing [m]
 
   template <class Visitor>
   void law_fields(Visitor& visit, bool turns) {
@@ -168,6 +189,9 @@ struct JointFrictionBase : JointLaw {
               .positive()
               .like(turns ? "1e-5 rad" : "1 um")
               .otherwise(turns ? "1e-5 rad" : "1e-6 of the size of the model"));
+    visit(base::field("stick", stick,
+                      "by a stiff spring that breaks away at `slip` (`elastic`), or without any "
+                      "motion (`rigid`)"));
     visit(base::field("bearing-length", length,
                       "length over which bending moments are carried by a pair of opposite forces")
               .in(base::kLength)

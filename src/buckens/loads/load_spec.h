@@ -15,6 +15,7 @@
 #include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/load_axes.h"
 #include "buckens/loads/load_fields.h"
+#include "buckens/loads/rope_spec.h"
 
 namespace buckens::loads {
 
@@ -120,7 +121,8 @@ struct LoadSpec {
   SourceLocation where;
   std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec, PressureSpec,
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
-               SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec>
+               SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
+               RopeSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -17,6 +17,16 @@ int Model::num_law_states() const {
   return sum;
 }
 
+int Model::num_rigid_rows() const {
+  return static_cast<int>(std::count_if(loads.begin(), loads.end(),
+                                        [](const Load& load) { return load.rigid_row >= 0; }));
+}
+
+const Load& Model::load_of_rigid_row(int row) const {
+  return *std::find_if(loads.begin(), loads.end(),
+                       [&](const Load& load) { return load.rigid_row == row; });
+}
+
 std::pair<const Joint*, int> Model::owner_of_row(int row) const {
   const auto next = std::upper_bound(joints.begin(), joints.end(), row,
                                      [](int r, const Joint& j) { return r < j.first_row; });

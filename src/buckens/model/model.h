@@ -39,9 +39,10 @@ struct Joint {
   bool is_tie = false;
 };
 
-/// A joint coordinate that a force law or a sensor needs.
+/// A coordinate between two markers that a force law or a sensor needs.
 struct Coordinate {
-  int joint = 0;  ///< index into Model::joints; its markers are those of the coordinate
+  int joint = -1;  ///< index into Model::joints of the joint that it belongs to, −1: none
+  MarkerId first, second;
   joints::JointCoordinate law;
 };
 
@@ -73,6 +74,7 @@ struct Load {
   int joint = -1;                ///< whose reaction it depends on, −1: none
   int coordinate = -1;           ///< index into Model::coordinates on which it acts, −1: none
   int first_state = 0;           ///< its own states in RowMemory::laws
+  int rigid_row = -1;            ///< its number among the rigid rows of the model, −1: none
   /// Interface row of the first body along which Action::along_pattern acts, −1: none.
   int pattern_row = -1;
   std::optional<LoadRegion> region;  ///< of distributed loads
@@ -99,6 +101,8 @@ struct Model {
 
   int num_constraint_rows() const;
   int num_law_states() const;
+  int num_rigid_rows() const;
+  const Load& load_of_rigid_row(int row) const;
   /// Joint and row within it that own a row of λ.
   std::pair<const Joint*, int> owner_of_row(int row) const;
   int find_body(const std::string& name) const;

@@ -46,7 +46,7 @@ struct ErrorStatement {
   std::vector<ErrorSource> sources;
   std::vector<SensorErrors> sensors;
   std::vector<std::string> notes;  ///< what could not be assessed, and why
-  bool is_complete = true;  ///< false: interrupted before all runs were made
+  bool is_complete = true;         ///< false: interrupted before all runs were made
 };
 
 }  // namespace buckens::results

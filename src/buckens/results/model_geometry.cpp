@@ -265,9 +265,12 @@ Geometry model_geometry(const model::Model& model) {
   }
   for (const model::Load& load : model.loads) {
     // What acts on a joint's coordinate is where the joint is drawn.
-    if (load.element->num_soft_rows() == 0 || load.coordinate >= 0) continue;
+    const bool is_rope = load.kind == loads::RopeSpec::kKey;
+    if (load.element->num_soft_rows() == 0 || (load.coordinate >= 0 && !is_rope)) continue;
     out.joints.push_back({load.name,
-                          load.is_among_joints ? load.kind : "spring-damper",
+                          load.is_among_joints ? load.kind
+                          : is_rope            ? joints::to_string(joints::JointType::distance)
+                                               : "spring-damper",
                           {side_of(model, load.first), side_of(model, load.second)},
                           Vector3d::UnitZ()});
   }

@@ -107,18 +107,13 @@ struct MonolithicStepper::Part {
   }
 };
 
-/// Derivative with respect to a velocity-carrying unknown, and its place among the corrections.
-struct MonolithicStepper::Entry {
-  int column, correction_column;
-  double value;
-};
-
 MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettings& settings,
                                      std::vector<int> rows_in_use)
     : model_(model),
       settings_(settings),
       scheme_(settings.method, settings.step, settings.method_parameter()),
-      rows_in_use_(std::move(rows_in_use)) {
+      rows_in_use_(std::move(rows_in_use)),
+      rigid_(model) {
   const auto take = [this](Eigen::Index count) {
     const int first = size_;
     size_ += static_cast<int>(count);
@@ -136,6 +131,8 @@ MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettin
   }
   first_lambda_ = take(static_cast<Eigen::Index>(rows_in_use_.size()));
   first_correction_ = take(static_cast<Eigen::Index>(rows_in_use_.size()));
+  first_rigid_ = take(model.num_rigid_rows());
+  first_rigid_correction_ = take(model.num_rigid_rows());
 }
 
 MonolithicStepper::~MonolithicStepper() = default;
@@ -149,6 +146,10 @@ void MonolithicStepper::start(const model::State& state) {
   lambda_ = state.lambda;
   inputs_ = state.inputs;
   memory_ = state.memory;
+  rigid_.start(memory_);
+  for (std::size_t k = 0; k < rigid_.stands().size(); ++k) {
+    z_[first_rigid_ + static_cast<int>(k)] = scheme_.force * rigid_.stands()[k].force;
+  }
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     z_[first_lambda_ + static_cast<int>(k)] = scheme_.force * lambda_[rows_in_use_[k]];
   }
@@ -330,6 +331,7 @@ void MonolithicStepper::fixed_corrections() {
 
 void MonolithicStepper::follow_regimes() {
   if (correcting_.regimes == soft_.regimes) return;
+  correcting_.is_closed = soft_.is_closed;
   correcting_.stiffness = soft_.stiffness;
   correcting_.damping = soft_.damping;
   correcting_.regimes = soft_.regimes;
@@ -340,6 +342,7 @@ void MonolithicStepper::fixed_part() {
   fixed_.clear();
   for (const auto& part : parts_) fixed_body(*part);
   fixed_corrections();
+  fixed_rigid_corrections();
   fixed_matrix_.resize(size_, size_);
   fixed_matrix_.setFromTriplets(fixed_.begin(), fixed_.end());
 }
@@ -409,6 +412,7 @@ Vector MonolithicStepper::residual() const {
     r[first_lambda_ + static_cast<int>(k)] = end_.g_dot[row] / scheme_.end_rate;
     if (corrects_positions()) r[first_correction_ + static_cast<int>(k)] = end_.g[row];
   }
+  rigid_residual(r);
   return r;
 }
 
@@ -439,6 +443,11 @@ double MonolithicStepper::apply(const Vector& change, double& motion) {
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     lambda_[rows_in_use_[k]] = z_[first_lambda_ + static_cast<int>(k)] / scheme_.force;
   }
+  for (std::size_t k = 0; k < rigid_.stands().size(); ++k) {
+    const int row = static_cast<int>(k);
+    if (!forces_.rigid[k].is_closed) continue;
+    rigid_.add_force(row, z_[first_rigid_ + row] / scheme_.force - rigid_.stands()[k].force);
+  }
   return largest;
 }
 
@@ -448,6 +457,7 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
     follow_regimes();
     std::vector<Triplet> all = fixed_;
     tangent(all);
+    rigid_tangent(all);
     SparseMatrix A(size_, size_);
     A.setFromTriplets(all.begin(), all.end());
     Eigen::SparseLU<SparseMatrix> lu(A);
@@ -463,9 +473,12 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
     for (const auto& part : parts_) update_coupling(*part);
     evaluate(t);
     // Rounding of positions limits what can be reached; slow convergence is not mistaken for it.
-    if (change <= settings_.newton_tolerance * motion + 1e-15 * model_.length) return;
-    if (before > 0 && change > 0.9 * before && change <= 1e-11 * model_.length) return;
-    before = change;
+    const bool is_settled =
+        change <= settings_.newton_tolerance * motion + 1e-15 * model_.length ||
+        (before > 0 && change > 0.9 * before && change <= 1e-11 * model_.length);
+    if (is_settled && !move_rigid_rows()) return;
+    if (is_settled) evaluate(t);
+    before = is_settled ? 0 : change;
   }
   throw NumericalError(
       fmt::format("step at t = {:.6g} s failed: the monolithic iteration does not converge within "

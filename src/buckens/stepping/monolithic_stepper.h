@@ -7,6 +7,7 @@
 #include <Eigen/SparseLU>
 
 #include "buckens/dynamics/forces.h"
+#include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/scheme.h"
 #include "buckens/stepping/step_settings.h"
 
@@ -21,6 +22,9 @@ namespace buckens::stepping {
 ///
 ///     W u − Gᵀλ = …     K̂ Δ + k K η − PΛ − NᵀGᵀλ = …     PᵀΔ = …     ġ(end) = 0
 ///     W κ − GᵀE = 0     K̂ η − PΛ_η − NᵀGᵀE = 0           Pᵀη = 0     g(end) = 0
+///
+/// Closed rigid rows of force laws go with the joints. Impacts are not its business: a state that
+/// they change can be given to it.
 ///
 /// No sieve, no interface compliance, no condensation: it shares the physics (dynamics) and the
 /// coefficients of the method (Scheme) with Stepper, and must arrive at the same state. Coupling
@@ -41,11 +45,17 @@ class MonolithicStepper {
   const Scheme& scheme() const { return scheme_; }
 
  private:
-  struct Part;   // one body: its unknowns and its motion within the step
-  struct Entry;  // one derivative of a scalar with respect to one unknown
+  struct Part;  // one body: its unknowns and its motion within the step
+  /// Derivative with respect to a velocity-carrying unknown, and its place among the corrections.
+  struct Entry {
+    int column, correction_column;
+    double value;
+  };
 
   bool corrects_positions() const;
-  dynamics::Circumstances around() const { return {&inputs_, &memory_, &lambda_}; }
+  dynamics::Circumstances around() const {
+    return {&inputs_, &memory_, &lambda_, &rigid_.stands()};
+  }
   void start(const model::State& state);
   void predict(double t);
   void evaluate(double t);
@@ -54,6 +64,11 @@ class MonolithicStepper {
   void fixed_part();
   void fixed_body(const Part& part);
   void fixed_corrections();
+  void fixed_rigid_corrections();
+  void rigid_tangent(std::vector<linalg::Triplet>& out) const;
+  void rigid_residual(linalg::Vector& r) const;
+  /// Rigid rows go where their sets put them. @return whether any did
+  bool move_rigid_rows();
   /// Forms the fixed part again if a force law has changed its regime since.
   void follow_regimes();
   void add_product(const std::vector<Entry>& row, const std::vector<Entry>& column, double factor,
@@ -71,6 +86,8 @@ class MonolithicStepper {
   std::vector<int> rows_in_use_;
   std::vector<std::unique_ptr<Part>> parts_;
   int first_lambda_ = 0, first_correction_ = 0, size_ = 0;
+  int first_rigid_ = 0, first_rigid_correction_ = 0;
+  RigidRows rigid_;
   linalg::Vector z_;                    // all unknowns
   linalg::Vector lambda_;               // [N, N m]
   std::vector<linalg::Triplet> fixed_;  // what does not change within a step

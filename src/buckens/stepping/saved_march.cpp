@@ -135,6 +135,7 @@ void TimeMarch::visit_saved(const base::SaveVisit& visit) {
   visit.count("rung", k_, 0, shortest());
   visit.number("spread", spread_);
   visit.flag("has_begun", has_begun_);
+  visit.flag("has_restarted", has_restarted_);
   visit.count("accepted", report_.accepted, 0, kMostCounted);
   visit.count("rejected", report_.rejected, 0, kMostCounted);
   visit.count("failed", report_.failed, 0, kMostCounted);

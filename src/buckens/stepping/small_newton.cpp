@@ -37,6 +37,11 @@ constexpr double kStalled = 1e-11;
 constexpr double kStalledFarAway = 1e-14;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
+// A closed rigid row gives by this share of its own compliance, so that two that hold the same
+// leave the matrix regular. Residuals are closed exactly all the same.
+constexpr double kGive = 1e-10;
+constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
+
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
 template <class F>
 void for_other_rows(const std::vector<int>& rows_in_use, Eigen::Index count, F&& f) {
@@ -61,6 +66,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       answers_(std::move(answers)),
       rows_in_use_(std::move(rows_in_use)),
       watch_(model),
+      rigid_(model),
       rounding_length_(model.length),
       joints_(model) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
@@ -78,6 +84,13 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
     correction_[b].interface_load.setZero(rows);
     response_[b].interface_load.setZero(rows);
   }
+}
+
+void SmallNewton::use(const dynamics::Circumstances& around) {
+  around_ = around;
+  if (rigid_.empty()) return;
+  rigid_.start(*around.memory);
+  around_.stands = &rigid_.stands();
 }
 
 dynamics::SystemRow SmallNewton::without_rates(dynamics::SystemRow row) const {
@@ -186,6 +199,13 @@ void SmallNewton::set_soft_rows() {
   soft_compliance_.clear();
   soft_stiffness_share_.clear();
   for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    if (soft_.is_closed[k]) {
+      condensation_->set_row(static_cast<int>(rows_in_use_.size() + k),
+                             without_rates(soft_.rows[k]), soft_.rows[k]);
+      soft_compliance_.push_back(kGive * own_compliance(soft_.rows[k], compliance_));
+      soft_stiffness_share_.push_back(0.0);
+      continue;
+    }
     const double elastic = scheme_.weight * soft_.stiffness[k];
     const double k_eff = elastic + scheme_.mean_rate * soft_.damping[k];
     condensation_->set_row(static_cast<int>(rows_in_use_.size() + k),
@@ -222,6 +242,19 @@ bool SmallNewton::condense(double t) {
   return condensation_->factorise(compliance_, soft_compliance_);
 }
 
+const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
+  if (!soft_.is_closed[soft]) return nullptr;
+  return &forces_.rigid[static_cast<std::size_t>(soft_.rigid[soft])];
+}
+
+bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
+  if (rigid_.empty() || !rigid_.move(forces_.rigid)) return false;
+  if (rigid_.num_moves() > kMostMoves) {
+    fail(t, report, "rigid stops, or friction that holds rigidly, find no state that all admit");
+  }
+  return true;
+}
+
 bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
   if (forces_.regimes == soft_.regimes) return true;
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
@@ -230,6 +263,7 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   std::swap(soft_.stiffness, soft_now_.stiffness);
   std::swap(soft_.damping, soft_now_.damping);
   std::swap(soft_.regimes, soft_now_.regimes);
+  std::swap(soft_.is_closed, soft_now_.is_closed);
   set_soft_rows();
   for (BodyStep& body : bodies) body.drop_correction();
   if (!condensation_->factorise(compliance_, soft_compliance_)) {
@@ -282,6 +316,11 @@ void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
       const int row = rows_in_use_[static_cast<std::size_t>(k)];
       E_[k] = residuals_.g_dot[row] / scheme_.end_rate - residuals_.g[row];
     }
+    for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+      const loads::RigidRow* row = closed_row(k);
+      if (row == nullptr || !row->holds_position) continue;
+      E_[in_use + static_cast<Eigen::Index>(k)] = row->slip / scheme_.end_rate - row->gap;
+    }
     condensation_->solve_in_place(E_);
   }
   condensation_->gather(E_, correction_);
@@ -311,6 +350,10 @@ void SmallNewton::solve_multipliers() {
       X_[row] -= soft_stiffness_share_[k] * corrected_[row];
     }
   }
+  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    const loads::RigidRow* row = closed_row(k);
+    if (row != nullptr) X_[in_use + static_cast<Eigen::Index>(k)] -= row->slip / scheme_.end_rate;
+  }
   condensation_->solve_in_place(X_);
   condensation_->gather(X_, response_);
 }
@@ -327,6 +370,11 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
   }
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     lambda[rows_in_use_[k]] += X_[static_cast<Eigen::Index>(k)] / scheme_.force;
+  }
+  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    if (!soft_.is_closed[k]) continue;
+    const auto row = static_cast<Eigen::Index>(rows_in_use_.size() + k);
+    rigid_.add_force(soft_.rigid[k], X_[row] / scheme_.force);
   }
   return change;
 }
@@ -375,8 +423,13 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     evaluate(bodies, t, lambda);
     record_residuals(report);
     if (before.size > 0.0) contraction_ = change.size / before.size;
-    if (regimes_hold(bodies, t, report)) {
-      if (settled(change, before)) break;
+    bool are_formed = regimes_hold(bodies, t, report);
+    if (are_formed && settled(change, before)) {
+      if (!move_rigid_rows(t, report)) break;
+      evaluate(bodies, t, lambda);
+      are_formed = regimes_hold(bodies, t, report);
+    }
+    if (are_formed) {
       before = change;
     } else {
       evaluate(bodies, t, lambda);

@@ -9,6 +9,7 @@
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/stepping/body_iteration.h"
+#include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
 
@@ -31,7 +32,12 @@ class SmallNewton {
               std::vector<const BodyAnswer*> answers, std::vector<int> rows_in_use);
 
   /// What force laws may use in the next step; must outlive it. λ is read as it is iterated.
-  void use(const dynamics::Circumstances& around) { around_ = around; }
+  /// Rigid rows begin as the memory says.
+  void use(const dynamics::Circumstances& around);
+  /// The same with the stands of rigid rows as iterated.
+  const dynamics::Circumstances& around() const { return around_; }
+  /// Whether rigid rows stand otherwise than at the start of the step.
+  bool rigid_rows_changed() const { return rigid_.have_changed(); }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
   void prepare(std::vector<BodyStep>& bodies, double t);
@@ -92,6 +98,10 @@ class SmallNewton {
   /// Passes the derivatives at this configuration to the condensation, soft rows last.
   void set_joint_rows(double t);
   void set_soft_rows();
+  /// The rigid row at a place among the soft ones if it is closed, else null.
+  const loads::RigidRow* closed_row(std::size_t soft) const;
+  /// Moves rigid rows to where their sets put them, once all else is settled. @return whether any
+  bool move_rigid_rows(double t, const StepReport& report);
   /// Forms the matrix again if a force law has changed its regime since. Position corrections are
   /// then undone: they weigh soft rows, and belong to one matrix. @return false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
@@ -120,6 +130,7 @@ class SmallNewton {
   RowWatch watch_;
   bool has_quasi_static_ = false;
   dynamics::Circumstances around_;
+  RigidRows rigid_;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()

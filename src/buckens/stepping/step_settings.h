@@ -44,6 +44,12 @@ struct StepReport {
   double opening_rate = 0;     ///< [1/s]
   int most_open_row = -1;      ///< of λ, where the opening is largest
   double coupling_change = 0;  ///< last relative change of the coupling load
+  int impacts = 0;             ///< against rigid stops
+  double impact_loss = 0;      ///< energy lost in them [J]
+  double impact_rest = 0;      ///< from their mean instant to the end of the step [s]
+  /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:
+  /// by impacts, or by rigid rows that now hold otherwise.
+  bool must_settle = false;
 };
 
 }  // namespace buckens::stepping

@@ -11,6 +11,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/row_memory.h"
+#include "buckens/spatial/rotation.h"
 #include "buckens/stepping/change_of_step.h"
 #include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/step_failure.h"
@@ -120,6 +121,7 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
                                         : nullptr);
     views.push_back(operators_.back().get());
   }
+  impacts_ = std::make_unique<Impacts>(model, scheme_, views);
   newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
                                           std::move(rows_in_use));
   gaps_.resize(bodies_.size());
@@ -248,8 +250,8 @@ void Stepper::form_next_state(const model::State& state) {
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.inputs = state.inputs;
-  dynamics::advance_memory(model_, newton_->motions_at_end(), next.t,
-                           {&state.inputs, &state.memory, &lambda_}, next.memory);
+  dynamics::advance_memory(model_, newton_->motions_at_end(), next.t, newton_->around(),
+                           next.memory);
   for_bodies([&](std::size_t b) {
     const model::BodyState& old = state.bodies[b];
     model::BodyState& s = next.bodies[b];
@@ -271,6 +273,47 @@ void Stepper::form_next_state(const model::State& state) {
         is_frame_finite(next.bodies[b]) && (!large_[b] || large_[b]->step.is_finite());
     if (!is_finite) fail_infinite(model_.bodies[b], next.t);
   }
+}
+
+void Stepper::take_impacts(StepReport& report) {
+  if (!impacts_->can_happen()) return;
+  std::vector<dynamics::BodyMotion> motions = newton_->motions_at_end();
+  if (!impacts_->find(motions, bodies_, newton_->rows_in_use(), newton_->around(), next_.t)) return;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) add_jump(b, impacts_->jumps()[b], motions[b]);
+  model::RowMemory memory;
+  dynamics::advance_memory(model_, motions, next_.t, newton_->around(), memory);
+  for (const Impacts::Landing& landing : impacts_->landings()) {
+    const model::Load& load = model_.load_of_rigid_row(landing.rigid_row);
+    memory.laws[load.first_state] = landing.regime;
+    if (landing.regime == 0) memory.laws[load.first_state + 1] = 0.0;
+  }
+  next_.memory = std::move(memory);
+  next_.history = 0;  // what coupling loads were no longer tells what they will be
+  report.impacts = impacts_->count();
+  report.impact_loss = impacts_->loss();
+  report.impact_rest = impacts_->rest();
+  report.must_settle = true;
+}
+
+void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion) {
+  model::BodyState& s = next_.bodies[b];
+  s.frame.w += jump.velocity.head<3>();
+  s.frame.v += jump.velocity.tail<3>();
+  s.frame.X_WB.p += jump.shift.tail<3>();
+  s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(jump.shift.head<3>())).normalized();
+  motion.frame = s.frame;
+  if (!large_[b] || operators_[b]->is_quasi_static()) return;
+  // c G f answers a load f; an impulse is answered by k₀ G.
+  const auto add = [&](const Eigen::VectorXd& impulse, linalg::Vector& nodal) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(operators_[b]->num_rows());
+    load.head(impulse.size()) = scheme_.acceleration_rate * impulse;
+    operators_[b]->add_answer(load, 0, nodal);
+  };
+  add(jump.impulse, s.d_dot);
+  add(jump.impulse_time, s.d);
+  const auto& N = operators_[b]->N();
+  motion.y.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d;
+  motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot;
 }
 
 void Stepper::take_over_coupling() {
@@ -313,6 +356,9 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   next_.bodies.resize(bodies_.size());
   newton_->use({&state.inputs, &state.memory, &lambda_});
   start_bodies(state);
+  if (impacts_->can_happen()) {
+    impacts_->start(dynamics::motions_of(model_, state), state.memory);
+  }
   double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {
     compute_round(state, round == 0, report);
@@ -335,6 +381,8 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
     take_over_coupling();
   }
   form_next_state(state);
+  report.must_settle = newton_->rigid_rows_changed();
+  take_impacts(report);
   stepped_to_ = next_.t;
   has_stepped_ = true;
   std::swap(end, next_);  // the buffers of `end` are reused in the next step

@@ -7,6 +7,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/impacts.h"
 #include "buckens/stepping/lagged_coupling.h"
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
@@ -71,6 +72,8 @@ class Stepper {
   /// Bytes that one pass over the factors of all bodies reads.
   double factor_bytes() const;
   const Scheme& scheme() const { return scheme_; }
+  /// Joint rows in use at the last step.
+  const std::vector<int>& rows_in_use() const { return newton_->rows_in_use(); }
   /// How often the joint equations in use were changed.
   int num_row_selections() const { return newton_->num_selections(); }
 
@@ -90,6 +93,9 @@ class Stepper {
   void compute_round(const model::State& state, bool is_first, StepReport& report);
   bool coupling_settled(const model::State& state, StepReport& report);
   void form_next_state(const model::State& state);
+  /// Lets what has run into rigid stops leave them again, at the end of the step.
+  void take_impacts(StepReport& report);
+  void add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion);
   void group_factors();
   /// Calls f(b) for every body, in parallel where that pays; results must not depend on the order.
   template <class F>
@@ -100,6 +106,7 @@ class Stepper {
   Scheme scheme_;
   std::vector<std::unique_ptr<BodyStepOperator>> operators_;
   std::unique_ptr<SmallNewton> newton_;
+  std::unique_ptr<Impacts> impacts_;
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<Large>> large_;
   std::vector<FactorGroup> groups_;

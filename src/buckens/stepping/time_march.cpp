@@ -37,6 +37,7 @@ TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vect
       ladder_(model, with_longest_step(std::move(settings), march), std::move(rows_in_use)),
       model_(model),
       end_(march.longest_steps * kTicks),
+      has_rigid_rows_(model.num_rigid_rows() > 0),
       accepted_(kShortestRung + 1, 0) {
   if (march.tolerance) error_.emplace(model, *march.tolerance);
 }
@@ -53,6 +54,7 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
+  rejected_ratio_ = 0;
   spread_ = std::max(next_step(), kFade * spread_);
   for (;;) {
     Stepper& stepper = ladder_.rung(k_);
@@ -68,10 +70,14 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
       shorten(1);
       continue;
     }
-    if (!is_admitted(after, stepper.scheme())) continue;
+    // No smooth curve leads through an impact or a row that lets go; its instant is found within
+    // the step. The step after it closes what the impact has left open of the positions.
+    const bool is_smooth = !report.must_settle && !has_restarted_;
+    if (is_smooth && !is_admitted(after, stepper.scheme())) continue;
     ticks_ += kTicks >> k_;
     after.t = time();
-    if (error_) error_->accept(after);
+    if (error_) has_restarted_ ? error_->start(after) : error_->accept(after);
+    has_restarted_ = false;
     ++report_.accepted;
     ++accepted_[static_cast<std::size_t>(k_)];
     choose_next();
@@ -79,10 +85,22 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
   }
 }
 
+void TimeMarch::restart(const model::State& state) {
+  if (!error_) return;
+  error_->start(state);
+  has_restarted_ = true;
+}
+
 bool TimeMarch::is_admitted(const model::State& after, const Scheme& scheme) {
   if (!error_) return true;
   estimate_ = error_->estimate(after, scheme, spread_ / march_.duration);
   if (estimate_.ratio <= 1.0) return true;
+  // What shorter steps do not reduce is a jump, and rigid rows make some.
+  const double before = std::exchange(rejected_ratio_, estimate_.ratio);
+  if (has_rigid_rows_ && before > 0.0 && estimate_.ratio >= before) {
+    has_restarted_ = true;
+    return true;
+  }
   ++report_.rejected;
   const double wanted = std::log2(estimate_.ratio / kAim) / std::log2(kPerHalving);
   shorten(wanted < kMostAtOnce ? std::max(1, static_cast<int>(std::ceil(wanted))) : kMostAtOnce);

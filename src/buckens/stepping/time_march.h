@@ -55,6 +55,10 @@ class TimeMarch {
   /// @throws NumericalError naming the joint or body that resists, or whose error stays too large
   StepReport advance(const model::State& before, model::State& after);
 
+  /// To be called where `state`, the end of the last step, was given other accelerations: what the
+  /// error estimate knows of the past ends there.
+  void restart(const model::State& state);
+
   bool is_controlled() const { return error_.has_value(); }
   bool is_done() const { return ticks_ >= end_; }
   double longest_step() const { return ladder_.step(0); }
@@ -86,10 +90,13 @@ class TimeMarch {
   std::optional<LocalError> error_;
   ErrorEstimate estimate_;
   bool has_begun_ = false;
+  bool has_restarted_ = false;  ///< at the end of the last step
   int k_ = 0;
   double spread_ = 0;         ///< time whose share of the tolerance the next step may use [s]
   long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step
   MarchReport report_;
+  bool has_rigid_rows_ = false;
+  double rejected_ratio_ = 0;   ///< of the error, in the trial before of the step being tried
   std::vector<long> accepted_;  ///< per k
   std::string first_failure_;   ///< of the step being tried
   int first_failed_ = 0;        ///< its k

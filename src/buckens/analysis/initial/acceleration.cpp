@@ -55,7 +55,7 @@ class Accelerations {
   void start() {
     const auto motions = dynamics::motions_of(model_, state_);
     dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
-    bias_ = dynamics::constraint_bias(model_, motions, state_.t);
+    find_rows(motions);
     dynamics::evaluate_forces(model_, motions, state_.t, dynamics::circumstances_of(state_),
                               forces_);
     bodies_.resize(model_.bodies.size());
@@ -85,15 +85,41 @@ class Accelerations {
       bodies_[b].nodal = bodies_[b].nodal_static;
     }
     compliance_ = metric_.full(J);
-    for (const int row : rows_in_use_) {
-      rows_.push_back(constraints_.rows[static_cast<std::size_t>(row)]);
-    }
     condensation_.emplace(static_cast<int>(bodies_.size()), rows_);
     if (!condensation_->factorise(rows_, rows_, compliance_, {})) {
       throw NumericalError(
           "the joint equations are dependent in the initial position (a dead centre); start "
           "elsewhere");
     }
+  }
+
+  /// Joint rows in use, then the closed rigid rows of force laws, whose forces are to be found.
+  void find_rows(const std::vector<dynamics::BodyMotion>& motions) {
+    const Vector bias = dynamics::constraint_bias(model_, motions, state_.t);
+    for (const int row : rows_in_use_) {
+      rows_.push_back(constraints_.rows[static_cast<std::size_t>(row)]);
+      bias_.push_back(bias[row]);
+    }
+    if (model_.num_rigid_rows() == 0) return;
+    dynamics::SoftRows soft;
+    dynamics::evaluate_soft_rows(model_, motions, state_.t, dynamics::circumstances_of(state_),
+                                 soft);
+    for (std::size_t k = 0; k < soft.rows.size(); ++k) {
+      if (!soft.is_closed[k]) continue;
+      const model::Load& load = model_.load_of_rigid_row(soft.rigid[k]);
+      rows_.push_back(soft.rows[k]);
+      bias_.push_back(bias_of(load, motions));
+      closed_.push_back(load.first_state + 1);
+      state_.memory.laws[closed_.back()] = 0.0;
+    }
+  }
+
+  double bias_of(const model::Load& load, const std::vector<dynamics::BodyMotion>& motions) const {
+    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
+    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+    return model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.bias(
+        first.motion, second.motion, dynamics::evaluate_bias(model_, load.first, motions),
+        dynamics::evaluate_bias(model_, load.second, motions));
   }
 
   /// M⁻¹ of a load; zero if deformation has no rates.
@@ -113,7 +139,7 @@ class Accelerations {
     for (std::size_t b = 0; b < bodies_.size(); ++b) free_acceleration(b, frame[b], nodal[b], y[b]);
     Vector X(static_cast<Eigen::Index>(rows_.size()));
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      double value = -bias_[rows_in_use_[k]];
+      double value = -bias_[k];
       for (const dynamics::BodyRow* part : {&rows_[k].first, &rows_[k].second}) {
         if (part->body == model::kGround) continue;
         const auto b = static_cast<std::size_t>(part->body);
@@ -182,8 +208,11 @@ class Accelerations {
 
   void store() {
     state_.lambda.setZero(model_.num_constraint_rows());
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
+    for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
       state_.lambda[rows_in_use_[k]] = lambda_[static_cast<Eigen::Index>(k)];
+    }
+    for (std::size_t k = 0; k < closed_.size(); ++k) {
+      state_.memory.laws[closed_[k]] = lambda_[static_cast<Eigen::Index>(rows_in_use_.size() + k)];
     }
     state_.lambda_time = state_.t;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -199,7 +228,9 @@ class Accelerations {
   const std::vector<int>& rows_in_use_;
   model::State& state_;
   dynamics::Constraints constraints_;
-  Vector bias_, lambda_;
+  Vector lambda_;
+  std::vector<double> bias_;
+  std::vector<int> closed_;  // places in RowMemory::laws of the forces of closed rigid rows
   dynamics::Forces forces_;
   std::vector<BodyAcceleration> bodies_;
   std::vector<dynamics::BodyCompliance> compliance_;

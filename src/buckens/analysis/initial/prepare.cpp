@@ -9,7 +9,8 @@
 #include "buckens/analysis/initial/displacement.h"
 #include "buckens/analysis/initial/friction_start.h"
 #include "buckens/analysis/initial/position_assembly.h"
-#include "buckens/analysis/initial/quasi_static_start.h"
+#include "buckens/analysis/initial/rigid_rows_start.h"
+#include "buckens/analysis/initial/stop_check.h"
 #include "buckens/analysis/initial/velocity.h"
 #include "buckens/analysis/initial/velocity_change.h"
 #include "buckens/analysis/statics/equilibrium.h"
@@ -82,8 +83,9 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
     out.notes.push_back(std::move(text));
   }
+  refuse_beyond_stops(model, out.state);
   out.state.memory = dynamics::start_memory(model, dynamics::motions_of(model, out.state));
-  settle_accelerations(model, metric, out.rows_in_use, out.state);
+  settle_rigid_rows(model, metric, out.rows_in_use, out.state);
   const bool sees_reactions = std::any_of(model.loads.begin(), model.loads.end(),
                                           [](const model::Load& load) { return load.joint >= 0; });
   if (sees_reactions) settle_friction(model, metric, out.rows_in_use, out.state);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/initial/after_impact.h"
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/simulation/settings.h"
 #include "buckens/analysis/simulation/step_advice.h"
@@ -45,10 +46,19 @@ SimulationRun::SimulationRun(const model::BuiltModel& built, SimulationOptions o
   setup_seconds_ = seconds_since(created_);
 }
 
-/// Equations that hold within a step do not determine a quasi-static shape at its end.
+/// Equations that hold within a step determine neither a quasi-static shape at its end nor whether
+/// the set of a rigid row admits its force there.
 void SimulationRun::check_method() {
   const bool is_within = spec_.method == model::IntegrationMethod::newmark ||
                          spec_.method == model::IntegrationMethod::wilson;
+  for (const model::Load& load : built_.model.loads) {
+    if (!is_within || load.rigid_row < 0) continue;
+    throw InputError(spec_.where,
+                     fmt::format("simulation: method {} satisfies the equations within a step, not "
+                                 "at its end, where load \"{}\" holds rigidly; use "
+                                 "generalized-alpha or hht, or give the load a stiffness",
+                                 stepping::to_string(method_of(spec_.method)), load.name));
+  }
   for (const body::Body& body : built_.model.bodies) {
     if (!body.is_flexible() || !body.flexible->is_quasi_static) continue;
     has_quasi_static_ = true;
@@ -166,7 +176,7 @@ void SimulationRun::step() {
   const stepping::StepReport report = take_step(before_, state);
   ++steps_taken_;
   statistics_->add_step(report, state);
-  work_->add(state);
+  work_->add(state, report.impact_loss);
   if (recording_) recording_->after_step(before_, state, march_->is_done());
   watch_->after_step(march_->stepper(), state);
   for (const auto& callback : callbacks) callback(state.t - before_.t);
@@ -211,6 +221,7 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
     drives_->check(before.t, after.t);
     // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
+    if (report.must_settle) settle(after, report.impact_rest);
     return report;
   } catch (const NumericalError&) {
     after = before;
@@ -218,6 +229,13 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
     drives_->check(before.t, reach);
     throw;
   }
+}
+
+/// Accelerations that have jumped are found anew, and what foretells the motion begins here.
+void SimulationRun::settle(model::State& state, double rest) {
+  settle_after_impact(built_.model, *metric_, march_->stepper().rows_in_use(), rest, state);
+  state.history = 0;
+  march_->restart(state);
 }
 
 bool SimulationRun::report_progress() {

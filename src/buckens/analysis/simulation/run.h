@@ -70,6 +70,7 @@ class SimulationRun {
   void begin_records();
   void take_steps();
   stepping::StepReport take_step(const model::State& before, model::State& after);
+  void settle(model::State& state, double rest);
   bool report_progress();
   void split_wall_time();
   std::vector<std::size_t> loads_with_values(const std::string& name) const;

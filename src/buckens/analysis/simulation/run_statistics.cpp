@@ -29,6 +29,8 @@ void RunStatistics::add_step(const stepping::StepReport& report, const model::St
   iterations_ += report.newton_iterations;
   most_iterations_ = std::max<long>(most_iterations_, report.newton_iterations);
   if (report.large_solve_rounds > 1) ++repeated_solves_;
+  impacts_ += report.impacts;
+  impact_loss_ += report.impact_loss;
   joints_.add_step(report, state);
   residuals_.position = std::max(residuals_.position, report.position_residual);
   residuals_.velocity = std::max(residuals_.velocity, report.velocity_residual);
@@ -162,6 +164,10 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   summary.measures.emplace_back(
       "steps_with_repeated_solve",
       steps_ > 0 ? static_cast<double>(repeated_solves_) / static_cast<double>(steps_) : 0.0);
+  if (impacts_ > 0) {
+    summary.measures.emplace_back("impacts", static_cast<double>(impacts_));
+    summary.measures.emplace_back("impact_loss", impact_loss_);
+  }
   doubt_meshes(built_.description, summary);
   for (const model::WholeBody& whole : built_.model.wholes)
     add_whole(whole, march.ladder(), summary);

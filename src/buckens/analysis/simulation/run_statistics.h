@@ -50,6 +50,8 @@ class RunStatistics {
   long iterations_ = 0;
   long most_iterations_ = 0;
   long repeated_solves_ = 0;  // steps with more than one large solve
+  long impacts_ = 0;
+  double impact_loss_ = 0;  // [J]
   results::Residuals residuals_;
   JointTrust joints_;
   EnergyTrust energy_;

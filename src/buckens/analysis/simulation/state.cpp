@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/initial/quasi_static_start.h"
+#include "buckens/analysis/initial/rigid_rows_start.h"
 #include "buckens/analysis/simulation/run.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
@@ -103,7 +103,7 @@ void SimulationRun::set_load(const std::string& name, const std::optional<Eigen:
   has_new_inputs_ = true;
   observed_at_ = -1;
   if (steps_taken_ > 0) return;
-  settle_accelerations(built_.model, *metric_, prepared_->rows_in_use, state);
+  settle_rigid_rows(built_.model, *metric_, prepared_->rows_in_use, state);
 }
 
 std::vector<std::string> SimulationRun::identity() const {

@@ -39,7 +39,7 @@ long WorkAccount::num_products() const {
   return sum;
 }
 
-void WorkAccount::add(const model::State& state) {
+void WorkAccount::add(const model::State& state, double impact_loss) {
   const Powers now = powers(state);
   const double h = state.t - t_;
   // Joints receive −λ·g_t from their drives. A λ at mid-step is multiplied by the mean of g_t; one
@@ -53,7 +53,7 @@ void WorkAccount::add(const model::State& state) {
   const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now.g_t)
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
   const double active = 0.5 * (before_.active + now.active) + drive;
-  double dissipated = 0.5 * h * (before_.damping + now.damping);
+  double dissipated = 0.5 * h * (before_.damping + now.damping) + impact_loss;
   for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_);
   work_before_ = work_;
   work_.external += h * active;

@@ -21,7 +21,8 @@ class WorkAccount {
   WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states = false);
 
   /// Adds the work between the last state and this one.
-  void add(const model::State& state);
+  /// @param impact_loss energy that impacts took in between [J]
+  void add(const model::State& state, double impact_loss = 0.0);
 
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/initial/stop_check.h"
 #include "buckens/analysis/statics/descent.h"
 #include "buckens/analysis/statics/stability.h"
 #include "buckens/analysis/statics/state.h"
@@ -95,6 +96,7 @@ StaticReport find_static_equilibrium(const model::Model& model, const dynamics::
   const StaticPoint& point = descent.point();
   const StaticBalance balance = descent.system().balance(point);
   set_static_state(point, balance.forces, compliances, state);
+  refuse_beyond_stops(model, state);
   for (const auto& compliance : compliances.owned) report.solves += compliance->num_solves();
   note_large_rotations(model, state, report.notes);
   report.iterations = descent.iterations();

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/initial/stop_check.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/spatial/rotation.h"
@@ -142,6 +143,7 @@ results::WorkBalance StaticPathRecord::add_work(const PathPoint& at) {
 
 void StaticPathRecord::write(const PathPoint& at) {
   set_static_state(at.point, at.balance.forces, compliances_, state_);
+  refuse_beyond_stops(model_, state_);
   recorder_->set_load_factor(at.point.load_factor);
   results::Record record = recorder_->record(state_, add_work(at));
   const double unstable =

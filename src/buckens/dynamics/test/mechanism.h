@@ -137,7 +137,8 @@ class Mechanism {
     load.first_state = model_.loads.size() > 1 ? model_.loads.end()[-2].first_state +
                                                      model_.loads.end()[-2].element->num_states()
                                                : 0;
-    model_.coordinates.push_back({load.joint, std::move(coordinate)});
+    if (load.element->is_rigid()) load.rigid_row = model_.num_rigid_rows();
+    model_.coordinates.push_back({load.joint, joint.first, joint.second, std::move(coordinate)});
   }
 
   /// Pose of an undeformed marker as placed.

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/joint_friction.h"
+#include "buckens/loads/rigid_law.h"
 
 namespace buckens::model {
 
@@ -102,9 +103,16 @@ class JointLawBuilder {
     return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping,
                                                      kind.displacement);
   }
-  static Element make(const loads::JointStop& kind, const Coordinate&) {
-    return std::make_shared<loads::CoordinateStop>(
-        kind.from.value_or(-HUGE_VAL), kind.to.value_or(HUGE_VAL), kind.stiffness, kind.damping);
+  Element make(const loads::JointStop& kind, const Coordinate& coordinate) const {
+    const double from = kind.from.value_or(-HUGE_VAL);
+    const double to = kind.to.value_or(HUGE_VAL);
+    if (kind.stiffness) {
+      return std::make_shared<loads::CoordinateStop>(from, to, *kind.stiffness, kind.damping);
+    }
+    const bool turns = coordinate.law.kind() == Kind::angle;
+    const double threshold =
+        kind.threshold.value_or(loads::RigidStop::kAtRest * (turns ? 1.0 : length_));
+    return std::make_shared<loads::RigidStop>(from, to, kind.restitution.value_or(0.0), threshold);
   }
   loads::FrictionData common(const loads::JointFrictionBase& kind,
                              const Coordinate& coordinate) const {
@@ -123,13 +131,20 @@ class JointLawBuilder {
     data.slip = kind.slip.value_or(kSlipAngle);
     data.radius = kind.radius;
     data.axial_radius = kind.axial_radius;
-    return std::make_shared<loads::JointFriction>(data, coordinate.law.axis());
+    return friction(kind, data, coordinate);
   }
   Element make(const loads::SlideFrictionSpec& kind, const Coordinate& coordinate) const {
     loads::FrictionData data = common(kind, coordinate);
     data.slip = kind.slip.value_or(kSlip * length_);
     data.radius = 1.0;
     data.torque_radius = kind.torque_radius.value_or(0.0);
+    return friction(kind, data, coordinate);
+  }
+  static Element friction(const loads::JointFrictionBase& kind, const loads::FrictionData& data,
+                          const Coordinate& coordinate) {
+    if (kind.stick == loads::FrictionStick::rigid) {
+      return std::make_shared<loads::RigidFriction>(data, coordinate.law.axis());
+    }
     return std::make_shared<loads::JointFriction>(data, coordinate.law.axis());
   }
 
@@ -152,7 +167,7 @@ int find_coordinate(const std::string& joint, Kind kind, MarkerFinder& find) {
   }
   const joints::Placement placed = find.placement(owner->first, owner->second);
   model.coordinates.push_back(
-      {index,
+      {index, owner->first, owner->second,
        kind == Kind::angle
            ? joints::JointCoordinate::angle(owner->axis_F, placed.R_WF.transpose() * placed.R_WM)
            : joints::JointCoordinate::displacement(owner->axis_F, placed.r_F)});

@@ -10,6 +10,8 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/loads/applied_load.h"
+#include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/rigid_law.h"
 #include "buckens/loads/spring_damper.h"
 
 namespace buckens::model {
@@ -21,6 +23,8 @@ namespace {
 
 // Sine of the angle up to which a direction counts as lying in the plane of a planar model.
 constexpr double kOutOfPlane = 1e-6;
+// A rope that is shorter than the distance by this share is meant to be taut.
+constexpr double kTautRope = 1e-9;
 // The same for axes, as of joints.
 constexpr double kTurnedAxis = 2e-4;
 
@@ -38,6 +42,8 @@ class LoadBuilder {
       add_applied(*torque, loads::AppliedLoad::Kind::torque, load, spec.where);
     } else if (const auto* spring = std::get_if<loads::SpringDamperSpec>(&spec.kind)) {
       add_spring(*spring, load, spec.where);
+    } else if (const auto* rope = std::get_if<loads::RopeSpec>(&spec.kind)) {
+      add_rope(*rope, load, spec.where);
     } else if (const auto* torsional = std::get_if<loads::TorsionalSpringSpec>(&spec.kind)) {
       add_torsional(*torsional, load, spec.where);
     }
@@ -109,6 +115,31 @@ class LoadBuilder {
     }
     load.element = std::make_unique<loads::SpringDamper>(
         kind.stiffness, kind.damping, kind.length.value_or(distance), kind.force);
+  }
+
+  void add_rope(const loads::RopeSpec& kind, Load& load, const SourceLocation& where) {
+    load.first = find_.marker(kind.between[0], true);
+    load.second = find_.marker(kind.between[1], true);
+    find_.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
+    const double distance = (find_.placed(load.second).p - find_.placed(load.first).p).norm();
+    const double length = kind.length.value_or(distance);
+    if (distance > (1.0 + kTautRope) * length || length == 0.0) {
+      throw InputError(where, fmt::format("load \"{}\": its markers are {:g} m apart as placed, "
+                                          "and the rope is {:g} m long; place them closer, or give "
+                                          "it a `length` of at least that",
+                                          load.name, distance, length));
+    }
+    load.coordinate = static_cast<int>(find_.model().coordinates.size());
+    find_.model().coordinates.push_back(
+        {-1, load.first, load.second, joints::JointCoordinate::length()});
+    if (kind.stiffness) {
+      load.element =
+          std::make_unique<loads::CoordinateStop>(-HUGE_VAL, length, *kind.stiffness, kind.damping);
+    } else {
+      load.element = std::make_unique<loads::RigidStop>(
+          -HUGE_VAL, length, kind.restitution.value_or(0.0),
+          kind.threshold.value_or(loads::RigidStop::kAtRest * length));
+    }
   }
 
   void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,

@@ -253,12 +253,14 @@ class Builder {
                     : joints::JointCoordinate::Kind::displacement;
   }
 
-  /// Places of the states of force laws, one law after the other.
+  /// Places of the states and of the rigid rows of force laws, one law after the other.
   void number_states() {
     int next = 0;
+    int rigid_rows = 0;
     for (Load& load : model_.loads) {
       load.first_state = next;
       next += load.element->num_states();
+      if (load.element->is_rigid()) load.rigid_row = rigid_rows++;
     }
   }
 

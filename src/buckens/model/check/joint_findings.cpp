@@ -31,6 +31,7 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
     const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind) ||
                        acts_on_coordinate(*load, true);
     const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind) ||
+                           std::holds_alternative<loads::RopeSpec>(load->kind) ||
                            acts_on_coordinate(*load, false);
     return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
                                         turns       ? "spring-torque"
@@ -60,6 +61,28 @@ Found coordinate_problem(const std::string& name, bool turns, const ModelDescrip
                                              : fmt::format(": {}", fmt::join(fitting, ", ")))};
 }
 
+/// Whether a stop or rope is asked to be elastic and rigid at once.
+template <class Spec>
+Found give_problem(const Spec& spec) {
+  if (spec.stiffness && (spec.restitution || spec.threshold)) {
+    return Finding{spec.restitution ? "restitution" : "threshold",
+                   "what has a stiffness gives way and returns by that; leave out `stiffness` to "
+                   "have it rigid, or this key to have it elastic"};
+  }
+  if (!spec.stiffness && spec.damping > 0.0) {
+    return Finding{
+        "damping",
+        "without a stiffness it is rigid and has no damping; give a `stiffness` as well, "
+        "or `restitution` in its place"};
+  }
+  if (spec.restitution.value_or(0.0) > 1.0) {
+    return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no impact gives back "
+                                              "more speed than it takes",
+                                              *spec.restitution)};
+  }
+  return std::nullopt;
+}
+
 Found stop_problem(const loads::JointStop& spec, const char* unit) {
   if (!spec.from && !spec.to) {
     return Finding{"", "at least one of the keys from and to is needed: a stop without an end"};
@@ -69,6 +92,7 @@ Found stop_problem(const loads::JointStop& spec, const char* unit) {
                                      "exchange from and to",
                                      *spec.to, unit, *spec.from, unit)};
   }
+  if (Found found = give_problem(spec)) return found;
   // The coordinate is zero as placed.
   if (spec.from.value_or(0.0) > 0.0 || spec.to.value_or(0.0) < 0.0) {
     return Finding{
@@ -148,6 +172,10 @@ Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription
 Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription& model) {
   if (Found found = coordinate_problem(spec.joint, false, model)) return found;
   return stop_problem(spec, "m");
+}
+
+Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription&) {
+  return give_problem(spec);
 }
 
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model) {

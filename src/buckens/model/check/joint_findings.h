@@ -22,6 +22,7 @@ Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription
 Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// Accelerations, multipliers and forces of rigid rows after an impact or a change of rigid rows,
+/// see settle_rigid_rows().
+///
+/// A smooth step has ended with the accelerations of the motion without the impact. Those of the
+/// motion after it differ, since joints carry other forces at other velocities; where all bodies
+/// are rigid, the rest of the step is given the difference. Meshes are left as they are: their
+/// accelerations would bring in vibrations that the step does not resolve.
+/// @param rest time between impact and end of the step [s]
+/// @throws NumericalError as settle_rigid_rows()
+void settle_after_impact(const model::Model& model, const dynamics::MassMetric& metric,
+                         const std::vector<int>& rows_in_use, double rest, model::State& state);
+
+}  // namespace buckens::analysis

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/initial/stop_check.h"
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/system_kinematics.h"
+#include "buckens/loads/rigid_law.h"
+
+namespace buckens::analysis {
+
+namespace {
+// Beyond the end by this share of the model's length, or by this angle, is rounding.
+constexpr double kOnTheStop = 1e-9;
+}  // namespace
+
+void refuse_beyond_stops(const model::Model& model, const model::State& state) {
+  if (model.num_rigid_rows() == 0) return;
+  const auto motions = dynamics::motions_of(model, state);
+  for (const model::Load& load : model.loads) {
+    if (load.rigid_row < 0) continue;
+    const auto coordinate = static_cast<std::size_t>(load.coordinate);
+    const double value =
+        dynamics::coordinate_motion(model, coordinate, nullptr,
+                                    dynamics::evaluate_marker(model, load.first, motions).motion,
+                                    dynamics::evaluate_marker(model, load.second, motions).motion)
+            .value;
+    const auto* law = static_cast<const loads::RigidLaw*>(load.element.get());
+    const bool is_angle =
+        model.coordinates[coordinate].law.kind() == joints::JointCoordinate::Kind::angle;
+    const auto contact = law->contact(value);
+    if (contact.regime == 0 || contact.gap >= -kOnTheStop * (is_angle ? 1.0 : model.length)) {
+      continue;
+    }
+    throw ModelError(fmt::format(
+        "load \"{}\": its joint stands at {:.6g} {}, {:.3g} beyond the end of its free way; a "
+        "rigid "
+        "stop can neither push it back nor hold it in static analyses; start within the stops, or "
+        "give this one a `stiffness`",
+        load.name, value, is_angle ? "rad" : "m", -contact.gap));
+  }
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/loads/rigid_law.h"
+
+namespace buckens::loads {
+
+Action RigidLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
+                          const spatial::MarkerMotion& /*second*/) const {
+  return {};
+}
+
+Action RigidLaw::respond(const Sight& sight) const {
+  Action out;
+  out.row = row(sight);
+  const double force = out.row.is_closed ? sight.stand.force : out.row.given;
+  const spatial::PairRow wrench = force * sight.coordinate.J;
+  out.on_first = {wrench.segment<3>(0).transpose(), wrench.segment<3>(3).transpose()};
+  out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
+  out.along_coordinate = force;
+  out.regime = sight.stand.regime;
+  out.active_power = force * sight.coordinate.rate;
+  out.dissipation = -out.active_power;
+  return out;
+}
+
+void RigidLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  SoftRow out;
+  out.J = sight.coordinate.J;
+  out.is_rigid = row(sight).is_closed;
+  rows.push_back(out);
+}
+
+void RigidLaw::find_states(const Sight& sight, double* states) const {
+  states[0] = sight.stand.regime;
+  states[1] = respond(sight).along_coordinate;
+}
+
+RigidLaw::Contact RigidStop::contact(double value) const {
+  const double below = value - from_;
+  const double above = to_ - value;
+  return below < above ? Contact{1, 1.0, below} : Contact{2, -1.0, above};
+}
+
+RigidRow RigidStop::row(const Sight& sight) const {
+  RigidRow out;
+  const int regime = sight.stand.regime;
+  out.is_closed = regime != 0;
+  out.holds_position = true;
+  out.next = sight.stand;
+  if (!out.is_closed) return out;
+  out.gap = sight.coordinate.value - (regime == 1 ? from_ : to_);
+  out.slip = sight.coordinate.rate;
+  // A stop never pulls.
+  const bool pulls = regime == 1 ? sight.stand.force < 0.0 : sight.stand.force > 0.0;
+  if (pulls) out.next = {};
+  return out;
+}
+
+}  // namespace buckens::loads

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/loads/force_element.h"
+
+namespace buckens::loads {
+
+/// A law of one joint coordinate that does not give way: a rigid row whose multiplier f stays in a
+/// set. The force acts as Jᵀf on both markers of the joint.
+///
+/// While the row is closed, f is an unknown of the step like the multiplier of a joint. Where the
+/// set does not admit it, the row takes the stand that next() names, and is not closed any more.
+/// Theory: docs/theory/22-rows.md §5.
+class RigidLaw : public ForceElement {
+ public:
+  /// Nothing: the law needs its coordinate, see respond().
+  Action evaluate(double t, const spatial::MarkerMotion& first,
+                  const spatial::MarkerMotion& second) const final;
+  Action respond(const Sight& sight) const final;
+  int num_soft_rows() const final { return 1; }
+  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const final;
+  bool is_rigid() const final { return true; }
+  int num_states() const final { return 2; }
+  void find_states(const Sight& sight, double* states) const final;
+
+  /// How the coordinate touches one end of its free way.
+  struct Contact {
+    int regime = 0;   ///< in which the law holds this end
+    double sign = 1;  ///< of the forces that it can give: it pushes, or it pulls
+    double gap = 0;   ///< free way that is left, negative beyond the end [m] or [rad]
+  };
+  /// The end that is nearer, or 0 in Contact::regime where the law has none: such a law never
+  /// strikes.
+  virtual Contact contact(double /*value*/) const { return {}; }
+  /// Share of the speed of approach with which it is left again.
+  /// @param approach > 0 [m/s] or [rad/s]
+  virtual double restitution(double /*approach*/) const { return 0.0; }
+
+ protected:
+  /// What the row leaves open and which stand follows, without the force itself.
+  virtual RigidRow row(const Sight& sight) const = 0;
+};
+
+/// Rigid stops of a joint coordinate: one-sided rows. Regimes: 1 at the lower end, which pushes up;
+/// 2 at the upper end, which pushes down.
+class RigidStop final : public RigidLaw {
+ public:
+  /// Default of the threshold: in lengths of what moves per second, or in rad/s.
+  static constexpr double kAtRest = 1e-3;
+
+  /// @param from,to ends of the free way [m] or [rad]; −HUGE_VAL, HUGE_VAL: none on that side
+  /// @param restitution 0 … 1
+  /// @param threshold speed of approach up to which it stays at rest there [m/s] or [rad/s]
+  RigidStop(double from, double to, double restitution, double threshold)
+      : from_(from), to_(to), restitution_(restitution), threshold_(threshold) {}
+
+  Contact contact(double value) const override;
+  double restitution(double approach) const override {
+    return approach > threshold_ ? restitution_ : 0.0;
+  }
+
+ private:
+  RigidRow row(const Sight& sight) const override;
+  double from_, to_, restitution_, threshold_;
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/impacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::stepping {
+
+using linalg::Matrix;
+using linalg::Vector;
+
+namespace {
+
+// Added to what stops answer, as a share of the largest answer: those that hold the same share the
+// push.
+constexpr double kNoAnswer = 1e-12;
+constexpr int kBisections = 60;
+
+/// Part of a step after which the cubic through gaps and rates at both ends goes below zero for
+/// good, 0 … 1.
+double instant_of(double gap_start, double rate_start, double gap_end, double rate_end, double h) {
+  const auto gap = [&](double s) {
+    const double r = 1.0 - s;
+    return r * r * ((1.0 + 2.0 * s) * gap_start + s * h * rate_start) +
+           s * s * ((1.0 + 2.0 * r) * gap_end - r * h * rate_end);
+  };
+  // From the end backwards to where the gap was open.
+  double open = 1.0;
+  constexpr int kLooks = 16;
+  for (int k = kLooks - 1; k >= 0; --k) {
+    open = static_cast<double>(k) / kLooks;
+    if (gap(open) > 0.0) break;
+    if (k == 0) return 1.0;  // it never was: nothing is left of the step to be made good
+  }
+  double closed = open + 1.0 / kLooks;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (open + closed);
+    (gap(middle) > 0.0 ? open : closed) = middle;
+  }
+  return closed;
+}
+
+double rate_at(double s, double gap_start, double rate_start, double gap_end, double rate_end,
+               double h) {
+  const double r = 1.0 - s;
+  return 6.0 * s * r * (gap_end - gap_start) / h + r * (1.0 - 3.0 * s) * rate_start +
+         s * (3.0 * s - 2.0) * rate_end;
+}
+
+double rate_of(const dynamics::SystemRow& row, const std::vector<Vector6>& u,
+               const std::vector<Eigen::VectorXd>& y) {
+  double sum = 0;
+  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+    if (part->body == model::kGround) continue;
+    const auto b = static_cast<std::size_t>(part->body);
+    sum += part->change(u[b], y[b]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Vector solve_complementarity(const Matrix& D, const Vector& b) {
+  const auto n = static_cast<int>(b.size());
+  Vector P = Vector::Zero(n);
+  const double least = kNoAnswer * D.diagonal().maxCoeff();
+  std::vector<char> is_active(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) is_active[static_cast<std::size_t>(i)] = b[i] > 0.0;
+  for (int round = 0; round < 50 * n; ++round) {
+    std::vector<int> active;
+    for (int i = 0; i < n; ++i) {
+      if (is_active[static_cast<std::size_t>(i)]) active.push_back(i);
+    }
+    P.setZero();
+    if (!active.empty()) {
+      const Matrix A = D(active, active);
+      const Vector asked = b(active);
+      const auto factor = (A + least * Matrix::Identity(A.rows(), A.rows())).ldlt();
+      Vector part = factor.solve(asked);
+      part += factor.solve(asked - A * part);  // what `least` has taken
+      P(active) = part;
+    }
+    int worst = -1;
+    for (const int i : active) {
+      if (P[i] < 0.0 && (worst < 0 || P[i] < P[worst])) worst = i;
+    }
+    if (worst >= 0) {
+      is_active[static_cast<std::size_t>(worst)] = 0;
+      continue;
+    }
+    const Vector open = D * P - b;
+    const double rounding = 1e-12 * (b.cwiseAbs().maxCoeff() + (D * P).cwiseAbs().maxCoeff());
+    for (int i = 0; i < n; ++i) {
+      if (is_active[static_cast<std::size_t>(i)] || open[i] >= -rounding) continue;
+      if (worst < 0 || open[i] < open[worst]) worst = i;
+    }
+    if (worst < 0) return P;
+    is_active[static_cast<std::size_t>(worst)] = 1;
+  }
+  return P.cwiseMax(0.0);
+}
+
+Impacts::Impacts(const model::Model& model, const Scheme& scheme,
+                 std::vector<const BodyAnswer*> answers)
+    : model_(model), scheme_(scheme), answers_(std::move(answers)) {
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    if (model.loads[k].rigid_row < 0) continue;
+    const auto* law = static_cast<const loads::RigidLaw*>(model.loads[k].element.get());
+    if (law->contact(0.0).regime != 0) laws_.push_back({k, law});
+  }
+  if (laws_.empty()) return;
+  const double k0 = scheme.force * scheme.acceleration_rate;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const bool deforms = answers_[b] != nullptr && !answers_[b]->is_quasi_static();
+    interface_.push_back(deforms ? Matrix(k0 * answers_[b]->interface_compliance()) : Matrix());
+    jumps_.emplace_back();
+  }
+}
+
+namespace {
+
+loads::CoordinateMotion motion_of(const model::Model& model, const model::Load& load,
+                                  const std::vector<dynamics::BodyMotion>& motions,
+                                  const model::RowMemory& memory) {
+  const auto first = dynamics::evaluate_marker(model, load.first, motions);
+  const auto second = dynamics::evaluate_marker(model, load.second, motions);
+  return dynamics::coordinate_motion(model, static_cast<std::size_t>(load.coordinate), &memory,
+                                     first.motion, second.motion);
+}
+
+}  // namespace
+
+void Impacts::start(const std::vector<dynamics::BodyMotion>& motions,
+                    const model::RowMemory& memory) {
+  for (Law& law : laws_) law.start = motion_of(model_, model_.loads[law.load], motions, memory);
+}
+
+bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
+                   const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
+                   const dynamics::Circumstances& around, double t) {
+  touches_.clear();
+  landings_.clear();
+  loss_ = 0;
+  count_ = 0;
+  bool is_struck = false;
+  for (std::size_t k = 0; k < laws_.size(); ++k)
+    is_struck = look(k, around, motions, t) || is_struck;
+  if (!is_struck) return false;
+  const std::vector<dynamics::BodyMotion> then = at_impact(motions);
+  condense(then, bodies, rows_in_use, t);
+  for (Touch& touch : touches_) {
+    set_row(touch, then);
+    answer(touch);
+  }
+  const auto n = static_cast<Eigen::Index>(touches_.size());
+  Matrix D(n, n);
+  Vector b(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Touch& touch = touches_[static_cast<std::size_t>(i)];
+    b[i] = touch.target;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Touch& other = touches_[static_cast<std::size_t>(j)];
+      D(i, j) = rate_of(touch.row, other.u, other.y);
+    }
+  }
+  sum_up(solve_complementarity(D, b));
+  return true;
+}
+
+/// Adds the end that a law touches, if it does. @return whether it strikes there
+bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
+                   const std::vector<dynamics::BodyMotion>& motions, double t) {
+  const Law& law = laws_[index];
+  const model::Load& load = model_.loads[law.load];
+  const auto first = dynamics::evaluate_marker(model_, load.first, motions);
+  const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+  const loads::Sight sight =
+      dynamics::sight_of(model_, law.load, t, around, first.motion, second.motion);
+  loads::RigidLaw::Contact contact = law.law->contact(sight.coordinate.value);
+  const bool is_closed = sight.stand.regime != 0;
+  if (is_closed) contact.regime = sight.stand.regime;
+  const double sign = contact.sign;
+  if (!is_closed && !(contact.gap < 0.0)) return false;
+  const bool strikes = !is_closed && sign * sight.coordinate.rate < 0.0;
+  Touch touch;
+  touch.law = index;
+  touch.regime = contact.regime;
+  touch.stays = is_closed;
+  touch.rate = sign * sight.coordinate.rate;
+  if (strikes) {
+    set_approach(touch, *law.law, law.start, sight.coordinate, sign, contact.gap);
+  } else {
+    touch.target = -touch.rate;
+  }
+  touch.sign = sign;
+  touches_.push_back(std::move(touch));
+  return strikes;
+}
+
+std::vector<dynamics::BodyMotion> Impacts::at_impact(
+    std::vector<dynamics::BodyMotion> motions) const {
+  const Touch& strongest =
+      *std::max_element(touches_.begin(), touches_.end(),
+                        [](const Touch& a, const Touch& b) { return a.approach < b.approach; });
+  const double back = -strongest.rest;
+  for (dynamics::BodyMotion& motion : motions) {
+    spatial::Pose& X = motion.frame.X_WB;
+    X.p += back * motion.frame.v;
+    X.q = (X.q * spatial::exp_rotation(back * motion.frame.w)).normalized();
+    motion.y += back * motion.y_dot;
+  }
+  return motions;
+}
+
+void Impacts::set_row(Touch& touch, const std::vector<dynamics::BodyMotion>& motions) const {
+  const model::Load& load = model_.loads[laws_[touch.law].load];
+  const auto first = dynamics::evaluate_marker(model_, load.first, motions);
+  const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+  const joints::JointCoordinate& law =
+      model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;
+  touch.row = dynamics::system_row(model_, load.first, first, load.second, second,
+                                   law.derivatives(first.motion, second.motion));
+  for (dynamics::BodyRow* part : {&touch.row.first, &touch.row.second}) {
+    part->frame *= touch.sign;
+    part->interface *= touch.sign;
+  }
+}
+
+void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
+                           const loads::CoordinateMotion& start, const loads::CoordinateMotion& end,
+                           double sign, double gap) const {
+  const double gap_start = gap - sign * end.change;
+  const double rate_start = sign * start.rate;
+  const double rate_end = sign * end.rate;
+  const double s = instant_of(gap_start, rate_start, gap, rate_end, scheme_.h);
+  touch.approach = std::max(0.0, -rate_at(s, gap_start, rate_start, gap, rate_end, scheme_.h));
+  touch.rest = (1.0 - s) * scheme_.h;
+  const double e = law.restitution(touch.approach);
+  touch.target = (1.0 + e) * touch.approach;
+  // What returns within the step that it left in, or would not leave at all, stays.
+  const bool has_just_left = rate_start > 0.0;
+  touch.stays = e == 0.0 || has_just_left || rate_end + touch.target <= 0.0;
+  if (!touch.stays) return;
+  // It rests at the end of the step, and exactly there.
+  touch.lost_share = touch.approach * touch.approach / (rate_end * rate_end);
+  touch.target = -rate_end;
+  touch.approach = -rate_end;
+  touch.rest = std::min(-gap / touch.target, scheme_.h);
+}
+
+void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
+                       const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
+                       double t) {
+  compliance_.resize(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const body::Body& body = model_.bodies[b];
+    const Eigen::Matrix3d J = body.is_flexible() ? bodies[b].moments(body, motions[b]).J : body.J0;
+    compliance_[b].frame = dynamics::frame_mobility(body, J);
+    compliance_[b].interface = interface_[b].size() > 0 ? &interface_[b] : nullptr;
+  }
+  joints_.reset();
+  if (rows_in_use.empty()) return;
+  dynamics::Constraints all;
+  dynamics::evaluate_constraints(model_, motions, t, all);
+  std::vector<dynamics::SystemRow> rows;
+  rows.reserve(rows_in_use.size());
+  for (const int row : rows_in_use) rows.push_back(all.rows[static_cast<std::size_t>(row)]);
+  joints_.emplace(static_cast<int>(bodies.size()), rows);
+  joints_->factorise(rows, rows, compliance_, {});
+}
+
+void Impacts::answer(Touch& touch) {
+  const std::size_t count = model_.bodies.size();
+  std::vector<dynamics::BodyResponse> loads(count);
+  touch.u.assign(count, Vector6::Zero());
+  touch.y.resize(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    loads[b].interface_load.setZero(model_.bodies[b].num_interface_rows());
+    touch.y[b].setZero(model_.bodies[b].num_interface_rows());
+  }
+  for (const dynamics::BodyRow* part : {&touch.row.first, &touch.row.second}) {
+    if (part->body == model::kGround) continue;
+    dynamics::BodyResponse& load = loads[static_cast<std::size_t>(part->body)];
+    load.frame_load += part->frame.transpose();
+    for (int i = 0; i < 6; ++i) {
+      const int first = i < 3 ? part->translation_row : part->rotation_row;
+      if (first >= 0) load.interface_load[first + i % 3] += part->interface[i];
+    }
+  }
+  const auto move = [&](std::size_t b) {
+    touch.u[b] = compliance_[b].frame * loads[b].frame_load;
+    if (compliance_[b].interface != nullptr) {
+      touch.y[b] = *compliance_[b].interface * loads[b].interface_load;
+    }
+  };
+  for (std::size_t b = 0; b < count; ++b) move(b);
+  if (joints_) {
+    Vector X;
+    joints_->test_rows().changes(X, [&](int b) {
+      const auto k = static_cast<std::size_t>(b);
+      return dynamics::Displacement{&touch.u[k], &touch.y[k]};
+    });
+    X = -X;
+    joints_->solve_in_place(X);
+    std::vector<dynamics::BodyResponse> of_joints(count);
+    for (std::size_t b = 0; b < count; ++b) {
+      of_joints[b].interface_load.setZero(loads[b].interface_load.size());
+    }
+    joints_->gather(X, of_joints);
+    for (std::size_t b = 0; b < count; ++b) {
+      loads[b].frame_load += of_joints[b].frame_load;
+      loads[b].interface_load += of_joints[b].interface_load;
+      move(b);
+    }
+  }
+  touch.load.clear();
+  for (dynamics::BodyResponse& load : loads) touch.load.push_back(std::move(load.interface_load));
+}
+
+void Impacts::sum_up(const Vector& P) {
+  for (std::size_t b = 0; b < jumps_.size(); ++b) {
+    jumps_[b].velocity.setZero();
+    jumps_[b].shift.setZero();
+    jumps_[b].impulse.setZero(model_.bodies[b].num_interface_rows());
+    jumps_[b].impulse_time.setZero(model_.bodies[b].num_interface_rows());
+  }
+  Vector jump = Vector::Zero(P.size());
+  double strength = 0;
+  rest_ = 0;
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const Touch& touch = touches_[k];
+    const double p = P[static_cast<Eigen::Index>(k)];
+    for (std::size_t i = 0; i < touches_.size(); ++i) {
+      jump[static_cast<Eigen::Index>(i)] += p * rate_of(touches_[i].row, touch.u, touch.y);
+    }
+    if (p == 0.0) continue;
+    const double weight = p * std::abs(touch.target);
+    strength += weight;
+    rest_ += weight * touch.rest;
+    for (std::size_t b = 0; b < jumps_.size(); ++b) {
+      jumps_[b].velocity += p * touch.u[b];
+      jumps_[b].shift += (p * touch.rest) * touch.u[b];
+      jumps_[b].impulse += p * touch.load[b];
+      jumps_[b].impulse_time += (p * touch.rest) * touch.load[b];
+    }
+  }
+  if (strength > 0.0) rest_ /= strength;
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const Touch& touch = touches_[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    if (touch.approach > 0.0) {
+      ++count_;
+      loss_ += touch.lost_share * P[i] * (touch.approach - 0.5 * jump[i]);
+    }
+    // Driven off by others, or left with the share of its speed: no longer held.
+    const bool leaves = touch.rate + jump[i] > 1e-9 * (std::abs(touch.rate) + std::abs(jump[i]));
+    const int rigid_row = model_.loads[laws_[touch.law].load].rigid_row;
+    landings_.push_back({rigid_row, touch.stays && !leaves ? touch.regime : 0});
+  }
+}
+
+}  // namespace buckens::stepping

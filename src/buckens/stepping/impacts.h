@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/loads/rigid_law.h"
+#include "buckens/stepping/body_answer.h"
+#include "buckens/stepping/body_step.h"
+
+namespace buckens::stepping {
+
+/// What impacts do to one body.
+struct BodyJump {
+  Vector6 velocity = Vector6::Zero();  ///< of the frame: body axes [rad/s], world axes [m/s]
+  Vector6 shift = Vector6::Zero();     ///< of the frame by the rest of the step [rad], [m]
+  Eigen::VectorXd impulse;             ///< on interface rows [N s], [N m s]
+  Eigen::VectorXd impulse_time;        ///< the same times the rest of the step
+};
+
+/// Impacts at the end of a smooth step: coordinates that have run into a rigid stop leave it again.
+///
+/// The instant of an impact is found on the cubic of coordinate and rate over the step. Impulses P
+/// of all stops that are reached act together, and joints take part with their own:
+///
+///     J M⁻¹Jᵀ P ≥ b,   P ≥ 0,   one of both an equality;   b = (1 + e) times the speed of approach
+///
+/// Velocities jump, positions move on with the new velocities for the rest of the step, and
+/// accelerations carried on by the method see nothing of it (Brüls, Acary, Cardona, 2014). Of
+/// frames M is their mass, of meshes the step matrix: k₀ Y K̂⁻¹Nᵀ answers an impulse as the method
+/// would. Theory: docs/theory/23-impacts.md.
+class Impacts {
+ public:
+  Impacts(const model::Model& model, const Scheme& scheme, std::vector<const BodyAnswer*> answers);
+
+  /// False for models without anything that strikes.
+  bool can_happen() const { return !laws_.empty(); }
+  /// Notes where the coordinates are at the start of a step.
+  void start(const std::vector<dynamics::BodyMotion>& motions, const model::RowMemory& memory);
+
+  /// Looks for impacts in the step that ended with `motions`, and finds what they do.
+  /// @param bodies of the step, @param rows_in_use independent joint rows
+  /// @return whether there are any
+  bool find(const std::vector<dynamics::BodyMotion>& motions, const std::vector<BodyStep>& bodies,
+            const std::vector<int>& rows_in_use, const dynamics::Circumstances& around, double t);
+
+  const std::vector<BodyJump>& jumps() const { return jumps_; }
+  /// How the laws stand afterwards; those not named keep their stand.
+  struct Landing {
+    int rigid_row;
+    int regime;
+  };
+  const std::vector<Landing>& landings() const { return landings_; }
+  /// Energy lost in the impacts found last [J], and their number.
+  double loss() const { return loss_; }
+  int count() const { return count_; }
+  /// From their mean instant, weighted by their strength, to the end of the step [s].
+  double rest() const { return rest_; }
+
+ private:
+  /// A law that can strike, with its coordinate at the start of the step.
+  struct Law {
+    std::size_t load;
+    const loads::RigidLaw* law;
+    loads::CoordinateMotion start{};
+  };
+  /// A stop that is reached.
+  struct Touch {
+    std::size_t law;          ///< index into laws_
+    int regime;               ///< of the end that is touched
+    double approach = 0;      ///< speed against it at the impact [m/s] or [rad/s]
+    double target = 0;        ///< jump of the rate away from the end that it asks for
+    double rest = 0;          ///< what is left of the step after the impact [s]
+    double lost_share = 1;    ///< of the energy of `approach`, that the impact itself had
+    bool stays = false;       ///< is not left again
+    double rate = 0;          ///< away from the end, at the end of the step
+    double sign = 1;          ///< of the coordinate, away from the end
+    dynamics::SystemRow row;  ///< of the way away from the end
+    std::vector<Vector6> u;   ///< answers of the bodies to a unit impulse
+    std::vector<Eigen::VectorXd> y, load;
+  };
+
+  bool look(std::size_t law, const dynamics::Circumstances& around,
+            const std::vector<dynamics::BodyMotion>& motions, double t);
+  /// Where the bodies were at the strongest of the impacts.
+  std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions) const;
+  void set_row(Touch& touch, const std::vector<dynamics::BodyMotion>& motions) const;
+  void set_approach(Touch& touch, const loads::RigidLaw& law, const loads::CoordinateMotion& start,
+                    const loads::CoordinateMotion& end, double sign, double gap) const;
+  void condense(const std::vector<dynamics::BodyMotion>& motions,
+                const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use, double t);
+  void answer(Touch& touch);
+  void sum_up(const linalg::Vector& P);
+
+  const model::Model& model_;
+  Scheme scheme_;
+  std::vector<const BodyAnswer*> answers_;
+  std::vector<Law> laws_;
+  std::vector<Touch> touches_;
+  std::vector<linalg::Matrix> interface_;  // k₀ N Y K̂⁻¹Nᵀ
+  std::vector<dynamics::BodyCompliance> compliance_;
+  std::optional<dynamics::MultiplierCondensation> joints_;  // empty without joint rows
+  std::vector<BodyJump> jumps_;
+  std::vector<Landing> landings_;
+  double loss_ = 0, rest_ = 0;
+  int count_ = 0;
+};
+
+/// Solves the linear complementarity problem  D P − b = w,  P ≥ 0,  w ≥ 0,  Pᵀw = 0  with D
+/// positive semidefinite, by an active set. Meant for tens of unknowns.
+linalg::Vector solve_complementarity(const linalg::Matrix& D, const linalg::Vector& b);
+
+}  // namespace buckens::stepping

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/rigid_rows.h"
+
+namespace buckens::stepping {
+
+RigidRows::RigidRows(const model::Model& model) {
+  for (const model::Load& load : model.loads) {
+    if (load.rigid_row >= 0) first_states_.push_back(load.first_state);
+  }
+  stands_.resize(first_states_.size());
+  regimes_at_start_.resize(first_states_.size());
+}
+
+void RigidRows::start(const model::RowMemory& memory) {
+  for (std::size_t k = 0; k < stands_.size(); ++k) {
+    stands_[k] = {static_cast<int>(memory.laws[first_states_[k]]),
+                  memory.laws[first_states_[k] + 1]};
+    regimes_at_start_[k] = stands_[k].regime;
+  }
+  num_moves_ = 0;
+}
+
+bool RigidRows::move(const std::vector<loads::RigidRow>& rows) {
+  bool has_moved = false;
+  for (std::size_t k = 0; k < stands_.size(); ++k) {
+    const loads::RowStand next = rows[k].next;
+    const bool is_other = next.regime != stands_[k].regime;
+    has_moved = has_moved || is_other;
+    if (is_other) stands_[k] = next;
+  }
+  if (has_moved) ++num_moves_;
+  return has_moved;
+}
+
+bool RigidRows::have_changed() const {
+  for (std::size_t k = 0; k < stands_.size(); ++k) {
+    if (stands_[k].regime != regimes_at_start_[k]) return true;
+  }
+  return false;
+}
+
+double own_compliance(const dynamics::SystemRow& row,
+                      const std::vector<dynamics::BodyCompliance>& compliance) {
+  double sum = 0;
+  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+    if (part->body == model::kGround) continue;
+    const dynamics::BodyCompliance& body = compliance[static_cast<std::size_t>(part->body)];
+    sum += part->frame * body.frame * part->frame.transpose();
+    if (body.interface == nullptr) continue;
+    const linalg::Matrix& C = *body.interface;
+    for (int i = 0; i < 6; ++i) {
+      const int first = i < 3 ? part->translation_row : part->rotation_row;
+      if (first >= 0)
+        sum += part->interface[i] * part->interface[i] * C(first + i % 3, first + i % 3);
+    }
+  }
+  return sum;
+}
+
+}  // namespace buckens::stepping

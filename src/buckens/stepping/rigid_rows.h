@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/loads/force_element.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::stepping {
+
+/// The rigid rows of force laws within one step: where each stands in its set, and its force.
+/// Docs: docs/theory/22-rows.md §5.
+class RigidRows {
+ public:
+  explicit RigidRows(const model::Model& model);
+
+  bool empty() const { return first_states_.empty(); }
+  /// Takes the stands that a state remembers.
+  void start(const model::RowMemory& memory);
+  /// One per Load::rigid_row, in memory that stays in place.
+  const std::vector<loads::RowStand>& stands() const { return stands_; }
+  void add_force(int row, double change) { stands_[static_cast<std::size_t>(row)].force += change; }
+  /// Moves all rows to the stands that follow from their sets. @return whether a regime changed
+  bool move(const std::vector<loads::RigidRow>& rows);
+  /// Regime changes in this step.
+  int num_moves() const { return num_moves_; }
+  /// Whether any regime is another one than at the start of the step.
+  bool have_changed() const;
+
+ private:
+  std::vector<int> first_states_;  // in RowMemory::laws, per rigid row
+  std::vector<loads::RowStand> stands_;
+  std::vector<int> regimes_at_start_;
+  int num_moves_ = 0;
+};
+
+/// What a row gives per force along it, by what both bodies give alone [m/N], [rad/(N m)].
+double own_compliance(const dynamics::SystemRow& row,
+                      const std::vector<dynamics::BodyCompliance>& compliance);
+
+}  // namespace buckens::stepping

@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rigid stops, ropes, friction that sticks without any motion: exact motions, energy, messages."""
+
+import math
+
+import numpy
+import pytest
+
+from conftest import SOURCE
+
+G = 9.81
+
+BALL = """
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies: {ball: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 1]}}}
+joints: {way: {prismatic: {between: [ground, ball], axis: [0, 0, 1]}}}
+loads: {floor: {slide-stop: {joint: way, from: -1 m, restitution: 0.9}}}
+simulation: {duration: 10 s, step: 5 ms}
+output: {every: 50 ms, sensors: {z: {joint-coordinate: way}, f: {spring-force: floor}, lost: {energy: dissipated}, balance: {energy: balance}}}
+"""
+
+
+def bouncing(t, e=0.9):
+    """Height above the floor at rest at 1 m, thrown back with e at each impact."""
+    start = math.sqrt(2 / G)
+    if t < start:
+        return 1 - 0.5 * G * t * t
+    speed = G * start * e
+    while t >= start + 2 * speed / G:
+        start += 2 * speed / G
+        speed *= e
+        if speed < 1e-3:
+            return 0.0
+    return speed * (t - start) - 0.5 * G * (t - start) ** 2
+
+
+@pytest.mark.parametrize("control", ["", ", tolerance: 1e-3"])
+def test_a_ball_bounces_until_it_rests(sensors, control):
+    out = sensors(BALL.replace("step: 5 ms", "step: 5 ms" + control))
+    # Free fall and the cubic of the impact's instant are exact for a parabola: only rounding is left.
+    flying = out["t"] < 8.5
+    exact = numpy.array([bouncing(t) for t in out["t"]])
+    assert numpy.abs(out["z.value"] + 1 - exact)[flying].max() < 1e-9
+    # Bounces shorter than a step end; the theory of endless bounces ends at 8.578949179 s.
+    resting = out["t"] > 8.6
+    assert numpy.abs(out["z.value"] + 1)[resting].max() < 1e-14
+    assert out["f"][resting] == pytest.approx(-2 * G, rel=1e-12)  # pressed
+    assert out["lost"][-1] == pytest.approx(2 * G, rel=1e-12)
+    assert numpy.abs(out["balance"]).max() < 1e-10
+
+
+ROPE = """
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies: {bob: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [1, 0, 0]}}}
+loads: {line: {rope: {between: [ground, bob], length: 1 m}}}
+simulation: {duration: 1 s, step: STEP}
+output: {every: 0.1 s, sensors: {p: {position: bob}, pull: {spring-force: line}, balance: {energy: balance}}}
+"""
+
+
+def test_a_bob_on_a_taut_rope_is_a_pendulum(sensors):
+    # IFToMM A01: from the horizontal, 1 m, at t = 1 s.
+    errors = []
+    for step in ("2 ms", "1 ms"):
+        out = sensors(ROPE.replace("STEP", step))
+        errors.append(abs(out["p.x"][-1] + 0.9862917511))
+        assert out["p.x"] ** 2 + out["p.z"] ** 2 == pytest.approx(numpy.ones(len(out["t"])), abs=1e-12)
+        # Pull of a pendulum from the horizontal: 3 m g sin of the angle below it.
+        assert out["pull"][1:] == pytest.approx(3 * 2 * G * -out["p.z"][1:], abs=2e-3)
+        assert numpy.abs(out["balance"]).max() < 1e-3
+    assert errors[1] < 1e-5
+    assert errors[0] / errors[1] == pytest.approx(4, abs=0.3)  # second order
+
+
+def test_a_rope_lets_fly_and_catches(sensors):
+    out = sensors("""
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies: {bob: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0.6, 0, 0]}}}
+loads: {line: {rope: {between: [ground, bob], length: 1 m}}}
+simulation: {duration: 0.5 s, step: 1 ms}
+output: {every: 1 ms, sensors: {p: {position: bob}, v: {velocity: bob}, pull: {spring-force: line}, lost: {energy: dissipated}, balance: {energy: balance}}}
+""")
+    # It falls 0.8 m, where the rope comes taut and takes the speed along it.
+    caught = math.sqrt(2 * 0.8 / G)
+    speed = G * caught
+    before, after = out["t"] < caught - 1e-3, out["t"] > caught + 2e-3
+    assert out["p.z"][before] == pytest.approx(-0.5 * G * out["t"][before] ** 2, abs=1e-12)
+    assert numpy.abs(out["pull"][before]).max() == 0
+    assert out["lost"][-1] == pytest.approx(0.5 * (0.8 * speed) ** 2, rel=2e-3)  # of the step's instant on the arc
+    length = numpy.hypot(out["p.x"], out["p.z"])
+    assert length[after] == pytest.approx(numpy.ones(after.sum()), abs=1e-12)
+    assert out["pull"][after].min() > 0
+    assert numpy.abs(out["balance"]).max() < 2e-3 * speed**2
+
+
+def test_equal_sleds_exchange_their_speeds(sensors):
+    # Between bodies: the first hits the second, which stands, and so on to the wall and back.
+    out = sensors("""
+buckens: 1
+bodies:
+  a: {rigid: {mass: 3 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 0]}}
+  b: {rigid: {mass: 3 kg, inertia: [1, 1, 1]}, at: {position: [1, 0, 0]}}
+joints:
+  rail: {prismatic: {between: [ground, a], axis: [1, 0, 0]}}
+  way: {prismatic: {between: [a, b], axis: [1, 0, 0]}}
+loads:
+  buffer: {slide-stop: {joint: way, from: -0.2 m, restitution: 1}}
+initial: {bodies: {a: {velocity: [2, 0, 0]}}}
+simulation: {duration: 0.5 s, step: 0.7 ms}
+output: {every: 10 ms, sensors: {a: {velocity: a}, b: {velocity: b}, xb: {position: b}, balance: {energy: balance}}}
+""")
+    before, after = out["t"] < 0.0995, out["t"] > 0.101
+    assert out["a.x"][before] == pytest.approx(2, rel=1e-12) and out["b.x"][before] == pytest.approx(0, abs=1e-12)
+    assert out["b.x"][after] == pytest.approx(2, rel=1e-12) and out["a.x"][after] == pytest.approx(0, abs=1e-12)
+    assert out["xb.x"][after] == pytest.approx(1 + 2 * (out["t"][after] - 0.1), rel=1e-12)
+    assert numpy.abs(out["balance"]).max() < 1e-11
+
+
+ELBOW = """
+buckens: 1
+gravity: [0, -9.81, 0]
+planar: xy
+bodies:
+  upper: {rigid: {mass: 1 kg, com: [0.5, 0, 0], inertia: [0, 0, 0.0833]}, markers: {a: {position: [0, 0, 0]}, b: {position: [1, 0, 0]}}}
+  lower: {rigid: {mass: 1 kg, com: [0.5, 0, 0], inertia: [0, 0, 0.0833]}, markers: {a: {position: [0, 0, 0]}}, at: {position: [1, 0, 0]}}
+joints:
+  shoulder: {revolute: {between: [ground, upper/a]}}
+  elbow: {revolute: {between: [upper/b, lower/a]}}
+loads: {stop: {hinge-stop: {joint: elbow, from: -40 deg, to: 60 deg, restitution: 0.5}}}
+simulation: {duration: 1.5 s, step: STEP}
+output: {every: 0.1 s, sensors: {elbow: {joint-coordinate: elbow}, shoulder: {joint-coordinate: shoulder}, lost: {energy: dissipated}, balance: {energy: balance}}}
+"""
+
+
+def test_a_double_pendulum_with_a_stop_converges(sensors):
+    runs = [sensors(ELBOW.replace("STEP", step)) for step in ("2 ms", "1 ms", "0.5 ms", "0.05 ms")]
+    ends = [numpy.array([out["elbow.value"][-1], out["shoulder.value"][-1], out["lost"][-1]]) for out in runs]
+    errors = [numpy.abs(end - ends[-1]).max() for end in ends[:-1]]
+    # Instant and what follows an impact are of second order, with a factor that depends on where in a step it falls.
+    assert errors[2] < 0.4 * errors[1] < 0.2 * errors[0]
+    assert errors[2] < 1e-4
+    for out in runs:
+        assert out["elbow.value"].max() < math.radians(60) + 1e-4
+        assert out["elbow.value"].min() > -math.radians(40) - 1e-4
+    assert runs[-1]["lost"][-1] > 0.1
+    assert numpy.abs(runs[-1]["balance"]).max() < 1e-3
+
+
+BAR = """
+buckens: 1
+materials: {soft: {E: 1e7 Pa, nu: 0, rho: 1000 kg/m^3}}
+sections: {s: {rectangle: {width: 10 mm, height: 10 mm}}}
+bodies: {bar: {beam: {from: [0, 0, 0], to: [1 m, 0, 0], elements: 60, section: s, material: soft}}}
+joints: {way: {prismatic: {between: [ground, bar/start], axis: [1, 0, 0]}}}
+loads: {wall: {slide-stop: {joint: way, from: -10 mm}}}
+initial: {bodies: {bar: {velocity: [-1 m/s, 0, 0]}}}
+simulation: {duration: 60 ms, step: 20 us, rho-inf: 0.8}
+output: {every: 0.2 ms, sensors: {x: {joint-coordinate: way}, push: {spring-force: wall}, v: {velocity: bar/com}, lost: {energy: dissipated}}}
+"""
+
+
+def test_an_elastic_bar_rebounds_by_its_own_waves(sensors):
+    # With the speed c = 100 m/s of waves the wall feels ρ A c v = 10 N for 2 L/c = 20 ms, and the bar leaves it with its speed reversed.
+    out = sensors(BAR)
+    hit, gone = 0.01, 0.03
+    pressed = (out["t"] > hit + 2e-3) & (out["t"] < gone - 2e-3)
+    assert -out["push"][pressed].mean() == pytest.approx(10, rel=0.02)
+    assert numpy.abs(out["push"][out["t"] < hit - 1e-4]).max() == 0
+    assert numpy.abs(out["push"][out["t"] > gone + 2e-3]).max() == 0
+    # Momentum is that of the push; what the mesh of 60 elements disperses of the front stays as vibration.
+    assert out["v.x"][-1] == pytest.approx(1, rel=0.02)
+
+
+INCLINE = """
+buckens: 1
+gravity: ["9.81*sin(pi/6) m/s^2", 0, "-9.81*cos(pi/6) m/s^2"]
+bodies:
+  b0: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 0]}}
+  b1: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [0, 1, 0]}}
+  b2: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [0, 2, 0]}}
+joints:
+  g0: {prismatic: {between: [{ground: [0, 0, 0]}, b0], axis: [1, 0, 0]}}
+  g1: {prismatic: {between: [{ground: [0, 1, 0]}, b1], axis: [1, 0, 0]}}
+  g2: {prismatic: {between: [{ground: [0, 2, 0]}, b2], axis: [1, 0, 0]}}
+loads:
+  f0: {slide-friction: {joint: g0, static: 0.577, stick: rigid}}
+  f1: {slide-friction: {joint: g1, static: 0.578, stick: rigid}}
+  f2: {slide-friction: {joint: g2, static: 0.7, stick: rigid}}
+initial: {bodies: {b2: {velocity: [1, 0, 0]}}}
+simulation: {duration: 3 s, step: 1 ms}
+output:
+  every: 0.1 s
+  sensors:
+    x0: {joint-coordinate: g0}
+    x1: {joint-coordinate: g1}
+    x2: {joint-coordinate: g2}
+    r0: {spring-force: f0}
+    r1: {spring-force: f1}
+    r2: {spring-force: f2}
+    balance: {energy: balance}
+    lost: {energy: dissipated}
+"""
+
+
+def test_rigid_friction_slides_sticks_and_stops(sensors):
+    out = sensors(INCLINE)
+    down, normal = G * 0.5, G * math.cos(math.pi / 6)
+    a = down - 0.577 * normal
+    assert out["x0.value"] == pytest.approx(0.5 * a * out["t"] ** 2, abs=1e-9)
+    assert out["r0"] == pytest.approx(2 * 0.577 * normal, rel=1e-9)
+    # Above tan 30 degrees it holds: not a step of it is a motion.
+    assert numpy.abs(out["x1.value"]).max() < 1e-15
+    assert out["r1"] == pytest.approx(2 * down, rel=1e-9)
+    # Thrown down it slides, and then sticks; the step in which it stops is one of 1 ms at a speed below 1.2 mm/s.
+    braking = 0.7 * normal - down
+    assert out["x2.value"][-1] == pytest.approx(0.5 / braking, abs=2e-6)
+    assert numpy.abs(out["x2.rate"][10:]).max() < 1e-12
+    assert out["r2"][-1] == pytest.approx(2 * down, rel=1e-6)
+    assert numpy.abs(out["balance"]).max() < 1e-5 * out["lost"][-1]
+
+
+@pytest.mark.parametrize("old, new, words", [
+    ("restitution: 0.9", "restitution: 1.2", ["restitution", "expected 0 to 1", "1.2"]),
+    ("restitution: 0.9", "restitution: 0.5, stiffness: 1e5 N/m", ["restitution", "stiffness"]),
+    ("restitution: 0.9", "damping: 5 N s/m", ["damping", "stiffness"]),
+    ("step: 5 ms", "step: 5 ms, method: newmark", ["floor", "newmark", "generalized-alpha"]),
+    ("from: -1 m", "from: 0.2 m", ["from", "0.2", "outside"]),
+])
+def test_what_cannot_be_is_refused(buckens, tmp_path, old, new, words):
+    assert old in BALL
+    (tmp_path / "model.yaml").write_text(BALL.replace(old, new))
+    buckens("run", "model.yaml", "-o", "out").must(2, "model.yaml:", *words)
+
+
+def test_a_rope_that_is_too_short_is_refused(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(ROPE.replace("STEP", "1 ms").replace("length: 1 m", "length: 0.9 m"))
+    buckens("run", "model.yaml", "-o", "out").must(2, "model.yaml:5", 'load "line"', "1 m apart", "0.9 m long")
+
+
+def test_an_equilibrium_beyond_a_rigid_stop_is_refused(buckens, tmp_path):
+    text = BALL.replace("loads: {", "loads: {spring: {slide-spring: {joint: way, stiffness: 10 N/m}}, ")
+    (tmp_path / "model.yaml").write_text(text.replace("simulation:", "initial: {start: static}\nsimulation:"))
+    buckens("run", "model.yaml", "-o", "out").must(3, 'load "floor"', "beyond the end", "stiffness")
+
+
+def test_a_load_falls_into_its_rope(sensors):
+    text = (SOURCE / "examples" / "crane_cable/crane_cable").with_suffix(".yaml").read_text()
+    out = sensors(text)
+    # Free fall over 200 mm.
+    assert out["t"][out["rope"] > 0][0] == pytest.approx(math.sqrt(2 * 0.2 / G), abs=6e-3)  # records every 5 ms
+    # As with a fifth of the step, to what the two differ.
+    assert out["tip.y"].min() == pytest.approx(-0.46997, abs=5e-5)
+    assert out["load.y"].min() == pytest.approx(-0.66990, abs=5e-5)
+    assert out["rope"].min() == 0  # slack, and never pushing
