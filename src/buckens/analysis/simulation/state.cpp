@@ -37,7 +37,7 @@ std::string differences(const std::vector<std::string>& saved,
     for (const std::string& line : mine) {
       if (std::find(other.begin(), other.end(), line) != other.end()) continue;
       const auto [path, value] = split_line(line);
-      const auto same = std::find_if(other.begin(), other.end(), [&](const std::string& o) {
+      const auto same = std::find_if(other.begin(), other.end(), [&, path = path](const std::string& o) {
         return split_line(o).first == path;
       });
       if (same != other.end() && !is_saved) continue;  // told already
