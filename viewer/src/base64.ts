@@ -1,6 +1,6 @@
-/** Base64 (RFC 4648) of little-endian numbers, read from any place without decoding the rest. */
+/** Base64 (RFC 4648) of little-endian numbers, read from any position without decoding the rest. */
 
-/** The page holds something that cannot be shown; the message says what and where. */
+/** The page contains something that cannot be shown; the message says what and where. */
 export class PageDataError extends Error {}
 
 const kAlphabet = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/';
@@ -8,7 +8,7 @@ const kWrong = 255;
 const kValue = new Uint8Array(256).fill(kWrong);
 for (let i = 0; i < kAlphabet.length; i++) kValue[kAlphabet.charCodeAt(i)] = i;
 
-/** Number of bytes that the text stands for. */
+/** Number of bytes that the text encodes. */
 export function byteLength(text: string): number {
   const pads = text.endsWith('==') ? 2 : text.endsWith('=') ? 1 : 0;
   return (text.length / 4) * 3 - pads;
@@ -48,7 +48,7 @@ export function checkBase64(text: unknown, count: number, size: number, where: s
   return text;
 }
 
-/** `bytes` as an array of its own, so that it starts at a multiple of the number's size. */
+/** `bytes` as a separate array, so that it starts at a multiple of the number's size. */
 function buffer(bytes: Uint8Array): ArrayBuffer {
   return bytes.slice().buffer as ArrayBuffer;
 }

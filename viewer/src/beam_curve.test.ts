@@ -4,7 +4,7 @@ import type { Triple } from './page_data';
 
 const kXi = [0, 0.1, 0.35, 0.5, 0.8, 1];
 
-/** Tip-loaded cantilever of unit length: w = x²(3 − x)/2, a cubic: one element has it exactly. */
+/** Tip-loaded cantilever of unit length: w = x²(3 − x)/2, a cubic: one element represents it exactly. */
 const bent = [0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1.5];
 
 describe('BeamCurve', () => {

@@ -4,7 +4,7 @@ import type { FramePlace } from './interpolation';
 import type { Body } from './run';
 import type { Painted } from './surface_values';
 
-/** The fields of one body, worked out where they are wanted. */
+/** The fields of one body, computed where they are needed. */
 export class BodyField {
   private readonly sources: FieldSource[];
   private readonly known = new Map<FieldSource, FieldValues>();

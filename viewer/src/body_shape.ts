@@ -6,11 +6,11 @@ import type { PageBody } from './page_data';
 export interface Faces {
   /** Four per face: nodes counter-clockwise seen from outside, the fourth −1 for triangles. */
   nodes: Int32Array;
-  /** Per face the element below it, counted among those that have a face. */
+  /** Element below each face, counted among those that have a face. */
   elements: Int32Array;
-  /** Four per face: where fields on `places` have the corner's value, −1 for nowhere; or null. */
+  /** Four per face: index of the corner's value in fields on `places`, −1 for none; or null. */
   places: Int32Array | null;
-  /** Per face, bit k: its side from corner k is an edge of its element. Null where all are. */
+  /** Per face, bit k: its side from corner k is an edge of its element. Null if all are. */
   edges: Int32Array | null;
   numElements: number;
   numPlaces: number;
@@ -18,9 +18,9 @@ export interface Faces {
 
 /** The cross-sections of the elements of a body. */
 export interface Sections {
-  /** By section: the outline, then holes. */
+  /** For each section: the outline, then holes. */
   loops: Loop[][];
-  /** By end of an element, 2 · element for the first: its section. */
+  /** Section at each end of an element; index 2 · element for the first end. */
   at: Int32Array;
   /** Elements × 3: local y axis in the body frame. */
   axes: Float32Array;
@@ -52,7 +52,7 @@ export function decodeFaces(body: PageBody, count: number, where: string): Faces
   return { nodes, elements, places, edges, numElements, numPlaces: places ? most(places) + 1 : 0 };
 }
 
-/** The cross-sections of the elements of a body; null where it has none. */
+/** The cross-sections of the elements of a body; null if it has none. */
 export function decodeSections(body: PageBody, count: number, where: string): Sections | null {
   if (!body.sections || body.sections.length === 0) return null;
   const loops = body.sections.map((section) =>

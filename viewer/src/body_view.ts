@@ -12,7 +12,7 @@ import type { Skin, SkinLook } from './skin';
 import type { Theme } from './theme';
 import type { ViewOptions } from './view_options';
 
-/** Lengths of things that have none in the model [m]. */
+/** Sizes of things that have none in the model [m]. */
 export interface GlyphSize {
   /** Radius of a joint; everything else is a multiple of it. */
   joint: number;
@@ -106,7 +106,7 @@ export class BodyView {
     this.root.add(box);
   }
 
-  /** Bars along the axis about which a body spins do not show that it does. */
+  /** Bars along the axis about which a body spins do not show the spin. */
   private disc(color: string, size: GlyphSize, { axis }: Spin): THREE.Object3D {
     const disc = quarteredDisc(color);
     disc.scale.setScalar(3 * size.joint);
@@ -114,7 +114,7 @@ export class BodyView {
     return disc;
   }
 
-  /** Moves to the present pose and shape. */
+  /** Moves to the current pose and shape. */
   update(options: ViewOptions, look: SkinLook): void {
     const { pose } = this.motion;
     this.root.position.set(pose[0]!, pose[1]!, pose[2]!);
@@ -128,7 +128,7 @@ export class BodyView {
     }
   }
 
-  /** Works the field out and paints it; the range of its values, [NaN, NaN] if there is none. */
+  /** Computes and paints the field; returns the range of its values, [NaN, NaN] if there is none. */
   paint(place: FramePlace, options: ViewOptions): [number, number] {
     const { perElement, item } = options.field;
     let [low, high] = [Infinity, -Infinity];

@@ -69,7 +69,7 @@ function boundsOf(whole: Box, machine: number): Bounds {
   const center = finite ? whole.low.map((l, i) => (l + whole.high[i]!) / 2) : [0, 0, 0];
   const half = finite ? whole.low.map((l, i) => (whole.high[i]! - l) / 2) : [0, 0, 0];
   const distance = Math.hypot(...center);
-  // A body without extent has no length of its own; below float32's grain there is none either.
+  // A body without extent has no length of its own; nor is there one below float32's resolution.
   const resolvable = (length: number) => length > Math.max(1e-9, 1e-6 * distance);
   const diagonal = whole.diagonal;
   if (!resolvable(diagonal)) {

@@ -1,7 +1,7 @@
 import { el } from './dom';
 
 export interface CameraActions {
-  /** Along axis 0, 1, 2, or from the corner for −1. */
+  /** Along axis 0, 1, 2; −1: from the corner. */
   lookAlong(axis: number): void;
   fit(): void;
   project(): void;

@@ -4,7 +4,7 @@ import type { Triple } from './page_data';
 
 const kFieldOfView = 32;
 
-/** What lies over the edges of the picture [CSS px]. */
+/** Widths of the controls over the edges of the picture [CSS px]. */
 export interface Insets {
   left: number;
   top: number;
@@ -21,9 +21,9 @@ export class CameraRig {
   private width = 1;
   private tall = 1;
   private insets: Insets = { left: 0, top: 0, right: 0, bottom: 0 };
-  /** The box that was fitted last, while nobody has moved the camera since. */
+  /** The box that was fitted last, unless the camera was moved since. */
   private fitted: { half: Triple; back: Triple | undefined } | null = null;
-  /** While it follows another, its moves are no news. */
+  /** While it follows another camera, its moves are not reported. */
   private quiet = false;
   /** Visible height at the target in the orthographic view before zoom. */
   private height = 1;
@@ -56,11 +56,11 @@ export class CameraRig {
     this.controls.update();
   }
 
-  /** What was fitted and not moved since is fitted anew. */
+  /** A view that was fitted and not moved since is fitted again. */
   resize(width: number, height: number, insets: Insets): void {
     [this.width, this.tall] = [Math.max(1, width), Math.max(1, height)];
     this.aspect = this.width / this.tall;
-    // Where almost nothing is left free, the machine may as well lie behind the controls.
+    // If almost nothing is left free, the machine may as well be behind the controls.
     const narrow = width - insets.left - insets.right < 0.3 * width;
     const low = height - insets.top - insets.bottom < 0.3 * height;
     this.insets = {
@@ -75,7 +75,7 @@ export class CameraRig {
     if (this.fitted) this.fit(this.fitted.half, this.fitted.back);
   }
 
-  /** The target stands in the middle of what is free. */
+  /** The target is in the middle of the free area. */
   private shift(): void {
     const { left, right, top, bottom } = this.insets;
     const [x, y] = [(right - left) / 2, (bottom - top) / 2];
@@ -99,7 +99,7 @@ export class CameraRig {
       ? new THREE.Vector3(...back)
       : this.camera.position.clone().sub(this.controls.target);
     direction.normalize();
-    // Exactly along `up` the view has no horizon; a hair beside it is seen as the same.
+    // Exactly along `up` the view has no horizon; a tiny offset looks the same.
     const up = new THREE.Vector3(...this.up);
     if (Math.abs(direction.dot(up)) > 0.9999) {
       const aside = Math.abs(up.y) < 0.9 ? new THREE.Vector3(0, -1, 0) : new THREE.Vector3(0, 0, 1);
@@ -138,7 +138,7 @@ export class CameraRig {
     return this.camera.position.clone().sub(this.controls.target).normalize().toArray();
   }
 
-  /** Brings what is at the target nearer (`factor` above 1) or moves it away. */
+  /** Brings the target nearer (`factor` above 1) or moves it away. */
   zoom(factor: number): void {
     this.fitted = null;
     if (this.orthographic) {
@@ -168,7 +168,7 @@ export class CameraRig {
     this.changed();
   }
 
-  /** Moves the view to the right and up by shares of its height. */
+  /** Moves the view to the right and up by fractions of its height. */
   move(aside: number, up: number): void {
     this.fitted = null;
     const { camera } = this;
@@ -185,7 +185,7 @@ export class CameraRig {
     this.changed();
   }
 
-  /** Looks from where another camera of the same kind of view looks. */
+  /** Takes the viewpoint of another camera of the same kind of view. */
   follow(other: CameraRig): void {
     this.quiet = true;
     this.fitted = null;
@@ -199,7 +199,7 @@ export class CameraRig {
     this.quiet = false;
   }
 
-  /** Changes the projection; what is at the target keeps its size. */
+  /** Changes the projection; objects at the target keep their size. */
   setOrthographic(on: boolean): void {
     if (on === this.orthographic) return;
     const target = this.controls.target.clone();

@@ -5,7 +5,7 @@ import type { Playback } from './playback';
 import type { Run } from './run';
 import type { ViewOptions } from './view_options';
 
-/** What to say in place of a picture or of a motion; empty if there are both. */
+/** Text shown instead of a picture or of a motion; empty if there are both. */
 export function notice(run: Run, panes: Pane[], playback: Playback): string {
   const fault = panes.find((pane) => pane.fault)?.fault;
   if (fault) return `The 3-D view needs WebGL, which this browser does not offer (${fault}).`;

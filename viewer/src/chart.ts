@@ -24,7 +24,7 @@ export interface ChartContent {
   curves: Curve[];
 }
 
-/** What is smaller than `least` is what rounding left of zero. */
+/** Values smaller than `least` are rounding errors of zero. */
 export function orZero(value: number, least: number): number {
   return Math.abs(value) < least ? 0 : value;
 }
@@ -78,7 +78,7 @@ function largest(curves: Curve[]): number {
   return most;
 }
 
-/** One panel: title, legend with the values at the present time, curves, time cursor. */
+/** One panel: title, legend with the values at the current time, curves, time cursor. */
 export class Chart {
   readonly root: HTMLElement;
   readonly cursor = el('div', { class: 'time-cursor' });
@@ -205,22 +205,22 @@ function timeRange(times: Float64Array): [number, number] {
   return last > first ? [first, last] : [first - 0.5, first + 0.5];
 }
 
-/** A value range with air above and below, never empty. */
+/** A value range with margins above and below, never empty. */
 function airy(low: number | null, high: number | null): [number, number] {
   if (low === null || high === null) return [-1, 1];
-  // Float32 noise on a constant must not fill the panel.
+  // Float32 noise of a constant must not fill the panel.
   const least = 1e-5 * Math.max(Math.abs(low), Math.abs(high)) || 1;
   const span = Math.max(high - low, least);
   const middle = (low + high) / 2;
   return [middle - 0.58 * span, middle + 0.58 * span];
 }
 
-/** Without the zeros that only hold places. */
+/** Without trailing zeros. */
 function trim(text: string): string {
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
-/** Ticks with as many digits as it takes to tell them apart. */
+/** Ticks with as many digits as needed to tell them apart. */
 export function tickTexts(ticks: number[]): string[] {
   const apart = ticks.length > 1 ? Math.abs(ticks[1]! - ticks[0]!) : 0;
   const largest = Math.max(...ticks.map(Math.abs));

@@ -4,11 +4,11 @@ import { TimeFormat } from './quantity';
 import type { Run, Series } from './run';
 import type { Theme } from './theme';
 
-/** Plots share the column's height, within what is legible [CSS px]. */
+/** Plots share the column's height, within legible limits [CSS px]. */
 const kLeastHeight = 112;
 const kMostHeight = 220;
 
-/** What the runs side by side are called. */
+/** Names of the runs side by side. */
 export const kRunNames = ['A', 'B'] as const;
 
 /** Energies of one unit share a panel; every sensor has its own. */
@@ -54,11 +54,11 @@ export class Charts {
   private readonly charts: Chart[];
   private readonly shown = new Set<number>();
   private readonly format: TimeFormat;
-  /** The curves at picked nodes; stands first. */
+  /** The curves at picked nodes; comes first. */
   private extra: Chart | null = null;
   private time = 0;
 
-  /** @param least below which values of a unit read as zero */
+  /** @param least threshold below which values of a unit are shown as zero */
   constructor(
     runs: Run[],
     times: Float64Array,
@@ -112,7 +112,7 @@ export class Charts {
     return this.extra ? [this.extra, ...own] : own;
   }
 
-  /** Draws the chosen panels at the present width. */
+  /** Draws the chosen panels at the current width. */
   layOut(): void {
     for (const chart of this.charts) chart.destroy();
     const { chosen } = this;
@@ -132,7 +132,7 @@ export class Charts {
     return Math.max(160, this.root.clientWidth - 20);
   }
 
-  /** Of one plot: what the titles leave of the column, in equal parts. */
+  /** Height of one plot: the column without the titles, in equal parts. */
   private get height(): number {
     const { chosen } = this;
     // 13 px of padding and line per panel, 14 px around all of them.
@@ -152,7 +152,7 @@ export class Charts {
     for (const chart of this.chosen) chart.setTime(t);
   }
 
-  /** Cursor place of each shown panel [CSS px], for tests. */
+  /** Cursor position of each shown panel [CSS px], for tests. */
   cursors(): { name: string; x: number }[] {
     return this.chosen.map(({ content, cursor }) => ({
       name: content.name,

@@ -2,9 +2,9 @@ type Stop = [number, number, number];
 
 export type ColorMapName = 'spectrum' | 'viridis' | 'diverging';
 
-/** Colours at even distances, sRGB 0 … 1. */
+/** Evenly spaced colours, sRGB 0 … 1. */
 const kMaps: Record<ColorMapName, Stop[]> = {
-  // Blue – cyan – green – yellow – red, evenly dark enough for both themes.
+  // Blue – cyan – green – yellow – red, all dark enough for both themes.
   spectrum: [
     [0.19, 0.28, 0.74],
     [0.16, 0.56, 0.87],
@@ -14,7 +14,7 @@ const kMaps: Record<ColorMapName, Stop[]> = {
     [0.95, 0.52, 0.17],
     [0.8, 0.14, 0.13],
   ],
-  // Equal steps look equal, also without colour vision.
+  // Perceptually uniform, even without colour vision.
   viridis: [
     [0.267, 0.005, 0.329],
     [0.275, 0.196, 0.496],
@@ -25,7 +25,7 @@ const kMaps: Record<ColorMapName, Stop[]> = {
     [0.626, 0.854, 0.223],
     [0.993, 0.906, 0.144],
   ],
-  // For signs: blue below, red above, grey between.
+  // For signed values: blue below, red above, grey between.
   diverging: [
     [0.17, 0.3, 0.72],
     [0.46, 0.61, 0.94],

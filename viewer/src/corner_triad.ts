@@ -6,7 +6,7 @@ import type { Triple } from './page_data';
 export class CornerTriad {
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.OrthographicCamera(-1.6, 1.6, 1.6, -1.6, 0, 10);
-  /** Tips and their texts, for the labels over the canvas. */
+  /** Tips and their labels, shown over the canvas. */
   readonly tips: { text: string; at: THREE.Vector3; color: string }[];
 
   constructor(gravity: Triple) {
@@ -40,7 +40,7 @@ export class CornerTriad {
     renderer.autoClear = true;
   }
 
-  /** Place of a tip inside the corner square, 0 … 1 from the left and from the top. */
+  /** Position of a tip inside the corner square, 0 … 1 from the left and from the top. */
   project(at: THREE.Vector3): [number, number] {
     const p = at.clone().project(this.camera);
     return [(p.x + 1) / 2, (1 - p.y) / 2];

@@ -1,6 +1,6 @@
 import { el } from './dom';
 
-/** A modal box with a title; closes by its button, by escape and by a click beside it. */
+/** A modal box with a title; closed by its button, by Escape and by a click outside it. */
 export function modal(title: string, ...content: (Node | string)[]): HTMLDialogElement {
   const dialog = el('dialog', { class: 'details', 'aria-label': title });
   const close = el('button', { class: 'icon', type: 'button', 'aria-label': 'Close' }, '✕');
@@ -10,7 +10,7 @@ export function modal(title: string, ...content: (Node | string)[]): HTMLDialogE
   return dialog;
 }
 
-/** Two columns: names and what belongs to them. */
+/** Two columns: names and values. */
 export function nameTable(rows: [string, string][]): HTMLTableElement {
   const lines = rows.map(([name, text]) =>
     el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, text)),

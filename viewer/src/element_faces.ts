@@ -9,7 +9,7 @@ export class ElementFaces {
   readonly indices: Uint32Array;
   /** Vertex of the surface behind each vertex; the first ones are the same. */
   readonly vertexOf: Int32Array;
-  /** The vertex that carries the value of each face. */
+  /** The vertex with the value of each face. */
   readonly carrier: Int32Array;
   readonly positions: Float32Array;
   readonly normals: Float32Array;

@@ -2,7 +2,7 @@ import { figure } from './quantity';
 
 type Tree = Record<string, unknown>;
 
-/** One component of a sensor with what it may be off by. */
+/** One component of a sensor with its uncertainty. */
 export interface ErrorRow {
   /** "tip.x" */
   name: string;
@@ -13,10 +13,10 @@ export interface ErrorRow {
   split: string;
 }
 
-/** What `buckens run --error` says of the sensors of a run. */
+/** The error statement of `buckens run --error` on the sensors of a run. */
 export interface ErrorTable {
   rows: ErrorRow[];
-  /** What the uncertainties do not contain, and what else has to be known; sentences. */
+  /** Errors not included in the uncertainties, and other remarks; sentences. */
   notes: string[];
 }
 
@@ -32,7 +32,7 @@ function textsOf(value: unknown): string[] {
   return Array.isArray(value) ? value.filter((x): x is string => typeof x === 'string') : [];
 }
 
-/** As many digits of a value as its uncertainty leaves, and one more. */
+/** As many digits of a value as its uncertainty justifies, and one more. */
 export function certainDigits(value: number, uncertainty: number): string {
   if (!(uncertainty > 0) || value === 0) return figure(value);
   const digits = Math.ceil(Math.log10(Math.abs(value) / uncertainty)) + 1;

@@ -10,7 +10,7 @@ export class FieldShading {
     fieldBands: { value: 0 },
     cutLow: { value: -3e38 },
     cutHigh: { value: 3e38 },
-    /** 0 shows all, 1 greys what is beyond the limits, 2 hides it. */
+    /** 0 shows all, 1 greys out values beyond the limits, 2 hides them. */
     cutMode: { value: 0 },
     noColor: { value: new THREE.Color(0x999999) },
     sectionColor: { value: new THREE.Color(0x777777) },
@@ -70,7 +70,7 @@ if (vQuarter.x * vQuarter.y > 0.0) diffuseColor.rgb *= 0.7;
 #endif
 `;
 
-// The inner side of a closed surface is seen only through a cut: a plain colour there looks like
+// The inside of a closed surface is seen only through a cut: a plain colour there looks like
 // the face of the cut.
 const kSection = `
 if (closedSurface > 0.5 && !gl_FrontFacing) {
@@ -114,7 +114,7 @@ export class FieldMaterial extends THREE.MeshLambertMaterial {
     return `field ${'SPIN' in (this.defines ?? {})}`;
   }
 
-  /** Darkens two quarters of a turn, by the attribute `spinQuarter`, so that a spin is seen. */
+  /** Darkens two quarters of a turn, by the attribute `spinQuarter`, so that a spin is visible. */
   showSpin(): void {
     this.defines = { ...this.defines, SPIN: '' };
   }
@@ -129,7 +129,7 @@ export class FieldMaterial extends THREE.MeshLambertMaterial {
   hides(values: number[], weights: number[]): boolean {
     const { cutMode, cutLow, cutHigh } = this.shading.uniforms;
     if (this.own.fieldOn.value < 0.5 || cutMode.value < 1.5) return false;
-    // As in the shader: a face has the value of its last vertex, and nothing recorded is not hidden.
+    // As in the shader: a face has the value of its last vertex, and unrecorded values are not hidden.
     const mixed = values.reduce((sum, value, k) => sum + weights[k]! * value, 0);
     const value = this.own.fieldFlat.value > 0.5 ? values[2]! : mixed;
     return value <= 1e30 && (value < cutLow.value || value > cutHigh.value);

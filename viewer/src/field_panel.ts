@@ -29,7 +29,7 @@ export class FieldPanel {
   private readonly known = new Map<string, [number, number]>();
 
   /**
-   * @param rangeOf least and largest value of an item over all runs; may take a while
+   * @param rangeOf least and largest value of an item over all runs; may be slow
    */
   constructor(
     private readonly items: FieldItem[],
@@ -112,7 +112,7 @@ export class FieldPanel {
     ];
   }
 
-  /** A field for a number in the unit of the scale; null when it is empty. */
+  /** An input field for a number in the unit of the scale; null when it is empty. */
   private number(name: string, set: (value: number | null) => void): HTMLInputElement {
     const input = el('input', { type: 'number', step: 'any', 'aria-label': name });
     input.addEventListener('change', () => {
@@ -144,7 +144,7 @@ export class FieldPanel {
     if (next) this.choose(next.id);
   }
 
-  /** The run has changed: ranges are worked out anew. */
+  /** The run has changed: ranges are computed again. */
   forget(): void {
     this.known.clear();
     const { field } = this.options;
@@ -176,7 +176,7 @@ export class FieldPanel {
     this.item.value = id;
     const [low, high] = this.wholeRun();
     [field.low, field.high] = [low, high];
-    // Limits and fixed ranges belong to the quantity for which they were typed.
+    // Limits and fixed ranges belong to the quantity for which they were entered.
     [field.cutLow, field.cutHigh] = [null, null];
     if (field.range === 'fixed') field.range = 'run';
     this.range.value = field.range;
@@ -184,7 +184,7 @@ export class FieldPanel {
     this.changed();
   }
 
-  /** Shows and hands to the graphics card what is chosen, for pictures with values from … to. */
+  /** Shows the choice and passes it to the graphics card, for pictures with values from … to. */
   update([from, to]: [number, number]): void {
     const { field, colors } = this.options;
     this.root.hidden = !colors || this.items.length === 0;
@@ -198,7 +198,7 @@ export class FieldPanel {
       tick.textContent = figure((field.low + kTicks[i]! * span) / factor, 3);
     });
     this.unit.textContent = unit;
-    // What is nothing beside the scale reads as nothing.
+    // Values negligible on the scale are shown as zero.
     const least = 1e-4 * Math.max(Math.abs(field.low), Math.abs(field.high));
     const shown = (value: number) => figure(Math.abs(value) < least ? 0 : value / factor, 3);
     this.now.textContent = Number.isFinite(from) ? `${shown(from)} … ${shown(to)}` : '–';
@@ -222,7 +222,7 @@ export class FieldPanel {
     const { uniforms } = this.shading;
     this.shading.setMap(field.map);
     uniforms.fieldLow.value = field.low;
-    // Where there is but one value all of it has the lowest colour.
+    // If there is only one value, all of it has the lowest colour.
     uniforms.fieldHigh.value = field.high > field.low ? field.high : field.low + 3e37;
     uniforms.fieldBands.value = field.bands;
     uniforms.cutMode.value = { none: 0, grey: 1, hide: 2 }[field.cut];

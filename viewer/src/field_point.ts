@@ -1,10 +1,10 @@
 import type { Body } from './run';
 import type { FieldSource } from './fields';
 
-/** What the value of a body is asked at. */
+/** The point at which the value of a body is requested. */
 export interface FieldPoint {
   node: number;
-  /** −1 where the point has none of them. */
+  /** −1 if the point has none. */
   place: number;
   element: number;
   line: number;
@@ -24,7 +24,7 @@ export function endOf(body: Body, line: number, node: number): number {
   return line >= 0 && body.elements[line]![1] === node ? 1 : 0;
 }
 
-/** Any way to a node's element and place, for nodes chosen by number. */
+/** Any element and place that belong to a node, for nodes chosen by number. */
 export function pointOf(body: Body, node: number): FieldPoint {
   const corner = body.faces ? body.faces.nodes.indexOf(node) : -1;
   const line = body.elements.findIndex((ends) => ends.includes(node));

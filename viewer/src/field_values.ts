@@ -25,7 +25,7 @@ function reduce(reduction: Reduction, row: ArrayLike<number>, at: number): numbe
   }
 }
 
-/** Works out the values of one source; keeps its memory from frame to frame. */
+/** Computes the values of one source; reuses its memory from frame to frame. */
 export class FieldValues {
   readonly values: Float32Array;
   private readonly row: Float32Array;
@@ -75,7 +75,7 @@ export function rangeOfRun(runs: Run[], id: string): [number, number] {
   return low <= high ? [low, high] : [0, 0];
 }
 
-/** Scale at which the largest deformation is seen: a twentieth of the machine, not below 1. */
+/** Scale at which the largest deformation is visible: a twentieth of the machine, not below 1. */
 export function visibleScale(runs: Run[], machine: number): number {
   const most = rangeOfRun(runs, 'displacement/magnitude')[1];
   return most > 0 ? Math.max(1, niceBelow((0.05 * machine) / most)) : 1;

@@ -60,7 +60,7 @@ describe('fields of a run', () => {
     const body = run.bodies[0]!;
     const xx = sourcesOf(body).find(({ item }) => item.id === 'stress/xx')!;
     const values = new FieldValues(xx).at(kEnd);
-    // 2 MPa · (1 + x): codes are good for 4 MPa / 65534.
+    // 2 MPa · (1 + x): codes resolve 4 MPa / 65534.
     expect(Math.max(...values)).toBeCloseTo(4e6, -2);
     expect(rangeOfRun([run], 'displacement/x')[1]).toBeCloseTo(0.3, 5);
     expect(rangeOfRun([run], 'von_mises_largest')).toEqual([0, 4e6]);
@@ -94,7 +94,7 @@ describe('lines and shells', () => {
     const frame = { index: 60, fraction: 0 };
     const values = new FieldValues(source).at(frame);
     expect(values.length).toBe(24);
-    // What ends at a node is what begins there.
+    // The value at the end of one element is that at the start of the next.
     for (let e = 0; e + 1 < 12; e++) expect(values[2 * e + 1]).toBe(values[2 * e + 2]);
     expect(indexAt(source, pointOf(rod, 0))).toBe(0);
     expect(indexAt(source, pointOf(rod, 12))).toBe(23);

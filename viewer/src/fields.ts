@@ -4,13 +4,13 @@ import type { Body, Field, Run } from './run';
 /** Something that can be shown in colour. */
 export interface FieldItem {
   id: string;
-  /** Items of one group stand together in the list. */
+  /** Items of one group are listed together. */
   group: string;
   label: string;
   unit: string;
 }
 
-/** How the numbers of one place become one. */
+/** How the numbers at one place are combined into one. */
 export type Reduction =
   | { kind: 'pick'; component: number }
   | { kind: 'magnitude' }
@@ -90,7 +90,7 @@ function vectorSources(
   ];
 }
 
-/** What a stress tensor gives besides its components; the ids are those of recorded fields. */
+/** Quantities derived from a stress tensor; the ids are those of recorded fields. */
 function stressInvariants(field: Field): FieldSource[] {
   const { on, rows, unit } = field;
   const mises = { id: 'von_mises', group: 'Stress', label: label('von_mises'), unit };
@@ -157,7 +157,7 @@ function fieldSources(field: Field): FieldSource[] {
   return tensor && name === 'stress' ? [...stressInvariants(field), ...single] : single;
 }
 
-/** Everything that a body can show, recorded quantities before derived ones. */
+/** All fields of a body, recorded quantities before derived ones. */
 export function sourcesOf(body: Body): FieldSource[] {
   const all = body.fields.filter(({ name }) => name !== 'displacement').flatMap(fieldSources);
   if (body.shape) {
@@ -165,12 +165,12 @@ export function sourcesOf(body: Body): FieldSource[] {
   } else if (body.displacement) {
     all.push(...vectorSources('displacement', 'm', 'nodes', body.displacement, body.perNode));
   }
-  // "von Mises" of a recorded field stands before the one worked out from the tensor.
+  // A recorded "von Mises" field comes before the one computed from the tensor.
   const rank = ({ reduction: { kind } }: FieldSource) => (kind === 'mises' || kind === 'principal' ? 1 : 0);
   return merged(all.sort((a, b) => rank(a) - rank(b)));
 }
 
-/** Solids and shells of one body record the same quantity each for themselves: one source of both. */
+/** Solids and shells of one body record the same quantity separately: one source of both. */
 function merged(all: FieldSource[]): FieldSource[] {
   const known = new Map<string, FieldSource>();
   for (const of of all) {
@@ -192,7 +192,7 @@ const kGroupOrder = [
   'Acceleration',
 ];
 
-/** The list of what can be shown, each item once. */
+/** The list of all fields, each item once. */
 export function fieldItems(runs: Run[]): FieldItem[] {
   const items = new Map<string, FieldItem>();
   for (const run of runs) {

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-/** Small solids of unit size that stand for frames, loads and mass centres. */
+/** Small solids of unit size that represent frames, loads and mass centres. */
 
 export const kAxisColors = [0xd8403a, 0x3f9d45, 0x3b74d8] as const;
 
@@ -8,7 +8,7 @@ export function solid(color: THREE.ColorRepresentation): THREE.MeshLambertMateri
   return new THREE.MeshLambertMaterial({ color });
 }
 
-/** A cylinder of radius 1 from 0 to 1 along z: stretched between two points by `span`. */
+/** A cylinder of radius 1 from 0 to 1 along z, to be stretched between two points by `span`. */
 const kRod = new THREE.CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5);
 export const kCone = new THREE.ConeGeometry(1, 1, 20).rotateX(Math.PI / 2).translate(0, 0, 0.5);
 const kBall = new THREE.SphereGeometry(1, 24, 16);
@@ -22,7 +22,7 @@ export function ball(material: THREE.Material): THREE.Mesh {
   return new THREE.Mesh(kBall, material);
 }
 
-/** Stretches something of unit length along z from a to b. */
+/** Stretches an object of unit length along z from a to b. */
 export function span(
   object: THREE.Object3D,
   a: THREE.Vector3,

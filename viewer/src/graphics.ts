@@ -1,7 +1,7 @@
 let slowly: boolean | null = null;
 
 /**
- * Whether the processor paints in place of graphics hardware: edges are not smoothed then, which takes
+ * Whether the processor renders instead of graphics hardware: edges are not smoothed then, which takes
  * most of its time. The address PAGE.html#fine smooths them all the same, for pictures.
  */
 export function paintsSlowly(): boolean {

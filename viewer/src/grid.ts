@@ -4,13 +4,13 @@ import type { Bounds } from './bounds';
 import type { Theme } from './theme';
 import type { Orientation } from './orientation';
 
-/** Cells from the middle to the rim; the lines fade out before it. */
+/** Cells from the centre to the rim; the lines fade out before it. */
 const kReach = 24;
 
 /** A grid through round coordinates below (3-D) or behind (planar) the model. */
 export class Grid {
   readonly root: THREE.LineSegments;
-  /** Distance of the lines [m]. */
+  /** Spacing of the lines [m]. */
   readonly spacing: number;
 
   constructor(bounds: Bounds, orientation: Orientation, planar: boolean, theme: Theme) {

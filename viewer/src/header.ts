@@ -22,13 +22,13 @@ function storageText({ storage }: Run): string {
   return `${[`${shown}${rounded}`, ...storage.notes].join('. ')}.`;
 }
 
-/** Where the run lies and what was changed for it. */
+/** Directory of the run and the overrides used for it. */
 function origin({ directory, changes }: Run): string[] {
   const set = changes.map((change) => `Set: ${change}`);
   return directory ? [`Directory: ${directory}`, ...set] : set;
 }
 
-/** Sensors with what they may be off by, of runs with an error statement. */
+/** Sensors with their uncertainties, of runs with an error statement. */
 function errors({ summary }: Run): HTMLElement[] {
   const table = errorTable(summary);
   if (!table) return [];
@@ -61,7 +61,7 @@ function details(run: Run): HTMLElement[] {
   ];
 }
 
-/** With little room only what tells whether the run is to be trusted. */
+/** With little room only what shows whether the run can be trusted. */
 function chips(run: Run, brief: boolean): HTMLElement[] {
   const shown = summaryChips(run).filter(({ tone }) => !brief || tone !== 'plain');
   return shown.map(({ label, value, tone, title }) =>
@@ -69,7 +69,7 @@ function chips(run: Run, brief: boolean): HTMLElement[] {
   );
 }
 
-/** Title and the few figures that say how the run went; a click on them shows all. */
+/** Title and the most important figures of the run; a click on them shows all. */
 export function header(runs: Run[]): HTMLElement {
   const names = namesOfRuns(runs);
   const title = titleOf(runs);

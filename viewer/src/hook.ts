@@ -1,6 +1,6 @@
 import type { ViewOptions } from './view_options';
 
-/** Answer of `window.__buckens.state()`: what is on the screen, in plain numbers. */
+/** Result of `window.__buckens.state()`: what is on the screen, in plain numbers. */
 export interface ViewerState extends ViewOptions {
   /** [s] */
   time: number;
@@ -18,17 +18,17 @@ export interface ViewerState extends ViewOptions {
   mode: number | null;
   /** Its largest displacement over the model's size, null in runs. */
   amplitude: number | null;
-  /** Range of the field shown at the present time; null without one. */
+  /** Range of the field shown at the current time; null without one. */
   present: [number, number] | null;
-  /** Time of the processor for the last picture: shapes and colours; handing it over [ms]. */
+  /** Processor time for the last picture: shapes and colours; transfer [ms]. */
   cost: { update: number; render: number };
-  /** Followed nodes: run, body, node, and place in the view [CSS px]. */
+  /** Followed nodes: run, body, node, and position in the view [CSS px]. */
   picks: { pane: number; body: string; node: number; screen: { x: number; y: number } }[];
   /** Direction from the target to the camera, of every view. */
   cameras: [number, number, number][];
   /** Time cursor of each panel shown [CSS px from the left end of its axis]. */
   cursors: { name: string; x: number }[];
-  /** Pose (position, quaternion w x y z) and place of the mass centre in the view [CSS px]. */
+  /** Pose (position, quaternion w x y z) and position of the mass centre in the view [CSS px]. */
   bodies: { name: string; pose: number[]; screen: { x: number; y: number } }[];
 }
 

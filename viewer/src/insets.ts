@@ -1,12 +1,12 @@
 import type { Insets } from './camera_rig';
 
-/** Narrower views have the colour scale above the picture in place of beside it [CSS px]. */
+/** Narrower views have the colour scale above the picture instead of beside it [CSS px]. */
 const kNarrow = 560;
-/** What texts take at the bottom of the view [CSS px]. */
+/** Height of the texts at the bottom of the view [CSS px]. */
 const kBottom = 30;
 
 /**
- * What the controls over the view cover. The colour scale lies across views of two runs and narrow
+ * Areas covered by the controls over the view. The colour scale is across views of two runs and narrow
  * ones, beside the picture in others.
  */
 export function insetsOf(view: HTMLElement, scale: HTMLElement, two: boolean): Insets {

@@ -4,7 +4,7 @@ export interface FramePlace {
   fraction: number;
 }
 
-/** Frame interval that holds t, clamped to the run. Frames may be unevenly spaced. */
+/** Frame interval that contains t, clamped to the run. Frames may be unevenly spaced. */
 export function locate(times: ArrayLike<number>, t: number): FramePlace {
   const last = times.length - 1;
   if (last <= 0 || !(t > times[0]!)) return { index: 0, fraction: 0 };

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import { arrow, ball, kCone, kZ, solid } from './glyphs';
 
-/** Small solids of unit size that stand for joints. */
+/** Small solids of unit size that represent joints. */
 
 function revolute(material: THREE.Material): THREE.Object3D {
   const body = new THREE.CylinderGeometry(0.8, 0.8, 1.6, 28).rotateX(Math.PI / 2);
@@ -24,7 +24,7 @@ function bushing(material: THREE.Material): THREE.Object3D {
   return rings;
 }
 
-/** Three quarters of a circle with an arrow head: a rotation that is driven. */
+/** Three quarters of a circle with an arrow head: a driven rotation. */
 function drivenRotation(): THREE.Object3D {
   const material = solid(0xd8403a);
   const ring = new THREE.Mesh(new THREE.TorusGeometry(1.9, 0.14, 10, 48, 1.5 * Math.PI), material);
@@ -33,7 +33,7 @@ function drivenRotation(): THREE.Object3D {
   head.position.set(0, -1.9, 0);
   head.quaternion.setFromUnitVectors(kZ, new THREE.Vector3(1, 0, 0));
   const turned = new THREE.Group().add(ring, head);
-  // The gap of the circle points to where a support stands.
+  // The gap of the circle points to the place of a support.
   turned.rotation.z = -Math.PI / 4;
   return new THREE.Group().add(turned);
 }
@@ -46,7 +46,7 @@ function drivenTranslation(): THREE.Object3D {
 
 const kDark = 0x20262e;
 
-/** A pin in a bush that is longer than it: turns and slides. */
+/** A pin in a bush longer than it: turns and slides. */
 function cylindrical(material: THREE.Material): THREE.Object3D {
   const bush = new THREE.CylinderGeometry(0.8, 0.8, 1.8, 28).rotateX(Math.PI / 2);
   const pin = new THREE.CylinderGeometry(0.35, 0.35, 4.4, 18).rotateX(Math.PI / 2);
@@ -92,7 +92,7 @@ function universal(material: THREE.Material): THREE.Object3D {
   );
 }
 
-/** A ball in a cage of rings: shafts that turn alike. */
+/** A ball in a cage of rings: shafts that turn at the same speed. */
 function constantVelocity(material: THREE.Material): THREE.Object3D {
   const group = new THREE.Group().add(ball(material));
   for (let k = 0; k < 3; k++) {

@@ -18,7 +18,7 @@ function isPrismatic(joint: Joint): boolean {
 }
 
 /**
- * One joint in the scene: its glyph where it holds its last side, a support under what stands on
+ * One joint in the scene: its glyph at its last side, a support under what is attached to
  * the ground, a line between the two sides when they are apart (springs, or a magnified deformation).
  */
 export class JointView {
@@ -55,7 +55,7 @@ export class JointView {
     }
   }
 
-  /** A bar along the axis as long as the way that the slider goes. */
+  /** A bar along the axis as long as the travel of the slider. */
   private addRail(theme: Theme): THREE.Mesh {
     const axis = new THREE.Vector3(...this.axis());
     const origin = new THREE.Vector3(...this.motion.side(this.joint.between[0]!, 1));

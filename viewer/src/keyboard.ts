@@ -4,7 +4,7 @@ import { modal, nameTable } from './dialog';
 const kTurn = Math.PI / 18;
 const kMove = 0.05;
 
-/** What the keys do, told to the user. */
+/** Descriptions of the keys for the user. */
 const kKeys: [string, string][] = [
   ['space', 'play, pause'],
   ['← →', 'one stored frame (with shift ten)'],
@@ -33,18 +33,18 @@ export interface KeyActions {
   fit(): void;
   zoom(factor: number): void;
   turn(aside: number, up: number): void;
-  /** By shares of the view's height. */
+  /** In fractions of the view's height. */
   move(aside: number, up: number): void;
-  /** Along axis 0, 1, 2, or from the corner for −1. */
+  /** Along axis 0, 1, 2; −1: from the corner. */
   lookAlong(axis: number): void;
   deform(factor: number): void;
   nextField(steps: number): void;
   project(): void;
-  /** Any other key; false if it means nothing. */
+  /** Any other key; false if it has no function. */
   other(key: string): boolean;
 }
 
-/** Keys of the whole page; keys that the focused control understands itself are left to it. */
+/** Keys of the whole page; keys that the focused control handles itself are left to it. */
 export class Keyboard {
   readonly help = modal('Keys and mouse', nameTable(kKeys));
 

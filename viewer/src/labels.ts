@@ -1,4 +1,4 @@
-/** Texts over the canvas that follow points of the scene and keep out of each other's way. */
+/** Texts over the canvas that follow points of the scene and avoid each other. */
 
 export interface Label {
   text: string;
@@ -68,7 +68,7 @@ export class Labels {
     return size;
   }
 
-  /** First free place beside the point: right above or below, left above or below, further. */
+  /** First free place near the point: right above or below, left above or below, further away. */
   private spot(label: Label, [w, h]: [number, number], placed: Rectangle[]): Rectangle {
     if (label.kind === 'axis') {
       return { left: label.x - w / 2, top: label.y - h / 2, width: w, height: h };

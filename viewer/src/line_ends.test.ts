@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { LineEnds } from './line_ends';
 
 const chain = (count: number) => [...Array(count)].map((_, e): [number, number] => [e, e + 1]);
-/** What is recorded of an element: the larger of its ends. */
+/** The recorded value of an element: the larger of its ends. */
 const larger = (nodal: number[]) =>
   Float32Array.from(nodal.slice(1).map((b, e) => Math.max(nodal[e]!, b)));
 /** The ends of the elements of a chain, from the values at its nodes. */

@@ -1,7 +1,7 @@
 /**
  * Values of elements as values at their ends, so that colours run along a beam without steps.
  *
- * What is recorded for an element is the larger one of its ends. Where it grows along the beam, the
+ * The recorded value of an element is the larger one of its ends. Where it grows along the beam, the
  * smaller value of the two elements at a node is that of the node, and so is that of a peak at a
  * node. The larger end of an element always has the element's own value: nothing recorded is hidden,
  * and a jump at a load stays a jump.

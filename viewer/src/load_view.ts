@@ -6,15 +6,15 @@ import type { Motion } from './motion';
 import type { Load } from './run';
 import type { Triple } from './page_data';
 
-/** Arrows of one load; more would hide what they act on. */
+/** Number of arrows of one load; more would hide the body. */
 const kMostArrows = 200;
-/** Length of the longest arrow in radii of a joint. */
+/** Length of the longest arrow in joint radii. */
 const kLength = 12;
 const kColor = 0xc026a8;
 
 const kZ = new THREE.Vector3(0, 0, 1);
 
-/** One load in the scene: arrows as long as its present value asks for. */
+/** One load in the scene: arrows with lengths by its current value. */
 export class LoadView {
   readonly root = new THREE.Group();
   private readonly arrows: { glyph: THREE.Object3D; foot: number }[] = [];
@@ -54,7 +54,7 @@ export class LoadView {
     return body.toWorld(rest.map((x, k) => x + moved[k]! - origin[k]!));
   }
 
-  /** Where the first arrow stands; null for what acts on all bodies and has none. */
+  /** Position of the first arrow; null for loads on all bodies, which have none. */
   position(scale: number): Triple | null {
     return this.load.positions.length > 0 ? this.place(0, scale) : null;
   }
@@ -74,7 +74,7 @@ export class LoadView {
       const share = this.largest > 0 ? v.length() / this.largest : 0;
       glyph.visible = share > 1e-3;
       if (!glyph.visible) continue;
-      // Small values stay visible: the length falls with the root of the value.
+      // Small values stay visible: the length scales with the square root of the value.
       const length = kLength * this.size.joint * Math.sqrt(Math.min(1, share));
       v.normalize();
       glyph.quaternion.setFromUnitVectors(kZ, v);
@@ -85,7 +85,7 @@ export class LoadView {
     }
   }
 
-  /** Arrows of what presses onto a surface end there, others begin there: none hides in the body. */
+  /** Arrows of compressive loads end at the surface, others start there: none is hidden in the body. */
   private presses(v: THREE.Vector3, at: THREE.Vector3, factor: number): boolean {
     const { load, motion } = this;
     if (load.kind === 'pressure') return factor > 0;

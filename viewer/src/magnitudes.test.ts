@@ -9,7 +9,7 @@ describe('Magnitudes', () => {
   const magnitudes = new Magnitudes([run], 0.6);
 
   it('tell what rounding left of zero from small values', () => {
-    // 1e-29 m beside a machine of 0.6 m is nothing, a nanometre is something.
+    // 1e-29 m is negligible for a machine of 0.6 m, a nanometre is not.
     expect(magnitudes.least('m')).toBeGreaterThan(1e-29);
     expect(magnitudes.least('m')).toBeLessThan(1e-9);
     // Forces of joints count for sensors of forces.

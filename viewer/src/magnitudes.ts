@@ -2,7 +2,7 @@ import { chartSeries } from './charts';
 import type { Run } from './run';
 
 /**
- * Values below this share of what is usual in the run are what rounding leaves of zero. Recorded
+ * Values below this fraction of the usual size in the run are rounding errors of zero. Recorded
  * numbers carry 16 digits, and equations lose some of them.
  */
 const kRounding = 1e-11;
@@ -16,7 +16,7 @@ function largestOf(values: ArrayLike<number>): number {
   return most;
 }
 
-/** What sizes the quantities of a run have, by unit: below a share of that a value is none. */
+/** Typical sizes of the quantities of a run, by unit: values far below are regarded as zero. */
 export class Magnitudes {
   private readonly largest = new Map<string, number>();
 
@@ -39,7 +39,7 @@ export class Magnitudes {
         if (torque) this.raise('N m', largestOf(torque));
       }
     }
-    // A torque that a force has on an arm as short as rounding is none.
+    // A torque of a force on an arm as short as rounding errors is zero.
     this.raise('N m', size * (this.largest.get('N') ?? 0));
   }
 
@@ -47,12 +47,12 @@ export class Magnitudes {
     this.largest.set(unit, Math.max(this.largest.get(unit) ?? 0, value));
   }
 
-  /** Values of this unit that are smaller read as zero. */
+  /** Smaller values of this unit are shown as zero. */
   least(unit: string): number {
     return kRounding * (this.largest.get(unit) ?? 0);
   }
 
-  /** A range of values of this unit, [0, 0] if all of them read as zero. */
+  /** A range of values of this unit, [0, 0] if all of them are shown as zero. */
   visible([low, high]: [number, number], unit: string): [number, number] {
     return Math.max(Math.abs(low), Math.abs(high)) < this.least(unit) ? [0, 0] : [low, high];
   }

@@ -9,7 +9,7 @@ function hertz(frequency = NaN): string {
   return frequency > 0 ? `${Number(frequency.toPrecision(6))} Hz` : 'unstable';
 }
 
-/** The column beside the view of a page with vibrations: which mode, and how far it swings. */
+/** The column beside the view of a page with vibrations: mode and amplitude. */
 export class ModeList {
   readonly root: HTMLElement;
   private readonly shapes: ModeShapes;

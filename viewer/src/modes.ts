@@ -11,7 +11,7 @@ export interface Mode {
   label: string;
   /** [Hz]; 0 where the position is unstable. */
   frequency: number;
-  /** Of the shape with a largest displacement of 1 m [kg]. */
+  /** Generalised mass of the shape with a largest displacement of 1 m [kg]. */
   mass: number;
 }
 
@@ -50,16 +50,16 @@ function turned(q: ArrayLike<number>, at: number, w: number[]): number[] {
   ];
 }
 
-/** Makes a run of one period out of the shape of a mode; the run stays the same object. */
+/** Turns the shape of a mode into a run of one period; the run object stays the same. */
 export class ModeShapes {
-  /** What the page plays. */
+  /** The run that the page plays. */
   readonly run: Run;
   index = 0;
   /** Largest displacement as a share of the model's size. */
   amplitude = 0.08;
   /** Length to which the amplitude refers [m]. */
   readonly size: number;
-  /** Displacement over the shape's, per picture. */
+  /** Displacement relative to the shape's, for each picture. */
   private readonly factors = new Float64Array(kFrames);
   /** The same for an amplitude of one. */
   private readonly swing = Float64Array.from({ length: kFrames }, (_, k) => Math.sin(phase(k)));
@@ -88,7 +88,7 @@ export class ModeShapes {
     this.show(0, this.amplitude);
   }
 
-  /** What colours show: the shape, whatever the amplitude that is drawn. */
+  /** Data for the colours: the shape, whatever the drawn amplitude. */
   private relative(body: Body): SwingingRows | null {
     const moves = body.displacement !== null || body.motion !== null;
     return moves && body.nodes.length > 0 ? new SwingingRows(new WholeShape(body), this.swing) : null;

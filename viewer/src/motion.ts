@@ -15,7 +15,7 @@ export function rotate(q: ArrayLike<number>, at: number, v: ArrayLike<number>): 
   ];
 }
 
-/** One body at the present time. */
+/** One body at the current time. */
 export class BodyMotion {
   /** px, py, pz, qw, qx, qy, qz. */
   readonly pose: number[] = [0, 0, 0, 1, 0, 0, 0];
@@ -34,14 +34,14 @@ export class BodyMotion {
     interpolatePose(this.body.pose, place, this.pose);
   }
 
-  /** Nodes × `perNode`, not magnified; worked out when it is asked for. */
+  /** Nodes × `perNode`, not magnified; computed on request. */
   get displacement(): Float32Array {
     if (this.stale) this.body.displacement!.interpolate(this.place, this.row);
     this.stale = false;
     return this.row;
   }
 
-  /** One number of `displacement`, without working out the others. */
+  /** One number of `displacement`, without computing the others. */
   private moved(index: number): number {
     const rows = this.body.displacement;
     if (!rows || !this.stale) return this.row[index]!;

@@ -5,18 +5,18 @@ import type { Theme } from './theme';
 import type { ViewOptions } from './view_options';
 import type { Triple } from './page_data';
 
-/** A point of the scene with a text. */
+/** A point of the scene with a label. */
 export interface Name extends Omit<Label, 'x' | 'y'> {
   /** World [m]. */
   at: Triple;
 }
 
-/** Something drawn that has a name of its own; null for what stands nowhere. */
+/** A drawn object with a name of its own; null if it has no position. */
 export interface NamedGlyph {
   position(scale: number): Triple | null;
 }
 
-/** Texts of bodies, joints, loads and markers, as far as the things themselves are shown. */
+/** Labels of bodies, joints, loads and markers, if the objects themselves are shown. */
 export function namesOf(
   run: Run,
   motion: Motion,

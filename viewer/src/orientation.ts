@@ -2,7 +2,7 @@ import { cross, dot, unit } from './beam_curve';
 import type { Triple } from './page_data';
 import type { Run } from './run';
 
-/** How the world stands on the screen: which way is up, from where the camera looks first. */
+/** Orientation of the world on the screen: which way is up, from where the camera first looks. */
 export interface Orientation {
   up: Triple;
   /** From the target towards the camera. */
@@ -18,7 +18,7 @@ function minus(a: Triple): Triple {
   return [-a[0], -a[1], -a[2]];
 }
 
-/** A planar model is seen along its normal, positive axes to the right; others from a corner. */
+/** A planar model is viewed along its normal, positive axes to the right; others from a corner. */
 export function orientationOf(run: Pick<Run, 'gravity' | 'planar'>): Orientation {
   const falls = Math.hypot(...run.gravity) > 0;
   const skyward = falls ? minus(unit(run.gravity)) : null;
@@ -31,7 +31,7 @@ export function orientationOf(run: Pick<Run, 'gravity' | 'planar'>): Orientation
     return { up, back, gridNormal: normal };
   }
   const up: Triple = skyward ?? [0, 0, 1];
-  // With z up the front is seen from −y, with y up from +z: x then points to the right.
+  // With z up the front is viewed from −y, with y up from +z: x then points to the right.
   const x: Triple = Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
   const along = dot(x, up);
   const right = unit([x[0] - along * up[0], x[1] - along * up[1], x[2] - along * up[2]]);

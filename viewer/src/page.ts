@@ -31,10 +31,10 @@ import type { Run } from './run';
 import type { ViewerState } from './hook';
 import type { ViewOptions } from './view_options';
 
-/** Seconds a person watches one period of a mode. */
+/** Seconds for which one period of a mode is shown. */
 const kPeriodWatch = 2;
 
-/** The page: puts the parts together and keeps them at the same time. */
+/** The page: assembles the parts and keeps them at the same time. */
 export class Page {
   private readonly runs: Run[];
   private readonly options: ViewOptions;
@@ -113,7 +113,7 @@ export class Page {
         this.changed();
       },
     );
-    // The amplitude of a mode takes the place of the deformation scale.
+    // The amplitude of a mode replaces the deformation scale.
     const bodies = runs.flatMap((run) => run.bodies);
     const deformable = !shapes.length && bodies.some((body) => body.displacement);
     const { clock } = runs[0]!;
@@ -155,7 +155,7 @@ export class Page {
     this.charts.layOut();
   }
 
-  /** Fits the pictures to what the controls over them leave free. */
+  /** Fits the pictures into the area not covered by controls. */
   private makeRoom(): void {
     const insets = insetsOf(this.view, this.field.root, this.views.panes.length > 1);
     this.views.resize(insets);
@@ -225,7 +225,7 @@ export class Page {
     this.dirty = true;
   }
 
-  /** Another mode or amplitude: its period takes the place of the run. */
+  /** Another mode or amplitude: its period replaces the run. */
   private restart(): void {
     this.transport.restart(kPeriodWatch);
     this.field.forget();
@@ -235,7 +235,7 @@ export class Page {
   }
 
   private tick(now: number): void {
-    // A tab that slept must not jump: at most a tenth of a second passes between two pictures.
+    // A suspended tab must not jump: at most a tenth of a second passes between two pictures.
     this.playback.advance(Math.min(0.1, Math.max(0, (now - this.last) / 1000)));
     this.last = now;
     if (this.dirty || this.playback.playing) this.draw();
@@ -270,7 +270,7 @@ export class Page {
     this.captions.update(this.views.panes, options, playback, shown ?? '');
   }
 
-  /** Another field is shown: the curves at nodes are those of another quantity. */
+  /** Another field is shown: the curves at nodes change to its quantity. */
   private followField(): void {
     const { item, perElement } = this.options.field;
     const shown = `${item} ${perElement}`;

@@ -16,19 +16,19 @@ export interface PageMarker {
 }
 
 /**
- * One row of numbers per frame. `f32`: as they are. `u16`: codes 0 … 65534 over the range (least,
+ * One row of numbers per frame. `f32`: plain. `u16`: codes 0 … 65534 over the range (least,
  * largest) of their row, 65535 for a missing number.
  */
 export interface PageRows {
   type: 'f32' | 'u16';
   values: Base64;
-  /** frames × 2 float32, of codes only. */
+  /** frames × 2 float32, for codes only. */
   ranges?: Base64;
 }
 
 /** A recorded quantity of a body. */
 export interface PageField {
-  /** As in results.h5: "von_mises", "stress" … */
+  /** Name as in results.h5: "von_mises", "stress" … */
   name: string;
   unit: string;
   /** Names of the numbers at one place; one empty name for a scalar. */
@@ -40,11 +40,11 @@ export interface PageField {
   on: 'places' | 'elements' | 'lines' | 'lineEnds';
   /** Side of a shell: "top", "layer 2, bottom". */
   level?: string;
-  /** True for one row that holds for the whole run. */
+  /** True if one row applies to the whole run. */
   constant?: boolean;
   /** frames × places × components. */
   values: PageRows;
-  /** Frame of each row as int32, where not every frame has one. */
+  /** Frame of each row as int32, if not every frame has one. */
   frames?: Base64;
 }
 
@@ -53,7 +53,7 @@ export interface PageBody {
   kind: 'rigid' | 'beam' | 'solid';
   /** Nodes × 3, body frame, undeformed [m]. The origin is the mass centre. */
   nodes: Base64;
-  /** Number in the run of each node as int32; missing if they are 0, 1, 2 … */
+  /** Number of each node in the run as int32; missing if they are 0, 1, 2 … */
   nodeNumbers?: Base64 | null;
   elements: [number, number][];
   /** Radius of the drawn tube at both ends of each element [m]. */
@@ -75,7 +75,7 @@ export interface PageBody {
    * for triangles.
    */
   faces?: Base64;
-  /** Per face the element below it as int32, counted among those that have a face. */
+  /** Element below each face as int32, counted among those that have a face. */
   faceElements?: Base64;
   /**
    * Per face as int32 which of its sides are edges of its element: bit k for that from corner k to the
@@ -97,7 +97,7 @@ export interface PageBody {
 export interface PageJointSide {
   /** Index into bodies, −1 for the ground. */
   body: number;
-  /** Index into the body's markers, −1 where `position` alone says it. */
+  /** Index into the body's markers, −1 if `position` alone defines the place. */
   marker: number;
   /** Frame of the body (world for the ground) [m]. */
   position: Triple;
@@ -150,7 +150,7 @@ export interface PageEnergy {
   values: Base64;
 }
 
-/** Vibrations: every frame is the shape of one of them, `time` counts them from 1. */
+/** Vibrations: every frame is the shape of one mode, `time` counts them from 1. */
 export interface PageMode {
   label: string;
   /** [Hz] */
@@ -159,7 +159,7 @@ export interface PageMode {
   mass: number;
 }
 
-/** What the page holds of the run. */
+/** What the page contains of the run. */
 export interface PageStorage {
   /** Records in the run; the page has `time.n` of them. */
   records: number;

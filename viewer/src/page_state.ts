@@ -7,7 +7,7 @@ import type { Playback } from './playback';
 import type { Run } from './run';
 import type { ViewOptions } from './view_options';
 
-/** The parts of a page that tell what is on the screen. */
+/** The parts of a page that know what is on the screen. */
 export interface PageParts {
   runs: Run[];
   options: ViewOptions;

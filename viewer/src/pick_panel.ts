@@ -8,22 +8,22 @@ import { orZero, type ChartContent, type Curve } from './chart';
 import type { FieldItem } from './fields';
 import type { Triple } from './page_data';
 
-/** More would not be told apart. */
+/** More could not be told apart. */
 const kMostPicks = 8;
 
 export interface PickValues {
-  /** World position at the present time [m]. */
+  /** World position at the current time [m]. */
   position(pick: Pick): Triple;
-  /** Positions are those of the body at rest. */
+  /** Positions are those of the undeformed body. */
   atRest: boolean;
   /** Value of the field in every frame. */
   history(pick: Pick): Float32Array;
   item(): FieldItem | undefined;
-  /** Below which values of a unit read as zero. */
+  /** Threshold below which values of a unit are shown as zero. */
   least(unit: string): number;
 }
 
-/** The nodes that the user follows: what they are, where, and their value. */
+/** The nodes that the user follows: names, positions and values. */
 export class PickPanel {
   readonly root: HTMLElement;
   readonly picks: Pick[] = [];
@@ -85,7 +85,7 @@ export class PickPanel {
     this.number.value = '';
   }
 
-  /** Follows a node, or no longer if it is followed already. */
+  /** Follows a node, or stops if it is followed already. */
   flip(pick: Pick): void {
     const same = (other: Pick) =>
       other.pane === pick.pane && other.body === pick.body && other.node === pick.node;
@@ -102,7 +102,7 @@ export class PickPanel {
     return this.runs.length > 1 ? `${name} ${kRunNames[pane]!}` : name;
   }
 
-  /** Makes list and curves anew, after nodes or the field have changed. */
+  /** Rebuilds list and curves after nodes or the field have changed. */
   refresh(): void {
     const item = this.values.item();
     this.curves = this.picks.map((pick, color) => ({
@@ -132,13 +132,13 @@ export class PickPanel {
     this.changed(shown ? { name: item.label, unit: item.unit === '1' ? '' : item.unit, curves: this.curves } : null);
   }
 
-  /** Position and value now; `value` reads a curve at the present time. */
+  /** Position and value now; `value` reads a curve at the current time. */
   update(value: (curve: Curve) => number, colors: string[], length: number): void {
     const item = this.values.item();
     const { factor, unit } = prefixFor(length, 'm');
     this.picks.forEach((pick, i) => {
       const { position, value: out } = this.outputs[i]!;
-      // What is nothing beside the model reads as nothing.
+      // Lengths negligible beside the model are shown as zero.
       const near = (x: number) => (Math.abs(x) < 1e-6 * length ? 0 : x);
       const p = this.values.position(pick).map((x) => figure(near(x) / factor, 4));
       position.textContent = `${this.values.atRest ? 'at rest at' : 'at'} ${p.join(', ')} ${unit}`;

@@ -9,7 +9,7 @@ import type { Skin } from './skin';
 
 /** A node that the user follows. */
 export interface Pick extends FieldPoint {
-  /** Which of the runs side by side. */
+  /** Index among the runs side by side. */
   pane: number;
   body: number;
 }
@@ -25,7 +25,7 @@ function isAway(hit: THREE.Intersection, { mesh }: Skin): boolean {
   return material.hides(values, hit.barycoord!.toArray());
 }
 
-/** Closest vertex of what is under the ray (scene units) and can be seen; null for nothing. */
+/** Closest visible vertex under the ray (scene units); null for none. */
 export function pickAlong(ray: THREE.Raycaster, views: BodyView[]): Omit<Pick, 'pane'> | null {
   let least = Infinity;
   let best: Omit<Pick, 'pane'> | null = null;

@@ -1,7 +1,7 @@
-/** Seconds a person waits for the whole run at the default speed. */
+/** Duration of the whole run at the default speed [s]. */
 const kDefaultWatch = 8;
 
-/** The clock of the animation: knows time, speed and whether it runs; draws nothing. */
+/** The clock of the animation: time, speed and whether it runs; draws nothing. */
 export class Playback {
   time: number;
   playing = false;
@@ -43,7 +43,7 @@ export class Playback {
     this.setTime(this.start + fraction * this.duration);
   }
 
-  /** To the stored frame `frames` away from the present one. */
+  /** To the stored frame `frames` away from the current one. */
   stepFrames(frames: number): void {
     const last = this.times.length - 1;
     let nearest = 0;
@@ -55,7 +55,7 @@ export class Playback {
     this.setTime(this.times[Math.min(last, Math.max(0, nearest + frames))] ?? this.time);
   }
 
-  /** Lets `seconds` of wall clock pass; at the end the run begins again. */
+  /** Advances by `seconds` of wall-clock time; at the end the run starts again. */
   advance(seconds: number): void {
     if (!this.playing || !this.canPlay) return;
     const t = this.time + seconds * this.speed;

@@ -1,4 +1,4 @@
-/** How a number reads: engineering prefixes for axes, short figures for people. */
+/** Formats of numbers: engineering prefixes for axes, short figures for people. */
 
 export interface Prefix {
   factor: number;
@@ -30,7 +30,7 @@ export function prefixFor(largest: number, unit: string): Prefix {
   return { factor, unit: prefix + unit };
 }
 
-/** Keeps the zeros that hold places; never an exponent. */
+/** Keeps trailing zeros; never an exponent. */
 function plain(value: number, digits: number): string {
   const text = value.toPrecision(digits);
   return text.includes('e') ? String(Number(text)) : text;

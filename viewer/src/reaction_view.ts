@@ -7,7 +7,7 @@ import type { Motion } from './motion';
 import type { Joint, Run } from './run';
 import type { Triple } from './page_data';
 
-/** Length of the longest arrow in radii of a joint. */
+/** Length of the longest arrow in joint radii. */
 const kLength = 12;
 const kColor = 0x0e8f7e;
 /** Less than this share of the largest is not drawn. */
@@ -36,7 +36,7 @@ export function largestReactions(run: Run): LargestReactions {
   };
 }
 
-/** What one joint does to its last side: arrows of force and torque, and their sizes as a text. */
+/** The action of one joint on its last side: arrows of force and torque, and their values as text. */
 export class ReactionView {
   readonly root = new THREE.Group();
   /** "1.2 kN"; empty where nothing acts. */
@@ -69,7 +69,7 @@ export class ReactionView {
     this.text = texts.filter((text) => text !== '').join(', ');
   }
 
-  /** Turns and stretches an arrow; its value as a text. */
+  /** Turns and stretches an arrow; returns its value as text. */
   private turn(
     glyph: THREE.Object3D,
     values: Float32Array | null,
@@ -84,7 +84,7 @@ export class ReactionView {
     if (!(value > kLeast * largest)) return '';
     glyph.visible = true;
     glyph.quaternion.setFromUnitVectors(kZ, v.normalize());
-    // Small values stay visible: the length falls with the root of the value.
+    // Small values stay visible: the length scales with the square root of the value.
     glyph.scale.setScalar(kLength * this.size.joint * Math.sqrt(Math.min(1, value / largest)));
     const prefix = prefixFor(value, unit);
     return `${figure(value / prefix.factor, 3)} ${prefix.unit}`;

@@ -2,7 +2,7 @@ import { checkBase64, decodeFloats, floatsAt, PageDataError, shortsAt } from './
 import { locate, type FramePlace } from './interpolation';
 import type { PageRows } from './page_data';
 
-/** A quantity with one row of numbers per frame. NaN stands for what was not recorded. */
+/** A quantity with one row of numbers per frame. NaN marks numbers that were not recorded. */
 export interface Rows {
   readonly width: number;
   readonly frames: number;
@@ -14,11 +14,11 @@ export interface Rows {
   range(frame: number): [number, number];
 }
 
-/** Codes 0 … 65534 run over the range of their row; this one stands for a missing number. */
+/** Codes 0 … 65534 cover the range of their row; this one marks a missing number. */
 export const kMissing = 65535;
 const kSteps = 65534;
 
-/** Numbers that were decoded already; float32, or codes of 16 bits with a range per row. */
+/** Numbers already decoded; float32, or 16-bit codes with a range per row. */
 type Row = Float32Array | Uint16Array;
 
 function mixCodes(
@@ -46,7 +46,7 @@ function mixFloats(
   for (let i = 0; i < a.length; i++) out[i] = ka * a[i]! + kb * b[i]!;
 }
 
-/** Rows in base64; each is decoded when it is first seen. */
+/** Rows in base64; each is decoded when it is first used. */
 export class PackedRows implements Rows {
   readonly width: number;
   private readonly text: string;
@@ -94,7 +94,7 @@ export class PackedRows implements Rows {
     else mixFloats(a as Float32Array, b as Float32Array, ka, kb, out);
   }
 
-  /** Least difference that the numbers of a frame can have; 0 for float32. */
+  /** Least difference between the numbers of a frame; 0 for float32. */
   grain(frame: number): number {
     return this.ranges ? this.scale(frame)[1] : 0;
   }
@@ -140,7 +140,7 @@ export class SparseRows implements Rows {
     return this.rows.width;
   }
 
-  /** Place among the rows of a place among the frames. */
+  /** Position among the rows for a position among the frames. */
   private place(frame: number): FramePlace {
     return locate(this.at, frame);
   }
@@ -164,7 +164,7 @@ export class SparseRows implements Rows {
   }
 }
 
-/** The first rows, and where they have no number, the second. */
+/** The first rows; where they have no number, the second. */
 export class MergedRows implements Rows {
   readonly width: number;
   readonly frames: number;
@@ -197,7 +197,7 @@ export class MergedRows implements Rows {
   }
 }
 
-/** One shape that swings: row k is the shape times `factors[k]`. */
+/** One oscillating shape: row k is the shape times `factors[k]`. */
 export class SwingingRows implements Rows {
   private readonly shape: Float32Array;
 
@@ -216,7 +216,7 @@ export class SwingingRows implements Rows {
     return this.factors.length;
   }
 
-  /** Row `index` of the shapes swings from now on. */
+  /** Selects row `index` of the shapes. */
   choose(index: number): void {
     this.shapes.interpolate({ index, fraction: 0 }, this.shape);
   }

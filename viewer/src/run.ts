@@ -35,12 +35,12 @@ export interface Body {
   kind: 'rigid' | 'beam' | 'solid';
   /** Nodes × 3. */
   nodes: Float32Array;
-  /** Number in the run of each node; null if it is the same. */
+  /** Number of each node in the run; null if it is the same. */
   nodeNumbers: Int32Array | null;
   elements: [number, number][];
   /** At both ends of each element. */
   radius: [number, number][];
-  /** Null where beams are drawn as round tubes of this radius. */
+  /** Null if beams are drawn as round tubes of this radius. */
   sections: Sections | null;
   /** Null for bodies without a surface. */
   faces: Faces | null;
@@ -49,7 +49,7 @@ export interface Body {
   displacement: Rows | null;
   /** Numbers of `displacement` per node: 3, or 6 with rotations. */
   perNode: 3 | 6;
-  /** Vibrations: displacement of the nodes, body axes, over the largest of the model; null in runs. */
+  /** Vibrations: displacement of the nodes, body axes, relative to the largest of the model; null in runs. */
   shape: Rows | null;
   /** Pages with modes: frames × 6, motion of the frame; null in runs. */
   motion: Float32Array | null;
@@ -63,7 +63,7 @@ export interface Load extends Omit<PageLoad, 'values'> {
   values: Float32Array | null;
 }
 
-/** A joint with what it does to its last side, frames × 3. */
+/** A joint with its force and torque on the last side, frames × 3. */
 export interface Joint extends Omit<PageJoint, 'force' | 'torque'> {
   force: Float32Array | null;
   torque: Float32Array | null;
@@ -77,7 +77,7 @@ export interface Series {
   values: Float32Array;
 }
 
-/** What the page holds of the run. */
+/** What the page contains of the run. */
 export interface Storage extends PageStorage {
   /** Frames in the page. */
   shown: number;
@@ -88,14 +88,14 @@ export interface Storage extends PageStorage {
 /** Everything the page shows of a run, decoded and checked. */
 export interface Run {
   title: string;
-  /** Name of its directory; empty where the page does not know it. */
+  /** Name of its directory; empty if the page does not know it. */
   directory: string;
-  /** What --set changed. */
+  /** Overrides by --set. */
   changes: string[];
   version: string;
   generated: string;
   times: Float64Array;
-  /** Of `times`: a static path counts the length of the path in steps. */
+  /** Unit of `times`: a static path counts the length of the path in steps. */
   clock: 's' | 'steps';
   bodies: Body[];
   joints: Joint[];
@@ -122,7 +122,7 @@ export function nodeNumber(body: Body, node: number): number {
   return body.nodeNumbers?.[node] ?? node;
 }
 
-/** The node that the run calls `number`, −1 if the page has not got it. */
+/** The node that the run calls `number`, −1 if it is not in the page. */
 export function nodeNumbered(body: Body, number: number): number {
   if (body.nodeNumbers) return body.nodeNumbers.indexOf(number);
   return Number.isInteger(number) && number >= 0 && number < numNodes(body) ? number : -1;
@@ -153,7 +153,7 @@ function decodeField(field: PageField, frames: number, count: number, where: str
 /** Frames that are searched for rotations. */
 const kSearched = 20;
 
-/** Whether any node turns; bars have no rotations but zeros, or what rounding makes of them. */
+/** Whether any node turns; rotations of bars are zero up to rounding. */
 function anyRotation(rows: PackedRows): boolean {
   const row = new Float32Array(rows.width);
   const step = Math.max(1, Math.floor(rows.frames / kSearched));
@@ -270,7 +270,7 @@ export function decodeRun(data: PageRun): Run {
   };
 }
 
-/** The runs of the page; `null` (an unfilled page) is refused like any fault. */
+/** The runs of the page; `null` (an unfilled page) is refused like any other fault. */
 export function checkPage(data: PageData | null | undefined): PageRun[] {
   if (!data) throw new PageDataError('This page holds no run.');
   if (data.format !== 2) {

@@ -1,21 +1,21 @@
 import { kRunNames } from './charts';
 import type { Run } from './run';
 
-/** What was set for one run and not for the other. */
+/** Overrides of one run but not of the other. */
 function ownChanges(run: Run, other: Run): string {
   const own = run.changes.filter((change) => !other.changes.includes(change));
-  // The last name on the way says what is meant: "elements=32".
+  // The last name of the path is enough: "elements=32".
   return own.map((change) => change.replace(/^[^=]*\.(?=[^=.]+=)/, '')).join(', ');
 }
 
-/** What tells a run from another of the same title: its directory and what was set for it. */
+/** What distinguishes a run from another of the same title: its directory and overrides. */
 export function difference(run: Run, other: Run): string {
   const set = ownChanges(run, other);
   const where = run.directory === other.directory ? '' : run.directory;
   return [where, set].filter(Boolean).join(' · ');
 }
 
-/** Names of runs side by side: title, or where titles are equal what tells the runs apart. */
+/** Names of runs side by side: title, or, if titles are equal, what distinguishes the runs. */
 export function namesOfRuns(runs: Run[]): string[] {
   if (runs.length < 2) return runs.map((run) => run.title);
   const equal = runs[0]!.title === runs[1]!.title;

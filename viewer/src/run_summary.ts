@@ -44,7 +44,7 @@ export function trustReasons(summary: Tree): string[] {
   return texts(trust).filter((reason) => reason !== 'ok');
 }
 
-/** What else the program had to say: warnings, redundant constraints, an interruption. */
+/** Other messages of the program: warnings, redundant constraints, an interruption. */
 export function notices(summary: Tree): string[] {
   const found = texts(summary.warnings);
   const interrupted = texts(summary.interrupted);
@@ -65,7 +65,7 @@ function factorisations(summary: Tree): number | undefined {
   return counts.length ? counts.reduce((a, b) => a + b, 0) : undefined;
 }
 
-/** The few figures that stand in the header. */
+/** The few figures in the header. */
 export function summaryChips(run: Run): Chip[] {
   const chips: Chip[] = [];
   const { summary } = run;

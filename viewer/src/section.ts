@@ -28,12 +28,12 @@ export class Section {
     private readonly bodies: BodyMotion[],
   ) {}
 
-  /** The body that alone is cut; undefined for all, or if this run has none of that name. */
+  /** The only body that is cut; undefined for all, or if this run has none of that name. */
   private only(name: string): BodyMotion | undefined {
     return name ? this.bodies.find(({ body }) => body.name === name) : undefined;
   }
 
-  /** Where the plane stands: the coordinate along its axis in its frame [m]. */
+  /** Position of the plane: the coordinate along its axis in its frame [m]. */
   coordinate({ axis, body, fraction }: SectionChoice): number {
     if (axis === 'off') return 0;
     const k = kAxes[axis];

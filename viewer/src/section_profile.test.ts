@@ -73,7 +73,7 @@ describe('profileOf', () => {
     const smooth = profileOf([circle(0.3, 24), hole(circle(0.2, 24))]);
     expect(smooth.points).toHaveLength(48);
     expect(smooth.radius).toBeCloseTo(0.3, 12);
-    // Of a hole they point into it.
+    // Those of a hole point into it.
     const inner = smooth.points.findIndex(([y, z]) => Math.hypot(y, z) < 0.25);
     const [p, n] = [smooth.points[inner]!, smooth.normals[inner]!];
     expect(p[0] * n[0] + p[1] * n[1]).toBeCloseTo(-0.2, 12);
@@ -127,7 +127,7 @@ describe('sections along beams', () => {
     const tube = new Tube(beam(corner, [[0, 1], [1, 2]], sections), 0);
     tube.deform(new Float32Array(18), 0);
     expect(tube.kinks).toEqual([]);
-    // Two beams of 2 m from axis to axis: what the outer side has more the inner one has less.
+    // Two beams of 2 m from axis to axis: the outer side gains what the inner one loses.
     expect(volume(tube)).toBeCloseTo(4 * 0.4 * 0.2, 6);
     extents(tube).forEach((x, k) => expect(x).toBeCloseTo([2.2, 2.2, 0.2][k]!, 6));
     // Normals are those of the sides, up to the corner.

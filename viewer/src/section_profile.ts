@@ -8,21 +8,21 @@ const kSmooth = 0.766;
 
 /** The vertices around a section. Sharp corners have two, one for each side. */
 export interface Profile {
-  /** By vertex: y, z. */
+  /** For each vertex: y, z. */
   points: [number, number][];
-  /** By vertex: unit normal out of the material. */
+  /** For each vertex: unit normal out of the material. */
   normals: [number, number][];
   /** Pairs of neighbouring vertices, the material on their left. */
   sides: [number, number][];
-  /** Triangles that close the section, seen against x counter-clockwise; by vertex. */
+  /** Triangles that close the section, counter-clockwise seen against x; vertex indices. */
   cap: [number, number, number][];
-  /** Of the circle about the centroid around it. */
+  /** Radius of the enclosing circle about the centroid. */
   radius: number;
   /** Distance of the outline from the centroid: of the largest circle inside. */
   inside: number;
 }
 
-/** A circle as polygon. */
+/** A circle as a polygon. */
 export function circle(radius: number, sides: number): Loop {
   return [...Array(sides)].map((_, i) => {
     const angle = (2 * Math.PI * i) / sides;
@@ -60,7 +60,7 @@ function addLoop(loop: Loop, round: boolean, to: Profile): number[] {
   return before;
 }
 
-/** Closes an outline, with a hole of as many corners inside or without one. */
+/** Closes an outline, with or without a hole of the same number of corners inside. */
 function capOf(outline: number[], hole: number[] | undefined): Profile['cap'] {
   const n = outline.length;
   const cap: Profile['cap'] = [];

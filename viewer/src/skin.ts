@@ -7,22 +7,22 @@ export type EdgeChoice = 'auto' | 'none' | 'outline' | 'mesh' | 'wireframe';
 /** How a body is drawn, apart from its colours. */
 export interface SkinLook {
   edges: EdgeChoice;
-  /** What is on their negative side is cut away; null for nothing. */
+  /** Everything on their negative side is cut away; null for nothing. */
   planes: THREE.Plane[] | null;
   /** Parts may be hidden by their values, so that the inside can be seen. */
   seeThrough: boolean;
 }
 
-/** What a place of the picture stands for; −1 for nothing. */
+/** What a point of the picture belongs to; −1 for nothing. */
 export interface PickedVertex {
   node: number;
   place: number;
-  /** Of the face under it. */
+  /** Element of the face under it. */
   element: number;
   line: number;
 }
 
-/** What a body consists of when it is drawn: tubes, or the surface of a solid. */
+/** The drawn parts of a body: tubes, or the surface of a solid. */
 export interface Skin {
   readonly root: THREE.Group;
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, FieldMaterial>;
@@ -30,7 +30,7 @@ export interface Skin {
   /** Colours by values (`byFace`: one per element), or plainly for null. */
   paint(painted: Painted | null, byFace: boolean): void;
   look(look: SkinLook): void;
-  /** What a corner of a triangle stands for, both by their numbers in the mesh. */
+  /** What a corner of a triangle belongs to, both by their numbers in the mesh. */
   vertex(index: number, triangle: number): PickedVertex;
   /** The undeformed shape. */
   ghost(material: THREE.Material): THREE.Mesh;

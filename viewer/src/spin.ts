@@ -2,12 +2,12 @@ import { cross, dot, perpendicular, subtract, unit } from './beam_curve';
 import type { Body } from './run';
 import type { Triple } from './page_data';
 
-/** A body that turns by less than this in all [rad] needs no mark. */
+/** A body that turns by less than this in total [rad] needs no mark. */
 const kLeastTurn = Math.PI / 2;
 /** Largest radius over smallest, over the directions around an axis, of what looks round. */
 const kRound = 1.12;
 const kDirections = 16;
-/** Frames that are looked at. */
+/** Number of frames examined. */
 const kSampled = 400;
 
 /** The axis about which a body turns that looks the same at every angle; body frame. */
@@ -88,7 +88,7 @@ function hasRoundSections({ sections }: Body): boolean {
   return !sections || sections.loops.every(([outline]) => !outline || outline.length >= 16);
 }
 
-/** What of a body that spins would not be seen; null where its shape shows it, or it does not turn. */
+/** The spin of a body that its shape does not show; null if its shape shows it or it does not turn. */
 export function spinOf(body: Body): Spin | null {
   const vectors = turns(body);
   const axis = mainAxis(vectors);

@@ -25,7 +25,7 @@ import type { ViewOptions } from './view_options';
 /** Edge of the corner with the world axes [CSS px]. */
 const kCorner = 92;
 
-/** The 3-D view of a run, the model scaled to unit size: every model gets the same depth range. */
+/** The 3-D view of a run, the model scaled to unit size so that every model has the same depth range. */
 export class Stage {
   readonly canvas = document.createElement('canvas');
   readonly labels = new Labels();
@@ -33,9 +33,9 @@ export class Stage {
   readonly motion: Motion;
   readonly section: Section;
   gridSpacing = 0;
-  /** Range of the field shown at the present time; NaN without one. */
+  /** Range of the field shown at the current time; NaN without one. */
   present: [number, number] = [NaN, NaN];
-  /** What the last picture took: shapes and colours, and handing it to the graphics card [ms]. */
+  /** Time of the last picture: shapes and colours, and transfer to the graphics card [ms]. */
   cost = { update: 0, render: 0 };
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
@@ -85,7 +85,7 @@ export class Stage {
     this.setTheme(theme);
   }
 
-  /** Builds everything drawn anew in the colours of `theme`. */
+  /** Rebuilds everything drawn in the colours of `theme`. */
   setTheme(theme: Theme): void {
     this.theme = theme;
     this.scene.background = new THREE.Color(theme.background);
@@ -111,7 +111,7 @@ export class Stage {
     for (const view of views) this.model.add(view.root);
   }
 
-  /** @param insets what lies over the picture */
+  /** @param insets area covered by controls */
   resize(width: number, height: number, insets: Insets): void {
     this.width = Math.max(1, width);
     this.height = Math.max(1, height);
@@ -122,7 +122,7 @@ export class Stage {
 
   /** Looks at the whole run, from `back` or from where the camera is. */
   fit(back?: Triple): void {
-    // Glyphs stand out beyond the points they mark.
+    // Glyphs extend beyond the points they mark.
     const margin = 3.5 * this.glyphs.joint;
     const half = this.bounds.half.map((h) => (h + margin) / this.bounds.size) as Triple;
     this.rig.fit(half, back);
@@ -132,7 +132,7 @@ export class Stage {
     this.fit(this.orientation.back);
   }
 
-  /** Takes shapes and colours to time t; `present` is known then. */
+  /** Updates shapes and colours to time t; `present` is known afterwards. */
   update(t: number, options: ViewOptions): void {
     const began = performance.now();
     this.motion.setTime(t);
@@ -159,7 +159,7 @@ export class Stage {
     this.cost.update = performance.now() - began;
   }
 
-  /** Draws what `update` prepared. */
+  /** Draws the state prepared by `update`. */
   render(options: ViewOptions, picks: { pick: Pick; color: string }[]): void {
     const began = performance.now();
     const { index, fraction } = this.motion.place;
@@ -175,7 +175,7 @@ export class Stage {
     this.cost.render = performance.now() - began;
   }
 
-  /** The motion has changed, as another mode's has. */
+  /** The motion has changed, for example to another mode. */
   forget(): void {
     this.trace.forget();
   }
@@ -222,7 +222,7 @@ export class Stage {
     return ((2 * tangent * distance) / this.height) * this.bounds.size;
   }
 
-  /** The node under a place of the canvas [CSS px]; null for none. */
+  /** The node under a point of the canvas [CSS px]; null for none. */
   pick(x: number, y: number): Omit<Pick, 'pane'> | null {
     const place = new THREE.Vector2((2 * x) / this.width - 1, 1 - (2 * y) / this.height);
     const ray = new THREE.Raycaster();
@@ -231,7 +231,7 @@ export class Stage {
     return pickAlong(ray, this.bodies);
   }
 
-  /** Canvas place of a world point [CSS px]. */
+  /** Canvas position of a world point [CSS px]. */
   project(p: Triple): { x: number; y: number } {
     this.model.updateMatrixWorld();
     const q = new THREE.Vector3(...p).applyMatrix4(this.model.matrixWorld).project(this.rig.camera);

@@ -1,7 +1,7 @@
 import type { FieldItem } from './fields';
 import type { ViewOptions } from './view_options';
 
-/** What is shown when the page opens: stresses in colour if there are any, of vibrations their shape. */
+/** Initial view of the page: stresses in colour if there are any; for vibrations their shape. */
 export function startOptions(items: FieldItem[]): ViewOptions {
   const stress =
     items.find(({ id }) => id === 'von_mises') ??

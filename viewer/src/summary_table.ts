@@ -2,13 +2,13 @@ import { figure } from './quantity';
 
 type Tree = Record<string, unknown>;
 
-/** Lines of the details that belong together. */
+/** Related lines of the details. */
 export interface SummaryGroup {
   title: string;
   rows: [string, string][];
 }
 
-/** Words for the keys of summary.json and modes.json; others read as they are spelt. */
+/** Words for the keys of summary.json and modes.json; others are shown as spelt. */
 const kWords: Record<string, string> = {
   program: 'Program',
   format: 'Format of the run directory',
@@ -67,7 +67,7 @@ const kWords: Record<string, string> = {
   trust: 'Trust',
 };
 
-/** Groups by the keys that lead to them. */
+/** Groups by the keys of their path. */
 const kGroups: Record<string, string> = {
   step_control: 'Time steps',
   'step_control.sizes': 'Step length',
@@ -82,7 +82,7 @@ const kGroups: Record<string, string> = {
   'analyses.modes.energy_shares': 'Mode',
 };
 
-/** What stands elsewhere on the page. */
+/** Entries shown elsewhere on the page. */
 const kShownElsewhere = [
   'title',
   'version',
@@ -105,7 +105,7 @@ export function spelt(key: string): string {
 
 function words(path: string[]): string {
   const key = path.at(-1) ?? '';
-  // Names of bodies are the user's own words.
+  // Names of bodies are kept as the user wrote them.
   if (path.at(-2) === 'energy_shares') return `Share of the energy: ${key}`;
   return kWords[key] ?? spelt(key);
 }
@@ -119,7 +119,7 @@ function groupOf(path: string[]): string {
   return number ? `${title} ${number}` : title;
 }
 
-/** What is nothing beside the largest of a list reads as nothing. */
+/** Values negligible beside the largest of a list are shown as zero. */
 function listText(values: unknown[]): string {
   const sizes = values.map((x) => (typeof x === 'number' ? Math.abs(x) : 0));
   const least = 1e-12 * Math.max(...sizes);
@@ -132,7 +132,7 @@ function leafText(value: unknown): string {
   return String(value);
 }
 
-/** Every figure of a summary in words, grouped. */
+/** All figures of a summary with their names, grouped. */
 export function summaryGroups(summary: Tree): SummaryGroup[] {
   const groups: SummaryGroup[] = [];
   const add = (title: string, row: [string, string]) => {

@@ -81,7 +81,7 @@ describe('edges of quadratic elements', () => {
     );
     expect(pairs.sort()).toEqual(['0 3', '0 5', '1 3', '1 4', '2 4', '2 5']);
     expect(isOpen).toBe(true);
-    // Without knowing them all sides are drawn.
+    // Without this information all sides are drawn.
     expect(new Surface(quadratic(null)).edges).toHaveLength(2 * 9);
   });
 
@@ -122,7 +122,7 @@ describe('Surface', () => {
     body.displacement!.interpolate(kStart, moved);
     surface.deform(moved, 1);
     expect(volume(surface)).toBeCloseTo(1.1 * 1.2 * 1.3, 5);
-    // Normals stand on the faces.
+    // Normals are perpendicular to the faces.
     for (let v = 0; v < surface.normals.length; v += 3) {
       const n = [...surface.normals.subarray(v, v + 3)];
       expect(Math.max(...n.map(Math.abs))).toBeCloseTo(1, 6);

@@ -25,17 +25,17 @@ export class Surface {
   readonly positions: Float32Array;
   readonly normals: Float32Array;
   readonly indices: Uint32Array;
-  /** Pairs of vertices: the edges of the elements that can be seen, in halves where quadratic. */
+  /** Pairs of vertices: visible element edges, in halves if quadratic. */
   readonly edges: Uint32Array;
   /** Pairs of vertices: edges where the surface has a kink or ends. */
   readonly outline: Uint32Array;
   /** Node of each vertex; a node on an edge of the body has several. */
   readonly nodeOf: Int32Array;
-  /** Place of fields of each vertex, −1 if it has none. */
+  /** Field place of each vertex, −1 if it has none. */
   readonly placeOf: Int32Array;
-  /** Vertices of each face, four each, the fourth −1 in triangles. */
+  /** Four vertices of each face, the fourth −1 in triangles. */
   readonly corners: Int32Array;
-  /** True if the surface has a rim, as shells have: its back can be seen. */
+  /** True if the surface has a boundary, as shells have: its back is visible. */
   readonly isOpen: boolean;
 
   constructor(private readonly body: Body) {
@@ -91,7 +91,7 @@ export class Surface {
     return [list(nodeOf), list(placeOf)];
   }
 
-  /** Of the face whose corners start at `at`. */
+  /** Area vector of the face whose corners start at `at`. */
   private undeformedNormal(at: number): Triple {
     const nodes = this.body.faces!.nodes;
     const [p, q, r] = [0, 1, 2].map((k) => nodeAt(this.body, nodes[at + k]!));
@@ -132,7 +132,7 @@ export class Surface {
     for (let f = 0; f < corners.length; f += 4) {
       const n = corners[f + 3]! < 0 ? 3 : 4;
       for (let k = 0; k < n; k++) {
-        // Lines within a face of a quadratic element are none of its edges.
+        // Lines within a face of a quadratic element are not among its edges.
         if (elementEdges && !((elementEdges[f >> 2]! >> k) & 1)) continue;
         const [u, v] = [corners[f + k]!, corners[f + ((k + 1) % n)]!];
         const [a, b] = [nodeOf[u]!, nodeOf[v]!];
@@ -217,7 +217,7 @@ export class Surface {
 
 const kSurfaces = new WeakMap<Body, Surface>();
 
-/** The surface of a body; its topology is worked out once, whatever draws it. */
+/** The surface of a body; its topology is computed once, whatever draws it. */
 export function surfaceOf(body: Body): Surface {
   let surface = kSurfaces.get(body);
   if (!surface) kSurfaces.set(body, (surface = new Surface(body)));

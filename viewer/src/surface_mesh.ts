@@ -7,14 +7,14 @@ import type { FieldMaterial } from './field_material';
 import type { PickedVertex, Skin, SkinLook } from './skin';
 import type { BodyMotion } from './motion';
 
-/** Meshes with more faces start without the edges of all of them: they would be a grey haze. */
+/** Meshes with more faces start without element edges, which would merge into a grey haze. */
 export const kManyFaces = 15000;
 
 function attribute(values: Float32Array, size: number): THREE.BufferAttribute {
   return new THREE.BufferAttribute(values, size).setUsage(THREE.DynamicDrawUsage);
 }
 
-/** What the graphics card gets of a surface. */
+/** Data of a surface for the graphics card. */
 interface Picture {
   geometry: THREE.BufferGeometry;
   values: Float32Array;
@@ -27,7 +27,7 @@ function picture(positions: Float32Array, normals: Float32Array, indices: Uint32
   geometry.setAttribute('normal', attribute(normals, 3));
   geometry.setAttribute('fieldValue', attribute(values, 1));
   geometry.setIndex(new THREE.BufferAttribute(indices, 1));
-  // The vertices move: never worked out, never out of view.
+  // The vertices move: the sphere is never computed, the object never culled.
   geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), Infinity);
   return { geometry, values };
 }
@@ -41,7 +41,7 @@ export class SurfaceMesh implements Skin {
   private readonly vertexValues: VertexValues;
   private readonly lines: THREE.LineSegments;
   private readonly thin: THREE.LineBasicMaterial;
-  /** One colour per face; made when it is first wanted. */
+  /** One colour per face; created when first needed. */
   private split: { faces: ElementFaces; picture: Picture } | null = null;
   private byFace = false;
   private deformed = false;
@@ -57,7 +57,7 @@ export class SurfaceMesh implements Skin {
     this.smooth = picture(positions, normals, indices);
     this.mark(this.smooth, this.surface.restPositions());
     this.vertexValues = new VertexValues(this.surface, motion.body.faces!);
-    // Edges stand in front of the faces they bound.
+    // Edges are drawn in front of the faces they bound.
     material.polygonOffset = true;
     material.polygonOffsetFactor = 1;
     material.polygonOffsetUnits = 1;
@@ -109,7 +109,7 @@ export class SurfaceMesh implements Skin {
     this.changed(own, 'fieldValue');
   }
 
-  /** Changes between one value per vertex and one per face. */
+  /** Switches between one value per vertex and one per face. */
   private use(byFace: boolean): void {
     if (byFace === this.byFace) return;
     this.byFace = byFace;

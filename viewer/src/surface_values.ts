@@ -3,12 +3,12 @@ import type { Faces } from './run';
 import type { Surface } from './surface';
 
 /**
- * What a vertex shows where nothing was recorded. So large that any share of it, however small, greys
+ * Value of a vertex where nothing was recorded. So large that any fraction of it, however small, greys
  * a point between it and a recorded value; see field_material.ts.
  */
 export const kNoValue = 3e38;
 
-/** Where given values belong. */
+/** Where the given values belong. */
 export interface Painted {
   on: FieldSource['on'];
   values: Float32Array;

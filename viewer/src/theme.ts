@@ -8,7 +8,7 @@ export interface Theme {
   muted: string;
   joint: string;
   ghost: string;
-  /** Of elements, on coloured faces. */
+  /** Element edges on coloured faces. */
   edge: string;
   bodies: string[];
   curves: string[];
@@ -57,20 +57,20 @@ export function currentTheme(): Theme {
   return dark ? kDark : kLight;
 }
 
-/** The page's own colours hang on an attribute of the root; see style/base.css. */
+/** The page's own colours depend on an attribute of the root; see style/base.css. */
 function apply(): void {
   const theme = currentTheme();
   document.documentElement.dataset.theme = theme.dark ? 'dark' : 'light';
   for (const react of listeners) react(theme);
 }
 
-/** Follows the system, or not; remembered where the browser lets pages from files remember. */
+/** Follows the system, or not; stored if the browser allows storage for pages from files. */
 export function chooseTheme(choice: ThemeChoice): void {
   chosen = choice;
   try {
     localStorage.setItem(kStored, choice);
   } catch {
-    // Not remembered then.
+    // Then it is not stored.
   }
   apply();
 }
@@ -80,7 +80,7 @@ export function startTheme(): void {
     const stored = localStorage.getItem(kStored);
     if (stored === 'light' || stored === 'dark') chosen = stored;
   } catch {
-    // As the system has it.
+    // System setting.
   }
   apply();
   matchMedia(kQuery).addEventListener('change', apply);
@@ -90,7 +90,7 @@ export function onThemeChange(react: (theme: Theme) => void): void {
   listeners.push(react);
 }
 
-/** Light, dark, then as the system has it. */
+/** Light, dark, then the system setting. */
 export function nextTheme(): void {
   const next = { auto: 'light', light: 'dark', dark: 'auto' } as const;
   chooseTheme(next[themeChoice()]);

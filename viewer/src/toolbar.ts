@@ -21,7 +21,7 @@ const kToggles: ToggleEntry[] = [
   { name: 'colors', text: 'Colours', key: 's', title: 'Stress or another field in colour' },
 ];
 
-/** Buttons over the view that say what is drawn. */
+/** Buttons over the view that select what is drawn. */
 export class Toolbar {
   readonly root: HTMLElement;
   private readonly buttons = new Map<Toggle, HTMLButtonElement>();
@@ -36,7 +36,7 @@ export class Toolbar {
     const useful: Partial<Record<Toggle, boolean>> = {
       undeformed: bodies.some((body) => body.displacement),
       colors: bodies.some((body) => body.shape || body.displacement || body.fields.length > 0),
-      // Loads on all bodies have no place where arrows could stand.
+      // Loads on all bodies have no point at which to draw arrows.
       loads: runs.some((run) => run.loads.some(({ positions }) => positions.length > 0)),
       reactions: runs.some((run) => run.joints.some(({ force, torque }) => force || torque)),
     };
@@ -69,7 +69,7 @@ export class Toolbar {
     this.changed();
   }
 
-  /** Flips what the key stands for; false if it stands for nothing here. */
+  /** Toggles the option of the key; false if the key has none here. */
   key(key: string): boolean {
     const entry = kToggles.find((toggle) => toggle.key === key);
     if (!entry || !this.buttons.has(entry.name)) return false;

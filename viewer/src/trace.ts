@@ -7,7 +7,7 @@ import type { Run } from './run';
 import type { Triple } from './page_data';
 import type { TracePoint } from './view_options';
 
-/** The path of one point through all stored frames: pale ahead of the time, strong behind it. */
+/** The path of one point through all stored frames: pale ahead of the current time, strong behind it. */
 export class Trace {
   readonly root = new THREE.Group();
   private readonly motion: Motion;
@@ -19,7 +19,7 @@ export class Trace {
     run: Run,
     private readonly center: Triple,
   ) {
-    // A motion of its own, so that walking through the frames does not disturb the picture.
+    // A separate motion, so that stepping through the frames does not disturb the picture.
     this.motion = new Motion(run);
     this.root.position.set(...center);
   }
@@ -35,7 +35,7 @@ export class Trace {
     if (this.passed) this.passed.geometry.instanceCount = index;
   }
 
-  /** The motion has changed: the path is made anew when it is drawn next. */
+  /** The motion has changed: the path is rebuilt when it is drawn next. */
   forget(): void {
     this.shown = '';
   }

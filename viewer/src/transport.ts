@@ -124,7 +124,7 @@ export class Transport {
     this.update();
   }
 
-  /** The run has another duration: it is watched for `seconds` at the usual speed. */
+  /** The run has another duration: it takes `seconds` at the default speed. */
   restart(seconds: number): void {
     const { playback } = this;
     const factor = playback.speed / this.usualSpeed;
@@ -145,7 +145,7 @@ export class Transport {
     this.changed();
   }
 
-  /** Shows the present state of playback and options. */
+  /** Shows the current state of playback and options. */
   update(): void {
     const { playback, options } = this;
     if (this.play.dataset.playing !== String(playback.playing)) {

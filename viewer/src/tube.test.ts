@@ -31,7 +31,7 @@ function beam(
   };
 }
 
-/** Volume enclosed by the triangles, positive if their fronts look outwards (divergence theorem). */
+/** Volume enclosed by the triangles, positive if their fronts face outwards (divergence theorem). */
 function volume(tube: Tube): number {
   const p = (v: number) => tube.positions.subarray(3 * v, 3 * v + 3);
   let sum = 0;

@@ -4,7 +4,7 @@ import { nodeEnds, outwards, type End } from './tube_ends';
 import { nodeAt, type Body } from './run';
 import type { Triple } from './page_data';
 
-/** Vertices that one body may spend; long models get coarser beams instead of a slow page. */
+/** Maximum number of vertices of one body; large models get coarser beams instead of a slow page. */
 const kVertexBudget = 60000;
 
 interface Cap {
@@ -13,20 +13,20 @@ interface Cap {
   firstVertex: number;
 }
 
-/** The direction in which a beam goes on as another, and how their bend is mitred. */
+/** The direction in which a beam continues as another, and how their bend is mitred. */
 interface Mitre {
   /** Midway between the directions of both. */
   mean: Triple;
   /** Unit vector in the plane of the bend, at right angles to `mean`. */
   across: Triple;
-  /** By how much the cut is longer along `across` than the section is wide. */
+  /** Ratio of the length of the cut along `across` to the width of the section. */
   stretch: number;
 }
 
 /** Beams that meet at a larger angle have an edge between them: 1/cos 20° − 1. */
 const kSharp = 0.064;
 
-/** Vertices that are swept along one element. */
+/** Vertices swept along one element. */
 interface Sweep {
   first: number;
   profiles: [Profile, Profile];
@@ -60,14 +60,14 @@ export class Tube {
   readonly indices: number[] = [];
   /** Element of each vertex, for colours. */
   readonly elementOf: Int32Array;
-  /** Where each vertex is along its element, 0 … 1. */
+  /** Position of each vertex along its element, 0 … 1. */
   readonly alongOf: Float32Array;
   /** Nodes with a sharp bend or a branch, where a ball closes the gap between beams. */
   readonly kinks: number[];
-  /** At both ends of each element: of the largest circle inside the section. */
+  /** At both ends of each element: radius of the largest circle inside the section. */
   readonly inside: [number, number][];
   private readonly joins: [End, End][];
-  /** By end, null where nothing is joined. */
+  /** For each end, null if nothing is joined. */
   private readonly mitres: (Mitre | null)[];
   private readonly curves: BeamCurve[];
   /** Local y axis of each element. */
@@ -75,7 +75,7 @@ export class Tube {
   private readonly sweeps: Sweep[] = [];
   private readonly caps: Cap[] = [];
   private readonly segments: number;
-  /** Nodal rotations at both ends of the element at hand, magnified. */
+  /** Nodal rotations at both ends of the current element, magnified. */
   private readonly turns: [Triple, Triple] = [
     [0, 0, 0],
     [0, 0, 0],
@@ -125,7 +125,7 @@ export class Tube {
     this.connect();
   }
 
-  /** The recorded local y axis, made perpendicular to the element; any where there is none. */
+  /** The recorded local y axis, made perpendicular to the element; any perpendicular if there is none. */
   private axis(curve: BeamCurve, element: number): Triple {
     const { sections } = this.body;
     if (!sections) return perpendicular(curve.axis);
@@ -210,7 +210,7 @@ export class Tube {
     const mean = unit(out.map((x, k) => x + turn * into[k]!) as Triple);
     const half = dot(out, mean);
     const sideways = across(out, mean);
-    // A magnified deformation may fold beams back: nothing grows beyond all bounds then.
+    // A magnified deformation may fold beams back: the mitre must stay bounded then.
     const stretch = 1 / Math.max(0.4, half) - 1;
     this.mitres[a] = { mean, across: sideways, stretch };
     this.mitres[b] = { mean: mean.map((x) => turn * x) as Triple, across: sideways, stretch };
@@ -229,7 +229,7 @@ export class Tube {
     const y = turnedBy(this.axes[element]!, w);
     const u = across(y, t);
     const v = cross(t, u);
-    // Light falls on a side of a sharp corner as on the rest of it.
+    // A side of a sharp corner is lit like the rest of it.
     const sharp = mitre !== null && mitre !== undefined && mitre.stretch > kSharp;
     const straight = sharp ? unit(tangent) : t;
     const [nu, nv] = sharp ? [across(y, straight), cross(straight, across(y, straight))] : [u, v];
@@ -240,7 +240,7 @@ export class Tube {
       const [a, b] = [points[i]!, last[i]!];
       const [m, n] = flat[i]!;
       const [py, pz] = [p * a[0] + q * b[0], p * a[1] + q * b[1]];
-      // The normals of a taper lean towards its thin end.
+      // The normals of a taper tilt towards its thin end.
       const grown = m * (scales[1] * b[0] - scales[0] * a[0]) + n * (scales[1] * b[1] - scales[0] * a[1]);
       const lean = -grown / (curve.length || 1);
       const norm = Math.hypot(1, lean);

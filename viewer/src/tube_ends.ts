@@ -1,7 +1,7 @@
 import { dot, type BeamCurve } from './beam_curve';
 import type { Body } from './run';
 
-/** Radii that differ by more than this share make a step. */
+/** Radii that differ by more than this fraction form a step. */
 const kStep = 1e-6;
 /** Up to this bend two beams are mitred, beyond it a ball closes the gap: cos 100°. */
 const kMitred = -0.174;
@@ -9,7 +9,7 @@ const kMitred = -0.174;
 /** An end of an element: 2 · element for the first, one more for the second. */
 export type End = number;
 
-/** Out of the element at this end. */
+/** Direction out of the element at this end. */
 export function outwards(end: End): number {
   return end % 2 ? 1 : -1;
 }
@@ -19,7 +19,7 @@ export interface NodeEnds {
   open: Set<number>;
   /** Nodes with a branch or a sharp bend. */
   kinks: number[];
-  /** Pairs of ends at which one beam goes on as the other. */
+  /** Pairs of ends at which one beam continues as the other. */
   joins: [End, End][];
 }
 

@@ -9,12 +9,12 @@ export interface FieldChoice {
   range: 'run' | 'frame' | 'fixed';
   low: number;
   high: number;
-  /** One colour per element in place of smooth ones. */
+  /** One colour per element instead of smooth ones. */
   perElement: boolean;
   map: ColorMapName;
   /** Number of colours, 0 for a continuous scale. */
   bands: number;
-  /** What happens to values beyond the limits. */
+  /** Treatment of values beyond the limits. */
   cut: 'none' | 'grey' | 'hide';
   /** Limits; null for none. */
   cutLow: number | null;
@@ -24,9 +24,9 @@ export interface FieldChoice {
 /** A plane that cuts bodies open. */
 export interface SectionChoice {
   axis: 'off' | 'x' | 'y' | 'z';
-  /** Name of the body whose axes count and which alone is cut; empty for the world and all bodies. */
+  /** Name of the only body that is cut, in its axes; empty for the world and all bodies. */
   body: string;
-  /** 0 … 1 through the extent along the axis. */
+  /** Position 0 … 1 within the extent along the axis. */
   fraction: number;
   /** Keeps the other side. */
   flip: boolean;
@@ -55,6 +55,6 @@ export interface ViewOptions {
 /** By name, so that it means the same in two runs side by side. */
 export interface TracePoint {
   body: string;
-  /** Of the body, empty for the mass centre. */
+  /** Marker of the body, empty for the mass centre. */
   marker: string;
 }

@@ -13,7 +13,7 @@ const kAxes: Triple[] = [
   [0, 1, 0],
   [0, 0, 1],
 ];
-/** Towards the camera, for planar models seen from the corner. */
+/** Towards the camera, for planar models viewed from the corner. */
 const kCorner: Triple = [0.55, 0.45, 0.7];
 
 export interface ViewEvents {
@@ -49,7 +49,7 @@ export class Views {
     return this.panes[0]!.stage;
   }
 
-  /** Along axis 0, 1, 2, or from the corner for −1. */
+  /** Along axis 0, 1, 2; −1: from the corner. */
   lookAlong(axis: number): void {
     if (axis >= 0) this.leader?.fit(kAxes[axis]);
     else if (this.runs[0]!.planar) this.leader?.fit(kCorner);
@@ -70,18 +70,18 @@ export class Views {
     for (const { stage } of this.panes) stage?.setTheme(theme);
   }
 
-  /** Range of the field in all views; not-a-number without one. */
+  /** Range of the field in all views; NaN without one. */
   present(): [number, number] {
     const all = this.panes.flatMap(({ stage }) => stage?.present ?? []).filter(Number.isFinite);
     return all.length ? [Math.min(...all), Math.max(...all)] : [NaN, NaN];
   }
 
-  /** Where a node is [m], deformed. */
+  /** Position of a node [m], deformed. */
   placeOf(pick: Pick): Triple {
     return this.panes[pick.pane]!.stage?.placeOf(pick, 1) ?? [NaN, NaN, NaN];
   }
 
-  /** Where a node rests [m]: vibrations have an arbitrary size. */
+  /** Undeformed position of a node [m]: vibrations have an arbitrary size. */
   restingPlaceOf(pick: Pick): Triple {
     const body = this.runs[pick.pane]!.bodies[pick.body]!;
     const turned = rotate(body.pose, 3, nodeAt(body, pick.node));
