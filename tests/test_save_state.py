@@ -102,10 +102,23 @@ simulation: {duration: 2 s, step: 5 ms, tolerance: 1e-4}
 output: {every: 20 ms, sensors: {elbow: {joint-coordinate: elbow}, lost: {energy: dissipated}}}
 """
 
+# Blocks with states, sampled ones among them, and a motor at its limit.
+CONTROL = SLIDER_CRANK.replace("  motor: {prescribed", "  drive: {prescribed").replace("loads:", """signals:
+  way: {joint-displacement: guide}
+  i: {integral: {input: "(0.1 + way - 2*i)/0.002"}}
+  u: {pid: {input: "-0.2 - way", proportional: 500, integral: 4e4, derivative: 0.5, filter: 1 ms, limits: [-60, 60]}}
+  held: {sample-hold: {input: "20*way", sample: 0.4 ms}}
+loads:
+  servo: {slide-motor: {joint: guide, force: "u + 100*i + held", force-limit: 40 N}}""", 1).replace(
+      "  sensors:", "  sensors:\n    i: {signal: i}\n    u: {signal: u}", 1)
+
+
 CASES = {
     "rigid rows": (model(RIGID), 0.0301),
     "rigid rows, step control": (model(ELBOW), 1.31),
     "laws of joint coordinates": (model(LAWS), 0.0301),
+    "blocks": (model(CONTROL), 0.03),
+    "blocks, newmark": (model(CONTROL, step="method: newmark"), 0.03),
     "laws, newmark": (model(LAWS, step="method: newmark"), 0.0301),
     "laws, step control": (model(LAWS, step="tolerance: 1e-4"), 0.03),
     **{f"method {m}": (model(SLIDER_CRANK, step=f"method: {m}"), 0.0301)

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "buckens/base/motion_dimensions.h"
+
 namespace buckens::base {
 
 namespace {
@@ -15,7 +17,7 @@ struct KnownDimension {
   const char* name;
 };
 
-constexpr std::array<KnownDimension, 19> kKnown = {{
+constexpr std::array<KnownDimension, 21> kKnown = {{
     {kNumber, "", "a pure number"},
     {kLength, "m", "a length"},
     {kMass, "kg", "a mass"},
@@ -27,9 +29,11 @@ constexpr std::array<KnownDimension, 19> kKnown = {{
     {kVelocity, "m/s", "a velocity"},
     {kAcceleration, "m/s^2", "an acceleration"},
     {kAngularVelocity, "rad/s", "an angular velocity"},
+    {kAngularAcceleration, "rad/s^2", "an angular acceleration"},
     {kFrequency, "Hz", "a frequency"},
     {kForce, "N", "a force"},
     {kTorque, "N m", "a torque"},
+    {kPower, "W", "a power"},
     {kStress, "Pa", "a stress"},
     {kDensity, "kg/m^3", "a density"},
     {kInertia, "kg m^2", "a moment of inertia"},

@@ -37,7 +37,7 @@ loads::RowStand stand_of(const model::Load& load, const Circumstances& around,
 }  // namespace
 
 Circumstances circumstances_of(const model::State& state) {
-  return {&state.inputs, &state.memory, &state.lambda};
+  return {&state.inputs, &state.memory, &state.lambda, nullptr};
 }
 
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
@@ -74,7 +74,7 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const spatial::MarkerMotion& first,
                       const spatial::MarkerMotion& second) {
   const model::Load& own = model.loads[load];
-  loads::Sight sight{t, first, second, {}, {}, nullptr};
+  loads::Sight sight{t, first, second, {}, {}, nullptr, {}};
   if (own.coordinate >= 0) {
     sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate),
                                          around.memory, first, second);
@@ -87,6 +87,11 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
     sight.states = around.memory->laws.data() + own.first_state;
   }
   if (own.rigid_row >= 0) sight.stand = stand_of(own, around, sight.states);
+  if (around.signals != nullptr) {
+    sight.signals = *around.signals;
+  } else if (around.memory != nullptr) {
+    sight.signals = around.memory->signals;
+  }
   return sight;
 }
 
@@ -97,7 +102,7 @@ loads::Action action_of(const model::Model& model, std::size_t load, double t,
   if (around.inputs != nullptr && !around.inputs->empty() && (*around.inputs)[load]) {
     return element.act(*(*around.inputs)[load], first);
   }
-  if (model.loads[load].coordinate < 0 && element.num_states() == 0) {
+  if (model.loads[load].coordinate < 0 && element.num_states() == 0 && !element.uses_signals()) {
     return element.evaluate(t, first, second);
   }
   return element.respond(sight_of(model, load, t, around, first, second));

@@ -14,6 +14,8 @@ struct Circumstances {
   const linalg::Vector* lambda = nullptr;    ///< multipliers at the instant
   /// Of rigid rows at the instant, one per Load::rigid_row; null: as in the memory.
   const std::vector<loads::RowStand>* stands = nullptr;
+  /// t and the values of all signals at the instant; null: as the memory has them.
+  const std::vector<double>* signals = nullptr;
 };
 
 /// Those of a state.

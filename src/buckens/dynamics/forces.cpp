@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/forces.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -36,6 +38,44 @@ void add_row(const BodyRow& row, double multiplier, Forces& out) {
   }
 }
 
+// Of differences for tangents: far above rounding, and formulas are smooth over less.
+constexpr double kShift = 1e-6;
+
+/// With the values of signals, unless these are known.
+Circumstances with_signals(const model::Model& model, const std::vector<BodyMotion>& motions,
+                           double t, const Circumstances& given, SignalValues& values) {
+  Circumstances out = given;
+  if (model.signals.empty() || given.signals != nullptr) return out;
+  evaluate_signals(model, motions, t, given, values);
+  out.signals = &values.values;
+  return out;
+}
+
+/// A law on a joint coordinate whose tangent is wanted, its row being the last one of `rows`.
+struct SlopesOf {
+  const model::Model& model;
+  const loads::Sight& sight;
+  SoftRows& rows;
+};
+
+/// Adds how its force answers its own coordinate through signals: the gains of a controller belong
+/// to the tangent. What it does through other coordinates the iteration finds.
+void add_slopes_of_signals(const model::Load& load, const std::vector<BodyMotion>& motions,
+                           const Circumstances& around, const SlopesOf& of) {
+  const double before = load.element->respond(of.sight).along_coordinate;
+  const auto slope = [&](const CoordinateShift& shift) {
+    Circumstances plain = around;
+    plain.signals = nullptr;
+    evaluate_signals(of.model, motions, of.sight.t, plain, of.rows.shifted, shift);
+    loads::Sight shifted = of.sight;
+    shifted.signals = of.rows.shifted.values;
+    return (before - load.element->respond(shifted).along_coordinate) / kShift;
+  };
+  loads::SoftRow& row = of.rows.of_one.back();
+  row.stiffness = std::max(0.0, row.stiffness + slope({load.coordinate, kShift, 0.0}));
+  row.damping = std::max(0.0, row.damping + slope({load.coordinate, 0.0, kShift}));
+}
+
 /// The share of a load along one row, with its power.
 void add_pattern(const model::Load& load, const std::vector<BodyMotion>& motions,
                  const loads::Action& action, Forces& out) {
@@ -67,8 +107,9 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     const Circumstances& around, Forces& out, double load_factor) {
+                     const Circumstances& given, Forces& out, double load_factor) {
   out.reset(model);
+  const Circumstances around = with_signals(model, motions, t, given, out.signals);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     const auto first = evaluate_marker(model, load.first, motions);
@@ -115,7 +156,8 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
 }
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                        const Circumstances& around, SoftRows& out) {
+                        const Circumstances& given, SoftRows& out) {
+  const Circumstances around = with_signals(model, motions, t, given, out.signals);
   out.regimes.clear();
   out.rows.clear();
   out.stiffness.clear();
@@ -132,6 +174,9 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     const loads::Sight sight = sight_of(model, k, t, around, first.motion, second.motion);
     load.element->append_tangent(sight, rows);
     if (load.coordinate >= 0) out.regimes.push_back(load.element->respond(sight).regime);
+    if (load.coordinate >= 0 && load.element->uses_signals()) {
+      add_slopes_of_signals(load, motions, around, {model, sight, out});
+    }
     for (const loads::SoftRow& row : rows) {
       out.rows.push_back(system_row(model, load.first, first, load.second, second, row.J));
       out.stiffness.push_back(row.stiffness);

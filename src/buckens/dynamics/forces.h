@@ -5,6 +5,7 @@
 
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/signals.h"
 
 namespace buckens::dynamics {
 
@@ -19,6 +20,7 @@ struct Forces {
   double dissipation = 0;              ///< dissipated by dampers, negative part of active_power [W]
   std::vector<int> regimes;            ///< of laws on joint coordinates, see loads::Action::regime
   std::vector<loads::RigidRow> rigid;  ///< one per Load::rigid_row
+  SignalValues signals;                ///< at the instant
 
   void reset(const model::Model& model);
 };
@@ -50,6 +52,7 @@ struct SoftRows {
   std::vector<char> is_closed;         ///< of rigid rows; false of rows that give way
   std::vector<int> regimes;            ///< as in Forces
   std::vector<loads::SoftRow> of_one;  ///< scratch
+  SignalValues signals, shifted;       ///< at the instant; scratch
 };
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& around, SoftRows& out);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/row_memory.h"
 
+#include "buckens/dynamics/signals.h"
+
 namespace buckens::dynamics {
 
 namespace {
@@ -25,9 +27,10 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
     const auto first = evaluate_marker(model, load.first, motions);
     const auto second = evaluate_marker(model, load.second, motions);
     load.element->start_states(
-        sight_of(model, k, 0.0, {nullptr, &out, nullptr}, first.motion, second.motion),
+        sight_of(model, k, 0.0, {nullptr, &out, nullptr, nullptr}, first.motion, second.motion),
         out.laws.data() + load.first_state);
   }
+  start_signals(model, motions, 0.0, out);
   return out;
 }
 
@@ -49,6 +52,7 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
     load.element->find_states(sight_of(model, k, t, around, first.motion, second.motion),
                               out.laws.data() + load.first_state);
   }
+  advance_signals(model, motions, t, around, out);
 }
 
 }  // namespace buckens::dynamics

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/motion_dimensions.h"
 #include "buckens/base/time_law.h"
 #include "buckens/joints/coupling_specs.h"
 #include "buckens/joints/guide_specs.h"
@@ -89,19 +90,27 @@ struct BushingSpec : JointEnds {
   }
 };
 
+/// The motion of a drive from the one of its laws that is given; integrals begin at t = 0 with 0.
+inline base::TimeLaw driven_by(const std::optional<base::TimeLaw>& position,
+                               const std::optional<base::TimeLaw>& rate,
+                               const std::optional<base::TimeLaw>& acceleration) {
+  if (rate) return base::TimeLaw::integral(*rate);
+  if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(*acceleration));
+  return position.value_or(base::TimeLaw());
+}
+
 struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "prescribed-rotation";
   static constexpr const char* kDoc =
       "drives the rotation about the axis; add a joint for the other directions";
   static constexpr bool kTurns = true;
-  // Exactly one of the two is given.
-  std::optional<base::TimeLaw> angle;  ///< counted from the position as placed [rad]
-  std::optional<base::TimeLaw> speed;  ///< [rad/s]; the angle is its integral from t = 0
+  // Exactly one of the three is given.
+  std::optional<base::TimeLaw> angle;         ///< counted from the position as placed [rad]
+  std::optional<base::TimeLaw> speed;         ///< [rad/s]; the angle is its integral from t = 0
+  std::optional<base::TimeLaw> acceleration;  ///< [rad/s²]; the speed is its integral from t = 0
 
   /// The angle as a law of time.
-  base::TimeLaw law() const {
-    return speed ? base::TimeLaw::integral(*speed) : angle.value_or(base::TimeLaw());
-  }
+  base::TimeLaw law() const { return driven_by(angle, speed, acceleration); }
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -118,6 +127,12 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
               .in(base::kAngularVelocity)
               .like("3000 rpm")
               .otherwise("give this or `angle`"));
+    visit(base::field("acceleration", acceleration,
+                      "angular acceleration of the second marker about the axis; it begins at rest "
+                      "at the position as placed")
+              .in(base::kAngularAcceleration)
+              .like("\"20*sin(5*t) rad/s^2\"")
+              .otherwise("give this, `angle` or `speed`"));
   }
 };
 
@@ -127,7 +142,13 @@ struct PrescribedTranslationSpec : JointEnds {
       "drives the displacement along the axis; add a joint for the other directions";
   static constexpr bool kSlides = true;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
-  base::TimeLaw displacement;                      ///< counted from the position as placed [m]
+  // Exactly one of the three is given.
+  std::optional<base::TimeLaw> displacement;  ///< counted from the position as placed [m]
+  std::optional<base::TimeLaw> velocity;      ///< [m/s]; the displacement is its integral
+  std::optional<base::TimeLaw> acceleration;  ///< [m/s²]; the velocity is its integral
+
+  /// The displacement as a law of time.
+  base::TimeLaw law() const { return driven_by(displacement, velocity, acceleration); }
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -139,8 +160,20 @@ struct PrescribedTranslationSpec : JointEnds {
                       "displacement of the second marker along the axis, measured from the "
                       "position as placed")
               .in(base::kLength)
-              .required()
-              .like("\"10*sin(20*t) mm\""));
+              .like("\"10*sin(20*t) mm\"")
+              .otherwise("give this, `velocity` or `acceleration`"));
+    visit(base::field("velocity", velocity,
+                      "of the second marker along the axis; the displacement is its integral from "
+                      "t = 0 and begins at the position as placed")
+              .in(base::kVelocity)
+              .like("0.2 m/s")
+              .otherwise("give this or `displacement`"));
+    visit(base::field("acceleration", acceleration,
+                      "of the second marker along the axis; it begins at rest at the position as "
+                      "placed")
+              .in(base::kAcceleration)
+              .like("\"2*sin(5*t) m/s^2\"")
+              .otherwise("give this or `displacement`"));
   }
 };
 

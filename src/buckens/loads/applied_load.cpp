@@ -6,12 +6,18 @@
 
 namespace buckens::loads {
 
-AppliedLoad::AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value)
-    : kind_(kind), axes_(axes), value_(std::move(value)) {}
+AppliedLoad::AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value, int signal)
+    : kind_(kind), axes_(axes), value_(std::move(value)), signal_(signal) {}
 
 Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
                              const spatial::MarkerMotion& /*second*/) const {
   return act(values(t), first);
+}
+
+Action AppliedLoad::respond(const Sight& sight) const {
+  if (signal_ < 0) return evaluate(sight.t, sight.first, sight.second);
+  // The first of them is t.
+  return act(sight.signals[static_cast<std::size_t>(signal_) + 1] * values(sight.t), sight.first);
 }
 
 Action AppliedLoad::act(const Eigen::Vector3d& values, const spatial::MarkerMotion& first) const {
@@ -29,8 +35,8 @@ Action AppliedLoad::act(const Eigen::Vector3d& values, const spatial::MarkerMoti
 }
 
 bool AppliedLoad::is_constant() const {
-  return std::all_of(value_.begin(), value_.end(),
-                     [](const base::TimeLaw& law) { return law.is_constant(); });
+  return signal_ < 0 && std::all_of(value_.begin(), value_.end(),
+                                    [](const base::TimeLaw& law) { return law.is_constant(); });
 }
 
 }  // namespace buckens::loads

@@ -17,24 +17,28 @@ class AppliedLoad final : public ForceElement {
   enum class Kind { force, torque };
 
   /// @param value three laws of time [N] or [N m]
-  AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value);
+  /// @param signal index of the signal that multiplies it; −1: none
+  AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value, int signal = -1);
 
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
+  Action respond(const Sight& sight) const override;
+  bool uses_signals() const override { return signal_ >= 0; }
   bool is_applied() const override { return true; }
   bool is_constant() const override;
-  int num_values() const override { return 3; }
+  int num_values() const override { return signal_ < 0 ? 3 : 0; }
   Eigen::Vector3d values(double t) const override {
     return {value_[0].value(t), value_[1].value(t), value_[2].value(t)};
   }
   bool follows() const override { return axes_ == LoadAxes::following; }
-  bool takes_values() const override { return true; }
+  bool takes_values() const override { return signal_ < 0; }
   Action act(const Eigen::Vector3d& values, const spatial::MarkerMotion& first) const override;
 
  private:
   Kind kind_;
   LoadAxes axes_;
   std::array<base::TimeLaw, 3> value_;
+  int signal_;
 };
 
 }  // namespace buckens::loads

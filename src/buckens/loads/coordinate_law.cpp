@@ -27,7 +27,7 @@ Projected project(const ProjectedForce& law, double rate) {
     out.damper_limit = (viscous > 0.0) == (elastic > 0.0) ? 1 : -1;
     viscous = out.damper_limit * elastic;
   }
-  const double trial = -elastic - viscous;
+  const double trial = law.drive - elastic - viscous;
   // The set contains zero, so its ends are in order for any bound.
   out.bounded = std::clamp(trial, std::min(law.lowest, 0.0), std::max(law.highest, 0.0));
   out.is_cut = out.bounded != trial;
@@ -46,6 +46,15 @@ int regime_of(const ProjectedForce& law, const Projected& force) {
 
 }  // namespace
 
+Action along_coordinate(const CoordinateMotion& coordinate, double force) {
+  const spatial::PairRow wrench = force * coordinate.J;
+  Action out;
+  out.on_first = {wrench.segment<3>(0).transpose(), wrench.segment<3>(3).transpose()};
+  out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
+  out.along_coordinate = force;
+  return out;
+}
+
 Action CoordinateLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
                                const spatial::MarkerMotion& /*second*/) const {
   return {};
@@ -55,12 +64,12 @@ Action CoordinateLaw::respond(const Sight& sight) const {
   const ProjectedForce law = force(sight);
   const double rate = sight.coordinate.rate;
   const Projected f = project(law, rate);
-  Action out;
-  const spatial::PairRow wrench = f.whole * sight.coordinate.J;
-  out.on_first = {wrench.segment<3>(0).transpose(), wrench.segment<3>(3).transpose()};
-  out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
-  out.along_coordinate = f.whole;
+  Action out = along_coordinate(sight.coordinate, f.whole);
   out.regime = regime_of(law, f);
+  if (law.is_source) {
+    out.active_power = f.whole * rate;
+    return out;
+  }
   // If rest follows, the spring stays as strained as it is: all power is dissipated.
   const bool is_straining = law.is_on && !(f.is_cut && law.is_yielding);
   out.stored_energy = 0.5 * law.stiffness * f.strain * f.strain;
@@ -78,7 +87,8 @@ void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& row
   SoftRow row;
   row.J = sight.coordinate.J;
   row.stiffness = is_elastic ? (1 + f.damper_limit) * law.stiffness : 0.0;
-  row.damping = law.outer_damping + (is_elastic && !is_limited ? law.damping : 0.0);
+  row.damping = law.outer_damping + (is_elastic && !is_limited ? law.damping : 0.0) +
+                (f.is_cut ? law.cut_damping : 0.0);
   rows.push_back(row);
 }
 

@@ -9,7 +9,7 @@ namespace buckens::loads {
 
 /// A spring and damper on one joint coordinate whose force is projected onto a set:
 ///
-///     f = proj_[lowest, highest](−k x − c ξ̇) − c₀ ξ̇
+///     f = proj_[lowest, highest](−k x − c ξ̇ + drive) − c₀ ξ̇
 ///
 /// A plain spring admits all forces, a stop those of one sign (unilateral), friction those up to a
 /// bound (bounded). Theory: docs/theory/22-rows.md §2.
@@ -20,12 +20,19 @@ struct ProjectedForce {
   double damping = 0;                             ///< c [N s/m] or [N m s/rad]
   double lowest = -HUGE_VAL, highest = HUGE_VAL;  ///< [N] or [N m]
   double outer_damping = 0;                       ///< c₀, not limited by the set
+  double drive = 0;        ///< added before the projection: what a motor is told [N] or [N m]
+  double cut_damping = 0;  ///< how fast the end of the set falls with the rate, for the tangent
   /// The force of c is at most that of k, so that contact begins and ends without a jump.
   bool is_damper_limited = false;
   /// Where the set limits the force, rest follows so that k x becomes the force (return mapping);
   /// otherwise rest does not move.
   bool is_yielding = false;
+  /// A motor: nothing is stored, all of its power comes from outside.
+  bool is_source = false;
 };
+
+/// What a force along a joint coordinate does to both markers.
+Action along_coordinate(const CoordinateMotion& coordinate, double force);
 
 /// A law of one joint coordinate. The force acts as Jᵀf on both markers of the joint.
 class CoordinateLaw : public ForceElement {

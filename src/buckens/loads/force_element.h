@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "buckens/spatial/marker_motion.h"
@@ -65,6 +66,8 @@ struct Sight {
   spatial::Wrench reaction{};      ///< of the law's joint, on the second marker, world axes
   const double* states = nullptr;  ///< num_states() at the start of the step; null: all zero
   RowStand stand{};                ///< of laws with a rigid row: as it is now
+  /// t and the values of all signals of the model at this instant; empty where it has none.
+  std::span<const double> signals{};
 };
 
 /// A force law between two marker frames. An applied load has the ground as its second marker.
@@ -105,6 +108,9 @@ class ForceElement {
   /// Writes these states as they are at the end of a step.
   /// @param sight at the end, with the states at the start
   virtual void find_states(const Sight& /*sight*/, double* /*states*/) const {}
+
+  /// Whether it looks at Sight::signals.
+  virtual bool uses_signals() const { return false; }
 
   /// True for external loads: a static path multiplies them by its load factor.
   virtual bool is_applied() const { return false; }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "buckens/base/characteristic.h"
 #include "buckens/base/field.h"
 
 namespace buckens::loads {
@@ -31,9 +32,10 @@ struct HingeSpringSpec : JointLaw {
   static constexpr const char* kDoc =
       "linear torsional spring and damper on the angle of a joint, over any number of turns";
   static constexpr bool kTurns = true;
-  double stiffness = 0;  ///< [N m/rad]
-  double damping = 0;    ///< [N m s/rad]
-  double angle = 0;      ///< torque-free [rad]
+  double stiffness = 0;                                ///< [N m/rad]
+  double damping = 0;                                  ///< [N m s/rad]
+  double angle = 0;                                    ///< torque-free [rad]
+  std::optional<base::Characteristic> characteristic;  ///< [N m] by angle and rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -49,6 +51,12 @@ struct HingeSpringSpec : JointLaw {
     visit(base::field("angle", angle, "angle at which the spring is torque-free")
               .in(base::kAngle)
               .like("10 deg"));
+    visit(base::field("characteristic", characteristic,
+                      "torque against the turn as a formula in `angle` (from that free of torque) "
+                      "and `rate`, or a table of the angle in rad; added to spring and damper")
+              .in(base::kTorque)
+              .like("\"20*angle + 300*angle^3 N m\"")
+              .otherwise("none"));
   }
 };
 
@@ -56,9 +64,10 @@ struct SlideSpringSpec : JointLaw {
   static constexpr const char* kKey = "slide-spring";
   static constexpr const char* kDoc = "linear spring and damper on the displacement of a joint";
   static constexpr bool kTurns = false;
-  double stiffness = 0;     ///< [N/m]
-  double damping = 0;       ///< [N s/m]
-  double displacement = 0;  ///< force-free [m]
+  double stiffness = 0;                                ///< [N/m]
+  double damping = 0;                                  ///< [N s/m]
+  double displacement = 0;                             ///< force-free [m]
+  std::optional<base::Characteristic> characteristic;  ///< [N] by displacement and rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -75,6 +84,13 @@ struct SlideSpringSpec : JointLaw {
         base::field("displacement", displacement, "displacement at which the spring is force-free")
             .in(base::kLength)
             .like("10 mm"));
+    visit(base::field("characteristic", characteristic,
+                      "force against the slide as a formula in `displacement` (from that free of "
+                      "force) and `rate`, or a table of the displacement in m; added to spring and "
+                      "damper")
+              .in(base::kForce)
+              .like("\"200*displacement + 5*rate*abs(rate) N\"")
+              .otherwise("none"));
   }
 };
 

@@ -32,4 +32,11 @@ inline base::Field<LoadAxes> axes_field(LoadAxes& axes, const std::string& owner
                      "world axes (`fixed`) or those of the " + owner + " (`following`)");
 }
 
+/// Signal that a load of laws of time is multiplied with.
+inline base::Field<std::string> factor_field(std::string& factor) {
+  return base::field("signal", factor, "name of a signal that multiplies the value")
+      .like("u")
+      .otherwise("none");
+}
+
 }  // namespace buckens::loads

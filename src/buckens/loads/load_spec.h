@@ -15,6 +15,7 @@
 #include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/load_axes.h"
 #include "buckens/loads/load_fields.h"
+#include "buckens/loads/motor_spec.h"
 #include "buckens/loads/rope_spec.h"
 
 namespace buckens::loads {
@@ -25,12 +26,14 @@ struct ForceSpec {
   base::MarkerRef on;
   std::array<base::TimeLaw, 3> value;  ///< [N]
   LoadAxes axes = LoadAxes::fixed;
+  std::string factor;  ///< name of a signal; empty: none
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("on", on, "marker on which the force acts").required().like("rod/end"));
     visit(components_field("value", value, base::kForce, "[0, \"10*sin(20*t) N\", 0]").required());
     visit(axes_field(axes, "marker"));
+    visit(factor_field(factor));
   }
 };
 
@@ -40,12 +43,14 @@ struct TorqueSpec {
   base::MarkerRef on;
   std::array<base::TimeLaw, 3> value;  ///< [N m]
   LoadAxes axes = LoadAxes::fixed;
+  std::string factor;  ///< name of a signal; empty: none
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("on", on, "marker on which the torque acts").required().like("crank"));
     visit(components_field("value", value, base::kTorque, "[0, 0, 2 N m]").required());
     visit(axes_field(axes, "marker"));
+    visit(factor_field(factor));
   }
 };
 
@@ -122,7 +127,7 @@ struct LoadSpec {
   std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec, PressureSpec,
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
-               RopeSpec>
+               RopeSpec, HingeMotorSpec, SlideMotorSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -10,21 +10,12 @@
 #include "buckens/joints/joint.h"
 #include "buckens/joints/joint_coordinate.h"
 #include "buckens/loads/force_element.h"
+#include "buckens/model/marker_id.h"
+#include "buckens/model/signal.h"
 #include "buckens/model/whole_body.h"
 #include "buckens/spatial/plane.h"
 
 namespace buckens::model {
-
-/// Index of the ground in place of a body.
-inline constexpr int kGround = -1;
-
-/// A marker of a body, or a frame fixed to the ground.
-struct MarkerId {
-  int body = kGround;
-  int marker = 0;      ///< index into Body::markers; unused on the ground
-  spatial::Pose X_WF;  ///< ground only
-  std::string text;    ///< as named in the model file, for messages
-};
 
 /// Joint between two markers with its place in λ.
 struct Joint {
@@ -91,6 +82,7 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Load> loads;
   std::vector<Coordinate> coordinates;
+  SignalSet signals;
   /// Origin of the world of this model in that of the model file [m]: zero unless the mechanism is
   /// so far away that positions would lose digits. All positions in the library are relative to it;
   /// add it for display.

@@ -72,6 +72,10 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
     one.number("fraction", memory.coordinates[k].fraction);
   }
   visit.vector("laws", memory.laws, model.num_law_states());
+  if (model.signals.empty()) return;
+  visit.list("signals", memory.signals, model.signals.all.size() + 1);
+  visit.vector("blocks", memory.blocks, 3 * model.signals.num_states);
+  visit.number("block_step", memory.block_step);
 }
 
 }  // namespace

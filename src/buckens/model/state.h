@@ -34,7 +34,11 @@ struct BodyState {
 /// Memory of rows and force laws: part of the state because the next step depends on it.
 struct RowMemory {
   std::vector<joints::CountedValue> coordinates;  ///< one per Model::coordinates
-  linalg::Vector laws;  ///< states of force laws, from Load::first_state of each
+  linalg::Vector laws;          ///< states of force laws, from Load::first_state of each
+  std::vector<double> signals;  ///< t and the values of all signals then; empty without signals
+  /// States of blocks, their rates, and the rates of the method, SignalSet::num_states each.
+  linalg::Vector blocks;
+  double block_step = 0;  ///< to which the rates of the method belong [s]
 };
 
 /// Values given from outside instead of laws of time, one entry per load of the model: components

@@ -224,6 +224,10 @@ void read_value(const ReadPlace& place, const base::FieldNote& note, ReadContext
                [&](const ReadPlace& item, int i) { out[i] = read_quantity(item, note, context); });
   } else if constexpr (std::is_same_v<T, base::TimeLaw>) {
     out = read_time_law(place, note, context);
+  } else if constexpr (std::is_same_v<T, base::SignalLaw>) {
+    out = read_signal_law(place, note, context);
+  } else if constexpr (std::is_same_v<T, base::Characteristic>) {
+    out = read_characteristic(place, note, context);
   } else if constexpr (std::is_same_v<T, model::PositionLaw>) {
     out = read_position_law(place, note, context);
   } else if constexpr (std::is_same_v<T, base::MarkerRef>) {

@@ -87,6 +87,33 @@ void fix_base(YamlNode& root, const std::filesystem::path& directory) {
   }
 }
 
+/// Names of all signals, since formulas may use those that come later.
+/// @throws InputError where one cannot be used in formulas
+std::vector<std::string> signal_names(const YamlNode& root) {
+  std::vector<std::string> out;
+  const YamlNode* signals = root.find("signals");
+  if (signals == nullptr || !signals->is_map()) return out;
+  const YamlNode* parameters = root.find("parameters");
+  const auto& reserved = base::reserved_names();
+  for (const YamlEntry& entry : signals->entries) {
+    const std::string path = "signals." + entry.key;
+    if (!base::is_identifier(entry.key)) {
+      throw InputError(entry.where, fmt::format("{}: \"{}\" cannot be used in expressions; use "
+                                                "letters, digits and _",
+                                                path, entry.key));
+    }
+    const bool is_parameter = parameters != nullptr && parameters->find(entry.key) != nullptr;
+    if (is_parameter || std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
+      throw InputError(entry.where,
+                       fmt::format("{}: \"{}\" already has a meaning in expressions{}; "
+                                   "choose another name",
+                                   path, entry.key, is_parameter ? ", that of a parameter" : ""));
+    }
+    out.push_back(entry.key);
+  }
+  return out;
+}
+
 model::ModelDescription read_with_meshes(const std::string& text, const std::string& name,
                                          const std::vector<std::string>& overrides,
                                          StepMeshCache& meshes) {
@@ -108,6 +135,8 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
   context.directory = directory_of(root, name);
   context.model = &out;
   context.step_meshes = &meshes;
+  // A signal may look at those below it, too.
+  context.signals = signal_names(root);
   read_record({root, ""}, context, out);
   check_table_ranges(out);
   out.warnings = doubt_warnings(root, model::doubtful_values(out));

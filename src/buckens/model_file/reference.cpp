@@ -63,6 +63,12 @@ follows counts, so `max(t, 0)` starts with speed 1. A law whose speed is unbound
 refused, one whose acceleration is (`t^1.5`) is warned about. Tables should be splines. CSV columns are separated by commas, semicolons or blanks; lines that begin with `#`
 and one heading line, whose first cell does not begin like a number, are skipped.
 
+**Laws of signals** are laws of time or expressions of `t` and the names of `signals`:
+`"20*(0.5 - angle) - 3*speed"`. Signals are numbers in SI units.
+
+**Characteristics** are expressions of `angle` (or `displacement`) and `rate`, or tables as above with the
+angle in rad or the displacement in m in place of the time.
+
 **Markers** are written `ground` (the world), `rod` (the body frame, at the mass centre), `rod/origin`
 (origin of the model axes), `rod/com`, `rod/start`, `rod/mid`, `rod/end` (beams), `rod/<node>`
 (structures), `rod/<marker>` (entries of `markers`), or `{ground: [x, y, z]}` for a point of the world.
@@ -101,7 +107,10 @@ std::string type_text(const Shape& shape, const base::FieldNote& note) {
     case Shape::Kind::choice:
       return fmt::format("`{}`", fmt::join(shape.choices, "`, `"));
     case Shape::Kind::time_law:
-      return quantity_text(note) + " or law of time";
+      // Laws of signals and characteristics are read the same way, from other variables.
+      return shape.choices.empty()                 ? quantity_text(note) + " or law of time"
+             : shape.choices[0] == "or of signals" ? quantity_text(note) + " or law of signals"
+                                                   : quantity_text(note) + " or characteristic";
     case Shape::Kind::position_law:
       return quantity_text(note) + " or formula in x, y, z";
     case Shape::Kind::marker:

@@ -116,6 +116,14 @@ Shape shape_of() {
     Shape out = simple(Shape::Kind::time_law);
     out.element.push_back(shape_of<TableLawSpec>());
     return out;
+  } else if constexpr (std::is_same_v<T, base::SignalLaw>) {
+    Shape out = shape_of<base::TimeLaw>();
+    out.choices = {"or of signals"};
+    return out;
+  } else if constexpr (std::is_same_v<T, base::Characteristic>) {
+    Shape out = shape_of<base::TimeLaw>();
+    out.choices = {"or characteristic"};
+    return out;
   } else if constexpr (std::is_same_v<T, model::PositionLaw>) {
     return simple(Shape::Kind::position_law);
   } else if constexpr (std::is_same_v<T, base::MarkerRef>) {

@@ -30,6 +30,8 @@ class RangeChecker {
   void visit(const T& value) {
     if constexpr (std::is_same_v<T, base::TimeLaw>) {
       check(value);
+    } else if constexpr (std::is_same_v<T, base::SignalLaw>) {
+      if (!value.formula) check(value.law);
     } else if constexpr (base::kIsOptional<T>) {
       if (value) visit(*value);
     } else if constexpr (base::kIsVariant<T>) {
@@ -63,6 +65,7 @@ void check_table_ranges(const model::ModelDescription& model) {
   RangeChecker checker(model.simulation ? model.simulation->duration : 0.0);
   checker.visit(model.loads);
   checker.visit(model.joints);
+  checker.visit(model.signals);
 }
 
 }  // namespace buckens::model_file

@@ -2,6 +2,7 @@
 #include "buckens/model_file/values.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -113,6 +114,20 @@ void expect_scalar(const ReadPlace& place, const std::string& expected) {
   const std::string given =
       place.node.is_scalar() ? std::string("an empty text") : place.node.description();
   fail(place, fmt::format("expected {1}, found {0}", given, expected));
+}
+
+/// Whether a name occurs in a formula.
+bool has_word(const std::string& formula, const std::string& name) {
+  const auto is_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  for (std::size_t at = formula.find(name); at != std::string::npos;
+       at = formula.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    const bool begins = at == 0 || !is_word(formula[at - 1]);
+    if (begins && (end == formula.size() || !is_word(formula[end]))) return true;
+  }
+  return false;
 }
 
 /// A quantity without an expression in it; most are, and need no parser.
@@ -255,6 +270,51 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
                      place.node.text, first));
   }
   return base::TimeLaw::expression(std::move(formula.expression), formula.scale);
+}
+
+base::SignalLaw read_signal_law(const ReadPlace& place, const FieldNote& note,
+                                const ReadContext& context) {
+  base::SignalLaw out;
+  if (place.node.is_scalar() && !plain_quantity(place, note)) {
+    const std::string formula = base::split_quantity(place.node.text).formula;
+    for (std::size_t k = 0; k < context.signals.size(); ++k) {
+      if (!has_word(formula, context.signals[k])) continue;
+      out.names.push_back(context.signals[k]);
+      out.places.push_back(static_cast<int>(k));
+    }
+  }
+  if (out.names.empty()) return {read_time_law(place, note, context), {}, 1.0, {}, {}};
+  if (out.names.size() > base::SignalLaw::kMostSignals) {
+    fail(place,
+         fmt::format("the formula names {} signals, {} at most are possible; make signals of "
+                     "its parts",
+                     out.names.size(), base::SignalLaw::kMostSignals));
+  }
+  std::vector<std::string> variables = {"t"};
+  variables.insert(variables.end(), out.names.begin(), out.names.end());
+  Formula formula = read_formula(place, note, variables, context);
+  out.formula = std::move(formula.expression);
+  out.scale = formula.scale;
+  return out;
+}
+
+base::Characteristic read_characteristic(const ReadPlace& place, const FieldNote& note,
+                                         const ReadContext& context) {
+  if (place.node.is_map()) return base::Characteristic::table(read_table_law(place, note, context));
+  const char* displacement = note.dimension == base::kTorque ? "angle" : "displacement";
+  if (!place.node.is_scalar()) {
+    fail(place, fmt::format("expected {1}, an expression of {2} and rate, or a table, found {0}",
+                            place.node.description(), expectation(note), displacement));
+  }
+  Formula formula = read_formula(place, note, {displacement, "rate"}, context);
+  // Every run needs the value at its beginning, and energies count from it.
+  const double first = formula.scale * formula.expression.unchecked({0.0, 0.0});
+  if (!std::isfinite(first)) {
+    fail(place, fmt::format("\"{}\" has the value {} at {} = 0; it must be finite (division by "
+                            "zero?)",
+                            place.node.text, first, displacement));
+  }
+  return base::Characteristic::formula(std::move(formula.expression), formula.scale);
 }
 
 model::PositionLaw read_position_law(const ReadPlace& place, const FieldNote& note,

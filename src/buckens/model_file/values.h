@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/characteristic.h"
 #include "buckens/base/expression.h"
 #include "buckens/base/field.h"
+#include "buckens/base/signal_law.h"
 #include "buckens/base/time_law.h"
 #include "buckens/body/frame_division.h"
 #include "buckens/model/check/finding.h"
@@ -24,6 +26,7 @@ class StepMeshCache;
 /// What a value may refer to while a model file is read.
 struct ReadContext {
   base::Parameters parameters;
+  std::vector<std::string> signals;                ///< names of all, in their order
   std::filesystem::path directory;                 ///< relative file names begin here
   const model::ModelDescription* model = nullptr;  ///< what has been read so far
   StepMeshCache* step_meshes = nullptr;
@@ -69,6 +72,12 @@ std::size_t read_choice(const ReadPlace& place, const std::vector<std::string>& 
 /// A number, an expression of t, or a table.
 base::TimeLaw read_time_law(const ReadPlace& place, const base::FieldNote& note,
                             const ReadContext& context);
+/// A law of time, or an expression of t and signals.
+base::SignalLaw read_signal_law(const ReadPlace& place, const base::FieldNote& note,
+                                const ReadContext& context);
+/// A number, an expression of displacement and rate, or a table of the displacement.
+base::Characteristic read_characteristic(const ReadPlace& place, const base::FieldNote& note,
+                                         const ReadContext& context);
 model::PositionLaw read_position_law(const ReadPlace& place, const base::FieldNote& note,
                                      const ReadContext& context);
 

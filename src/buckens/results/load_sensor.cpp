@@ -36,8 +36,8 @@ class LoadSensor final : public Sensor {
       const model::Load& load = now.model.loads[k];
       const spatial::MarkerMotion first = motion(load.first);
       const spatial::Wrench wrench =
-          dynamics::action_of(now.model, k, now.state.t, dynamics::circumstances_of(now.state),
-                              first, motion(load.second))
+          dynamics::action_of(now.model, k, now.state.t, circumstances_of(now), first,
+                              motion(load.second))
               .on_first;
       sum +=
           about_ ? Vector3d(wrench.torque + (first.p - point).cross(wrench.force)) : wrench.force;

@@ -25,6 +25,12 @@ std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
   return out;
 }
 
+dynamics::Circumstances circumstances_of(const Observation& now) {
+  dynamics::Circumstances out = dynamics::circumstances_of(now.state);
+  if (!now.signals.empty()) out.signals = &now.signals;
+  return out;
+}
+
 MarkerObservation observe_marker(const Observation& now, const model::MarkerId& id) {
   const auto kinematics = dynamics::evaluate_marker(now.model, id, now.motions);
   MarkerObservation out;

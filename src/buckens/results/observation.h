@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/system_kinematics.h"
 #include "buckens/model/model.h"
@@ -32,7 +33,11 @@ struct Observation {
   WorkBalance work;
   std::vector<body::FrameMotion> wholes;  ///< frame of each whole body, see model::whole_motion
   double load_factor = 1;                 ///< of applied loads
+  std::vector<double> signals;            ///< t and the values of all signals; empty without any
 };
+
+/// What force laws see.
+dynamics::Circumstances circumstances_of(const Observation& now);
 
 /// Force and torque of each joint on its second marker at the marker's origin.
 /// @param lambda multipliers, with those of redundant rows distributed

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/signals.h"
 #include "buckens/results/divided_body.h"
 #include "buckens/results/model_geometry.h"
 
@@ -180,8 +181,14 @@ Record Recorder::record(const model::State& state, WorkBalance work,
                         const std::optional<dynamics::Energy>& energy) {
   const model::Model& model = built_.model;
   Observation now{
-      model, state,       dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {}, work,
-      {},    load_factor_};
+      model,        state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {}, work, {},
+      load_factor_, {}};
+  if (!model.signals.empty()) {
+    dynamics::SignalValues signals;
+    dynamics::evaluate_signals(model, now.motions, state.t, dynamics::circumstances_of(state),
+                               signals);
+    now.signals = std::move(signals.values);
+  }
   for (const model::WholeBody& whole : model.wholes) {
     now.wholes.push_back(model::whole_motion(model, whole, state));
   }

@@ -19,6 +19,7 @@
 #include "buckens/results/divided_body.h"
 #include "buckens/results/load_sensor.h"
 #include "buckens/results/model_geometry.h"
+#include "buckens/results/signal_sensor.h"
 #include "buckens/results/spring_sensor.h"
 #include "buckens/spatial/rotation.h"
 
@@ -196,10 +197,9 @@ class JointSensor final : public Sensor {
     const model::Load& load = now.model.loads[static_cast<std::size_t>(load_)];
     const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
     const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    spatial::Wrench out =
-        dynamics::action_of(now.model, static_cast<std::size_t>(load_), now.state.t,
-                            dynamics::circumstances_of(now.state), first, second)
-            .on_second;
+    spatial::Wrench out = dynamics::action_of(now.model, static_cast<std::size_t>(load_),
+                                              now.state.t, circumstances_of(now), first, second)
+                              .on_second;
     if (load.element->is_applied()) {
       out.force *= now.load_factor;
       out.torque *= now.load_factor;
@@ -383,6 +383,9 @@ class Maker {
                                                 spec_.name, s.joint));
     }
     return make_coordinate_sensor(built_, spec_, static_cast<std::size_t>(place_.coordinate));
+  }
+  std::unique_ptr<Sensor> operator()(const model::SignalSensor& s) const {
+    return make_signal_sensor(built_, spec_, s.signal);
   }
   std::unique_ptr<Sensor> operator()(const model::SectionForceSensor&) const {
     if (place_.element < 0) {

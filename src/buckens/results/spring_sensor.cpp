@@ -34,8 +34,8 @@ class SpringSensor final : public Sensor {
     const model::Load& load = now.model.loads[load_];
     const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
     const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    const loads::Action action = dynamics::action_of(
-        now.model, load_, now.state.t, dynamics::circumstances_of(now.state), first, second);
+    const loads::Action action =
+        dynamics::action_of(now.model, load_, now.state.t, circumstances_of(now), first, second);
     const Vector3d force = first.R.transpose() * action.on_first.force;
     // About the second marker: that on the first carries the lever of the force, too.
     const Vector3d torque = -(first.R.transpose() * action.on_second.torque);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/initial/start_rows.h"
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
@@ -29,9 +30,10 @@ constexpr double kLargestRotation = 0.5;  // rad per iteration
 /// Least motion that closes the rows; redundant rows share it.
 class LeastMotion {
  public:
+  /// @param lengths of comparison, one per row
   LeastMotion(const model::Model& model, std::vector<BodyCompliance> compliance,
-              const std::vector<SystemRow>& rows)
-      : lengths_(dynamics::row_lengths(model)),
+              const std::vector<SystemRow>& rows, Vector lengths)
+      : lengths_(std::move(lengths)),
         compliance_(std::move(compliance)),
         condensation_(static_cast<int>(model.bodies.size()), rows),
         responses_(model.bodies.size()) {
@@ -82,7 +84,8 @@ class LeastMotion {
 
 const model::Joint* worst_joint(const model::Model& model, const Vector& residual) {
   Eigen::Index worst = 0;
-  residual.cwiseAbs().maxCoeff(&worst);
+  // Start values may stand behind the rows of joints.
+  residual.head(model.num_constraint_rows()).cwiseAbs().maxCoeff(&worst);
   return model.owner_of_row(static_cast<int>(worst)).first;
 }
 
@@ -126,62 +129,143 @@ double step_limit(const model::Model& model, const LeastMotion& motion) {
   return factor;
 }
 
+/// Closes joints, and start values with them.
+class PositionClosure {
+ public:
+  PositionClosure(const model::Model& model, const dynamics::MassMetric& metric,
+                  model::State& state, const StartRows& starts)
+      : model_(model), metric_(metric), state_(state), starts_(starts) {
+    lengths_ = dynamics::row_lengths(model);
+    starts.append_lengths(lengths_);
+  }
+
+  /// @param share of the way to the start values. @return whether all rows are closed
+  bool run(double share) {
+    share_ = share;
+    evaluate();
+    LeastMotion motion(model_, metric_.rigid(), constraints_.rows, lengths_);
+    // Positions far from the origin are known to fewer digits.
+    const double rounding =
+        kPositionRounding *
+        dynamics::rounding_length(model_, dynamics::motions_of(model_, state_)) / model_.length;
+    double residual = shares().norm();
+    double damping = 1e-10;
+    for (int iteration = 0; iteration < kMaxAssemblyIterations; ++iteration) {
+      if (shares().cwiseAbs().maxCoeff() <= std::max(kClosed, rounding)) break;
+      motion.solve(constraints_.rows, -constraints_.g, damping);
+      if (improve(motion, residual)) {
+        residual = shares().norm();
+        damping = std::max(1e-12, 0.1 * damping);
+        continue;
+      }
+      damping *= 100.0;
+      if (damping > 1.0) break;
+    }
+    return shares().cwiseAbs().maxCoeff() <= std::max(kDependentGap, 10.0 * rounding);
+  }
+
+  /// Largest gap of the joints.
+  double gap() const {
+    const Eigen::Index rows = model_.num_constraint_rows();
+    return rows == 0 ? 0.0 : constraints_.g.head(rows).cwiseAbs().maxCoeff();
+  }
+
+  [[noreturn]] void refuse() const {
+    const bool has_joints = model_.num_constraint_rows() > 0;
+    const model::Joint* joint = has_joints ? worst_joint(model_, constraints_.g) : nullptr;
+    const std::string left = has_joints ? describe_gap(joint, constraints_.g, "") : std::string();
+    if (starts_.empty()) {
+      throw ModelError(joint->where,
+                       "the mechanism cannot be assembled; closest approach leaves " + left +
+                           "; correct the placement (`at`), the lengths of the bodies, or remove a "
+                           "joint");
+    }
+    throw ModelError(
+        starts_.where(),
+        fmt::format("initial.joints: the joints do not allow these start values; closest approach "
+                    "leaves {}{}{}; correct or remove one of them",
+                    starts_.describe(dynamics::motions_of(model_, state_)),
+                    left.empty() ? "" : ", and ", left));
+  }
+
+ private:
+  Vector shares() const { return constraints_.g.cwiseQuotient(lengths_); }
+  void evaluate() {
+    const auto motions = dynamics::motions_of(model_, state_);
+    dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
+    starts_.append(motions, share_, constraints_);
+  }
+  /// Moves as far as the gaps become smaller; not at all if they do not.
+  bool improve(const LeastMotion& motion, double residual) {
+    const std::vector<spatial::Pose> from = poses(state_);
+    double factor = step_limit(model_, motion);
+    for (int halving = 0; halving < 12; ++halving, factor *= 0.5) {
+      move(state_, from, motion, factor);
+      evaluate();
+      if (shares().norm() < residual * (1.0 - 1e-4 * factor)) return true;
+    }
+    move(state_, from, motion, 0.0);
+    evaluate();
+    return false;
+  }
+
+  const model::Model& model_;
+  const dynamics::MassMetric& metric_;
+  model::State& state_;
+  const StartRows& starts_;
+  Vector lengths_;
+  Constraints constraints_;
+  double share_ = 1.0;
+};
+
+/// @throws ModelError naming the joint whose velocity cannot be met, and start values if there are
+[[noreturn]] void refuse_velocities(const model::Model& model, const Vector& g_dot,
+                                    const StartRows& starts, const model::State& state) {
+  const bool has_joints = model.num_constraint_rows() > 0;
+  const model::Joint* joint = has_joints ? worst_joint(model, g_dot) : nullptr;
+  const std::string left = has_joints ? describe_gap(joint, g_dot, "/s") : std::string();
+  if (starts.empty()) {
+    throw ModelError(joint->where, "initial velocities contradict the joints; left over at " +
+                                       left +
+                                       "; correct `initial` or the law of motion of the drive");
+  }
+  throw ModelError(starts.where(),
+                   fmt::format("initial.joints: the joints do not allow these speeds; closest "
+                               "approach leaves {}{}{}; correct or remove one of them",
+                               starts.describe(dynamics::motions_of(model, state)),
+                               left.empty() ? "" : ", and ", left));
+}
+
 }  // namespace
 
 double assemble_positions(const model::Model& model, const dynamics::MassMetric& metric,
-                          model::State& state) {
-  if (model.num_constraint_rows() == 0) return 0.0;
-  Constraints constraints;
-  dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
-  LeastMotion motion(model, metric.rigid(), constraints.rows);
-  const Vector lengths = dynamics::row_lengths(model);
-  const auto shares = [&] { return constraints.g.cwiseQuotient(lengths); };
-  // Positions far from the origin are known to fewer digits.
-  const double rounding = kPositionRounding *
-                          dynamics::rounding_length(model, dynamics::motions_of(model, state)) /
-                          model.length;
-  double residual = shares().norm();
-  double damping = 1e-10;
-  for (int iteration = 0; iteration < kMaxAssemblyIterations; ++iteration) {
-    if (shares().cwiseAbs().maxCoeff() <= std::max(kClosed, rounding)) break;
-    motion.solve(constraints.rows, -constraints.g, damping);
-    const std::vector<spatial::Pose> from = poses(state);
-    double factor = step_limit(model, motion);
-    bool improved = false;
-    for (int halving = 0; halving < 12 && !improved; ++halving, factor *= 0.5) {
-      move(state, from, motion, factor);
-      dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
-                                     constraints);
-      improved = shares().norm() < residual * (1.0 - 1e-4 * factor);
-    }
-    if (improved) {
-      residual = shares().norm();
-      damping = std::max(1e-12, 0.1 * damping);
-      continue;
-    }
-    move(state, from, motion, 0.0);
-    dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
-    damping *= 100.0;
-    if (damping > 1.0) break;
+                          model::State& state, const std::vector<model::StartCoordinate>& starts) {
+  const StartRows held(model, starts, StartRows::Held::values, dynamics::motions_of(model, state));
+  if (model.num_constraint_rows() == 0 && held.empty()) return 0.0;
+  PositionClosure closure(model, metric, state, held);
+  const int stages = held.stages();
+  for (int stage = 1; stage < stages; ++stage) {
+    // What a stage leaves open the last one may close.
+    closure.run(static_cast<double>(stage) / stages);
   }
-  if (shares().cwiseAbs().maxCoeff() <= std::max(kDependentGap, 10.0 * rounding)) {
-    return constraints.g.cwiseAbs().maxCoeff();
-  }
-  const model::Joint* joint = worst_joint(model, constraints.g);
-  throw ModelError(
-      joint->where,
-      "the mechanism cannot be assembled; closest approach leaves " +
-          describe_gap(joint, constraints.g, "") +
-          "; correct the placement (`at`), the lengths of the bodies, or remove a joint");
+  if (!closure.run(1.0)) closure.refuse();
+  return closure.gap();
 }
 
 double project_velocities(const model::Model& model, const dynamics::MassMetric& metric,
-                          model::State& state) {
-  if (model.num_constraint_rows() == 0) return 0.0;
+                          model::State& state, const std::vector<model::StartCoordinate>& starts) {
+  const StartRows held(model, starts, StartRows::Held::rates, dynamics::motions_of(model, state));
+  if (model.num_constraint_rows() == 0 && held.empty()) return 0.0;
   Constraints constraints;
+  const auto evaluate = [&] {
+    const auto motions = dynamics::motions_of(model, state);
+    dynamics::evaluate_constraints(model, motions, state.t, constraints);
+    held.append(motions, 1.0, constraints);
+  };
   std::vector<Eigen::Matrix3d> J;
   for (const body::Body& body : model.bodies) J.push_back(body.J0);
-  const Vector lengths = dynamics::row_lengths(model);
+  Vector lengths = dynamics::row_lengths(model);
+  held.append_lengths(lengths);
   const auto shares = [&] { return constraints.g_dot.cwiseQuotient(lengths); };
   // Of the rates [1/s]: consistent velocities leave rounding of their own size.
   double scale = 0.0;
@@ -190,8 +274,9 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
                       body.frame.w.cwiseAbs().maxCoeff()});
   }
   for (const bool with_mesh : {false, true}) {
-    dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t, constraints);
-    LeastMotion motion(model, with_mesh ? metric.full(J) : metric.rigid(), constraints.rows);
+    evaluate();
+    LeastMotion motion(model, with_mesh ? metric.full(J) : metric.rigid(), constraints.rows,
+                       lengths);
     // The damping that tolerates redundant rows leaves 1e-10 of the demand: three rounds remove it.
     for (int round = 0; round < 3; ++round) {
       scale = std::max(scale, shares().cwiseAbs().maxCoeff());
@@ -203,17 +288,13 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
         s.frame.v += V.tail<3>();
         if (with_mesh && s.d.size() > 0) s.d_dot += metric.H(b) * responses[b].interface_load;
       }
-      dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
-                                     constraints);
+      evaluate();
     }
     if (shares().cwiseAbs().maxCoeff() <= kDependentGap * scale) {
       return constraints.g_dot.cwiseAbs().maxCoeff();
     }
   }
-  const model::Joint* joint = worst_joint(model, constraints.g_dot);
-  throw ModelError(joint->where, "initial velocities contradict the joints; left over at " +
-                                     describe_gap(joint, constraints.g_dot, "/s") +
-                                     "; correct `initial` or the law of motion of the drive");
+  refuse_velocities(model, constraints.g_dot, held, state);
 }
 
 }  // namespace buckens::analysis

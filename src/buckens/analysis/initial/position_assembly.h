@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "buckens/dynamics/mass_metric.h"
+#include "buckens/model/build/build_model.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 
@@ -9,16 +12,21 @@ namespace buckens::analysis {
 
 /// Moves undeformed bodies as little as possible (in the mass metric) until all joints close at
 /// state.t: damped Newton with step limits, redundant joints allowed.
+/// @param starts coordinates with a value are held there meanwhile
 /// @return the largest remaining |g|
-/// @throws ModelError naming the joint that cannot be closed, and its gap
+/// @throws ModelError naming the joint that cannot be closed, and its gap, or the value that joints
+///         do not allow
 double assemble_positions(const model::Model& model, const dynamics::MassMetric& metric,
-                          model::State& state);
+                          model::State& state,
+                          const std::vector<model::StartCoordinate>& starts = {});
 
 /// Adds the least velocities that satisfy all joints: first by the frames alone, so that undeformed
 /// bodies start with a rigid velocity field, then also by nodal velocities if necessary.
+/// @param starts coordinates with a rate get it
 /// @return the largest remaining |ġ|
 /// @throws ModelError naming the joint whose velocity cannot be satisfied
 double project_velocities(const model::Model& model, const dynamics::MassMetric& metric,
-                          model::State& state);
+                          model::State& state,
+                          const std::vector<model::StartCoordinate>& starts = {});
 
 }  // namespace buckens::analysis

@@ -10,6 +10,7 @@
 #include "buckens/analysis/initial/friction_start.h"
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/initial/rigid_rows_start.h"
+#include "buckens/analysis/initial/start_rows.h"
 #include "buckens/analysis/initial/stop_check.h"
 #include "buckens/analysis/initial/velocity.h"
 #include "buckens/analysis/initial/velocity_change.h"
@@ -17,6 +18,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/row_memory.h"
+#include "buckens/dynamics/signals.h"
 
 namespace buckens::analysis {
 
@@ -56,6 +58,10 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     if (!initial.preload) throw;
     out.notes.push_back("bodies are deformed to close the joints (preload)");
   }
+  const bool starts_elsewhere =
+      std::any_of(built.starts.begin(), built.starts.end(),
+                  [](const model::StartCoordinate& start) { return start.value.has_value(); });
+  if (is_closed && starts_elsewhere) assemble_positions(model, metric, out.state, built.starts);
   out.warnings = built.description.warnings;
   if (is_closed) {
     for (std::string& text : judge_assembly(built, out.moves)) {
@@ -68,7 +74,9 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     out.setup_factorisations = report.factorisations;
     out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
   }
-  if (set_initial_displacements(built, out.state)) assemble_positions(model, metric, out.state);
+  if (set_initial_displacements(built, out.state)) {
+    assemble_positions(model, metric, out.state, built.starts);
+  }
   set_initial_velocities(built, out.state);
 
   dynamics::Constraints constraints;
@@ -79,12 +87,15 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   out.redundant_rows = rank.dependent;
   out.redundant_text = describe_redundancy(model, rank.dependent);
   const model::State given = out.state;
-  project_velocities(model, metric, out.state);
+  project_velocities(model, metric, out.state, built.starts);
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
     out.notes.push_back(std::move(text));
   }
   refuse_beyond_stops(model, out.state);
-  out.state.memory = dynamics::start_memory(model, dynamics::motions_of(model, out.state));
+  const auto motions = dynamics::motions_of(model, out.state);
+  out.state.memory = dynamics::start_memory(model, motions);
+  count_start_turns(built.starts, model, out.state.memory);
+  dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns
   settle_rigid_rows(model, metric, out.rows_in_use, out.state);
   const bool sees_reactions = std::any_of(model.loads.begin(), model.loads.end(),
                                           [](const model::Load& load) { return load.joint >= 0; });

@@ -44,8 +44,8 @@ DriveLaws::DriveLaws(const model::ModelDescription& description) {
       const base::TimeLaw law = turn->law();
       if (!law.is_constant()) drives_.push_back({joint.name, joint.where, law, "rad"});
     } else if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
-      if (!push->displacement.is_constant()) {
-        drives_.push_back({joint.name, joint.where, push->displacement, "m"});
+      if (!push->law().is_constant()) {
+        drives_.push_back({joint.name, joint.where, push->law(), "m"});
       }
     }
   }

@@ -37,7 +37,7 @@ NodalViews::View NodalViews::displacements(std::size_t whole, const model::State
   NodalMatrix& table = displacements_[whole];
   const auto first = static_cast<std::size_t>(body.first);
   if (!body.is_divided()) return show(table, first, state.bodies[first].d);
-  results::Observation now{model_, state, {}, {}, {}, {}, {}, {}, {}, {}, {}, 1.0};
+  results::Observation now{model_, state, {}, {}, {}, {}, {}, {}, {}, {}, {}, 1.0, {}};
   now.wholes.resize(model_.wholes.size());
   now.wholes[whole] = model::whole_motion(model_, body, state);
   now.nodal.resize(state.bodies.size());

@@ -2,6 +2,7 @@
 #include "buckens/analysis/simulation/run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -22,6 +23,8 @@ namespace buckens::analysis {
 namespace {
 
 constexpr Eigen::Index kAdvisedDofs = 600;
+// How far a sample time may be from whole steps: rounding of a division.
+constexpr double kWholeSteps = 1e-6;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -71,6 +74,23 @@ void SimulationRun::check_method() {
   }
 }
 
+/// Sampled signals are read at the ends of steps.
+void SimulationRun::check_samples() const {
+  const double step = march_->longest_step();
+  for (const model::Signal& signal : built_.model.signals.all) {
+    if (!signal.is_sampled()) continue;
+    const double T = signal.block->sample_time();
+    const double steps = T / step;
+    if (steps > 0.5 && std::abs(steps - std::round(steps)) <= kWholeSteps) continue;
+    throw InputError(
+        signal.where,
+        fmt::format("signal \"{}\": its sample time of {:.6g} s is {:.6g} steps of "
+                    "{:.6g} s (the duration is a whole number of steps), but it has to "
+                    "be a whole number; change `sample`, the step or the duration",
+                    signal.name, T, steps, step));
+  }
+}
+
 void SimulationRun::set_up() {
   check_method();
   plan_ = plan_output(built_.description);
@@ -84,9 +104,11 @@ void SimulationRun::set_up() {
   settings.exchange = options_.exchange;
   march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
   if (!march.tolerance) steps_ = march.longest_steps;
+  check_samples();
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   drives_.emplace(built_.description);
+  events_.emplace(built_);
   statistics_.emplace(built_);
   watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
   summary_.redundant_constraints = prepared_->redundant_text;
@@ -177,9 +199,21 @@ void SimulationRun::step() {
   ++steps_taken_;
   statistics_->add_step(report, state);
   work_->add(state, report.impact_loss);
-  if (recording_) recording_->after_step(before_, state, march_->is_done());
+  watch_events();
+  if (recording_) recording_->after_step(before_, state, is_at_end_ || march_->is_done());
   watch_->after_step(march_->stepper(), state);
   for (const auto& callback : callbacks) callback(state.t - before_.t);
+}
+
+void SimulationRun::watch_events() {
+  for (EventWatch::Found& found : events_->after_step(before_, prepared_->state)) {
+    if (found.stops) {
+      found.text += "; the run ends here";
+      is_stopped_ = is_at_end_ = true;
+    }
+    base::log(base::LogLevel::info, found.text);
+    summary_.notes.push_back(std::move(found.text));
+  }
 }
 
 void SimulationRun::step_by_hand() {
@@ -246,7 +280,7 @@ bool SimulationRun::report_progress() {
 
 results::RunSummary SimulationRun::finish() {
   if (std::exchange(is_finished_, true)) return summary_;
-  summary_.finished = is_done() && summary_.interrupted.empty();
+  summary_.finished = (is_done() || is_at_end_) && summary_.interrupted.empty();
   if (!summary_.finished && summary_.interrupted.empty()) {
     summary_.interrupted = options_.stop_reason;
   }

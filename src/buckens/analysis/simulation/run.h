@@ -10,6 +10,7 @@
 #include "buckens/analysis/initial/prepare.h"
 #include "buckens/analysis/simulation/coupling_watch.h"
 #include "buckens/analysis/simulation/drive_laws.h"
+#include "buckens/analysis/simulation/event_watch.h"
 #include "buckens/analysis/simulation/nodal_views.h"
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/run_recording.h"
@@ -62,11 +63,13 @@ class SimulationRun {
   using Clock = std::chrono::steady_clock;
 
   void check_method();
+  void check_samples() const;
   void set_up();
   void warn(const std::string& text);
   void advise_on_step();
   void advise(const std::string& body, const ExcitedBand& band);
   void set_lowest_frequency(int body, double omega);
+  void watch_events();
   void begin_records();
   void take_steps();
   stepping::StepReport take_step(const model::State& before, model::State& after);
@@ -89,6 +92,7 @@ class SimulationRun {
   std::optional<stepping::TimeMarch> march_;
   std::optional<WorkAccount> work_;
   std::optional<DriveLaws> drives_;
+  std::optional<EventWatch> events_;
   std::optional<RunStatistics> statistics_;
   std::optional<CouplingWatch> watch_;
   std::optional<results::Recorder> observer_;
@@ -102,6 +106,7 @@ class SimulationRun {
   long steps_taken_ = 0;
   bool has_begun_ = false;  // the record of the start is written
   bool is_stopped_ = false;
+  bool is_at_end_ = false;    // by an event
   bool is_finished_ = false;  // records are finished
   bool has_new_inputs_ = false;
   bool has_quasi_static_ = false;

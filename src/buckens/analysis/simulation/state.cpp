@@ -37,9 +37,9 @@ std::string differences(const std::vector<std::string>& saved,
     for (const std::string& line : mine) {
       if (std::find(other.begin(), other.end(), line) != other.end()) continue;
       const auto [path, value] = split_line(line);
-      const auto same = std::find_if(other.begin(), other.end(), [&, path = path](const std::string& o) {
-        return split_line(o).first == path;
-      });
+      const auto same = std::find_if(
+          other.begin(), other.end(),
+          [&, path = path](const std::string& o) { return split_line(o).first == path; });
       if (same != other.end() && !is_saved) continue;  // told already
       const std::string there = same == other.end() ? "missing" : split_line(*same).second;
       out.push_back(fmt::format("{} was {}, is {}", path, is_saved ? value : "missing",
@@ -127,6 +127,7 @@ void SimulationRun::visit_saved(const base::SaveVisit& visit) {
   statistics_->visit_saved(visit.inside("statistics"));
   watch_->visit_saved(visit.inside("coupling"));
   observer_->visit_saved(visit.inside("sensors"));
+  if (!built_.description.events.empty()) events_->visit_saved(visit.inside("events"));
 }
 
 base::SavedValues SimulationRun::save() {

@@ -71,7 +71,6 @@ class JointBuilder {
       placement.axis_F = find_.axis_or_normal(kind.axis, placement.R_WF, what, spec.where);
     }
     if constexpr (requires { kind.law(); }) placement.law = kind.law();
-    if constexpr (requires { kind.displacement; }) placement.law = kind.displacement;
     if constexpr (requires { kind.second_axis; }) placement.second_axis_F = kind.second_axis;
     if constexpr (requires { kind.length; }) placement.length = kind.length;
     if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/loads/coordinate_curve.h"
 #include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/coordinate_motor.h"
 #include "buckens/loads/joint_friction.h"
 #include "buckens/loads/rigid_law.h"
 
@@ -97,11 +99,29 @@ class JointLawBuilder {
   using Element = std::shared_ptr<const loads::ForceElement>;
 
   static Element make(const loads::HingeSpringSpec& kind, const Coordinate&) {
-    return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping, kind.angle);
+    return make_spring(kind, kind.angle);
   }
   static Element make(const loads::SlideSpringSpec& kind, const Coordinate&) {
-    return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping,
-                                                     kind.displacement);
+    return make_spring(kind, kind.displacement);
+  }
+  template <class Spec>
+  static Element make_spring(const Spec& kind, double free) {
+    if (kind.characteristic) {
+      return std::make_shared<loads::CoordinateCurve>(kind.stiffness, kind.damping, free,
+                                                      *kind.characteristic);
+    }
+    return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping, free);
+  }
+  static Element make(const loads::MotorSpec& kind, const Coordinate&) {
+    loads::MotorData data;
+    data.force = kind.force;
+    data.position = kind.position;
+    data.speed = kind.speed;
+    data.stiffness = kind.stiffness;
+    data.damping = kind.damping;
+    data.limit = kind.limit.value_or(HUGE_VAL);
+    data.power = kind.power.value_or(HUGE_VAL);
+    return std::make_shared<loads::CoordinateMotor>(std::move(data));
   }
   Element make(const loads::JointStop& kind, const Coordinate& coordinate) const {
     const double from = kind.from.value_or(-HUGE_VAL);

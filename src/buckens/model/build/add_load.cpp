@@ -99,7 +99,18 @@ class LoadBuilder {
       const Matrix3d R_WA = follows ? find_.placed(load.first).R() : Matrix3d::Identity();
       require_in_plane(kind.value, R_WA, moment, load, where);
     }
-    load.element = std::make_unique<loads::AppliedLoad>(what, kind.axes, kind.value);
+    load.element = std::make_unique<loads::AppliedLoad>(
+        what, kind.axes, kind.value, signal_index(kind.factor, load.name, where));
+  }
+
+  /// Place of a signal among those of the model.
+  int signal_index(const std::string& name, const std::string& load, const SourceLocation& where) {
+    if (name.empty()) return -1;
+    const std::vector<Signal>& all = find_.model().signals.all;
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Signal& signal) { return signal.name == name; });
+    if (found != all.end()) return static_cast<int>(found - all.begin());
+    throw ModelError(where, fmt::format("load \"{}\": there is no signal \"{}\"", load, name));
   }
 
   void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {

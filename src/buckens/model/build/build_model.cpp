@@ -13,6 +13,7 @@
 #include "buckens/model/build/add_joint.h"
 #include "buckens/model/build/add_joint_law.h"
 #include "buckens/model/build/add_load.h"
+#include "buckens/model/build/add_signals.h"
 #include "buckens/model/build/add_ties.h"
 #include "buckens/model/build/eliminate_links.h"
 #include "buckens/model/build/find_section.h"
@@ -55,12 +56,14 @@ class Builder {
       if (divisions_[w]) add_ties(model_.wholes[w], *divisions_[w], find);
     }
     for (const joints::JointSpec& joint : d.joints) add_joint(joint, find);
+    add_signals(d, find);
     for (const loads::LoadSpec& load : d.loads) {
       if (!DistributedLoads::takes(load) && !is_joint_law(load)) add_load(load, find);
     }
     for (const OwnForce& force : d.own_forces) add_own_force(force, find);
     add_distributed_loads();
     for (const SensorSpec& sensor : d.output.sensors) add_sensor(sensor, find);
+    for (const InitialJointSpec& start : d.initial.joints) add_starts(start, find);
     if (d.output.field_output) {
       out_->fields = find_field_places(*d.output.field_output, model_, meshes_);
     }
@@ -74,6 +77,7 @@ class Builder {
     for (const loads::LoadSpec& load : d.loads) {
       if (is_joint_law(load)) add_joint_law(load, find, model_.length);
     }
+    connect_signals(d, model_);
     number_states();
     if (size > 0.0) move_origin(box.center());
     settle_massless_rotations(model_, d.simulation ? d.simulation->duration : 0.0);
@@ -264,6 +268,20 @@ class Builder {
     }
   }
 
+  void add_starts(const InitialJointSpec& spec, MarkerFinder& find) {
+    const auto add = [&](joints::JointCoordinate::Kind kind, const std::optional<double>& value,
+                         const std::optional<double>& rate) {
+      if (!value && !rate) return;
+      const int coordinate = find_coordinate(spec.name, kind, find);
+      if (coordinate < 0) {
+        throw InputError(spec.where, fmt::format("initial: there is no joint \"{}\"", spec.name));
+      }
+      out_->starts.push_back({coordinate, value, rate, spec.where});
+    };
+    add(joints::JointCoordinate::Kind::angle, spec.angle, spec.speed);
+    add(joints::JointCoordinate::Kind::displacement, spec.displacement, spec.velocity);
+  }
+
   // ---- sensors and drawing
   void add_sensor(const SensorSpec& spec, MarkerFinder& find) {
     SensorPlace found;
@@ -353,6 +371,7 @@ class Builder {
       move(load.first);
       move(load.second);
     }
+    for (Signal& signal : model_.signals.all) move(signal.marker);
     for (SensorPlace& place : out_->sensors) {
       for (MarkerId& id : place.markers) move(id);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,21 @@ struct SensorPlace {
   std::vector<int> solids;        ///< solid elements of that body at which stresses are averaged
 };
 
+/// A coordinate of a joint that starts with a value or a rate.
+struct StartCoordinate {
+  int coordinate = 0;           ///< index into Model::coordinates
+  std::optional<double> value;  ///< [rad] or [m]
+  std::optional<double> rate;   ///< [rad/s] or [m/s]
+  SourceLocation where;
+};
+
 /// A built model with the non-mechanical contents of the description.
 struct BuiltModel {
   Model model;
   ModelDescription description;
-  std::vector<SensorPlace> sensors;  ///< one per entry of description.output.sensors
-  std::vector<FieldPlaces> fields;   ///< of description.output.field_output; empty without it
+  std::vector<SensorPlace> sensors;     ///< one per entry of description.output.sensors
+  std::vector<StartCoordinate> starts;  ///< of description.initial.joints
+  std::vector<FieldPlaces> fields;      ///< of description.output.field_output; empty without it
 };
 
 /// Builds and checks the mechanism.

@@ -164,7 +164,8 @@ class MasslessRotations {
   /// The effect of a load, with a reaction of some size if it depends on one.
   loads::Action probe(const Load& load, double t, const spatial::MarkerMotion& first,
                       const spatial::MarkerMotion& second) const {
-    loads::Sight sight{t, first, second, {}, {}, nullptr};
+    const std::vector<double> signals(model_.signals.all.size() + 1, 0.0);
+    loads::Sight sight{t, first, second, {}, {}, nullptr, {}, signals};
     sight.reaction = {Vector3d::Ones(), Vector3d::Ones()};
     if (load.coordinate >= 0) {
       const auto& law = model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;

@@ -42,24 +42,24 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
                                       base::suggestion(name, names_of(model.joints)))};
 }
 
-namespace {
-
 /// A law or sensor of a joint's angle or displacement needs a joint that has it.
-Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model) {
-  if (Found found = joint_problem(name, model)) return found;
+Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
+                         const std::string& key) {
+  if (Found found = joint_problem(name, model)) return Finding{key, found->text};
   const joints::JointSpec& joint = *base::find_named(model.joints, name);
   if (turns ? joint.turns() : joint.slides()) return std::nullopt;
   std::vector<std::string> fitting;
   for (const joints::JointSpec& other : model.joints) {
     if (turns ? other.turns() : other.slides()) fitting.push_back(other.name);
   }
-  return Finding{"joint",
-                 fmt::format("joint \"{}\" is a {}, which has no {}; name one that {}{}", name,
-                             joint.kind_name(), turns ? "angle" : "displacement",
-                             turns ? "turns about an axis" : "slides along an axis",
-                             fitting.empty() ? std::string(" (the model has none)")
-                                             : fmt::format(": {}", fmt::join(fitting, ", ")))};
+  return Finding{key, fmt::format("joint \"{}\" is a {}, which has no {}; name one that {}{}", name,
+                                  joint.kind_name(), turns ? "angle" : "displacement",
+                                  turns ? "turns about an axis" : "slides along an axis",
+                                  fitting.empty() ? std::string(" (the model has none)")
+                                                  : fmt::format(": {}", fmt::join(fitting, ", ")))};
 }
+
+namespace {
 
 /// Whether a stop or rope is asked to be elastic and rigid at once.
 template <class Spec>
@@ -93,15 +93,6 @@ Found stop_problem(const loads::JointStop& spec, const char* unit) {
                                      *spec.to, unit, *spec.from, unit)};
   }
   if (Found found = give_problem(spec)) return found;
-  // The coordinate is zero as placed.
-  if (spec.from.value_or(0.0) > 0.0 || spec.to.value_or(0.0) < 0.0) {
-    return Finding{
-        spec.from.value_or(0.0) > 0.0 ? "from" : "to",
-        fmt::format("the joint starts at 0 {0}, as placed, outside of its stops from {1} "
-                    "to {2} {0}; place the bodies within them",
-                    unit, spec.from ? fmt::format("{:g}", *spec.from) : "-infinity",
-                    spec.to ? fmt::format("{:g}", *spec.to) : "infinity")};
-  }
   return std::nullopt;
 }
 
@@ -137,6 +128,41 @@ Found friction_problem(const loads::HingeFrictionSpec& spec) {
                   spec.coefficient,
                   spec.preload > 0.0 ? "leave out `static` and keep `preload` alone"
                                      : "a `preload` in place of `static`")};
+}
+
+/// A gain aims at something, and a motor does something.
+Found motor_problem(const loads::MotorSpec& spec, bool turns) {
+  const char* position = turns ? "angle" : "displacement";
+  const char* speed = turns ? "speed" : "velocity";
+  if (spec.position && spec.stiffness == 0.0) {
+    return Finding{position,
+                   fmt::format("an {0} without `stiffness` is not aimed at; give the gain "
+                               "on what is missing of the {0}",
+                               position)};
+  }
+  if (spec.stiffness > 0.0 && !spec.position) {
+    return Finding{"stiffness", fmt::format("a gain on the {0} needs the `{0}` to be aimed at, for "
+                                            "example {0}: 0",
+                                            position)};
+  }
+  if (spec.speed && spec.damping == 0.0) {
+    return Finding{speed, fmt::format("a {0} without `damping` is not aimed at; give the gain on "
+                                      "what is missing of the {0}",
+                                      speed)};
+  }
+  if (spec.damping > 0.0 && !spec.position && !spec.speed) {
+    return Finding{"damping", fmt::format("a gain on the {0} needs the `{0}` to be aimed at, for "
+                                          "example {0}: 0",
+                                          speed)};
+  }
+  if (!spec.force && spec.stiffness == 0.0 && spec.damping == 0.0) {
+    const char* force = turns ? "torque" : "force";
+    return Finding{force,
+                   fmt::format("a motor without `{}`, `stiffness` or `damping` does nothing; "
+                               "give one of them",
+                               force)};
+  }
+  return std::nullopt;
 }
 
 /// Both arms of a cross are given in the same axes.
@@ -186,6 +212,16 @@ Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescrip
 Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model) {
   if (Found found = coordinate_problem(spec.joint, false, model)) return found;
   return friction_problem(static_cast<const loads::JointFrictionBase&>(spec));
+}
+
+Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model) {
+  if (Found found = coordinate_problem(spec.joint, true, model)) return found;
+  return motor_problem(spec, true);
+}
+
+Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescription& model) {
+  if (Found found = coordinate_problem(spec.joint, false, model)) return found;
+  return motor_problem(spec, false);
 }
 
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model) {

@@ -14,6 +14,11 @@ bool acts_on_coordinate(const loads::LoadSpec& load, bool turns);
 /// Whether a sensor names a joint that does not exist.
 Found joint_problem(const std::string& name, const ModelDescription& model);
 
+/// Whether a joint does not exist or has no angle (displacement).
+/// @param key field that names it
+Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
+                         const std::string& key = "joint");
+
 // What is wrong with joints, laws and sensors of joints beyond their ends and axes.
 
 Found own_joint_problem(const loads::HingeSpringSpec& spec, const ModelDescription& model);
@@ -23,6 +28,8 @@ Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);

@@ -85,6 +85,10 @@ class Doubts {
     double value = law.is_constant() ? law.value(0) : 0.0;
     visit(value);
   }
+  void visit(base::SignalLaw& law) {
+    if (!law.formula) visit(law.law);
+  }
+  void visit(base::Characteristic&) {}
   void visit(fem::MaterialSpec& material) { look_at_material(material); }
   void visit(fem::DampingSpec& damping) { look_at_damping(damping); }
   void visit(body::BodySpec& body) {

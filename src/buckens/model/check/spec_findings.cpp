@@ -102,13 +102,25 @@ Found spring_problem(const std::string& name, bool torque, const ModelDescriptio
                                                      : base::suggestion(name, known))};
 }
 
-/// A rotation is driven by its angle or its speed.
+/// A rotation is driven by its angle, its speed or its acceleration.
 Found drive_problem(const joints::PrescribedRotationSpec& spec) {
-  if (spec.angle.has_value() != spec.speed.has_value()) return std::nullopt;
-  return Finding{
-      spec.angle ? "speed" : "",
-      "exactly one of the keys angle and speed is needed, for example angle: \"150*t\" or "
-      "speed: 1500 rpm"};
+  const int given = int{spec.angle.has_value()} + int{spec.speed.has_value()} +
+                    int{spec.acceleration.has_value()};
+  if (given == 1) return std::nullopt;
+  return Finding{spec.angle && spec.speed ? "speed" : "",
+                 "exactly one of the keys angle, speed and acceleration is needed, for example "
+                 "angle: \"150*t\" or speed: 1500 rpm"};
+}
+
+Found drive_problem(const joints::PrescribedTranslationSpec& spec) {
+  const int given = int{spec.displacement.has_value()} + int{spec.velocity.has_value()} +
+                    int{spec.acceleration.has_value()};
+  if (given != 1) {
+    return Finding{"",
+                   "exactly one of the keys displacement, velocity and acceleration is needed, "
+                   "for example displacement: \"10*sin(20*t) mm\" or velocity: 0.2 m/s"};
+  }
+  return axis_problem(spec.axis);
 }
 
 /// Rules of the alternatives; overloads for those that have any.
@@ -121,7 +133,11 @@ struct AlternativeRules {
     if constexpr (requires { spec.between; }) {
       if (Found found = ends_problem(spec.between, is_joint)) return found;
     }
-    if constexpr (requires { own_joint_problem(spec, model); }) {
+    if constexpr (std::is_same_v<T, SignalSensor>) {
+      if (base::find_named(model.signals, spec.signal) != nullptr) return std::nullopt;
+      return Finding{"signal", fmt::format("unknown signal \"{}\".{}", spec.signal,
+                                           base::suggestion(spec.signal, names_of(model.signals)))};
+    } else if constexpr (requires { own_joint_problem(spec, model); }) {
       return own_joint_problem(spec, model);
     } else if constexpr (std::is_same_v<T, RelativeSensor>) {
       return spec.quantity == RelativeQuantity::angle ? needed_axis_problem(spec.axis, model)
@@ -129,6 +145,8 @@ struct AlternativeRules {
     } else if constexpr (std::is_same_v<T, joints::PrescribedRotationSpec>) {
       if (Found found = drive_problem(spec)) return found;
       return needed_axis_problem(spec.axis, model);
+    } else if constexpr (std::is_same_v<T, joints::PrescribedTranslationSpec>) {
+      return drive_problem(spec);
     } else if constexpr (requires { spec.axis.has_value(); }) {
       return needed_axis_problem(spec.axis, model);
     } else if constexpr (requires { spec.axis.norm(); }) {
@@ -276,7 +294,7 @@ Found problem(const ModelDescription& spec, const ModelDescription&) {
                    "gravity of a planar model must lie in its plane; set the component "
                    "normal to it to zero"};
   }
-  return std::nullopt;
+  return stops_problem(spec);
 }
 
 }  // namespace buckens::model

@@ -50,8 +50,20 @@ Found problem(const joints::JointSpec& spec, const ModelDescription& model);
 Found problem(const loads::LoadSpec& spec, const ModelDescription& model);
 Found problem(const SimulationSpec& spec, const ModelDescription& model);
 Found problem(const StaticSpec& spec, const ModelDescription& model);
+Found problem(const SignalSpec& spec, const ModelDescription& model);
+Found problem(const MarkerSignalSpec& spec, const ModelDescription& model);
+Found problem(const TransferFunctionSpec& spec, const ModelDescription& model);
+Found problem(const StateSpaceSpec& spec, const ModelDescription& model);
+Found problem(const PidSpec& spec, const ModelDescription& model);
+Found problem(const SwitchSpec& spec, const ModelDescription& model);
+Found problem(const EventSpec& spec, const ModelDescription& model);
+Found problem(const InitialJointSpec& spec, const ModelDescription& model);
+Found problem(const InitialSpec& spec, const ModelDescription& model);
 Found problem(const SensorSpec& spec, const ModelDescription& model);
 Found problem(const ModelDescription& spec, const ModelDescription& model);
+
+/// Joints that start outside of their stops.
+Found stops_problem(const ModelDescription& model);
 
 /// What is wrong with a body once it is known what it is made of: `like` resolved, mesh read.
 Found problem_when_complete(const body::BodySpec& spec, const ModelDescription& model);

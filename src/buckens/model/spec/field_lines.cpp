@@ -87,6 +87,23 @@ class LineCollector {
     for (const double share : kShares) text += ", " + value_at(value, share * duration_);
     put(path, text);
   }
+  void add_special(const std::string& path, const base::SignalLaw& value) {
+    if (!value.formula) return add_special(path, value.law);
+    put(path, fmt::format("{} x {}", value.formula->text(), value.scale));
+  }
+  void add_special(const std::string& path, const base::Characteristic& value) {
+    std::string text = value.text();
+    constexpr std::array kPlaces = {-0.8, -0.1, -0.003, 0.003, 0.1, 0.8};
+    for (const double x : kPlaces) text += ", " + force_at(value, x);
+    put(path, text);
+  }
+  static std::string force_at(const base::Characteristic& value, double x) {
+    try {
+      return text_of(value.force(x, x));
+    } catch (const NumericalError&) {
+      return "none";  // outside of a table
+    }
+  }
   static std::string value_at(const base::TimeLaw& law, double t) {
     try {
       return text_of(law.value(t));

@@ -98,6 +98,38 @@ struct InitialBodySpec {
   }
 };
 
+/// Values with which the coordinates of a joint start.
+struct InitialJointSpec {
+  std::string name;  ///< of the joint
+  SourceLocation where;
+  std::optional<double> angle;         ///< [rad]
+  std::optional<double> speed;         ///< [rad/s]
+  std::optional<double> displacement;  ///< [m]
+  std::optional<double> velocity;      ///< [m/s]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("angle", angle,
+                      "of a joint that turns, counted from the position as placed and over turns")
+              .in(base::kAngle)
+              .like("30 deg")
+              .otherwise("as placed, or as other joints ask for"));
+    visit(base::field("speed", speed, "rate of the angle")
+              .in(base::kAngularVelocity)
+              .like("2 rad/s")
+              .otherwise("as the velocities of bodies ask for"));
+    visit(base::field("displacement", displacement,
+                      "of a joint that slides, counted from the position as placed")
+              .in(base::kLength)
+              .like("20 mm")
+              .otherwise("as placed, or as other joints ask for"));
+    visit(base::field("velocity", velocity, "rate of the displacement")
+              .in(base::kVelocity)
+              .like("0.1 m/s")
+              .otherwise("as the velocities of bodies ask for"));
+  }
+};
+
 enum class StartKind { as_given, static_equilibrium };
 
 constexpr std::array<const char*, 2> choice_names(StartKind) { return {"as-given", "static"}; }
@@ -106,12 +138,17 @@ constexpr std::array<const char*, 2> choice_names(StartKind) { return {"as-given
 struct InitialSpec {
   SourceLocation where;
   std::vector<InitialBodySpec> bodies;
+  std::vector<InitialJointSpec> joints;
   StartKind start = StartKind::as_given;
   bool preload = false;  ///< accept bodies that must be deformed to fit together
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("bodies", bodies, "initial velocities and shapes by name of the body"));
+    visit(base::field("joints", joints,
+                      "angles, displacements and their rates by name of the joint; assembly holds "
+                      "them while it moves all else as little as it can")
+              .like("{elbow: {angle: 30 deg, speed: 2 rad/s}}"));
     visit(base::field("start", start,
                       "`static` starts in equilibrium under gravity and constant loads"));
     visit(base::field("preload", preload, "accept bodies that must be deformed to fit together"));

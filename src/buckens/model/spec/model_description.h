@@ -17,8 +17,10 @@
 #include "buckens/joints/joint_spec.h"
 #include "buckens/loads/force_element.h"
 #include "buckens/loads/load_spec.h"
+#include "buckens/model/spec/event_spec.h"
 #include "buckens/model/spec/initial_spec.h"
 #include "buckens/model/spec/sensor_spec.h"
+#include "buckens/model/spec/signal_spec.h"
 #include "buckens/model/spec/simulation_spec.h"
 #include "buckens/model/spec/static_spec.h"
 #include "buckens/spatial/plane.h"
@@ -73,6 +75,8 @@ struct ModelDescription {
   std::vector<fem::SectionSpec> sections;
   std::vector<body::BodySpec> bodies;
   std::vector<joints::JointSpec> joints;
+  std::vector<SignalSpec> signals;
+  std::vector<EventSpec> events;
   std::vector<loads::LoadSpec> loads;
   std::vector<OwnForce> own_forces;  ///< of models made in code
   InitialSpec initial;
@@ -109,6 +113,12 @@ struct ModelDescription {
               .like("{rod6: {circle: {diameter: 6 mm}}}"));
     visit(base::field("bodies", bodies, "bodies by name").required());
     visit(base::field("joints", joints, "joints by name"));
+    visit(base::field("signals", signals,
+                      "named numbers that vary with the motion, for motors, loads and other "
+                      "signals")
+              .like("{angle: {joint-angle: elbow}, u: \"20*(0.5 - angle)\"}"));
+    visit(base::field("events", events, "what happens when signals go through zero")
+              .like("{landed: {when: height, direction: falling, do: stop}}"));
     visit(base::field("loads", loads, "loads and force laws by name"));
     visit(base::field("initial", initial, "how the motion starts").otherwise("at rest, as placed"));
     visit(base::field("simulation", simulation, "duration and time step")

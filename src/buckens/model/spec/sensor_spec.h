@@ -320,6 +320,18 @@ struct EnergySensor {
   }
 };
 
+/// A signal of the model.
+struct SignalSensor {
+  static constexpr const char* kKey = "signal";
+  static constexpr const char* kDoc = "value of a signal";
+  std::string signal;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("signal", signal, "name of the signal").required().shorthand().like("u"));
+  }
+};
+
 /// Something observed over time, one or more columns of sensors.csv.
 struct SensorSpec {
   std::string name;
@@ -328,7 +340,7 @@ struct SensorSpec {
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
                SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
-               EnergySensor, JointCoordinateSensor>
+               EnergySensor, JointCoordinateSensor, SignalSensor>
       kind;
 
   template <class Visitor>

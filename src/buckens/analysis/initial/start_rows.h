@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/dynamics/constraints.h"
+#include "buckens/model/build/build_model.h"
+
+namespace buckens::analysis {
+
+/// Rows that hold joint coordinates at the values, or at the rates, with which they start. They
+/// stand behind those of the joints while a start is looked for, and nowhere else.
+class StartRows {
+ public:
+  enum class Held { values, rates };
+
+  StartRows(const model::Model& model, const std::vector<model::StartCoordinate>& starts, Held held,
+            const std::vector<dynamics::BodyMotion>& as_placed);
+
+  bool empty() const { return starts_.empty(); }
+  /// In how many steps values are gone to from where they are, so that assembly follows the branch
+  /// of a loop and screws count their turns.
+  int stages() const;
+  /// Appends the rows. @param share of the way to the values, 0 … 1
+  void append(const std::vector<dynamics::BodyMotion>& motions, double share,
+              dynamics::Constraints& out) const;
+  /// Appends a length of comparison per row: that of the model for displacements.
+  void append_lengths(linalg::Vector& out) const;
+
+  /// What is missing, for a message: `"elbow" at 0.3 rad where 0.5 rad is asked for`.
+  std::string describe(const std::vector<dynamics::BodyMotion>& motions) const;
+  /// Of the first of them.
+  const SourceLocation& where() const { return starts_.front().where; }
+
+ private:
+  struct Seen {
+    double value = 0, rate = 0;
+    dynamics::SystemRow row;
+  };
+  Seen look(const model::StartCoordinate& start,
+            const std::vector<dynamics::BodyMotion>& motions) const;
+  bool is_angle(const model::StartCoordinate& start) const;
+  double asked(const model::StartCoordinate& start) const {
+    return held_ == Held::values ? *start.value : *start.rate;
+  }
+
+  const model::Model& model_;
+  Held held_;
+  std::vector<model::StartCoordinate> starts_;
+  std::vector<double> from_;  // values as placed
+};
+
+/// Counts the turns with which angles start.
+void count_start_turns(const std::vector<model::StartCoordinate>& starts, const model::Model& model,
+                       model::RowMemory& memory);
+
+}  // namespace buckens::analysis

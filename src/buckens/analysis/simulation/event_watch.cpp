@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/event_watch.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/dynamics/signals.h"
+#include "buckens/results/state_interpolation.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+// So many of one kind within so many steps are chatter.
+constexpr std::size_t kMostEvents = 20;
+constexpr long kWithinSteps = 100;
+// Halvings of a step: far below what interpolation is good for.
+constexpr int kBisections = 40;
+
+bool crosses(model::Crossing direction, double before, double after) {
+  const bool rises = before < 0.0 && after >= 0.0;
+  const bool falls = before > 0.0 && after <= 0.0;
+  return (rises && direction != model::Crossing::falling) ||
+         (falls && direction != model::Crossing::rising);
+}
+
+}  // namespace
+
+EventWatch::EventWatch(const model::BuiltModel& built) : built_(built) {
+  const auto& all = built.model.signals.all;
+  for (const model::EventSpec& spec : built.description.events) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k].name == spec.when) events_.push_back({&spec, k + 1, {}});
+    }
+  }
+}
+
+double EventWatch::crossing(const Event& event, const model::State& before,
+                            const model::State& after) const {
+  const double first = before.memory.signals[event.signal];
+  double low = before.t;
+  double high = after.t;
+  dynamics::SignalValues at;
+  for (int k = 0; k < kBisections; ++k) {
+    const double t = 0.5 * (low + high);
+    const model::State between = results::interpolate(before, after, t);
+    dynamics::evaluate_signals(built_.model, dynamics::motions_of(built_.model, between), t,
+                               dynamics::circumstances_of(between), at);
+    const bool is_past = (at.values[event.signal] > 0.0) != (first > 0.0);
+    (is_past ? high : low) = t;
+  }
+  return high;
+}
+
+void EventWatch::count(Event& event, double t) {
+  event.recent.push_back(steps_);
+  std::erase_if(event.recent, [&](long step) { return step <= steps_ - kWithinSteps; });
+  if (event.recent.size() <= kMostEvents) return;
+  throw NumericalError(
+      event.spec->where,
+      fmt::format(
+          "event \"{}\" happened {} times within {} steps up to t = {:.6g} s: signal \"{}\" "
+          "chatters about zero; give it a `switch` with two levels, a `lag`, or use smaller "
+          "steps",
+          event.spec->name, event.recent.size(), kWithinSteps, t, event.spec->when));
+}
+
+std::vector<EventWatch::Found> EventWatch::after_step(const model::State& before,
+                                                      const model::State& after) {
+  std::vector<Found> out;
+  ++steps_;
+  for (Event& event : events_) {
+    const double first = before.memory.signals[event.signal];
+    const double last = after.memory.signals[event.signal];
+    if (!crosses(event.spec->direction, first, last)) continue;
+    out.push_back({fmt::format("event \"{}\" at t = {:.9g} s: signal \"{}\" {} through zero",
+                               event.spec->name, crossing(event, before, after), event.spec->when,
+                               last >= 0.0 && first < 0.0 ? "rises" : "falls"),
+                   event.spec->action == model::EventAction::stop});
+    count(event, after.t);
+  }
+  return out;
+}
+
+void EventWatch::visit_saved(const base::SaveVisit& visit) {
+  visit.count("steps", steps_, 0, std::numeric_limits<long>::max());
+  for (std::size_t k = 0; k < events_.size(); ++k) {
+    visit.inside(k).counts("recent", events_[k].recent, 0L, std::numeric_limits<long>::max());
+  }
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/system_kinematics.h"
+
+namespace buckens::dynamics {
+
+/// All signals of a model at one instant, and scratch.
+struct SignalValues {
+  std::vector<double> values;  ///< t, then one per signal
+  linalg::Vector x, x_dot;     ///< states of all blocks and their rates
+  linalg::Vector fixed, open, rates;
+  Eigen::MatrixXd tangent;
+};
+
+/// What one joint coordinate is taken to be more than it is: for tangents.
+struct CoordinateShift {
+  int coordinate = -1;
+  double value = 0;  ///< [rad] or [m]
+  double rate = 0;   ///< [rad/s] or [m/s]
+};
+
+/// Evaluates all signals. States of blocks go from the instant of the memory to t by the
+/// first-order generalised-α method, implicitly, so that what they say belongs to t. Theory:
+/// docs/theory/24-control.md §3.
+/// @param around with the memory at the start of the step; without one blocks are as at t = 0
+/// @throws NumericalError naming the signal whose states do not settle
+void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                      const Circumstances& around, SignalValues& out,
+                      const CoordinateShift& shift = {});
+
+/// Fills the share of signals in a memory that begins, samples at t = 0 taken.
+void start_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                   model::RowMemory& memory);
+
+/// Writes the share of signals in the memory at the end of a step, samples at its end taken.
+/// @param around with the memory at its start
+void advance_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                     const Circumstances& around, model::RowMemory& out);
+
+}  // namespace buckens::dynamics

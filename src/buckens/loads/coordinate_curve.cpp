@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/loads/coordinate_curve.h"
+
+#include <algorithm>
+
+namespace buckens::loads {
+
+Action CoordinateCurve::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
+                                 const spatial::MarkerMotion& /*second*/) const {
+  return {};
+}
+
+Action CoordinateCurve::respond(const Sight& sight) const {
+  const double x = sight.coordinate.value - free_;
+  const double v = sight.coordinate.rate;
+  const double at_rest = curve_.force(x, 0.0);
+  const double lost = damping_ * v + curve_.force(x, v) - at_rest;
+  Action out = along_coordinate(sight.coordinate, -stiffness_ * x - at_rest - lost);
+  out.stored_energy = 0.5 * stiffness_ * x * x + curve_.energy(x);
+  out.dissipation = lost * v;
+  out.active_power = -out.dissipation;
+  return out;
+}
+
+void CoordinateCurve::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  const base::Characteristic::Slopes slopes =
+      curve_.slopes(sight.coordinate.value - free_, sight.coordinate.rate);
+  SoftRow row;
+  row.J = sight.coordinate.J;
+  // Where the force falls, the iteration goes without: it converges by the inertia then.
+  row.stiffness = std::max(0.0, stiffness_ + slopes.stiffness);
+  row.damping = std::max(0.0, damping_ + slopes.damping);
+  rows.push_back(row);
+}
+
+}  // namespace buckens::loads

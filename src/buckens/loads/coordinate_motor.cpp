@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/loads/coordinate_motor.h"
+
+#include <algorithm>
+
+namespace buckens::loads {
+
+namespace {
+
+/// Whether any of the laws given has a property.
+template <class Property>
+bool any(const MotorData& data, Property&& property) {
+  for (const auto* law : {&data.force, &data.position, &data.speed}) {
+    if (*law && property(**law)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool CoordinateMotor::uses_signals() const {
+  return any(data_, [](const base::SignalLaw& law) { return law.uses_signals(); });
+}
+
+bool CoordinateMotor::is_constant() const {
+  return !any(data_, [](const base::SignalLaw& law) { return !law.is_constant(); });
+}
+
+ProjectedForce CoordinateMotor::force(const Sight& sight) const {
+  const auto value = [&](const std::optional<base::SignalLaw>& law) {
+    return law ? law->value(sight.t, sight.signals) : 0.0;
+  };
+  const double rate = sight.coordinate.rate;
+  double aimed = value(data_.speed);
+  if (!data_.speed && data_.position) aimed = data_.position->rate(sight.t);
+  ProjectedForce out;
+  out.is_source = true;
+  out.stiffness = data_.stiffness;
+  if (data_.stiffness > 0.0) out.strain = sight.coordinate.value - value(data_.position);
+  out.damping = data_.damping;
+  out.drive = data_.damping * aimed + value(data_.force);
+  out.highest = data_.limit;
+  out.lowest = -data_.limit;
+  if (rate == 0.0 || data_.power == HUGE_VAL) return out;
+  // Only while it drives: towards the motion.
+  const double most = data_.power / std::abs(rate);
+  if (most >= data_.limit) return out;
+  (rate > 0.0 ? out.highest : out.lowest) = std::copysign(most, rate);
+  const double trial = out.drive - out.stiffness * out.strain - out.damping * rate;
+  if (trial * rate > 0.0) out.cut_damping = most / std::abs(rate);
+  return out;
+}
+
+}  // namespace buckens::loads

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "buckens/base/motion_dimensions.h"
+#include "buckens/base/signal_law.h"
+#include "buckens/loads/joint_law_spec.h"
+
+namespace buckens::loads {
+
+/// A motor on a joint coordinate: what it is told, and how much it can.
+struct MotorSpec : JointLaw {
+  std::optional<base::SignalLaw> force;     ///< [N m] or [N]
+  std::optional<base::SignalLaw> position;  ///< aimed at [rad] or [m]
+  std::optional<base::SignalLaw> speed;     ///< aimed at [rad/s] or [m/s]
+  double stiffness = 0;                     ///< [N m/rad] or [N/m]
+  double damping = 0;                       ///< [N m s/rad] or [N s/m]
+  std::optional<double> limit;              ///< [N m] or [N]
+  std::optional<double> power;              ///< [W]
+
+  template <class Visitor>
+  void motor_fields(Visitor& visit, bool turns) {
+    joint_fields(visit, turns);
+    visit(base::field(turns ? "torque" : "force", force,
+                      turns ? "torque along the angle, by time and signals; added to what the "
+                              "gains give"
+                            : "force along the displacement, by time and signals; added to what "
+                              "the gains give")
+              .in(turns ? base::kTorque : base::kForce)
+              .like(turns ? "\"2*sin(20*t) N m\"" : "\"50*sin(20*t) N\"")
+              .otherwise("none"));
+    visit(base::field(turns ? "angle" : "displacement", position,
+                      "aimed at by `stiffness`, counted from the position as placed; by time and "
+                      "signals")
+              .in(turns ? base::kAngle : base::kLength)
+              .like(turns ? "\"0.5*sin(2*t) rad\"" : "\"50*sin(2*t) mm\"")
+              .otherwise("none"));
+    visit(base::field(turns ? "speed" : "velocity", speed,
+                      "aimed at by `damping`, by time and signals")
+              .in(turns ? base::kAngularVelocity : base::kVelocity)
+              .like(turns ? "1500 rpm" : "0.2 m/s")
+              .otherwise(turns ? "the rate of a law of time for `angle`, else 0"
+                               : "the rate of a law of time for `displacement`, else 0"));
+    visit(base::field("stiffness", stiffness, "gain on what is missing of the position")
+              .in(turns ? base::kRotationalStiffness : base::kStiffness)
+              .non_negative()
+              .like(turns ? "200 N m/rad" : "5 kN/m"));
+    visit(base::field("damping", damping, "gain on what is missing of the speed")
+              .in(turns ? base::kRotationalDamping : base::kDamping)
+              .non_negative()
+              .like(turns ? "5 N m s/rad" : "80 N s/m"));
+    visit(base::field(turns ? "torque-limit" : "force-limit", limit,
+                      "most that it gives either way; there it stalls")
+              .in(turns ? base::kTorque : base::kForce)
+              .positive()
+              .like(turns ? "12 N m" : "400 N")
+              .otherwise("none"));
+    visit(base::field("power-limit", power, "most power that it gives; braking has no such limit")
+              .in(base::kPower)
+              .positive()
+              .like("250 W")
+              .otherwise("none"));
+  }
+};
+
+struct HingeMotorSpec : MotorSpec {
+  static constexpr const char* kKey = "hinge-motor";
+  static constexpr const char* kDoc =
+      "motor on the angle of a joint: torque by a law or signal, gains on angle and speed, with "
+      "limits";
+  static constexpr bool kTurns = true;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    motor_fields(visit, kTurns);
+  }
+};
+
+struct SlideMotorSpec : MotorSpec {
+  static constexpr const char* kKey = "slide-motor";
+  static constexpr const char* kDoc =
+      "motor on the displacement of a joint: force by a law or signal, gains on displacement and "
+      "velocity, with limits";
+  static constexpr bool kTurns = false;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    motor_fields(visit, kTurns);
+  }
+};
+
+}  // namespace buckens::loads

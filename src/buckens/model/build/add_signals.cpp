@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/add_signals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/model/build/add_joint_law.h"
+
+namespace buckens::model {
+
+namespace {
+
+using Kind = joints::JointCoordinate::Kind;
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+std::shared_ptr<const ControlBlock> block_of(const IntegralSpec& spec) {
+  return make_linear_block(Eigen::MatrixXd::Zero(1, 1), Eigen::VectorXd::Ones(1),
+                           Eigen::VectorXd::Ones(1), 0.0, Eigen::VectorXd::Constant(1, spec.start));
+}
+
+std::shared_ptr<const ControlBlock> block_of(const LagSpec& spec) {
+  const double rate = 1.0 / spec.time_constant;
+  return make_linear_block(Eigen::MatrixXd::Constant(1, 1, -rate),
+                           Eigen::VectorXd::Constant(1, rate), Eigen::VectorXd::Ones(1), 0.0,
+                           Eigen::VectorXd::Constant(1, spec.start));
+}
+
+std::shared_ptr<const ControlBlock> block_of(const TransferFunctionSpec& spec) {
+  return make_transfer_function(spec.numerator, spec.denominator);
+}
+
+std::shared_ptr<const ControlBlock> block_of(const StateSpaceSpec& spec) {
+  const auto n = static_cast<Eigen::Index>(spec.A.size());
+  Eigen::MatrixXd A(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) A.row(k) = vector_of(spec.A[static_cast<std::size_t>(k)]);
+  return make_linear_block(
+      std::move(A), vector_of(spec.B), vector_of(spec.C), spec.D,
+      spec.start.empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(n)) : vector_of(spec.start));
+}
+
+std::shared_ptr<const ControlBlock> block_of(const PidSpec& spec) {
+  PidData data;
+  data.proportional = spec.proportional;
+  data.integral = spec.integral;
+  data.derivative = spec.derivative;
+  data.filter = spec.filter.value_or(0.0);
+  data.lowest = spec.limits ? (*spec.limits)[0] : -HUGE_VAL;
+  data.highest = spec.limits ? (*spec.limits)[1] : HUGE_VAL;
+  data.sample = spec.sample.value_or(0.0);
+  const bool has_both = spec.proportional != 0.0 && spec.integral != 0.0;
+  data.tracking =
+      spec.tracking.value_or(has_both ? std::abs(spec.proportional / spec.integral) : 1.0);
+  return make_pid(data);
+}
+
+std::shared_ptr<const ControlBlock> block_of(const SampleHoldSpec& spec) {
+  return make_sample_hold(spec.sample);
+}
+
+std::shared_ptr<const ControlBlock> block_of(const SwitchSpec& spec) {
+  return make_switch(spec.on, spec.off, spec.start);
+}
+
+class SignalBuilder {
+ public:
+  SignalBuilder(const SignalSpec& spec, MarkerFinder& find) : spec_(spec), find_(find) {
+    out_.name = spec.name;
+    out_.where = spec.where;
+  }
+
+  Signal build() {
+    if (spec_.value) out_.input = *spec_.value;
+    coordinate(spec_.joint_angle, Kind::angle, Signal::Kind::coordinate);
+    coordinate(spec_.joint_speed, Kind::angle, Signal::Kind::coordinate_rate);
+    coordinate(spec_.joint_displacement, Kind::displacement, Signal::Kind::coordinate);
+    coordinate(spec_.joint_velocity, Kind::displacement, Signal::Kind::coordinate_rate);
+    marker(spec_.position, Signal::Kind::position);
+    marker(spec_.velocity, Signal::Kind::velocity);
+    if (spec_.force_of) out_.kind = Signal::Kind::force;
+    block(spec_.integral);
+    block(spec_.lag);
+    block(spec_.transfer_function);
+    block(spec_.state_space);
+    block(spec_.pid);
+    block(spec_.sample_hold);
+    block(spec_.switched);
+    return std::move(out_);
+  }
+
+ private:
+  void coordinate(const std::optional<std::string>& joint, Kind which, Signal::Kind kind) {
+    if (!joint) return;
+    out_.kind = kind;
+    out_.coordinate = find_coordinate(*joint, which, find_);
+    if (out_.coordinate >= 0) return;
+    throw ModelError(spec_.where,
+                     fmt::format("signal \"{}\": there is no joint \"{}\"", spec_.name, *joint));
+  }
+  void marker(const std::optional<MarkerSignalSpec>& seen, Signal::Kind kind) {
+    if (!seen) return;
+    out_.kind = kind;
+    out_.marker = find_.marker(seen->of, false);
+    out_.along = seen->along.normalized();
+  }
+  template <class Spec>
+  void block(const std::optional<Spec>& spec) {
+    if (!spec) return;
+    out_.kind = Signal::Kind::block;
+    out_.input = spec->input;
+    out_.block = block_of(*spec);
+  }
+
+  const SignalSpec& spec_;
+  MarkerFinder& find_;
+  Signal out_;
+};
+
+/// Puts signals after those that they depend on at the same instant.
+class Sorter {
+ public:
+  Sorter(const ModelDescription& description, Model& model)
+      : description_(description), model_(model), mark_(model.signals.all.size(), Mark::unseen) {}
+
+  void run() {
+    for (std::size_t k = 0; k < mark_.size(); ++k) visit(k);
+  }
+
+ private:
+  enum class Mark { unseen, open, done };
+
+  /// Whether k needs j at the same instant.
+  bool needs(std::size_t k, std::size_t j) const {
+    const Signal& signal = model_.signals.all[k];
+    const std::string& name = model_.signals.all[j].name;
+    const auto uses = [&](const base::SignalLaw& law) { return law.uses(name); };
+    if (signal.kind == Signal::Kind::formula) return uses(signal.input);
+    if (signal.block) return signal.block->feeds_through() && uses(signal.input);
+    if (signal.kind != Signal::Kind::force) return false;
+    const Load& load = model_.loads[static_cast<std::size_t>(signal.load)];
+    const auto* spec = base::find_named(description_.loads, load.name);
+    return spec != nullptr && std::visit(
+                                  [&]<class T>(const T& kind) {
+                                    if constexpr (requires { kind.position; }) {
+                                      return (kind.force && uses(*kind.force)) ||
+                                             (kind.position && uses(*kind.position)) ||
+                                             (kind.speed && uses(*kind.speed));
+                                    }
+                                    return false;
+                                  },
+                                  spec->kind);
+  }
+
+  void visit(std::size_t k) {
+    if (mark_[k] == Mark::done) return;
+    path_.push_back(k);
+    if (mark_[k] == Mark::open) refuse_loop();
+    mark_[k] = Mark::open;
+    for (std::size_t j = 0; j < mark_.size(); ++j) {
+      if (needs(k, j)) visit(j);
+    }
+    mark_[k] = Mark::done;
+    path_.pop_back();
+    model_.signals.order.push_back(static_cast<int>(k));
+  }
+
+  [[noreturn]] void refuse_loop() const {
+    const auto first = std::find(path_.begin(), path_.end(), path_.back());
+    std::string names;
+    for (auto it = first; it != path_.end(); ++it) {
+      names += (it == first ? "\"" : " needs \"") + model_.signals.all[*it].name + '"';
+    }
+    throw ModelError(
+        model_.signals.all[path_.back()].where,
+        fmt::format("signals form an algebraic loop: {}; put a `lag`, an `integral` or "
+                    "a `sample-hold` into it",
+                    names));
+  }
+
+  const ModelDescription& description_;
+  Model& model_;
+  std::vector<Mark> mark_;
+  std::vector<std::size_t> path_;
+};
+
+}  // namespace
+
+void add_signals(const ModelDescription& description, MarkerFinder& find) {
+  for (const SignalSpec& spec : description.signals) {
+    find.model().signals.all.push_back(SignalBuilder(spec, find).build());
+  }
+}
+
+void connect_signals(const ModelDescription& description, Model& model) {
+  SignalSet& signals = model.signals;
+  for (std::size_t k = 0; k < signals.all.size(); ++k) {
+    Signal& signal = signals.all[k];
+    if (signal.block) {
+      signal.first_state = signals.num_states;
+      signals.num_states += signal.block->num_states();
+    }
+    if (signal.kind != Signal::Kind::force) continue;
+    const std::string& name = *description.signals[k].force_of;
+    const auto load = std::find_if(model.loads.begin(), model.loads.end(), [&](const Load& one) {
+      return one.name == name && one.coordinate >= 0;
+    });
+    if (load == model.loads.end()) {
+      throw ModelError(signal.where,
+                       fmt::format("signal \"{}\": there is no load \"{}\" on the coordinate of a "
+                                   "joint (a hinge- or slide- spring, stop, friction or motor)",
+                                   signal.name, name));
+    }
+    signal.load = static_cast<int>(load - model.loads.begin());
+  }
+  if (description.simulation &&
+      description.simulation->method == IntegrationMethod::generalized_alpha) {
+    signals.rho = description.simulation->rho_inf;
+  }
+  Sorter(description, model).run();
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/model/check/joint_findings.h"
+#include "buckens/model/check/marker_names.h"
+#include "buckens/model/check/spec_findings.h"
+
+namespace buckens::model {
+
+namespace {
+
+int num_given(const SignalSpec& s) {
+  return int{s.value.has_value()} + int{s.joint_angle.has_value()} +
+         int{s.joint_speed.has_value()} + int{s.joint_displacement.has_value()} +
+         int{s.joint_velocity.has_value()} + int{s.position.has_value()} +
+         int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.integral.has_value()} +
+         int{s.lag.has_value()} + int{s.transfer_function.has_value()} +
+         int{s.state_space.has_value()} + int{s.pid.has_value()} + int{s.sample_hold.has_value()} +
+         int{s.switched.has_value()};
+}
+
+}  // namespace
+
+Found problem(const SignalSpec& spec, const ModelDescription& model) {
+  if (num_given(spec) != 1) {
+    return Finding{"",
+                   "exactly one of the keys value, joint-angle, joint-speed, "
+                   "joint-displacement, joint-velocity, position, velocity, force-of, "
+                   "integral, lag, transfer-function, state-space, pid, sample-hold and "
+                   "switch is needed"};
+  }
+  struct Seen {
+    const std::optional<std::string>& joint;
+    bool turns;
+    const char* key;
+  };
+  for (const Seen& seen :
+       {Seen{spec.joint_angle, true, "joint-angle"}, Seen{spec.joint_speed, true, "joint-speed"},
+        Seen{spec.joint_displacement, false, "joint-displacement"},
+        Seen{spec.joint_velocity, false, "joint-velocity"}}) {
+    if (!seen.joint) continue;
+    if (Found found = coordinate_problem(*seen.joint, seen.turns, model, seen.key)) return found;
+  }
+  return std::nullopt;
+}
+
+Found problem(const SwitchSpec& spec, const ModelDescription&) {
+  if (!spec.off || *spec.off != spec.on) return std::nullopt;
+  return Finding{"off",
+                 fmt::format("it switches off at {:g}, where it switches on; give levels that "
+                             "differ",
+                             spec.on)};
+}
+
+Found problem(const EventSpec& spec, const ModelDescription& model) {
+  if (base::find_named(model.signals, spec.when) != nullptr) return std::nullopt;
+  return Finding{"when", fmt::format("unknown signal \"{}\".{}", spec.when,
+                                     base::suggestion(spec.when, names_of(model.signals)))};
+}
+
+Found problem(const MarkerSignalSpec& spec, const ModelDescription&) {
+  if (spec.along.norm() > 0.0) return std::nullopt;
+  return Finding{"along", "[0, 0, 0] is not a direction; give for example [0, -1, 0]"};
+}
+
+Found problem(const TransferFunctionSpec& spec, const ModelDescription&) {
+  if (spec.denominator.empty() || spec.denominator.front() == 0.0) {
+    return Finding{"denominator",
+                   "its first coefficient, of the highest power of s, must not be 0; leave leading "
+                   "zeros out"};
+  }
+  if (spec.numerator.empty()) return Finding{"numerator", "it needs at least one coefficient"};
+  if (spec.numerator.size() > spec.denominator.size()) {
+    return Finding{"numerator",
+                   fmt::format("its order {} is above that of the denominator, {}: it "
+                               "would differentiate its input; use a `pid` with "
+                               "`filter`, or give the denominator more powers",
+                               spec.numerator.size() - 1, spec.denominator.size() - 1)};
+  }
+  return std::nullopt;
+}
+
+Found problem(const StateSpaceSpec& spec, const ModelDescription&) {
+  const std::size_t n = spec.A.size();
+  const auto wrong = [&](const char* key, std::size_t count) {
+    return Finding{key, fmt::format("the system has {} states (rows of A), but this has {} entries",
+                                    n, count)};
+  };
+  for (const auto& row : spec.A) {
+    if (row.size() != n) return wrong("A", row.size());
+  }
+  if (n == 0) return Finding{"A", "it needs at least one state"};
+  if (spec.B.size() != n) return wrong("B", spec.B.size());
+  if (spec.C.size() != n) return wrong("C", spec.C.size());
+  if (!spec.start.empty() && spec.start.size() != n) return wrong("start", spec.start.size());
+  return std::nullopt;
+}
+
+Found problem(const PidSpec& spec, const ModelDescription&) {
+  if (spec.proportional == 0.0 && spec.integral == 0.0 && spec.derivative == 0.0) {
+    return Finding{"",
+                   "a controller without `proportional`, `integral` and `derivative` does "
+                   "nothing; give at least one of them"};
+  }
+  if (spec.derivative != 0.0 && !spec.filter && !spec.sample) {
+    return Finding{"filter",
+                   "the key \"filter\" is missing; a continuous derivative needs the time constant "
+                   "of its filter, for example filter: 5 ms"};
+  }
+  if (spec.limits && !((*spec.limits)[0] < (*spec.limits)[1])) {
+    return Finding{"limits", fmt::format("the least value {:g} is not below the largest {:g}; "
+                                         "exchange them",
+                                         (*spec.limits)[0], (*spec.limits)[1])};
+  }
+  if (spec.tracking && (spec.sample || !spec.limits)) {
+    return Finding{"tracking-time", spec.sample
+                                        ? "a sampled controller stops its integral at once; "
+                                          "remove it"
+                                        : "it belongs to `limits`; give these, or remove it"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace buckens::model

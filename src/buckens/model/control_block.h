@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace buckens::model {
+
+/// A block with states x, one input u and one value y.
+///
+/// Continuous ones give rates, ẋ = f(x, u) and y = g(x, u). Sampled ones take new states at the
+/// multiples of their sample time and hold their value between.
+class ControlBlock {
+ public:
+  virtual ~ControlBlock() = default;
+
+  virtual int num_states() const = 0;
+  /// Writes the states at t = 0.
+  virtual void start(std::span<double> x) const = 0;
+  virtual double value(std::span<const double> x, double u) const = 0;
+  /// Whether the value depends on the input of the same instant.
+  virtual bool feeds_through() const = 0;
+  /// Writes ẋ. Of sampled blocks zero.
+  virtual void rates(std::span<const double> x, double u, std::span<double> x_dot) const = 0;
+
+  /// Time between two samples [s]; 0: continuous.
+  virtual double sample_time() const { return 0.0; }
+  /// Whether it is sampled at the end of every step, however long that is.
+  virtual bool samples_each_step() const { return false; }
+  /// Takes the states of a sampled block over a sample.
+  virtual void sample(std::span<double> /*x*/, double /*u*/) const {}
+};
+
+/// ẋ = A x + b u, y = c·x + d u.
+std::shared_ptr<const ControlBlock> make_linear_block(Eigen::MatrixXd A, Eigen::VectorXd b,
+                                                      Eigen::VectorXd c, double d,
+                                                      Eigen::VectorXd start);
+
+/// The same from coefficients of a proper quotient by falling powers of s, at rest.
+/// @pre neither is empty, the first of the denominator is not zero, and the numerator is no longer
+std::shared_ptr<const ControlBlock> make_transfer_function(const std::vector<double>& numerator,
+                                                           const std::vector<double>& denominator);
+
+/// Gains and limits of a controller.
+struct PidData {
+  double proportional = 0, integral = 0, derivative = 0;
+  double filter = 0;  ///< [s]; 0 only if sampled or without derivative
+  double lowest = 0, highest = 0;
+  double tracking = 0;  ///< [s] > 0 of a continuous one with limits
+  double sample = 0;    ///< [s]; 0: continuous
+};
+
+/// v = P e + I ∫e + D s/(1 + T s) e, y = v within its limits; the integral follows by
+/// (y − v)/tracking. Sampled: the integral by the rule of rectangles, the derivative by backward
+/// differences, and no integral while the value is limited and would grow.
+std::shared_ptr<const ControlBlock> make_pid(const PidData& data);
+
+/// y is 1 from where the input reaches `on` to where it reaches `off`, seen at the ends of steps.
+/// @param off none: it stays on
+std::shared_ptr<const ControlBlock> make_switch(double on, std::optional<double> off, bool start);
+
+/// y is the input at the last sample. @param sample [s]
+std::shared_ptr<const ControlBlock> make_sample_hold(double sample);
+
+}  // namespace buckens::model

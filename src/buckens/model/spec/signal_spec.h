@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/base/field.h"
+#include "buckens/base/marker_ref.h"
+#include "buckens/base/signal_law.h"
+
+namespace buckens::model {
+
+/// What a marker does along a direction of the world.
+struct MarkerSignalSpec {
+  SourceLocation where;
+  base::MarkerRef of;
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "marker").required().like("rod/end"));
+    visit(base::field("along", along, "direction in world axes").required().like("[0, 1, 0]"));
+  }
+};
+
+/// What all blocks begin with.
+struct BlockInput {
+  SourceLocation where;
+  base::SignalLaw input;
+
+  template <class Visitor>
+  void input_field(Visitor& visit) {
+    visit(base::field("input", input, "formula of t and signals, or the name of one")
+              .of_any_dimension()
+              .required()
+              .like("\"0.5 - angle\""));
+  }
+};
+
+struct IntegralSpec : BlockInput {
+  double start = 0;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("start", start, "value at t = 0").of_any_dimension().like("0.2"));
+  }
+};
+
+/// First-order lag: T ẋ + x = u.
+struct LagSpec : BlockInput {
+  double time_constant = 0;  ///< [s]
+  double start = 0;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("time-constant", time_constant, "T of T x' + x = input")
+              .in(base::kTime)
+              .required()
+              .positive()
+              .like("20 ms"));
+    visit(base::field("start", start, "value at t = 0").of_any_dimension().like("0.2"));
+  }
+};
+
+/// Rational transfer function in s, at rest at t = 0.
+struct TransferFunctionSpec : BlockInput {
+  std::vector<double> numerator, denominator;  ///< falling powers of s
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("numerator", numerator, "coefficients by falling powers of s")
+              .of_any_dimension()
+              .required()
+              .like("[1]"));
+    visit(base::field("denominator", denominator, "coefficients by falling powers of s")
+              .of_any_dimension()
+              .required()
+              .like("[0.01, 0.2, 1]"));
+  }
+};
+
+/// ẋ = A x + B u, y = C x + D u.
+struct StateSpaceSpec : BlockInput {
+  std::vector<std::vector<double>> A;
+  std::vector<double> B, C, start;
+  double D = 0;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("A", A, "rows of the matrix of the states")
+              .of_any_dimension()
+              .required()
+              .like("[[0, 1], [-100, -2]]"));
+    visit(base::field("B", B, "how the input drives the states")
+              .of_any_dimension()
+              .required()
+              .like("[0, 1]"));
+    visit(base::field("C", C, "how the value is made of the states")
+              .of_any_dimension()
+              .required()
+              .like("[100, 0]"));
+    visit(base::field("D", D, "share of the input in the value").of_any_dimension().like("0"));
+    visit(base::field("start", start, "states at t = 0")
+              .of_any_dimension()
+              .like("[0, 0]")
+              .otherwise("all zero"));
+  }
+};
+
+/// Proportional, integral and filtered derivative, with anti-windup.
+struct PidSpec : BlockInput {
+  double proportional = 0, integral = 0, derivative = 0;
+  std::optional<double> filter;                 ///< [s]
+  std::optional<std::array<double, 2>> limits;  ///< of the value
+  std::optional<double> tracking;               ///< [s]
+  std::optional<double> sample;                 ///< [s]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("proportional", proportional, "gain on the input")
+              .of_any_dimension()
+              .like("40"));
+    visit(base::field("integral", integral, "gain on the integral of the input")
+              .of_any_dimension()
+              .like("10"));
+    visit(base::field("derivative", derivative, "gain on the rate of the input")
+              .of_any_dimension()
+              .like("2"));
+    visit(base::field("filter", filter,
+                      "time constant of the derivative: D s/(1 + filter s); a sampled one may go "
+                      "without")
+              .in(base::kTime)
+              .positive()
+              .like("5 ms")
+              .otherwise("needed with `derivative` unless sampled"));
+    visit(base::field("limits", limits,
+                      "least and largest value; beyond them the integral follows (anti-windup)")
+              .of_any_dimension()
+              .like("[-5, 5]")
+              .otherwise("none"));
+    visit(base::field("tracking-time", tracking,
+                      "time in which the integral follows a value that is limited")
+              .in(base::kTime)
+              .positive()
+              .like("50 ms")
+              .otherwise("proportional/integral; a sampled one stops the integral at once"));
+    visit(base::field("sample", sample, "time between two samples; the value is held between them")
+              .in(base::kTime)
+              .positive()
+              .like("1 ms")
+              .otherwise("continuous"));
+  }
+};
+
+/// Sampled and held.
+struct SampleHoldSpec : BlockInput {
+  double sample = 0;  ///< [s]
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("sample", sample, "time between two samples")
+              .in(base::kTime)
+              .required()
+              .positive()
+              .like("1 ms"));
+  }
+};
+
+/// On or off by the level of a signal, with hysteresis.
+struct SwitchSpec : BlockInput {
+  double on = 0;
+  std::optional<double> off;
+  bool start = false;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("on", on, "level of the input at which the value becomes 1")
+              .of_any_dimension()
+              .required()
+              .like("0.4"));
+    visit(base::field("off", off,
+                      "level at which it becomes 0 again; below `on` it switches on upwards, above "
+                      "it downwards")
+              .of_any_dimension()
+              .like("0.3")
+              .otherwise("it stays on"));
+    visit(base::field("start", start, "whether it is on before the first step").on_off());
+  }
+};
+
+/// A named number that varies with the motion: exactly one of the members is given.
+struct SignalSpec {
+  std::string name;
+  SourceLocation where;
+  std::optional<base::SignalLaw> value;
+  std::optional<std::string> joint_angle, joint_speed, joint_displacement, joint_velocity;
+  std::optional<MarkerSignalSpec> position, velocity;
+  std::optional<std::string> force_of;
+  std::optional<IntegralSpec> integral;
+  std::optional<LagSpec> lag;
+  std::optional<TransferFunctionSpec> transfer_function;
+  std::optional<StateSpaceSpec> state_space;
+  std::optional<PidSpec> pid;
+  std::optional<SampleHoldSpec> sample_hold;
+  std::optional<SwitchSpec> switched;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("value", value, "formula of t and signals")
+              .of_any_dimension()
+              .shorthand()
+              .like("\"20*(0.5 - angle) - 3*speed\""));
+    motion_fields(visit);
+    visit(base::field("integral", integral,
+                      "integral of a formula over time, which may name "
+                      "itself: a state with its rate"));
+    visit(base::field("lag", lag, "first-order lag"));
+    visit(base::field("transfer-function", transfer_function,
+                      "quotient of two polynomials in s, at rest at t = 0"));
+    visit(base::field("state-space", state_space, "linear system with one input and one value"));
+    visit(base::field("pid", pid, "controller with proportional, integral and derivative part"));
+    visit(base::field("sample-hold", sample_hold, "sampled and held"));
+    visit(base::field("switch", switched,
+                      "1 or 0 by the level of a signal, from the end of the step in which it is "
+                      "reached"));
+  }
+
+ private:
+  template <class Visitor>
+  void motion_fields(Visitor& visit) {
+    visit(base::field("joint-angle", joint_angle, "angle of this joint from its position as placed")
+              .like("elbow"));
+    visit(base::field("joint-speed", joint_speed, "rate of the angle of this joint").like("elbow"));
+    visit(base::field("joint-displacement", joint_displacement,
+                      "displacement of this joint from its position as placed")
+              .like("slider"));
+    visit(base::field("joint-velocity", joint_velocity, "rate of the displacement of this joint")
+              .like("slider"));
+    visit(base::field("position", position, "position of a marker along a direction of the world"));
+    visit(base::field("velocity", velocity, "velocity of a marker along a direction of the world"));
+    visit(base::field("force-of", force_of,
+                      "force or torque of this load along the coordinate of its joint, as it "
+                      "drives it")
+              .like("motor"));
+  }
+};
+
+}  // namespace buckens::model

@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Signals, blocks with states, and controllers."""
+
+import json
+import math
+
+import numpy
+import pytest
+
+from conftest import SOURCE
+
+WHEEL = """
+buckens: 1
+bodies: {wheel: {rigid: {mass: 2 kg, inertia: [0.1, 0.1, 0.05]}}}
+joints: {shaft: {revolute: {between: [ground, wheel], axis: [0, 0, 1]}}}
+signals:
+  angle: {joint-angle: shaft}
+  speed: {joint-speed: shaft}
+SIGNALS
+loads:
+  motor: {hinge-motor: {joint: shaft, MOTOR}}
+simulation: {duration: 0.5 s, step: STEP, METHOD}
+output:
+  every: 10 ms
+  sensors: {shaft: {joint-coordinate: shaft}, balance: {energy: balance}SENSORS}
+"""
+
+
+def wheel(signals, motor, step="1 ms", method="method: generalized-alpha", sensors=()):
+    seen = "".join(f", {name}: {{signal: {name}}}" for name in sensors)
+    lines = "\n".join("  " + line for line in signals)
+    return (WHEEL.replace("SIGNALS", lines).replace("MOTOR", motor).replace("STEP", step)
+            .replace("METHOD", method).replace("SENSORS", seen))
+
+
+def test_a_controller_of_signals_has_no_delay(sensors):
+    """The same as the motor's own gains, which are part of the iteration. A step of delay would be 1 % off."""
+    # Signals may use those below them.
+    out = sensors(wheel(["u: \"20*error - 0.4*speed\"", "error: \"0.5 - angle\""], "torque: \"u\"", sensors=("u", "error")))
+    own = sensors(wheel([], "angle: 0.5, stiffness: 20, damping: 0.4"))
+    # Iterations end at 1e-10 of the motion in a step.
+    assert out["shaft.value"] == pytest.approx(own["shaft.value"], abs=1e-9)
+    assert out["error"] == pytest.approx(0.5 - out["shaft.value"], abs=1e-12)
+    assert out["u"] == pytest.approx(20 * out["error"] - 0.4 * out["shaft.rate"], abs=1e-12)
+    # Stiff ones stay stable, because they are part of the tangent.
+    out = sensors(wheel(["u: \"2e7*(0.5 - angle) - 4e5*speed\""], "torque: \"u\""))
+    assert out["shaft.value"][-1] == pytest.approx(0.5, abs=1e-6)
+
+
+def test_a_direct_current_motor(sensors):
+    """L i' = V - R i - K w and J w' = K i - b w: (L s + R)(J s + b) + K² = 0; the error falls with h²."""
+    L, R, K, J, b, V = 0.02, 0.5, 0.4, 0.05, 0.01, 6.0
+    A = numpy.array([[-R / L, -K / L], [K / J, -b / J]])
+    values, vectors = numpy.linalg.eig(A)
+    rest = numpy.linalg.solve(A, [-V / L, 0])
+    share = numpy.linalg.solve(vectors, -rest)
+    errors = []
+    for step, method in (("2 ms", "rho-inf: 0.8"), ("1 ms", "rho-inf: 0.8"), ("1 ms", "method: newmark")):
+        # The state feeds on itself.
+        out = sensors(wheel([f"i: {{integral: {{input: \"({V} - {R}*i - {K}*speed)/{L}\"}}}}"],
+                            f"torque: \"{K}*i - {b}*speed\"", step, method, ("i",)))
+        exact = numpy.array([(vectors @ (share * numpy.exp(values * t)) + rest).real for t in out["t"]])
+        errors.append(max(numpy.abs(out["i"] - exact[:, 0]).max() / 10, numpy.abs(out["shaft.rate"] - exact[:, 1]).max() / 10))
+    assert errors[1] < 1e-3
+    assert errors[0] / errors[1] == pytest.approx(4, rel=0.15)
+    assert errors[2] < 1e-3
+
+
+def test_blocks_answer_as_their_transfer_functions(sensors):
+    out = sensors(wheel(["sine: \"sin(30*t)\"",
+                         "slow: {lag: {input: \"sine\", time-constant: 20 ms, start: 0.3}}",
+                         "same: {transfer-function: {input: \"sine\", numerator: [1], denominator: [0.02, 1]}}",
+                         "lead: {transfer-function: {input: \"sine\", numerator: [0.1, 1], denominator: [0.02, 1]}}",
+                         "second: {transfer-function: {input: \"1\", numerator: [400], denominator: [1, 4, 400]}}",
+                         "twin: {state-space: {input: \"1\", A: [[0, 1], [-400, -4]], B: [0, 1], C: [400, 0]}}",
+                         "area: {integral: {input: \"slow\", start: 1}}"], "torque: 0", "0.25 ms", "rho-inf: 1",
+                        ("slow", "same", "lead", "second", "twin", "area")))
+    t, T, w = out["t"], 0.02, 30.0
+    forced = (numpy.sin(w * t) - w * T * numpy.cos(w * t)) / (1 + (w * T)**2)
+    same = forced + w * T / (1 + (w * T)**2) * numpy.exp(-t / T)
+    # Of the order (h/T)²/12 = 1.3e-5 and (20 h)²/12 t 20 = 2e-5.
+    assert out["same"] == pytest.approx(same, abs=2e-5)
+    assert out["slow"] == pytest.approx(same + 0.3 * numpy.exp(-t / T), abs=2e-5)
+    # (0.1 s + 1)/(0.02 s + 1) = 5 - 4/(0.02 s + 1)
+    assert out["lead"] == pytest.approx(5 * numpy.sin(w * t) - 4 * same, abs=1e-4)
+    d, w0 = 0.1, 20.0
+    wd = w0 * math.sqrt(1 - d * d)
+    step = 1 - numpy.exp(-d * w0 * t) * (numpy.cos(wd * t) + d * w0 / wd * numpy.sin(wd * t))
+    assert out["second"] == pytest.approx(step, abs=5e-5)
+    assert out["twin"] == pytest.approx(out["second"], abs=1e-10)
+    area = numpy.concatenate([[0], numpy.cumsum((out["slow"][1:] + out["slow"][:-1]) / 2 * numpy.diff(t))])
+    assert out["area"] - 1 == pytest.approx(area, abs=1e-4)  # trapezoids of 10 ms: T''h²/12
+
+
+def pid(e, x, P, I, D, T, filter_time, limit):
+    """One sample as the theory page has it; x holds integral, derivative and last input."""
+    x[1] = (filter_time * x[1] + D * (e - x[2] if x[2] is not None else 0)) / (filter_time + T)
+    wanted = P * e + x[0] + x[1]
+    u = min(max(wanted, -limit), limit)
+    if not (abs(wanted) > limit and wanted * I * e > 0):
+        x[0] += I * T * e
+    x[2] = e
+    return u
+
+
+def test_a_sampled_pid_is_the_discrete_transfer_function(sensors):
+    """Forces that are held are integrated exactly by the method whose forces are means over a step."""
+    P, I, D, T, N, J, limit = 30.0, 60.0, 1.2, 0.005, 0.002, 0.05, 8.0
+    angle, speed, held, x, exact = 0.0, 0.0, 0.0, [0.0, 0.0, None], []
+    for _ in range(101):
+        exact.append((angle, speed))
+        held = pid(0.5 - angle, x, P, I, D, T, N, limit)
+        angle, speed = angle + speed * T + 0.5 * T * T * held / J, speed + T * held / J
+    exact = numpy.array(exact)[::2]
+    block = (f"u: {{pid: {{input: \"0.5 - angle\", proportional: {P}, integral: {I}, derivative: {D}, filter: {N} s, "
+             f"limits: [-{limit}, {limit}], sample: {T} s}}}}")
+    for step in ("5 ms", "1 ms"):
+        out = sensors(wheel([block], "torque: \"u\"", step, "method: newmark", ("u",)))
+        # Rounding in 500 steps, and the end of iterations.
+        assert out["shaft.value"] == pytest.approx(exact[:, 0], abs=1e-9)
+        assert out["shaft.rate"] == pytest.approx(exact[:, 1], abs=1e-7)
+    assert abs(out["u"]).max() == pytest.approx(8)
+
+
+def test_a_pid_with_limits_does_not_wind_up(sensors):
+    """Against an integration of the same equations by steps of 20 us."""
+    P, I, D, N, J, limit, tracking = 30.0, 90.0, 1.2, 0.004, 0.05, 5.0, 0.1
+
+    def rates(y):
+        angle, speed, integral, seen = y
+        e = 1.5 - angle
+        wanted = P * e + integral + D * (e - seen) / N
+        u = min(max(wanted, -limit), limit)
+        return numpy.array([speed, u / J, I * e + (u - wanted) / tracking, (e - seen) / N]), u
+
+    y, h, exact = numpy.zeros(4), 2e-5, []
+    for k in range(25001):
+        if k % 500 == 0:
+            exact.append(y.copy())
+        k1 = rates(y)[0]
+        k2 = rates(y + h / 2 * k1)[0]
+        y = y + h * rates(y + h / 2 * k2)[0]
+    exact = numpy.array(exact)
+    block = (f"u: {{pid: {{input: \"1.5 - angle\", proportional: {P}, integral: {I}, derivative: {D}, filter: {N} s, "
+             f"limits: [-{limit}, {limit}], tracking-time: {tracking} s}}}}")
+    out = sensors(wheel([block], "torque: \"u\"", "0.25 ms", sensors=("u",)))
+    assert abs(out["u"]).max() == pytest.approx(limit)
+    # Where the limit is left the force has a kink within a step: errors of h² u'/J.
+    assert out["shaft.value"] == pytest.approx(exact[:, 0], abs=2e-3)
+    assert out["shaft.value"].max() < 1.7
+
+
+def test_loads_and_places_as_signals(sensors):
+    """A magnet that holds a ball against gravity by where it is; the force of a spring as a signal."""
+    out = sensors("""
+buckens: 1
+gravity: [0, 0, -10]
+bodies: {ball: {rigid: {mass: 0.5 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 0.2]}}, sled: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}}
+joints: {way: {prismatic: {between: [ground, sled], axis: [0, 1, 0]}}}
+signals:
+  z: {position: {of: ball, along: [0, 0, 2]}}
+  vz: {velocity: {of: ball, along: [0, 0, 1]}}
+  lift: "5 + 200*(0.25 - z) - 10*vz"
+  pull: {force-of: coil}
+  push: {force-of: drive}
+loads:
+  magnet: {force: {on: ball, value: [0, 0, 1 N], signal: lift}}
+  coil: {slide-spring: {joint: way, stiffness: 100 N/m}}
+  drive: {slide-motor: {joint: way, force: "3 - 0.1*pull N"}}
+simulation: {duration: 2 s, step: 1 ms}
+output: {every: 10 ms, sensors: {z: {position: {of: ball, along: [0, 0, 1]}}, seen: {signal: z}, way: {joint-coordinate: way},
+                                 pull: {signal: pull}, push: {signal: push}, lift: {load-force: magnet}, force: {signal: lift}}}
+""")
+    t = out["t"]
+    # 0.5 z'' = 200 (0.25 - z) - 10 z'; from 0.2 at rest.
+    d, w = 10.0, math.sqrt(400 - 100)
+    z = 0.25 - 0.05 * numpy.exp(-d * t) * (numpy.cos(w * t) + d / w * numpy.sin(w * t))
+    assert out["z"] == pytest.approx(z, abs=1e-5)
+    assert out["seen"] == pytest.approx(out["z"], abs=1e-14)
+    assert out["lift.z"] == pytest.approx(out["force"], abs=1e-12)
+    # y'' = 3 - 110... : the spring pulls by -100 y, the drive by 3 + 10 y.
+    assert out["way.value"] == pytest.approx(3 / 90 * (1 - numpy.cos(math.sqrt(90) * t)), abs=2e-5)
+    assert out["pull"] == pytest.approx(-100 * out["way.value"], abs=1e-12)
+    assert out["push"] == pytest.approx(3 + 10 * out["way.value"], abs=1e-9)
+
+
+@pytest.mark.parametrize("signals, words", [
+    (["a: \"b + 1\"", "b: \"2*a\""], ["algebraic loop", "\"a\" needs \"b\" needs \"a\"", "lag"]),
+    (["a: \"2*a\""], ["algebraic loop", "\"a\" needs \"a\""]),
+    (["f: {force-of: motor}"], ["algebraic loop", "\"u\" needs \"f\" needs \"u\""]),
+    (["f: {force-of: moto}"], ["there is no load \"moto\""]),
+    (["a: \"2*b\""], ["unknown name \"b\""]),
+    (["sin: 2"], ["\"sin\" already has a meaning"]),
+    (["a-b: 2"], ["\"a-b\" cannot be used in expressions"]),
+    (["a: {joint-angle: shaf}"], ["unknown joint \"shaf\""]),
+    (["a: {joint-displacement: shaft}"], ["no displacement"]),
+    (["a: {value: 1, joint-angle: shaft}"], ["exactly one of the keys"]),
+    (["a: {position: {of: wheel, along: [0, 0, 0]}}"], ["not a direction"]),
+    (["a: {transfer-function: {input: 1, numerator: [1, 0], denominator: [1]}}"], ["above that of the denominator"]),
+    (["a: {state-space: {input: 1, A: [[1, 2]], B: [1], C: [1]}}"], ["1 states", "2 entries"]),
+    (["a: {pid: {input: 1, derivative: 1}}"], ["\"filter\" is missing"]),
+    (["a: {pid: {input: 1, proportional: 1, limits: [1, -1]}}"], ["exchange"]),
+])
+def test_signals_that_make_no_sense_are_refused(buckens, tmp_path, signals, words):
+    u = "u: \"angle\"" if "motor" not in signals[0] else "u: \"f\""
+    (tmp_path / "model.yaml").write_text(wheel([u, *signals], "torque: \"u\""))
+    result = buckens("check", "model.yaml")
+    assert result.code in (2, 3), result.out + result.err
+    for word in ["model.yaml:", *words]:
+        assert word in result.err, result.err
+
+
+def test_samples_have_to_fit_the_steps(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(wheel(["u: {sample-hold: {input: \"angle\", sample: 2.5 ms}}"], "torque: \"u\""))
+    buckens("run", "model.yaml", "-o", "out").must(2, "model.yaml:", "\"u\"", "0.0025 s", "2.5 steps", "0.001 s")
+
+
+SWITCH = """
+buckens: 1
+gravity: [0, 0, -10]
+bodies: {ball: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 2]}}}
+joints: {way: {prismatic: {between: [ground, ball], axis: [0, 0, 1]}}}
+signals:
+  z: {position: {of: ball, along: [0, 0, 1]}}
+  low: "z - 1.2"
+  height: "z - 0.05"
+  brake: {switch: {input: z, on: 1.2, off: 5}}
+  thrust: "12*brake"
+events:
+  braked: {when: low, direction: falling}
+  landed: {when: height, direction: falling, do: stop}
+loads: {jet: {force: {on: ball, value: [0, 0, 1 N], signal: thrust}}}
+simulation: {duration: 5 s, step: 5 ms}
+output: {every: 10 ms, sensors: {z: {position: {of: ball, along: [0, 0, 1]}}, brake: {signal: brake}}}
+"""
+
+
+def test_an_event_stops_the_run_and_a_switch_sets_a_load(sensors, tmp_path):
+    """Free fall from 2 m; below 1.2 m a jet pushes upwards by 2 m/s² more than the weight."""
+    out = sensors(SWITCH)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    braked, landed = (float(note.split("t = ")[1].split(" s")[0]) for note in summary["notes"] if note.startswith("event"))
+    # Motion within a step is known to h⁴; here it is a parabola, exactly.
+    assert braked == pytest.approx(0.4, abs=1e-9)
+    # The jet sets in at the end of the step in which the level is reached: here at its end exactly.
+    assert out["brake"][out["t"] < 0.395].max() == 0 and out["brake"][out["t"] > 0.405].min() == 1
+    # 1.15 = 4 s - s²; the jet may be late by a step: 2 * 12 h²/(2 * 2.9).
+    assert landed - 0.4 == pytest.approx(2 - math.sqrt(4 - 1.15), abs=3e-2)
+    assert summary["finished"] and summary["end_time"] == pytest.approx(landed, abs=5e-3)
+    assert out["t"][-1] == pytest.approx(summary["end_time"], abs=1e-12)
+
+
+def test_an_event_that_chatters_is_named(buckens, tmp_path):
+    text = SWITCH.replace("low: \"z - 1.2\"", "low: \"sin(600*t)\"")
+    (tmp_path / "model.yaml").write_text(text)
+    buckens("run", "model.yaml", "-o", "out").must(4, "event \"braked\"", "21 times", "\"low\" chatters")
+    (tmp_path / "model.yaml").write_text(SWITCH.replace("when: low", "when: lo"))
+    buckens("check", "model.yaml").must(2, "model.yaml:13:", "unknown signal \"lo\"", "low")
+    (tmp_path / "model.yaml").write_text(SWITCH.replace("off: 5", "off: 1.2"))
+    buckens("check", "model.yaml").must(2, "model.yaml:10:", "levels that differ")
+
+
+def test_a_robot_arm_gets_where_it_should(sensors, tmp_path):
+    text = (SOURCE / "examples" / "robot_arm/robot_arm").with_suffix(".yaml").read_text()
+    out = sensors(text)
+    there = out["t"] > 1.4
+    assert out["shoulder.value"][there] == pytest.approx(1.2, abs=2e-3)
+    assert out["elbow.value"][there] == pytest.approx(-0.9, abs=2e-3)
+    # What the motors gave is in height and losses.
+    assert abs(out["balance"]).max() < 0.01 * out["work"].max()
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert sum("event \"there\"" in note for note in summary["notes"]) >= 1
