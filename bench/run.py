@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the speed of Buckens and keeps the figures.
+"""Measures the speed of Buckens and stores the figures.
 
     python3 bench/run.py                      all sections, about 25 minutes
     python3 bench/run.py solves:3 steps       single ones; `--list` names them
@@ -43,7 +43,7 @@ class Programs:
         self.build = pathlib.Path(build).resolve()
 
     def bench(self, name, *arguments):
-        """What a program of bench/ prints as JSON."""
+        """The JSON output of a program of bench/."""
         command = [str(self.build / "bench" / name), *map(str, arguments)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
@@ -149,7 +149,7 @@ def beams(programs):
 
 
 def processes_memory(pid):
-    """Resident bytes of a process; 0 when it has gone."""
+    """Resident bytes of a process; 0 if it has ended."""
     try:
         for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines():
             if line.startswith("VmRSS"):
@@ -160,7 +160,7 @@ def processes_memory(pid):
 
 
 def memory(programs, size):
-    """100 steps of `buckens run`: resident memory towards the end, and at most."""
+    """100 steps of `buckens run`: resident memory towards the end, and its peak."""
     out = []
     for block in BLOCKS[size]:
         kind, divisions = block.split(":")
@@ -188,7 +188,7 @@ def memory(programs, size):
             summary = pathlib.Path(folder) / "out" / "summary.json"
             if run.returncode == 0:
                 told = json.loads(summary.read_text())
-                # The samples of the last half of the run are those of stepping.
+                # The samples of the second half of the run are taken while stepping.
                 stepping = told["wall_seconds"]["stepping"]
                 last = seen[-max(2, int(0.5 * stepping / 0.05)):-1] or seen[-1:]
                 row.update(resident_bytes=sorted(last)[len(last) // 2], steps=told["steps"],

@@ -15,7 +15,7 @@ BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 
 
 def processor():
-    """Name, and the model number where the name says little."""
+    """Name, and the model number if the name is not specific."""
     found = {}
     for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
         if ":" in line:

@@ -21,13 +21,13 @@ PR_CAPBSET_DROP, CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH = 24, 1, 2
 
 
 def pytest_sessionstart():
-    """Without the program there is nothing to test, and that must not look like success."""
+    """Without the program nothing is tested, and that must not look like success."""
     if not os.access(PROGRAM, os.X_OK):
         pytest.exit(f"{PROGRAM}: the program is not built (BUCKENS_PROGRAM says where it is)", 1)
 
 
 def heed_permissions():
-    """For the child process: file permissions hold for root, too."""
+    """For the child process: file permissions apply to root, too."""
     if os.geteuid() == 0:
         libc = ctypes.CDLL(None, use_errno=True)
         for capability in (CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH):
@@ -49,7 +49,7 @@ class Result:
         return json.loads(self.out)
 
     def must(self, code, *words):
-        """The exit code and, in the error message, all the words."""
+        """Checks the exit code, and that the error message contains all the words."""
         assert self.code == code, f"exit code {self.code}\n{self.out}\n{self.err}"
         for word in words:
             assert word in self.err, f"no {word!r} in\n{self.err}"
@@ -58,7 +58,7 @@ class Result:
 
 @pytest.fixture
 def buckens(tmp_path):
-    """Runs the program in a directory of its own until its end."""
+    """Runs the program to its end in a separate directory."""
 
     def call(*arguments, **options):
         options.setdefault("cwd", tmp_path)

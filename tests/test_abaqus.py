@@ -118,7 +118,7 @@ def test_the_bracket_follows_the_shaken_table(buckens, tmp_path):
         (s, c, _), *_ = numpy.linalg.lstsq(waves, signal[late], rcond=None)
         return math.hypot(s, c)
 
-    # Three periods of records, 38 to a period; what is left of the start-up lies at the bracket's
+    # Three periods of records, 38 to a period; what remains of the start-up oscillates at the bracket's
     # own frequency.
     assert swing(run["table.x"]) == pytest.approx(amplitude, rel=1e-3)
     # One mass on a spring: r²/(1 - r²) of the amplitude. The upright weighs half as much as the

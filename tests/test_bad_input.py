@@ -119,7 +119,7 @@ def test_unknown_material(run):
 
 
 def test_joint_that_cannot_be_assembled(buckens, models):
-    # The gap is 1 m; the joint that stays open is one of the three.
+    # The gap is 1 m; one of the three joints stays open.
     result = buckens("run", models / "gap.yaml", "-o", "out").must(3, "_pin")
     assert any(word in result.err for word in ("closed", "assembled")), result.err
     buckens("check", models / "gap.yaml").must(3, "_pin")
@@ -150,7 +150,7 @@ def test_nan_that_shows_only_on_the_way(buckens, models, tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["status"] == "interrupted" and not summary["finished"]
     assert "sqrt(0.05 - t)" in summary["interrupted"]
-    # One record per step of 1 ms, from t = 0 to the last step that could be done.
+    # One record per step of 1 ms, from t = 0 to the last successful step.
     rows = (tmp_path / "out" / "sensors.csv").read_text().splitlines()[1:]
     assert 49 <= len(rows) <= 51
     with h5py.File(tmp_path / "out" / "results.h5", "r") as file:
@@ -192,7 +192,7 @@ def test_output_directory_of_others_is_left_alone(run, model, tmp_path):
 
 
 def test_disk_full(buckens, models, tmp_path):
-    """A limit of the file size stands for the full disk: the same system call fails."""
+    """A limit on the file size simulates a full disk: the same system call fails."""
 
     def limit():
         default_signals()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Models that say something that cannot be: loads, laws of time, interfaces, meshes, output, reduction,
+"""Models with contradictions or impossible values: loads, time functions, interfaces, meshes, output, reduction,
 sweeps. Every message names the place in the file, what is wrong with which value, and what to do."""
 
 import pytest
@@ -139,7 +139,7 @@ def test_a_sweep_of_a_bad_model_leaves_no_directory(buckens, tmp_path):
 
 
 def test_files_of_other_systems(buckens, tmp_path):
-    """A byte order mark and lines that end as on Windows do no harm, nor does a model that is changed."""
+    """A byte order mark and Windows line endings do no harm, nor does a changed model."""
     (tmp_path / "model.yaml").write_bytes(b"\xef\xbb\xbf" + MODEL.replace("\n", "\r\n").encode())
     buckens("run", "model.yaml", "-o", "out", "--set", "simulation.step=0.5 ms").must(0)
     buckens("check", "out/model.yaml").must(0)
@@ -199,7 +199,7 @@ def test_meshes(refuse, box, words):
     ("fields: {record: [stress], on: [bar/xx]}", ["\"xx\"", "\"x0\""]),
 ])
 def test_output(refuse, output, words):
-    """An earlier run in the directory is still there, too: nothing is opened before all is checked."""
+    """An earlier run in the directory is kept, too: nothing is opened before everything is checked."""
     refuse("  every: 1 ms", f"  every: 1 ms\n  {output}", 2, "model.yaml:19:", *words)
 
 

@@ -83,7 +83,7 @@ def test_every_shape_tapers(tip, first, last):
 def test_a_hook_bends_as_castigliano_says(tip):
     I, A = math.pi * 0.01**4 / 64, math.pi * 0.01**2 / 4
     exact = 0.01 * math.pi / 4 * (1 / (E * I) + 1 / (E * A))
-    # Chords in place of the arc: h^2/6 of it at most, h = pi/64.
+    # Chords instead of the arc: at most h^2/6 of it, h = pi/64.
     assert 1 - tip(HOOK)[2] == pytest.approx(exact, rel=(math.pi / 64)**2 / 6 + 1e-4)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The scripts that measure: what they name, and that the tables follow from the figures kept."""
+"""The benchmark scripts: the names in them, and that the tables follow from the stored figures."""
 
 import json
 import pathlib

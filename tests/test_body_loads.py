@@ -22,13 +22,13 @@ from loaded_bodies import (AREA, B, E, FLYING, HELD, INERTIA, L, RHO, SIDE, SKIN
 @pytest.mark.parametrize("load", ["traction: {on: bar/x1, value: [10 MPa, 0, 0]}",
                                   "pressure: {on: bar/tip, value: -10 MPa}"])
 def test_a_bar_under_end_traction_stretches_exactly(sensors, kind, load):
-    """Without lateral contraction the stress is uniform: every element has the exact solution."""
+    """Without lateral contraction the stress is uniform: every element represents the exact solution."""
     out = sensors(bar(f"  pull: {{{load}}}\n", kind=kind))
     # The static equilibrium is found to 1e-9 of the force.
     assert out["tip.x"][0] - L == pytest.approx(1e7 * L / E, rel=1e-8)
     assert vector(out, "tip")[1:] == pytest.approx([0, 0], abs=1e-12)
     assert vector(out, "wall") == pytest.approx([-1e7 * AREA, 0, 0], rel=1e-8, abs=1e-4)
-    # A run from the equilibrium stays there.
+    # A run started in equilibrium stays there.
     assert numpy.ptp(out["tip.x"]) < 1e-12
 
 
@@ -37,7 +37,7 @@ def test_a_cantilever_under_a_line_load_bends_exactly(sensors, axes):
     """Cubic elements with consistent end moments are exact at the nodes: q L⁴ / 8 E I."""
     load = f"  snow: {{line-load: {{on: rod, value: [0, 0, -500 N/m], axes: {axes}}}}}\n"
     out = sensors(rod(load))
-    # The body frame turns by 1e-4, and its sagging moves the load by as much.
+    # The body frame turns by 1e-4, and its deflection moves the load by as much.
     assert out["tip.z"][0] == pytest.approx(-500 * L**4 / (8 * E * INERTIA), rel=1e-6)
     assert vector(out, "wall") == pytest.approx([0, 0, 500], abs=0.1)
     assert abs(out["hold.y"][0]) == pytest.approx(250, rel=1e-6)
@@ -98,10 +98,10 @@ def test_a_pressurised_cylinder_converges_to_lame(sensors):
     for radial, around in ((1, 8), (3, 16)):
         out = sensors(TUBE.replace("RADIAL", str(radial)).replace("AROUND", str(around)))
         errors.append([abs(out["bore.x"][0] / lame(a) - 1), abs(out["rim.x"][0] / lame(b) - 1)])
-        # The joint holds nothing: the resultant of the pressure is zero.
+        # The joint carries no load: the resultant of the pressure is zero.
         assert numpy.abs(vector(out, "hold")).max() < 1e-3
     assert max(errors[1]) < 1e-3
-    # Quadratic elements, three across in place of one: third order makes it 27.
+    # Quadratic elements, three across instead of one: third order gives a factor of 27.
     assert max(errors[1]) < max(errors[0]) / 20
 
 
@@ -225,8 +225,8 @@ def test_a_reduced_body_answers_slow_distributed_loads_like_the_full_one(sensors
     text = bar(SIDE, TORSO, "hex8", 0.3).replace("kind: rigid", f"kind: {interface}")
     full = sensors(text)
     reduced = sensors(text, "--set", f"bodies.bar.reduction={reduction}")
-    # The answers to the load patterns are in the basis, so the equilibrium is that of the mesh. What
-    # stays, 1e-8 of the deflection, goes with its square: the load turns with the held end.
+    # The responses to the load patterns are in the basis, so the equilibrium is that of the mesh. What
+    # remains, 1e-8 of the deflection, scales with its square: the load turns with the held end.
     whole = numpy.linalg.norm(vector(full, "tip"))
     assert vector(reduced, "tip") == pytest.approx(vector(full, "tip"), abs=1e-7 * whole)
     assert vector(reduced, "wall") == pytest.approx(vector(full, "wall"), rel=1e-6, abs=1e-3)
@@ -310,7 +310,7 @@ def test_loads_are_columns_made_once_and_steps_keep_their_one_solve(buckens, tmp
         buckens("run", "model.yaml", "-o", "out", "--set", f"bodies.bar.coupling={coupling}").must(0)
         return json.loads((tmp_path / "out" / "summary.json").read_text())
 
-    # One force, so that the list of loads is never empty; it has three columns of its own.
+    # One force, so that the list of loads is never empty; it needs three columns.
     force = "  push: {force: {on: bar/corner_000, value: [1, 0, 0]}}\n"
     bare = run([force])
     for loads in [[load] for load in PATTERNS] + [list(PATTERNS)]:
@@ -319,5 +319,5 @@ def test_loads_are_columns_made_once_and_steps_keep_their_one_solve(buckens, tmp
         assert body["factorisations"] == 1
         assert body["solves"] == summary["steps"] == 100, loads
         columns = sum(PATTERNS[load] for load in loads)
-        # Generalised-alpha solves for each column once more, for position corrections.
+        # Generalised-alpha solves for each column a second time, for position corrections.
         assert summary["setup_solves"] - bare["setup_solves"] == 2 * columns, loads

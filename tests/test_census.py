@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""tools/census.py sorts files by what becomes of them, follows the remedies of messages and groups reasons."""
+"""tools/census.py sorts files by outcome, follows the remedies of messages and groups reasons."""
 
 import json
 import subprocess
@@ -42,7 +42,7 @@ def test_sorts_files_and_reasons(tmp_path):
 
 
 def test_tells_of_a_crash(tmp_path):
-    """A program that dies is counted and makes the census fail."""
+    """A crash of the program is counted and makes the census fail."""
     program = tmp_path / "program"
     program.write_text("#!/bin/sh\nkill -SEGV $$\n")
     program.chmod(0o755)

@@ -6,7 +6,7 @@ import csv
 import numpy
 import pytest
 
-# Two beams end to end; what joins them, and what sits at the end, is left open.
+# Two beams end to end; their connection, and what is attached at the end, is left open.
 MODEL = """
 buckens: 1
 gravity: [0, 0, 0]
@@ -46,7 +46,7 @@ def test_a_rigid_link_is_the_limit_of_a_stiff_beam(frequencies):
         - {between: [b, c], section: round, rotary-inertia: off,
            material: {E: 2.1e17 Pa, nu: 0.3, rho: 1e-6}}
 """)
-    # A million times stiffer than steel: what is left is the ratio of lengths over that.
+    # A million times stiffer than steel: the remaining error is the ratio of lengths over that.
     assert rigid == pytest.approx(stiff, rel=1e-5)
 
 
@@ -115,7 +115,7 @@ def test_reference_nodes_carry_masses_and_joints(buckens, tmp_path, link):
     rows = list(csv.reader((tmp_path / "out" / "sensors.csv").open()))
     out = dict(zip([name.split(" [")[0] for name in rows[0]], numpy.array(rows[1:], float).T))
     assert numpy.abs(out["hub.x"] - 0.5).max() < 1e-9
-    # The corner runs around the axis, 1/sqrt 2 away, by 0.3 rad; its stretch is below 1e-6.
+    # The corner moves around the axis, 1/sqrt 2 away, by 0.3 rad; its stretch is below 1e-6.
     radius = numpy.hypot(out["corner.x"] - 0.5, out["corner.y"] - 0.5)
     assert radius == pytest.approx(0.5**0.5, abs=1e-6)
     angle = numpy.arctan2(out["corner.y"][-1] - 0.5, out["corner.x"][-1] - 0.5)
@@ -180,7 +180,7 @@ def test_links_springs_and_masses_of_a_deck_are_used(buckens, tmp_path):
     assert part["mass"] == pytest.approx(mass, rel=1e-9)
     assert part["com"] == pytest.approx(
         [(plate * 0.05 + beside * 0.06 + above * 0.05) / mass, 0.05, above * 0.03 / mass], rel=1e-9)
-    # All is rigid but the spring between two points: one mass on another, six frequencies.
+    # Everything is rigid except the spring between two points: one mass on another, six frequencies.
     report = buckens("modes", "model.yaml", "--count", 6, "--json").must(0).json
     found = [mode["frequency"] for mode in report["analyses"][0]["modes"]]
     along_z = numpy.sqrt(1e5 / (above * (mass - above) / mass)) / (2 * numpy.pi)

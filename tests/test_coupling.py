@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Levels of inertial coupling as a user meets them: choice, cost, what the summary says."""
+"""Levels of inertial coupling as seen by a user: choice, cost, summary."""
 
 import csv
 import json
@@ -60,7 +60,7 @@ def test_slow_pendulum_stays_without_coupling(run, models):
     assert beam["largest_neglected_share"] < 0.01
     assert summary["notes"] == []
     full, _, _ = run(models / "auto_beam.yaml", "full", bodies__beam__coupling="full")
-    # The tip swings by 5 mm; what is neglected is (|w|/w1)^2 = 1e-8 of the size of the beam.
+    # The tip swings by 5 mm; the neglected terms are (|w|/w1)^2 = 1e-8 of the size of the beam.
     assert numpy.ptp(full["tip.x"]) > 4e-3
     assert numpy.abs(slow["tip.x"] - full["tip.x"]).max() < 1e-6
 
@@ -74,12 +74,12 @@ def test_spinning_up_moves_up_and_stays_near_full(run, models):
     full, _, _ = run(models / "spin_up.yaml", "full", bodies__beam__coupling="full")
     none, _, _ = run(models / "spin_up.yaml", "none", bodies__beam__coupling="none")
     distance = lambda a, b: numpy.hypot(a["tip.x"] - b["tip.x"], a["tip.y"] - b["tip.y"]).max()
-    # Until the moves the beam lacks the stretch by centrifugal loads, which then sets in at once.
+    # Before its level moves up the beam lacks the stretch by centrifugal loads, which then sets in at once.
     assert distance(auto, full) < 0.3 * distance(none, full)
 
 
 def test_free_body_that_spins_is_coupled_from_the_start(run):
-    # |w|/w1 = 3/38: above 0.03 without support nothing may be left out.
+    # |w|/w1 = 3/38: above 0.03 without support nothing may be neglected.
     _, summary, _ = run(EXAMPLES / "planar_levels" / "free_flight.yaml",
                         bodies__beam__coupling="{level: auto, tolerance: 50 %}")
     assert summary["bodies"]["beam"]["coupling"] == "auto: full"
@@ -124,7 +124,7 @@ joints:
     prescribed-rotation:
       between: [ground, block/shaft]
       axis: [0, 0, 1]
-      # The angle between two positions of rest, with three derivatives that begin and end at zero.
+      # The angle between two positions at rest, with three derivatives that begin and end at zero.
       angle: "(35*(4*t)^4 - 84*(4*t)^5 + 70*(4*t)^6 - 20*(4*t)^7) rad"
 simulation: {duration: 0.25 s, step: 0.1 ms}
 output:
@@ -137,5 +137,5 @@ def test_smooth_motion_takes_one_solve_per_step(run, tmp_path):
     (tmp_path / "smooth.yaml").write_text(SMOOTH)
     _, summary, _ = run("smooth.yaml")
     assert summary["bodies"]["block"]["coupling"] == "full"
-    # At both ends the load grows from nothing, by as much in a step as there is of it.
+    # At both ends the load grows from zero, in one step by as much as its own size.
     assert summary["measures"]["steps_with_repeated_solve"] < 0.2

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results that another program has made or changed, or that a disk has damaged: every verb that
-reads them says what is wrong with which data set, and ends with the code of an unreadable file."""
+"""Results that another program has written or changed, or that a disk has damaged: every verb that reads them
+reports what is wrong with which data set, and exits with the code of an unreadable file."""
 
 import os
 import shutil
@@ -57,7 +57,7 @@ def verbs(good, tmp_path):
 
 @pytest.fixture
 def read(verbs):
-    """The same, and all must end alike. Returns the common result."""
+    """The same, and all results must be equal. Returns the common result."""
 
     def call():
         results = verbs()
@@ -75,7 +75,7 @@ def test_the_run_itself_can_be_read(damaged, read):
 
 
 def replaced(file, path, *arguments, **options):
-    """Puts another data set in place of one, with its attributes."""
+    """Replaces a data set by another one, with its attributes."""
     attributes = dict(file[path].attrs)
     del file[path]
     created = file.create_dataset(path, *arguments, **options)
@@ -118,7 +118,7 @@ def deep_groups(file):
 
 
 def wide_loops(file):
-    """Every group holds each of the others: no depth limit alone ends this soon."""
+    """Every group contains each of the others: a depth limit alone does not end this soon."""
     groups = [file.create_group(f"sensors/g{i}") for i in range(12)]
     for group in groups:
         for i, other in enumerate(groups):
@@ -268,14 +268,14 @@ def test_a_directory_in_place_of_the_results(damaged, read):
 
 def test_files_that_were_cut_off(damaged, read):
     whole = damaged.read_bytes()
-    # The first 48 bytes are what HDF5 looks at again and again until another process completes them.
+    # The first 48 bytes are those that HDF5 polls until another process completes them.
     for size in (8, 30, 47, *(int(part * len(whole)) for part in (0.1, 0.9, 0.99))):
         damaged.write_bytes(whole[:size])
         read().must(REFUSED, "run/results.h5")
 
 
 def test_bookkeeping_with_a_wrong_check_sum(damaged, read):
-    """HDF5 waits for a writer to mend it; this program gives up soon and says what is wrong."""
+    """HDF5 waits for a writer to complete it; this program gives up soon and reports what is wrong."""
     whole = damaged.read_bytes()
     headers = [at for at in range(len(whole)) if whole.startswith(b"OHDR", at)]
     assert len(headers) > 20
@@ -299,7 +299,7 @@ def test_texts_of_a_wrong_length(damaged, read, verbs):
         for result in verbs():
             assert result.code in (0, REFUSED), (at - place, at - heap, result.code, result.err)
             assert result.code == 0 or "run/results.h5" in result.err
-    # An entry of the heap that does not exist: no library gets over that.
+    # An entry of the heap that does not exist: no library survives that.
     damaged.write_bytes(whole[:place + 12] + b"\xff\xff\x7f\x7f" + whole[place + 16:])
     read().must(REFUSED, "run/results.h5", "damaged")
 

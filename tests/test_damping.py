@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Damping ratios: what the model file asks for, what `check` says, and what a run does."""
+"""Damping ratios: as requested in the model file, as reported by `check`, and as shown by a run."""
 
 import csv
 import math
@@ -30,7 +30,7 @@ joints:
 initial:
   bodies:
     beam: {nodal-velocity: {y: "0.1*SHAPE m/s", rz: "0.1*SLOPE rad/s"}}
-# No numerical damping: what decays is damped by the material.
+# No numerical damping: all decay is due to the material.
 simulation: {duration: DURATION s, step: STEP s, rho-inf: 1}
 output:
   every: EVERY s
@@ -91,7 +91,7 @@ def test_a_clamped_beam_decays_as_it_was_asked_to(buckens, tmp_path, check):
     assert [m["ratio"] for m in listed[:2]] == pytest.approx([0.02, 0.02], rel=1e-4)
     assert [m["asked"] for m in listed[:2]] == pytest.approx([0.02, 0.02], rel=1e-4)
     assert {m["body"] for m in listed} == {"beam"}
-    # Sampled peaks are 1 - cos(pi/200) = 1e-4 low, but all alike; what is left of the other
+    # Sampled peaks are 1 - cos(pi/200) = 1e-4 low, but all equally; what remains of the other
     # vibrations after two periods is 1e-3.
     assert decrement(buckens, tmp_path, model(asked, 0)) == pytest.approx(0.02, rel=0.01)
     assert decrement(buckens, tmp_path, model(asked, 1)) == pytest.approx(0.02, rel=0.02)

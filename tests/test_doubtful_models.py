@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Models that can be run and are hardly what was meant: bodies that assembly moves, values in another unit
-than was thought, sections that lie the other way. `check` and `run` say so, examples are silent."""
+"""Models that can be run but are hardly what was meant: bodies that assembly moves, values in a wrong unit,
+sections in the wrong orientation. `check` and `run` warn of them; examples give no warnings."""
 
 import json
 import math
@@ -67,7 +67,7 @@ def test_strict_assembly_refuses_large_moves_only(check, buckens, tmp_path):
     report = check(strict.replace("SHIFT", "0.1 mm"))
     (move,) = report["assembly_moves"]
     assert not move["large"] and not report["warnings"]
-    # What was moved a little is listed all the same.
+    # Bodies that were moved only a little are listed, too.
     text = buckens("check", "model.yaml").must(0).out
     assert "note: assembly moved body \"crank\"" in text
     buckens("run", "model.yaml", "-o", "out").must(0)
@@ -215,7 +215,7 @@ def test_check_says_which_way_a_section_bends(check, buckens, up, in_plane):
     planar = section["planar"]
     assert section["elements"] == 4 and planar["axis"] == pytest.approx([0, 0, 1], abs=1e-15)
     if in_plane is None:
-        # Turned by 45 degrees: half of both, and the diagonal lies in the plane and across it.
+        # Turned by 45 degrees: half of both, and the diagonals lie in the plane and across it.
         assert planar["EI"] == pytest.approx(2e11 * (0.02 * 0.005**3 + 0.005 * 0.02**3) / 24, rel=1e-12)
         assert planar["extent_in_plane"] == pytest.approx(0.025 / math.sqrt(2), rel=1e-12)
         return
@@ -244,5 +244,5 @@ def test_the_frequency_agrees_with_the_section_that_is_told(check):
     body = check(text)["bodies"]["rod"]
     EI = body["sections"][0]["planar"]["EI"]
     expected = 4.7300407448627040**2 * math.sqrt(EI / (7850 * 0.02 * 0.005)) / (2 * math.pi)
-    # Euler-Bernoulli without rotary inertia; 16 elements are good to 1e-5.
+    # Euler-Bernoulli without rotary inertia; 16 elements are accurate to 1e-5.
     assert body["frequencies"][0] == pytest.approx(expected, rel=1e-4)

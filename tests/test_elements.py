@@ -72,8 +72,8 @@ output: {{every: 1 ms, sensors: {{rim: {{position: wheel/rim}}}}}}
 
 
 def test_bushing_in_all_six_directions(sensors):
-    """Each direction swings with its own frequency; the marker lies in the mass centre. The push is
-    small, so that turns about three axes do not mix: their squares are 1e-6 of them."""
+    """Each direction vibrates at its own frequency; the marker is at the mass centre. The push is small, so
+    that rotations about three axes do not mix: their squares are 1e-6 of them."""
     rates, turns = (100.0, 400.0, 225.0), (2.0, 0.5, 4.5)
     out = sensors(f"""
 bodies:
@@ -96,7 +96,7 @@ output: {{every: 1 ms, sensors: {{at: {{position: block}}, x: {{position: block/
     for axis, k in zip("xyz", turns):
         omega = math.sqrt(k / 0.02)
         exact = 1e-6 / omega * numpy.sin(omega * t)
-        # Differences of places of 1 m carry a rounding of 1e-15.
+        # Differences of positions of 1 m have a rounding error of 1e-15.
         assert numpy.abs(small_turns[axis] - exact).max() < close(omega, 1e-6 / omega) + 1e-14, axis
 
 
@@ -139,7 +139,7 @@ output: {every: 1 ms, sensors: {place: {position: slider}, push: {joint-force: d
     t = out["t"]
     assert numpy.abs(out["place.x"] - 0.1 * numpy.sin(20 * t)).max() < 1e-13
     # m a = -80 sin 20 t. The force follows with order 2: (20 h)² of 80 N, from the third step on,
-    # when the start has died out.
+    # when the start-up transient has decayed.
     force = numpy.abs(out["push.x"]) if "push.x" in out else numpy.abs(out["push"])
     assert numpy.abs(force - numpy.abs(80 * numpy.sin(20 * t)))[20:].max() < 80 * 0.02**2
 

@@ -80,9 +80,9 @@ def test_a_pendulum(state):
     exact = pendulum_angle(2.0)
     covers(errors["angle"]["final"], exact)
     covers(errors["tip.x"]["final"], math.cos(exact))
-    # It hangs with the tip at -1 m at the deepest; energy error of order h^2 moves that a little.
+    # The tip is at -1 m at the lowest point; an energy error of order h^2 moves that a little.
     assert abs(errors["tip.y"]["peak"]["value"] + 1) <= errors["tip.y"]["peak"]["uncertainty"]
-    # z does not move at all: only what iterations leave open remains.
+    # z does not move at all: only the tolerance of iterations remains.
     assert errors["tip.z"]["curve"]["uncertainty"] < 1e-8
 
 
@@ -167,7 +167,7 @@ output: {{sensors: {{tip: {{position: beam/end}}}}}}
     errors = summary["errors"]["sensors"]
     for axis in "xy":
         covers(errors[f"tip.{axis}"]["final"], 2 / math.pi)
-    # It stands still: the step has no part in it.
+    # It does not move: the step contributes nothing.
     parts = errors["tip.x"]["final"]["parts"]
     assert parts["time step"] < 1e-3 * parts["mesh"]
 
@@ -278,7 +278,7 @@ output: {{sensors: {{tip: {{position: bar/tip}}}}}}
     assert sources(summary) == ["time step", "mesh of files"]
     inertia, area = b**4 / 12, b * b
     exact = force * length**3 / (3 * E * inertia) + force * length / (5 / 6 * area * E / 2)
-    # The clamp has moved the centre of the face to the origin.
+    # The clamp moves the centre of the face to the origin.
     covers(summary["errors"]["sensors"]["tip.y"]["final"], exact)
 
 
@@ -343,7 +343,7 @@ SHELLS = """*NODE
 
 @pytest.mark.parametrize("body", ["shells", "matrices"])
 def test_sensors_say_which_error_they_lack(buckens, state, tmp_path, body):
-    # A shell of a file and a body of given matrices: no further run shows what their meshes are worth.
+    # A shell from a file and a body of given matrices: no further run shows the error of their meshes.
     if body == "shells":
         (tmp_path / "plate.inp").write_text(SHELLS)
         text = ("buckens: 1\ngravity: [0, 0, -9.81]\nbodies: {part: {mesh: {file: plate.inp, section: {thickness: 20 mm, "
@@ -363,7 +363,7 @@ def test_sensors_say_which_error_they_lack(buckens, state, tmp_path, body):
     for stated in summary["errors"]["sensors"].values():
         assert stated["not_assessed"] == ['mesh of "part"'] and list(stated["peak"]["parts"]) == ["time step"]
     assert [note for note in summary["errors"]["notes"] if 'mesh of "part"' in note and reason in note]
-    # The table shows them as lower bounds; a run that leaves nothing out has none.
+    # The table shows them as lower bounds; a run that assesses everything has none.
     assert ">= " in buckens("run", "model.yaml", "-o", "again", "--error").must(0).out
     assert all(s["not_assessed"] == [] for s in state(PENDULUM)["errors"]["sensors"].values())
 

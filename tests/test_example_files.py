@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decks and matrices of the examples are what their scripts write."""
+"""Decks and matrices of the examples equal what their scripts write."""
 
 import os
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the pages of the examples show as the program's summary is what it prints."""
+"""The summaries on the pages of the examples equal the program's output."""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ BLOCK = re.compile(r"^```\n(.*?)^```", re.DOTALL | re.MULTILINE)
 COMMAND = re.compile(r"^ {4}buckens (run examples/\S+\.yaml) -o \S+$", re.MULTILINE)
 NUMBER = re.compile(r"^-?\d+(\.\d+)?(e[+-]?\d+)?$")
 
-# How far a number may be from the page, as a factor. Counts of the small iteration and residuals depend on rounding and
+# Permitted deviation of a number from the page, as a factor. Counts of the small iteration and residuals depend on rounding and
 # on the order of operations; everything else is exact.
 LOOSE = {"Newton": 1.3, "constraint": 20, "sieve": 20, "energy": 2, "solves": 1.02}
 
@@ -29,7 +29,7 @@ def pages():
 
 
 def split(line):
-    """Words of a line, without the times of the first one, the numbers among them taken out."""
+    """Words of a line, without the times of the first one and with the numbers removed."""
     words = re.sub(r" in [\d.e+-]+ s, .*", "", line).split()
     return [word for word in words if not NUMBER.match(word)], [float(word) for word in words if NUMBER.match(word)]
 

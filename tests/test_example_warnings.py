@@ -14,17 +14,17 @@ PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs" / "tutorials").glob("*.m
          *sorted((SOURCE / "examples").glob("*/README.md"))]
 COMMAND = re.compile(r"^ *(?:build/release/bin/)?buckens ((?:run|static|check|modes) (?:\\\n|[^\n#])*)", re.MULTILINE)
 
-# What a run is allowed to warn of, and to give as a reason not to trust it: words of them, and why the example is as it is.
+# Permitted warnings and reasons not to trust a run: words of them, and why the example is as it is.
 BUCKLING = "of its buckling load"
 ONE_FRAME = ([], [BUCKLING])  # the paper's case has one frame; its page says that 22 % are wrong
 WORRIES = {
     "examples/slider_crank/slider_crank.yaml": ONE_FRAME,
-    # The error statement finds what one frame costs and doubts the force across the guide.
+    # The error statement finds the error due to one frame and doubts the force across the guide.
     "examples/slider_crank/slider_crank.yaml --error": ([], [BUCKLING, "come out entirely different", "error statement gives"]),
     "examples/slider_crank/slider_crank_3d.yaml": ONE_FRAME,
     "examples/method_comparison/method_comparison.yaml": ONE_FRAME,
     "examples/connecting_rod/beam.yaml": ONE_FRAME,  # as the rod of solids beside it
-    # One frame stands beside eight to show what tension does.
+    # One frame is compared with eight to show the effect of tension.
     "examples/rotating_beam/rotating_beam.yaml --set bodies.beam.frames=1": (["of its lowest elastic frequency"], [BUCKLING]),
     # One element in one frame, soft enough that the levels of coupling differ.
     "examples/planar_levels/free_flight.yaml": (["is a modulus of"], [BUCKLING]),

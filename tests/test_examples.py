@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every example runs and shows the physics its page speaks of; so does the model in README.md."""
+"""Every example runs and shows the physics described on its page; so does the model in README.md."""
 
 import csv
 import json
@@ -117,7 +117,7 @@ def test_block_pendulum_falls_like_a_rigid_one_that_bends_a_little(run):
         k2 = rate(y + 0.5 * h * k1)
         k3 = rate(y + 0.5 * h * k2)
         y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(y + h * k3))
-    # The tip bends back by some w L^4 / (100 E I) = 4e-6 m, and the first vibration swings about that.
+    # The tip bends back by about w L^4 / (100 E I) = 4e-6 m, and the first vibration is about that position.
     for r in (coarse, finer):
         assert r.at("tip.y", 0.1) == pytest.approx(math.sin(y[0]), abs=2e-5)
         assert numpy.abs(r["tip.z"]).max() < 1e-9
@@ -126,7 +126,7 @@ def test_block_pendulum_falls_like_a_rigid_one_that_bends_a_little(run):
 
 
 def test_two_link_arm_of_solids_moves_like_one_of_beams(run):
-    # Coarser than on the page, for the time it takes.
+    # Coarser than on the page, to save time.
     solid = run("two_link_arm/two_link_arm", bodies__upper__mesh__box__divisions="[12,2,2]")
     beams = run("two_link_arm/beams")
     assert abs(solid.at("tip.x", 0.4) - 1.2) > 1.0
@@ -171,7 +171,7 @@ def test_slider_crank_starts_straight_and_bends(slider_crank):
     # The independent route below has its first peak at 0.018772 L; those of the next two turns are
     # 0.1 % higher, and records every 0.25 ms miss peaks by less than that.
     assert deflection.max() == pytest.approx(0.018772, rel=5e-3)
-    # The slider stays where crank and rod let it: |r - L| ... r + L, and on its line.
+    # The slider stays within the range of crank and rod: |r - L| ... r + L, and on its line.
     assert r["slider.x"].max() < 0.45 + 1e-4 and r["slider.x"].min() > 0.15 - 1e-3
     assert numpy.abs(r["slider.y"]).max() < 1e-12
     assert r.summary["bodies"]["rod"]["factorisations"] == 1
@@ -183,7 +183,7 @@ def test_slider_crank_bends_as_an_independent_route_says(run):
             simulation__step="2 us", output__every="50 us")
     t, deflection = middle_deflections(elements=4, duration=6e-3, steps=960)
     assert r["t"] == pytest.approx(t[::8], abs=1e-12)
-    # Found 7e-8 at t = 5 ms with this step, 1e-8 with half of it. The axial vibration of rod and
+    # Measured: 7e-8 at t = 5 ms with this step, 1e-8 with half of it. The axial vibration of rod and
     # slider (18 500 rad/s) needs the short step.
     assert numpy.abs(r["mid.y"] / 0.3 - deflection[::8]).max() < 3e-7
 
@@ -191,8 +191,8 @@ def test_slider_crank_bends_as_an_independent_route_says(run):
 def test_slider_crank_in_space_is_the_same_machine(run, slider_crank):
     planar = slider_crank
     spatial = run("slider_crank/slider_crank_3d")
-    # Planar matrices are the spatial ones with rows struck out, and nothing moves out of the plane:
-    # only the order of rounding differs. Found 6e-16 m, 2e-15 m and 1.5e-8 N of 188 N.
+    # Planar matrices are the spatial ones with rows removed, and nothing moves out of the plane:
+    # only the order of rounding differs. Measured: 6e-16 m, 2e-15 m and 1.5e-8 N of 188 N.
     for name in ("mid.x", "mid.y", "slider.x"):
         assert numpy.abs(spatial[name] - planar[name]).max() < 1e-13
     assert numpy.abs(spatial["guide.y"] - planar["guide.y"]).max() < 1e-6
@@ -224,7 +224,7 @@ def test_gas_pushes_the_piston_of_solids_as_its_table_says(run):
             if line[0].isdigit()]
     area = math.pi * 0.04**2
     for time, bar in rows:
-        # The quadratic elements of the crown bound it by sixteen parabolas, 1e-5 from a circle.
+        # The quadratic elements of the crown form its rim of sixteen parabolas, 1e-5 from a circle.
         assert out.at("gas.x", float(time)) == pytest.approx(-float(bar) * 1e5 * area, rel=1e-4, abs=1e-6)
     # Held by the pin in its middle, the crown bends down around it, most when the pressure is highest.
     assert abs(out["t"][numpy.argmax(out["crown.x"])] - out["t"][numpy.argmin(out["gas.x"])]) < 0.5e-3
@@ -234,9 +234,9 @@ def test_gas_pushes_the_piston_of_solids_as_its_table_says(run):
     t, x = out["t"], out["piston.x"]
     acceleration = numpy.gradient(numpy.gradient(x, t), t)[2:-2]
     force = (out["gas.x"] + out["pin.x"])[2:-2]
-    # Differences over 0.25 ms see the vibration of the start, some kN, only in the mean.
+    # Differences over 0.25 ms average the vibration of the start, some kN.
     assert abs(numpy.mean(force - mass * acceleration)) < 0.02 * numpy.abs(force).max()
-    # J, of some 1000 J that the crank gives and takes.
+    # J, of some 1000 J that the crank supplies and absorbs.
     assert numpy.abs(out["balance"]).max() < 0.1
 
 
@@ -311,7 +311,7 @@ def test_rotating_beam_is_stiffened_by_frames(run):
     eight = run("rotating_beam/rotating_beam")
     assert lead_lag_frequency(eight) == pytest.approx(4.480, rel=2e-3)
     assert eight.summary["bodies"]["beam"]["frames"] == 8
-    # Where the sections next to the hub are, the tension is that of the whole beam, less the
+    # At the sections next to the hub, the tension is that of the whole beam, less the
     # half of an element: rho A Omega^2 (L^2 - x^2) / 2.
     tension = 0.5 * 1.2 * 36.0 * 100.0
     assert numpy.mean(eight["root.force.N"][50:]) == pytest.approx(tension, rel=5e-3)
@@ -349,7 +349,7 @@ def test_truss_of_bending_bars_gives_way_earlier(run):
     slow = run("snap_through_bending/snap_through_bending", parameters__n=4,
                simulation__duration="0.5 s")
     straight = run("snap_through/snap_through", simulation__duration="0.5 s")
-    # At 500 N the truss of straight bars, which carries 592 N, still stands.
+    # At 500 N the truss of straight bars, which carries 592 N, has not yet collapsed.
     assert straight["w"].max() < 0.1 and slow["w"].max() > 0.3
     assert numpy.hypot(slow["bow.x"], slow["bow.y"]).max() > 0.01
 
@@ -363,10 +363,10 @@ def test_levels_of_coupling_differ_as_the_page_says(run, model):
         errors[level] = flight.summary["energy_error"]
     off = {level: numpy.linalg.norm(tip - tips["full"], axis=1).max()
            for level, tip in tips.items()}
-    # The order holds whatever the step: first-order keeps all that is linear in the deformation.
+    # The ranking is independent of the step: first-order keeps all terms linear in the deformation.
     assert 1e-4 < off["first-order"] < 0.2 * off["nocent"]
     assert off["nocent"] < off["nocor"] < off["none"]
-    # Levels from a kinetic energy keep it but for the error of the step; the others do not.
+    # Levels derived from a kinetic energy conserve it up to the error of the step; the others do not.
     assert max(errors["full"], errors["first-order"], errors["none"]) < 1e-6
     assert min(errors["nocent"], errors["nocor"]) > 1e-3
 
@@ -400,7 +400,7 @@ def test_tube_changes_its_section_before_it_bends():
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     found = [mode["frequency"] for mode in json.loads(done.stdout)["analyses"][0]["modes"]]
-    # A ring in plane strain swings as an oval with two lobes: f = sqrt(36/5 E I'/(rho A R^4))/(2 pi).
+    # A ring in plane strain vibrates as an oval with two lobes: f = sqrt(36/5 E I'/(rho A R^4))/(2 pi).
     h, radius = 4e-3, 58e-3
     ring = math.sqrt(7.2 * 210e9 / (7850 * 12 * (1 - 0.3**2))) * h / radius**2 / (2 * math.pi)
     assert found[0] == pytest.approx(ring, rel=0.015)  # 1.1 % with this mesh, 0.05 % with 48 around

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`buckens export`: what other programs read of a run."""
+"""`buckens export`: files of a run for other programs."""
 
 import csv
 import json
@@ -115,7 +115,7 @@ def test_vtk_reads_the_files_at_every_instant(exported):
         assert points[21] == pytest.approx(results["bodies/stone/pose"][record][:3])
         kinds = [grid.GetCellType(c) for c in range(grid.GetNumberOfCells())]
         assert kinds == [HEX8, HEX8, LINE, LINE, LINE, LINE, VERTEX]
-        # Both bricks are right way round and as large as they were, but for their strain.
+        # Both bricks have the right orientation and, up to their strain, the original size.
         sizes = vtk.vtkCellSizeFilter()
         sizes.SetInputData(grid)
         sizes.Update()
@@ -233,7 +233,7 @@ def test_tables_hold_sensors_fields_and_extremes(exported):
     report = json.loads(exported("--csv", "--at", "0.004", "--json").out)
     assert report["csv"]["files"] == ["sensors.csv", "block_nodes.csv", "block_nodes_extremes.csv",
                                       "block_elements.csv", "block_elements_extremes.csv", "beam_nodes.csv"]
-    # The sensors are those that the run itself has written.
+    # The sensors equal those written by the run itself.
     assert (exported.directory / "sensors.csv").read_text() == \
         (exported.directory.parent / "sensors.csv").read_text()
     rows = list(csv.reader((exported.directory / "block_nodes.csv").open()))
@@ -324,13 +324,13 @@ def check_block(glb, curves, results, records):
     assert (((corners.mean(1) - rest.mean(0)) * normals).sum(1) > 0).all()
     colours = glb.values(primitive["attributes"]["COLOR_0"])
     assert colours.shape == (12, 4)
-    # The beam carries by far the larger stresses: the block is dark, the beam changes its colour along itself.
+    # The beam has by far the larger stresses: the block is dark, the beam changes colour along its length.
     beam = glb.json["meshes"][glb.json["nodes"][1]["mesh"]]["primitives"][0]
     assert len({tuple(c) for c in glb.values(beam["attributes"]["COLOR_0"])}) >= 3
     shapes = numpy.array([glb.values(target["POSITION"]) for target in primitive["targets"]])
     assert len(shapes) == len(mesh["weights"]) <= 8
     weights = glb.values(curves["block", "weights"]["output"]).reshape(6, len(shapes))
-    # Vertices in the order of nodes in the file of faces: found by place.
+    # Vertices in the order of nodes in the file of faces: found by position.
     nodes = results["geometry/bodies/block/nodes"][:]
     order = [int(numpy.abs(nodes - place).sum(1).argmin()) for place in rest]
     u = results["bodies/block/displacement"][:][records][:, order, :3]

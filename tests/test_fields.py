@@ -7,7 +7,7 @@ import pytest
 
 E, RHO, G, L = 210e9, 7850.0, 9.81, 1.0
 
-# A bar on a wall that is pulled by its weight: sigma = rho g (L - x), exact for nu = 0.
+# A bar on a wall, stretched by its weight: sigma = rho g (L - x), exact for nu = 0.
 BAR = """
 buckens: 1
 title: A bar under its weight
@@ -50,7 +50,7 @@ def test_stresses_of_a_bar_under_its_weight_are_exact(run):
     nodes, elements = file["fields/bodies/bar/nodes"], file["fields/bodies/bar/elements"]
     exact = RHO * G * (L - x)
     scale = RHO * G * L
-    # Quadratic elements hold the solution u = rho g (L x - x^2/2)/E; 32-bit numbers in the file.
+    # Quadratic elements contain the solution u = rho g (L x - x^2/2)/E; 32-bit numbers in the file.
     assert nodes["stress"].shape == (11, len(x), 6)
     assert nodes["stress"].dtype == numpy.float32
     assert numpy.abs(nodes["stress"][0, :, 0] - exact).max() < 1e-5 * scale
@@ -81,7 +81,7 @@ def test_extremes_are_those_of_all_records(run):
     known = every["fields/bodies/bar/nodes/von_mises"][:]
     times = every["fields/time"][:]
     extremes = every["extremes/bodies/bar/nodes"]
-    # The largest is kept in 64 bits.
+    # The largest value is stored in 64 bits.
     assert extremes["von_mises"][:] == pytest.approx(known.max(0), rel=1e-6)
     assert (extremes["von_mises_time"][:] == times[known.argmax(0)]).mean() > 0.99
     every.close()
@@ -106,7 +106,7 @@ def test_motion_at_nodes_agrees_with_the_other_records(run):
     v = nodes["velocity"][:]
     assert numpy.abs(v[:, held]).max() < 1e-6 * numpy.abs(v).max()
     assert numpy.abs(nodes["acceleration"][:, held]).max() < 1e-5 * numpy.abs(nodes["acceleration"][:]).max()
-    # Steps of 1 ms are coarse against 1.3 kHz; velocities and their means need only be near.
+    # Steps of 1 ms are coarse for 1.3 kHz; velocities and their means agree only roughly.
     assert v[5:, :, 0].max() > 0
     assert "extremes" not in file
 
@@ -127,7 +127,7 @@ def test_places_are_bodies_interfaces_and_faces(run):
     assert (known == on_ends).all()
 
 
-# Free-free and quasi-static bases hold the answer to the joint's force, which is all that deforms a body under
+# Free-free and quasi-static bases contain the response to the joint's force, which is all that deforms a body under
 # uniform gravity. Fixed interface modes approach the weight by one axial mode, 8/pi^2 of the stress at the wall.
 @pytest.mark.parametrize("reduction, tolerance", [("reduction: {free-free: 8}", 1e-5),
                                                   ("reduction: {craig-bampton: {modes: 6}}", 0.25),
@@ -157,7 +157,7 @@ def test_check_tells_the_size_of_the_results(buckens, tmp_path):
     report = buckens("check", "bar.yaml", "--json").must(0).json
     out = buckens("run", "bar.yaml", "-o", "out", "-q").must(0)
     size = (tmp_path / "out" / "results.h5").stat().st_size
-    # Books, half-filled pieces and the geometry come on top.
+    # Bookkeeping, half-filled chunks and the geometry come on top.
     assert size - 600e3 < report["result_bytes"] < size
     assert "size of results.h5" in buckens("check", "bar.yaml").must(0).out
     large = BAR.replace("REDUCTION", "").replace("FIELDS", "[stress]").replace("every: 1 ms", "every: 9e-10 s")

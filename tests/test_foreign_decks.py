@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decks of Abaqus and CalculiX as others write them: sets with numbers for names, what has no mass, what is left out."""
+"""Decks of Abaqus and CalculiX as others write them: sets with numbers as names, parts without mass, omissions."""
 
 import json
 import shutil
@@ -76,7 +76,7 @@ def test_sets_whose_names_are_numbers_stand_above_elements_of_these_numbers(buck
     assert buckens("check", body, "--json").must(0).json["bodies"]["b"]["mass"] == pytest.approx(1001)
     body = model(DECKS / "setnum2.inp")
     told = report(buckens)
-    # Set 2 holds elements 2 and 3, set 10 element 1; 3 is inside out, and that is what is wrong.
+    # Set 2 contains elements 2 and 3, set 10 element 1; 3 is inside out, which is the fault.
     assert {p["name"]: p["elements"] for p in told["properties"]} == {"10": 1, "2": 2}
     assert told["inverted"] == [3]
     assert told["node_sets"] == {"5": 4, "TOP": 1}
@@ -154,7 +154,7 @@ simulation: {duration: 1 ms, step: 1 ms}
     checked = buckens("check", body).must(0)
     words = checked.out + checked.err
     assert "1 of M3D4 left out" in words and "no \"CELAS9\" to leave out" in words
-    # Contact, heat and the like are no reason to worry.
+    # Contact, heat and the like are no reason for a warning.
     assert "FRICTION" not in words
     buckens("run", body, "-o", "out", "--quiet").must(0)
     trust = json.loads((tmp_path / "out" / "summary.json").read_text())["trust"]
@@ -188,7 +188,7 @@ def test_one_part_of_a_deck_is_chosen_with_its_links(buckens, model):
 
 
 def tied(divisions, tie):
-    """Two halves of a beam of 2 m with meshes that do not meet, and what ties them."""
+    """Two halves of a beam of 2 m with non-matching meshes, and their tie."""
     left, _ = block((1, 0.1, 0.1), divisions=divisions[0])
     right, _ = block((1, 0.1, 0.1), (1, 0, 0), divisions=divisions[1], first_node=1001,
                      first_element=1001, name="F")
@@ -209,10 +209,10 @@ def test_ties_join_meshes_that_do_not_meet(buckens, model):
     # The joint lies in the middle, where the first mode bends most; node-to-face ties of linear
     # faces in a finer cross-section differ by what the section resolves: a few parts in a thousand.
     assert own == pytest.approx(whole, rel=5e-3)
-    # Meshes that meet are tied exactly: equal but for rounding of eigenvalues.
+    # Matching meshes are tied exactly: equal up to rounding of eigenvalues.
     same = frequencies(buckens, model(tied(((10, 2, 2), (10, 2, 2)), tie)), 5)
     assert same == pytest.approx(whole, rel=1e-8)
-    # Contact that cannot open is the same, in the words of CalculiX and of Abaqus.
+    # Contact that cannot open is equivalent, in the keywords of CalculiX and of Abaqus.
     tied_contact = ("*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE\nSF,SE\n"
                     "*SURFACE INTERACTION,NAME=i\n*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=TIED\n1e9\n")
     for contact in (tied_contact, "*CONTACT PAIR,TIED\nSF,SE\n"):
@@ -225,7 +225,7 @@ def test_ties_join_meshes_that_do_not_meet(buckens, model):
 
 
 def test_ties_over_a_gap_strain_nothing_in_rigid_motion(buckens, model):
-    # A gap of 1 mm and edges that do not meet: a link that held a rigid motion would be refused or
+    # A gap of 1 mm and non-matching edges: a link that blocked a rigid motion would be refused or
     # show as a seventh low frequency.
     deck, _ = block((1, 0.1, 0.1), divisions=(4, 2, 2))
     other, _ = block((1, 0.1, 0.1), (1.001, 0.013, 0.007), divisions=(4, 3, 3), first_node=1001,
@@ -339,7 +339,7 @@ def test_parts_without_an_assembly_are_where_they_were_drawn(buckens, model):
 
 
 def test_lines_in_no_group_that_hang_on_solids_need_a_section(buckens, tmp_path):
-    # A tetrahedron in no group, one of its edges, a chain of two lines that hangs on it, and a line apart.
+    # A tetrahedron in no group, one of its edges, a chain of two lines attached to it, and a separate line.
     (tmp_path / "part.msh").write_text(
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 2 0 0\n6 3 0 0\n"
         "7 0 0 5\n8 0 0 6\n$EndNodes\n$Elements\n5\n1 4 0 1 2 3 4\n2 1 0 1 2\n3 1 0 2 5\n4 1 0 5 6\n5 1 0 7 8\n"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bodies carried by several frames, as users meet them."""
+"""Bodies with several frames, as seen by users."""
 
 import csv
 import json
@@ -91,7 +91,7 @@ def test_results_show_one_body(run):
     assert rod["section_force"].shape[1:] == (8, 12)
     assert rod["cut_force"].shape[1:] == (3, 6)
     assert list(results["joints"]) == ["pin"]
-    # Section and cut tell the same force: body axes are beam axes here. The element's own inertia
+    # Section and cut give the same force: body axes are beam axes here. The element's own inertia
     # makes the difference.
     cut = rod["cut_force"][-1, 1]
     section = rod["section_force"][-1, 3]
@@ -101,7 +101,7 @@ def test_results_show_one_body(run):
 def test_truss_of_divided_bars(run):
     one, _, _ = run(TRUSS.format(n=1, frames="per-element"), "one")
     two, summary, _ = run(TRUSS.format(n=2, frames="per-element"), "two")
-    # In equilibrium a divided bar is the bar that it was.
+    # In equilibrium a divided bar equals the undivided one.
     assert two["top.y"][0] == pytest.approx(one["top.y"][0], abs=1e-12)
     assert summary["bodies"]["truss"]["frames"] == 4
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What users write who know other programs, and what slips of the pen come to; entries added by --set; meshes of
+"""Input by users of other programs, and typing mistakes; entries added by --set; meshes of
 files with full integration; rigid interfaces of bodies with several frames."""
 
 import json
@@ -112,7 +112,7 @@ def test_a_mesh_without_faces_has_a_remedy(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text("buckens: 1\n" + part.replace("INTERFACES", "") + load)
     error = buckens("check", "model.yaml")
     assert error.code == 2 and "interface" in error.err
-    # A joint beside the mesh: the interfaces that could carry it are listed.
+    # A joint off the mesh: the interfaces that could carry it are listed.
     joint = "joints: {j: {fixed: {between: [ground, part]}}}\n"
     (tmp_path / "model.yaml").write_text(
         "buckens: 1\n" + part.replace("INTERFACES", ", interfaces: {foot: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}") + joint)
@@ -126,7 +126,7 @@ def test_a_beam_that_leaves_the_plane_is_told_so(buckens, tmp_path):
         "buckens: 1\nplanar: xy\nbodies:\n  rod: {beam: {to: [1, 0, 0.3], elements: 3, section: {circle: "
         "{diameter: 6 mm}}, material: {E: 2e11, nu: 0.3, rho: 7850}}}\n")
     buckens("check", "model.yaml").must(2, "model.yaml:4:3", "\"rod\"", "leaves the plane", "by 0.1 m", "`planar`")
-    # Parallel to the plane it may lie anywhere.
+    # Parallel to the plane, any position is allowed.
     (tmp_path / "model.yaml").write_text((tmp_path / "model.yaml").read_text().replace(
         "to: [1, 0, 0.3]", "from: [0, 0, 0.3], to: [1, 0, 0.3]"))
     buckens("check", "model.yaml").must(0)

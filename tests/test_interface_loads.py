@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Forces and torques on bodies, place by place: against weights, centrifugal forces and pressures known by hand."""
+"""Forces and torques on bodies, place by place: compared with weights, centrifugal forces and pressures computed by hand."""
 
 import csv
 
@@ -37,7 +37,7 @@ output:
 BEAM_WEIGHT = 0.02 * 0.02 * 1.0 * 7850 * G
 BALL_WEIGHT = 2 * G
 
-# A rod on a drive at constant speed: nothing but the pin's force holds it on its circle.
+# A rod on a drive at constant speed: only the pin's force keeps it on its circle.
 TURNING = """
 buckens: 1
 title: A turning block
@@ -82,7 +82,7 @@ def test_loads_on_a_held_beam_are_its_weights(buckens, tmp_path):
 
 def test_the_pin_of_a_turning_block_holds_its_centrifugal_force(buckens, tmp_path):
     with run(buckens, tmp_path, TURNING) as file:
-        # The block begins undeformed and swings in its length at first; rho-inf 0 has damped that away by then.
+        # The block starts undeformed and first vibrates along its length; by then rho-inf 0 has damped that out.
         late = file["fields/time"][:] > 0.1
         load = file["fields/bodies/block/interfaces/hub"][late]
         mass, speed, radius = 0.4 * 0.1 * 0.1 * 7850, 20.0, 0.2

@@ -86,8 +86,8 @@ def sensors(buckens, tmp_path):
     return call
 
 
-# A rigid face cannot contract sideways or warp at the clamp as Timoshenko's theory lets it: it is
-# stiffer by some share of B/L.
+# A rigid face cannot contract sideways or warp at the clamp as Timoshenko's theory allows: it is
+# stiffer by some fraction of B/L.
 @pytest.mark.parametrize("kind, bound", [("average", 0.01), ("rigid", 0.02)])
 def test_a_cantilever_bends_like_a_timoshenko_beam_and_reactions_equal_loads(sensors, kind, bound):
     out = sensors(model(BAR, HELD, kind))
@@ -134,7 +134,7 @@ def test_interfaces_work_on_parts_of_a_divided_body(sensors):
     one = sensors(model(BAR, SWINGING, gravity=-9.81))
     two = sensors(model(BAR, SWINGING, gravity=-9.81), "--set", "bodies.bar.frames=2")
     for axis in "xy":
-        # Frames differ in what one frame leaves out: terms of the square of the deflection.
+        # Frames differ in the terms that one frame neglects: those of the square of the deflection.
         assert numpy.abs(one[f"tip.{axis}"] - two[f"tip.{axis}"]).max() < 1e-7
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs that are read while they go on, and runs that are asked to stop."""
+"""Runs that are read while in progress, and runs that are asked to stop."""
 
 import json
 import signal
@@ -13,7 +13,7 @@ INTERRUPTED = 130
 
 
 def wait_for_records(process, out, lines=20):
-    """Until sensors.csv has some lines."""
+    """Waits until sensors.csv has some lines."""
     deadline = time.monotonic() + 60
     sensors = out / "sensors.csv"
     while not sensors.exists() or sensors.read_text().count("\n") < lines:
@@ -34,7 +34,7 @@ def check_ended_in_order(out):
     with h5py.File(out / "results.h5", "r") as file:
         times = file["time"][:]
     assert len(times) == rows
-    # Records come every 100 ms; all that were due are there.
+    # Records are made every 100 ms; all that were due are there.
     assert summary["end_time"] - times[-1] < 100e-3 + 1e-9
     return summary
 
@@ -73,7 +73,7 @@ def test_a_second_signal_ends_it_at_once(start, models, tmp_path):
 
 
 def test_ignored_signals_stay_ignored(start, models, tmp_path):
-    """As nohup and background jobs of scripts have it."""
+    """As with nohup and background jobs of scripts."""
     process = start("run", models / "endless.yaml", "-o", "out",
                     preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
     wait_for_records(process, tmp_path / "out")

@@ -147,7 +147,7 @@ output:
             force, torque = 1.0 + k, 0.01 * (1 + k)
             assert out[f"{name}_p.{axis}"][-1] == pytest.approx(mask[k] * force / 2 * half, abs=1e-11), name
             assert out[f"{name}_r.{axis}"][-1] == pytest.approx(mask[3 + k] * torque / 0.5 * half, abs=1e-11), name
-            # What is held answers the load; what is free answers nothing.
+            # Constrained directions respond to the load; free ones have no reaction.
             assert out[f"{name}_f.{axis}"][-1] == pytest.approx((mask[k] - 1) * force, abs=1e-9), name
             assert out[f"{name}_t.{axis}"][-1] == pytest.approx((mask[3 + k] - 1) * torque, abs=1e-9), name
     assert out["way.value"][-1] == pytest.approx(1.5 * half, abs=1e-11)

@@ -50,18 +50,18 @@ def test_blocks_slide_down_an_incline_or_stick(sensors):
     for k, mu in enumerate(coefficients[:3]):
         a = G * (math.sin(math.pi / 6) - mu * math.cos(math.pi / 6))
         rate = out[f"x{k}.rate"]
-        # It slides from the start with constant acceleration, which the method integrates exactly; what is left is rounding.
+        # It slides from the start with constant acceleration, which the method integrates exactly; only rounding remains.
         assert rate == pytest.approx(a * out["t"], abs=1e-9)
         assert out[f"x{k}.value"] == pytest.approx(0.5 * a * out["t"] ** 2, abs=1e-9)
         assert out[f"r{k}"][10] == pytest.approx(mu * 2 * G * math.cos(math.pi / 6), rel=1e-9)
-    # Above tan 30 degrees = 0.57735 it holds from the first instant on: strained as it must be.
+    # Above tan 30 degrees = 0.57735 it sticks from the first instant on, with the right elastic displacement.
     assert numpy.abs(out["x3.value"]).max() < 1e-12
     assert out["r3"] == pytest.approx(2 * G * 0.5, rel=1e-6)  # as differences of rates find it at the start
     assert numpy.abs(out["balance"]).max() < 1e-9 * out["lost"][10]
 
 
 def test_what_sticks_does_not_creep(sensors):
-    # 99.9 % of what holds, for 1000 s.
+    # 99.9 % of the force that it can hold, for 1000 s.
     out = sensors(incline((math.tan(math.pi / 6) / 0.999,), "1000 s", "10 ms", "10 s"))
     x = out["x0.value"]
     assert numpy.abs(x).max() < 1e-9
@@ -120,7 +120,7 @@ output: {every: 1 ms, sensors: {x: {position: {of: mass, along: [1, 0, 0]}}, rub
 
 
 def test_a_pin_rubs_by_its_radius(sensors):
-    """A wheel that runs down on its pin: T = µ R m g, so that w falls by T/J per second."""
+    """A wheel that slows down on its pin: T = µ R m g, so that w falls by T/J per second."""
     out = sensors("""
 buckens: 1
 gravity: [0, 0, -9.81]
@@ -270,7 +270,7 @@ def test_a_rough_lid_falls_and_lands(sensors):
     assert math.degrees(angle.min()) == pytest.approx(-83.382, abs=0.01)  # the table of its page
     assert abs(columns["balance"]).max() < 3e-4
     # A lid a hundred times as stiff is a rigid rod until it lands: kinetic energy is what gravity gave and friction left.
-    # What bending keeps back falls from 8e-4 J to 8e-6 J.
+    # The energy kept in bending falls from 8e-4 J to 8e-6 J.
     columns = sensors(text, "--set", "materials.acrylic.E=320 GPa")
     t, angle, rate, lost = (columns[name] for name in ("t", "hinge.value", "hinge.rate", "lost"))
     m, L = 1190 * 0.4 * 0.01 * 0.3, 0.4

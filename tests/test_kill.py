@@ -125,7 +125,7 @@ def test_writer_killed_at_any_moment(tmp_path, seed):
     if rows:
         assert names == ["t [s]", "clock [s]", "count.x [1]", "count.y [1]"]
     assert len(rows) >= len(times) - 1, "sensors.csv goes to the system line by line"
-    # What sensors.csv has beyond results.h5 was written within the last second.
+    # Records in sensors.csv but not in results.h5 were written within the last second.
     for row in rows[len(times):]:
         assert float(row[1]) >= killed - LOSS
 
@@ -143,7 +143,7 @@ def test_writer_killed_while_it_starts(tmp_path, seed):
         assert status == "starting" or (out / "results.h5").exists()
     if (out / "results.h5").exists():
         check_results(out)
-    # Whatever is left, a new run can take the directory.
+    # Whatever remains, a new run can use the directory.
     run_and_kill([WRITER, out, 100, 0], out, 0.02)
     check_results(out)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of time and tables of loads, what is recorded and reported of loads, what is refused."""
+"""Time functions and tables of loads, what is recorded and reported of loads, what is refused."""
 
 import csv
 import math
@@ -27,7 +27,7 @@ def test_tables_and_expressions_are_the_same_load(sensors, tmp_path):
     runs = [sensors(bar(RAMP.replace("VALUE", value), flying)) for value in values]
     assert runs[0]["force.x"][-1] == pytest.approx(-2e6 * AREA, rel=1e-12)
     for run in runs[1:]:
-        # A wave of 1e-5 m after 100 steps, each with rounding.
+        # A wave of 1e-5 m after 100 steps, each with rounding errors.
         assert numpy.abs(run["bend.x"] - runs[0]["bend.x"]).max() < 1e-15
         assert numpy.abs(run["place.x"] - runs[0]["place.x"]).max() < 1e-13
 
@@ -65,7 +65,7 @@ simulation: {duration: 2 s, step: 10 ms}
 
 
 def test_wilsons_method_looks_beyond_the_end_of_a_run(buckens, tmp_path):
-    """It evaluates loads at t + 1.4 h: a table that ends with the run says so when it is reached."""
+    """It evaluates loads at t + 1.4 h: the end of a table that ends with the run is reported when it is reached."""
     text = bar(RAMP.replace("VALUE", "{table: [[0, 0], [5e-3, 2e6]]}"), FLYING)
     (tmp_path / "model.yaml").write_text(text.replace("step: 0.05 ms", "step: 0.05 ms, method: wilson"))
     buckens("run", "model.yaml", "-o", "out").must(4, "load \"gas\"", "extrapolation: hold")
@@ -191,12 +191,12 @@ output: {every: 10 ms, sensors: {turn: {joint-coordinate: hinge}, kinetic: {ener
 
 
 def test_a_drive_with_a_kink_at_the_start_moves_as_after_it(buckens, tmp_path):
-    # What the law does before t = 0 is no part of the motion: full speed from the first instant on, no torque.
+    # The law before t = 0 is not part of the motion: full speed from the first instant on, no torque.
     (tmp_path / "model.yaml").write_text(DRIVEN.replace("LAW", "3*max(t, 0)"))
     buckens("run", "model.yaml", "-o", "out").must(0)
     rows = [[float(x) for x in row] for row in list(csv.reader((tmp_path / "out" / "sensors.csv").open()))[1:]]
     for t, angle, rate, kinetic, _, _, torque in rows:
-        # One-sided differences over 1e-7 s are good to 1e-9 of the rate.
+        # One-sided differences over 1e-7 s are accurate to 1e-9 of the rate.
         assert angle == pytest.approx(3 * t, abs=1e-9) and rate == pytest.approx(3, rel=1e-8)
         assert kinetic == pytest.approx(0.5 * 0.2 * 9, rel=1e-8) and abs(torque) < 1e-4
 

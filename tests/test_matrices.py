@@ -156,7 +156,7 @@ def test_a_held_body_is_refused_with_the_direction(buckens, rotor):
 
 
 def test_a_mechanism_is_refused(buckens, rotor):
-    # Without the stiffness of the last element its node hangs on nothing.
+    # Without the stiffness of the last element its node is unconnected.
     lines = (rotor / "rotor_stiffness.mtx").read_text().splitlines()
     head, entries = lines[:3], lines[3:]
     from_49 = [line for line in entries if int(line.split()[0]) < 49]

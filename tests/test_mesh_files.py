@@ -34,7 +34,7 @@ def crank_web(buckens):
 
 
 def test_a_crank_web_is_measured(crank_web):
-    # Disc of 25 mm and disc of 18 mm around the bores, web between: what the drawing gives, by
+    # Disc of 25 mm and disc of 18 mm around the bores, web between: values of the drawing, by
     # integrating the half height of the outline, max(sqrt(25^2-x^2), 15 for 0<x<40, sqrt(18^2-(x-40)^2)).
     x = numpy.linspace(-25, 58, 200001)
     height = numpy.maximum.reduce([numpy.sqrt(numpy.maximum(625 - x**2, 0)),
@@ -42,7 +42,7 @@ def test_a_crank_web_is_measured(crank_web):
                                    numpy.sqrt(numpy.maximum(324 - (x - 40)**2, 0))])
     area = 2 * (height[1:] + height[:-1]).sum() / 2 * (x[1] - x[0])
     volume = 12e-9 * (area - math.pi * (14**2 + 9**2))
-    # Parabolas in place of circles with elements of 30 degrees to 45 degrees: relative error below 1e-3.
+    # Parabolas instead of circles with elements of 30 degrees to 45 degrees: relative error below 1e-3.
     assert crank_web["volume"] == pytest.approx(volume, rel=2e-3)
     assert crank_web["kinds"] == [{"kind": "tet10", "source": "tetrahedron with 10 nodes",
                                    "count": crank_web["elements"]}]
@@ -83,7 +83,7 @@ def test_info_is_for_people_too(buckens):
 
 
 def mesh_of(path):
-    """Nodes and elements of a text file of version 4.1, read by a reader of its own."""
+    """Nodes and elements of a text file of version 4.1, read by a separate reader."""
     lines = iter(path.read_text().splitlines())
     nodes, elements = {}, {}
     for line in lines:
@@ -216,7 +216,7 @@ def test_a_rod_from_a_step_file_bends_like_a_beam(buckens, tmp_path):
                 "--set", "simulation.step=0.25 ms", *extra, "-q").must(0)
         bends[model] = deflection(sensors(tmp_path / model / "sensors.csv"))
     largest = numpy.abs(bends["beam"]).max()
-    # The beam has no eyes, which are stiffer and heavier than the shank; the page says how much that is
+    # The beam has no eyes, which are stiffer and heavier than the shank; the page states the difference
     # (3 % of the largest deflection over 50 ms).
     assert numpy.abs(bends["connecting_rod"]).max() == pytest.approx(largest, rel=0.1)
     assert numpy.corrcoef(bends["connecting_rod"], bends["beam"])[0, 1] > 0.97

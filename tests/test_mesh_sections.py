@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shells and beams of Gmsh and universal files, whose sections the model file gives."""
+"""Shells and beams of Gmsh and universal files, with sections given in the model file."""
 
 import numpy
 import pytest
@@ -92,7 +92,7 @@ def test_a_beam_of_gmsh_vibrates_as_a_generated_one(frequencies, tmp_path, theor
 
 
 def test_ribs_on_a_plate_become_beams(frequencies, tmp_path):
-    """Lines that are edges of shells are elements where the model gives them a section."""
+    """Lines that are edges of shells are elements if the model gives them a section."""
     nodes, elements, ribs = plate(2, 2, (1.0, 0.6), "quad4", 1)
     (tmp_path / "plate.msh").write_text(msh(nodes, elements + ribs, [(1, 2, "ribs"), (2, 1, "skin")]))
     read = frequencies("    mesh: {file: plate.msh, material: steel, sections: {skin: {thickness: 5 mm}, "
@@ -142,7 +142,7 @@ def test_point_masses_and_links_of_the_model(frequencies, tmp_path):
     mesh = ("    mesh: {file: beam.msh, material: steel, section: {beam: {circle: {diameter: 30 mm}}}, "
             "masses: [{at: %s, mass: 2 kg, inertia: [0.1, 0.1, 0.1]%s}]%s}\n")
     beside = frequencies(mesh % ("n3", ", offset: [0, 0.2, 0]", ""))
-    # The same with a node of the file that nothing else uses.
+    # The same with a node of the file that is not used otherwise.
     linked = frequencies(mesh % ("n6", "", ", links: {rigid: [{reference: n3, nodes: [n6]}]}"))
     assert beside == pytest.approx(linked, rel=1e-9)
 

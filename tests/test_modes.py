@@ -49,7 +49,7 @@ def test_a_tuning_fork_sounds_a_and_does_not_feel_the_hand(buckens):
     free = buckens("modes", FORK, "--json").must(0).json["analyses"][0]
     held = buckens("modes", FORK, "--system", "--json").must(0).json["analyses"][0]
     assert held["kind"] == "system" and held["rigid_modes"] == 0
-    # The tines swing against each other: no force on the handle, hence the same free and held.
+    # The tines move against each other: no force on the handle, hence the same frequency free and held.
     hum = [f for f in frequencies(free) if abs(f - 440) < 5]
     assert len(hum) == 1
     assert numpy.min(numpy.abs(frequencies(held) - hum[0])) < 0.01 * hum[0]
@@ -68,7 +68,7 @@ def test_shapes_go_to_a_directory_that_can_be_viewed(buckens, tmp_path):
         largest = numpy.linalg.norm(shape[:, :, :3], axis=2).max(axis=1)
         assert largest == pytest.approx(numpy.ones(4), rel=1e-12)
     assert (tmp_path / "shapes" / "modes.json").stat().st_size > 0
-    # A run may take the directory over; nothing of the modes stays.
+    # A run may reuse the directory; nothing of the modes remains.
     buckens("run", SOURCE / "tests" / "models" / "pendulum.yaml", "-o", "shapes").must(0)
     assert not (tmp_path / "shapes" / "modes.json").exists()
 

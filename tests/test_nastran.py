@@ -82,7 +82,7 @@ def test_a_box_is_the_same_as_a_deck(solved, tmp_path, form):
     expected_body, expected = solved(BOX)
     assert body["mass"] == pytest.approx(expected_body["mass"], rel=1e-12)
     assert body["principal_inertia"] == pytest.approx(expected_body["principal_inertia"], rel=1e-12)
-    # Coordinates such as 33.3333 are not needed: all divide evenly, what is left is rounding.
+    # Coordinates such as 33.3333 do not occur: all divide evenly, so only rounding remains.
     assert found == pytest.approx(expected, rel=1e-9)
 
 
@@ -95,7 +95,7 @@ def test_decks_with_weights_in_inches(solved, tmp_path):
     (tmp_path / "block.bdf").write_text(deck)
     body, found = solved(FILE.replace("length-unit: mm", "length-unit: in, mass-unit: slinch"))
     expected_body, expected = solved(BOX)
-    # Four digits behind the point of coordinates in inches: 2e-5 of the height.
+    # Four decimals of coordinates in inches: 2e-5 of the height.
     assert body["mass"] == pytest.approx(expected_body["mass"], rel=1e-4)
     assert found == pytest.approx(expected, rel=1e-4)
 
@@ -155,7 +155,7 @@ def test_a_mean_takes_the_components_that_count(solved, buckens, tmp_path):
             box_deck("free").replace("ENDDATA", more + card + "ENDDATA"))
     write_mean(902, None, 900, 123456, "1.", 123, *corners)
     _, full = solved(FILE)
-    # In the middle the mean displacement needs no rotation, so single components tell the same.
+    # In the middle the mean displacement needs no rotation, so single components give the same result.
     write_mean(902, None, 900, 123, "1.", 1, *corners, "1.", 2, *corners, "1.", 3, *corners)
     _, same = solved(FILE)
     assert same == pytest.approx(full, rel=1e-9)
@@ -190,6 +190,6 @@ def test_the_plate_swings_as_a_pendulum(buckens, tmp_path):
     # A rigid plate passes the lowest point after sqrt(2a/3g) K(sin 45 deg).
     fall = math.sqrt(2 * 0.6 / (3 * 9.81)) * 1.8540746773
     x = numpy.interp(fall, values["t"], values["edge.x"])
-    # The plate bends by 0.15 mm on its way.
+    # The plate bends by 0.15 mm during the motion.
     assert abs(x) < 2e-4
     assert values["edge.z"].min() == pytest.approx(-0.6, abs=2e-4)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Decks as others write them: each gives the right answer, or says what to do."""
+"""Decks as others write them: each gives the right result, or a message with the remedy."""
 
 import math
 
@@ -18,7 +18,7 @@ CUBE = "".join(f"GRID,{i + 1},,{x}.,{y}.,{z}.\n" for i, (x, y, z) in enumerate(
 
 @pytest.fixture
 def body(buckens, tmp_path):
-    """What `check` tells of the body of a deck."""
+    """The report of `check` on the body of a deck."""
     def call(deck, more="", code=0):
         (tmp_path / "deck.bdf").write_text(deck)
         (tmp_path / "model.yaml").write_text(MODEL % more)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Input that reads well but makes no sense: it must not end in silent nonsense."""
+"""Input that is formally valid but makes no sense: it must not lead to nonsense without a warning."""
 
 import csv
 import json
@@ -38,7 +38,7 @@ def test_planar_velocity_out_of_the_plane(run, motion):
 
 
 def test_motion_that_is_no_number(run, tmp_path):
-    """A load beyond any sense ends the run by name; no row holds a nan, trust says so."""
+    """An absurdly large load ends the run with its name; no row contains a nan, and trust reports it."""
     text = BEAM + "loads: {push: {force: {on: a/end, value: [0, 1e9, 0]}}}\n" + \
         "output: {sensors: {tip: {position: a/end}}}\n" + SPAN
     run(text).must(4)

@@ -47,7 +47,7 @@ def floats(text):
 
 @pytest.fixture
 def view(tmp_path):
-    """`buckens view` with a page that holds nothing but the data."""
+    """`buckens view` with a page that contains only the data."""
     program = tmp_path / "prefix" / "bin" / "buckens"
     template = program.parents[1] / "share" / "buckens" / "viewer.html"
     for file in (program, template):
@@ -79,11 +79,11 @@ def test_sections_are_kept_as_they_are(buckens, page_of, tmp_path):
     bodies = {body["name"]: body for body in page_of("out")[0]["bodies"]}
     outline = {name: [[floats(loop).reshape(-1, 2) for loop in section] for section in body["sections"]]
                for name, body in bodies.items()}
-    # Three nodes of the taper have three sections; the page holds float32.
+    # Three nodes of the taper have three sections; the page contains float32.
     assert numpy.array([size(section[0]) for section in outline["tapered"]]) == pytest.approx(
         numpy.array([[0.04, 0.01], [0.03, 0.01], [0.02, 0.01]]), rel=1e-6)
     assert list(ints(bodies["tapered"]["elementSections"])) == [0, 1, 1, 2]
-    # Neighbours share a section also where their places along the beam are rounded.
+    # Neighbours share a section even if their positions along the beam are rounded.
     long = ints(bodies["long"]["elementSections"])
     assert list(long[1:-1:2]) == list(long[2::2]) and len(outline["long"]) == 8
     (hollow,) = outline["upright"]

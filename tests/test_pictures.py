@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""tests/tools/make_pictures.py knows every picture that the pages show, and what it shows exists."""
+"""tests/tools/make_pictures.py lists every picture on the pages, and its models exist."""
 
 import os
 import pathlib
@@ -18,7 +18,7 @@ def made():
 
 
 def shown():
-    """Files that pages show, but the figures of the theory, whose scripts lie beside them."""
+    """Pictures on pages, except the figures of the theory, whose scripts are beside them."""
     found = set()
     for page in [SOURCE / "README.md", *SOURCE.glob("docs/**/*.md"), *SOURCE.glob("examples/**/*.md")]:
         for target in re.findall(r"!\[[^]]*\]\(([^)]+)\)", page.read_text()):

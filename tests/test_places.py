@@ -39,7 +39,7 @@ def test_names_of_any_letters(buckens, models, plain, tmp_path, name):
     place.mkdir()
     shutil.copy(models / "beam.yaml", place / f"{name}.yaml")
     model, out = pathlib.Path(".") / name / f"{name}.yaml", pathlib.Path(".") / name / "out put"
-    # A name that begins with a hyphen needs its directory before it, as with any program.
+    # A name that begins with a hyphen must be preceded by its directory, as with any program.
     model, out = f"./{model}", f"./{out}"
     buckens("check", model).must(0)
     buckens("run", "-q", model, "-o", out).must(0)
@@ -51,7 +51,7 @@ def test_names_of_any_letters(buckens, models, plain, tmp_path, name):
 
 
 def test_a_name_that_is_no_text(buckens, models, plain, tmp_path):
-    """Files may have names of any bytes; messages show what can be shown."""
+    """File names may contain any bytes; messages show the printable ones."""
     place = os.fsencode(tmp_path) + b"/caf\xe9"
     os.mkdir(place)
     shutil.copy(models / "beam.yaml", os.fsdecode(place))
@@ -63,7 +63,7 @@ def test_a_name_that_is_no_text(buckens, models, plain, tmp_path):
 
 
 def test_symbolic_links(buckens, models, plain, tmp_path):
-    """A model, a directory of results and the way to them may be links."""
+    """A model, a directory of results and parts of their paths may be links."""
     real = tmp_path / "real"
     (real / "results").mkdir(parents=True)
     shutil.copy(models / "beam.yaml", real)
@@ -120,7 +120,7 @@ def test_a_link_in_place_of_a_basis_is_replaced(buckens, tmp_path):
     buckens("run", "-q", "model.yaml", "-o", "out").must(0)
     assert (tmp_path / "precious").read_text() == "precious"
     assert (tmp_path / "kept.basis").is_file() and not (tmp_path / "kept.basis").is_symlink()
-    # A kept basis that another program has changed.
+    # A stored basis that another program has changed.
     with h5py.File(tmp_path / "kept.basis", "r+", libver="latest") as file:
         shape = file["Z"].shape
         del file["Z"]
@@ -146,7 +146,7 @@ def comma(tmp_path_factory):
     place = tmp_path_factory.mktemp("locales")
     (place / "source").write_text('comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point ","\n'
                                   'thousands_sep "."\ngrouping 3;3\nEND LC_NUMERIC\n')
-    # Warns of the parts of a locale that are left out, and says so with its exit code.
+    # Warns of omitted parts of a locale, also by its exit code.
     subprocess.run(["localedef", "-c", "--quiet", "-i", place / "source", "-f", "ANSI_X3.4-1968",
                     place / "xx_XX"], check=False, capture_output=True)
     environment = {**os.environ, "LOCPATH": str(place), "LC_NUMERIC": "xx_XX"}

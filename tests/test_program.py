@@ -53,7 +53,7 @@ def test_every_option_stands_in_the_reference(buckens, verb):
     assert section and lines, f"the page does not know {verb}"
     told = section.group(1) + "".join(lines)
     options = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", buckens(verb, "--help").must(0).out))
-    # Told once for all: --json prints the same as text; -o is what pages call --out.
+    # Documented once for all verbs: --json prints the same as text; -o is --out on the pages.
     assert {option for option in options - {"--help", "--json", "--out"} if option not in told} == set()
 
 
@@ -108,7 +108,7 @@ def test_closed_pipe_is_an_error_not_a_crash(buckens):
 
 @pytest.mark.parametrize("stream", ["full", "closed"])
 def test_messages_that_nobody_can_read_do_not_end_the_program(models, tmp_path, stream):
-    """A run under nohup goes on when the disk of its messages is full; without a standard error stream
+    """A run under nohup continues when the disk of its messages is full; without a standard error stream
     no file takes its number and gets the messages."""
     def call(*arguments):
         with open("/dev/full", "w") as full:

@@ -91,7 +91,7 @@ def test_a_free_plate_vibrates_as_nafems_fv12(buckens, tmp_path, kind, deck_kind
     (tmp_path / "deck.yaml").write_text(DECK)
     write_plate(tmp_path / "plate.inp", deck_kind)
     found = frequencies(buckens, "model.yaml")
-    # Half a unit of the last digit; shear and rotary inertia; and what four elements on a side leave in
+    # Half a unit of the last digit; shear and rotary inertia; and the error of four elements on a side, of
     # fourth order of the wave number k, as in shell_benchmark_test.
     for k, exact in enumerate(FV12):
         squared = 2 * math.pi * exact * math.sqrt(8000 * 0.05 / (200e9 * 0.05**3 / 12 / 0.91))
@@ -117,7 +117,7 @@ def test_one_s8r_of_a_deck_is_a_body(buckens, tmp_path):
     assert numpy.diag(numpy.array(plate["inertia"])) == pytest.approx(
         [about_x, about_x, 78 * 2 / 12], rel=1e-12)
     # 13.47/a^2 sqrt(D/(rho h)) is the lowest frequency of a free square plate (Leissa); one element
-    # has no mode of its own shape, but quadratic deflections come within a few per cent.
+    # cannot represent the shape, but quadratic deflections come within a few per cent.
     D = 2.1e11 * 0.01**3 / 12 / 0.91
     lowest = 13.468 * math.sqrt(D / (7800 * 0.01)) / (2 * math.pi)
     assert frequencies(buckens, "model.yaml", 1)[0] == pytest.approx(lowest, rel=0.1)
@@ -144,7 +144,7 @@ def test_a_strip_has_the_stresses_of_a_beam(buckens, page_of, tmp_path, kind, no
     assert inner.sum() >= 8
     assert stress[inner, 0] == pytest.approx(N / T + 6 * M / T**2, rel=1e-4 + arm)
     assert at[inner] == pytest.approx(N / T + 6 * M / T**2, rel=1e-4 + arm)
-    # Files for others: the cells as they are, of the plate's area; the page: their pieces.
+    # Exported files: the cells as they are, with the plate's area; the page: their pieces.
     buckens("export", "out", "--vtk", "--csv", "--glb").must(0)
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(sorted((tmp_path / "out" / "export").glob("*.vtu"))[-1]))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reduced and quasi-static bodies as a user meets them."""
+"""Reduced and quasi-static bodies as seen by a user."""
 
 import csv
 import json
@@ -163,7 +163,7 @@ output: {sensors: {tip: {displacement: arm/end}}}
     full, _ = run("cantilever.yaml", "full")
     for basis in ("{free-free: 2}", "{craig-bampton: 0}"):
         other, _ = run("cantilever.yaml", "other", bodies__arm__reduction=basis)
-        # The deflection is one by an interface load: held in both bases. Rounding: 1e-16·cond(K).
+        # The deflection is due to an interface load: contained in both bases. Rounding: 1e-16·cond(K).
         assert other["tip.y"] == pytest.approx(full["tip.y"], rel=1e-7)
 
 
@@ -331,7 +331,7 @@ def test_modes_are_chosen_by_trial(run, rod, buckens):
         note = next(text for text in summary["warnings"] if "craig-bampton" in text)
         assert "\"rod\"" in note and f"{int(chosen[tolerance])} modes" in note
         off = numpy.abs(columns["mid.y"] - full["mid.y"]).max()
-        # The markers of joints keep within the tolerance; the middle is one of them.
+        # The markers of joints stay within the tolerance; the middle is one of them.
         limit = {"20 %": 0.2, "0.01 %": 1e-4}[tolerance]
         assert off < 2 * limit * numpy.abs(full["mid.y"]).max()
     assert 1 <= chosen["20 %"] < chosen["0.01 %"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pages on results say what is in the files: their programs run, and their lists are those of real files."""
+"""The pages on results describe the files: their programs run, and their lists match real files."""
 
 import os
 import pathlib
@@ -18,7 +18,7 @@ FIRST_CELL = re.compile(r"^\| ([^|]*`[^|]*) \|", re.MULTILINE)
 NODES = "\n".join(f"        n{i}{j}{k}: [{0.1 * i}, {0.1 * j}, {0.1 * k}]"
                   for i in range(3) for j in range(2) for k in range(2))
 
-# Whatever a run can record: beams, solids of two materials, shells of two layers, loads on nodes and on faces.
+# Everything that a run can record: beams, solids of two materials, shells of two layers, loads on nodes and on faces.
 EVERYTHING = f"""
 buckens: 1
 title: Everything that a run can record
@@ -93,7 +93,7 @@ def readme_rod(buckens, tmp_path):
 
 
 def executed(text, directory):
-    """What a program prints that is run in a directory."""
+    """The output of a program run in a directory."""
     done = subprocess.run([sys.executable, "-c", text], cwd=directory, text=True, capture_output=True, timeout=120)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -103,7 +103,7 @@ def test_programs_on_the_pages_run(buckens, readme_rod, tmp_path):
     beam, solid = SNIPPET.findall(RESULTS.read_text())
     readme_rod("out")
     printed = executed(beam, tmp_path)
-    # What it prints is the largest of what the sensor of the README records.
+    # It prints the largest value recorded by the sensor of the README.
     with h5py.File(tmp_path / "out" / "results.h5", "r", swmr=True) as file:
         largest = file["sensors/stress"][:].max()
     assert float(printed.split()[0]) == pytest.approx(largest, rel=1e-12)

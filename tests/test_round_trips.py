@@ -116,7 +116,7 @@ def test_the_side_car_makes_the_same_body(buckens, tmp_path, name, file, deck):
 
 
 def test_what_no_file_holds_is_told(buckens, tmp_path):
-    # Sections of one group turned in two ways, and a spring in oblique axes.
+    # Sections of one group in two orientations, and a spring in oblique axes.
     bulk = ("BEGIN BULK\nMAT1,1,2.1+5,,.3,7.85-9\nGRID,1,,0.,0.,0.\nGRID,2,,40.,0.,0.\nGRID,3,,80.,0.,0.\n"
             "PBARL,6,1,,BAR\n,4.,8.\nCBAR,1,6,1,2,0.,0.,1.\nCBAR,2,6,2,3,0.,1.,0.\n"
             "CORD2R,1,0,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\nPBUSH,40,K,1000.,2000.,3000.\nCBUSH,41,40,1,3,,,,1\nENDDATA\n")

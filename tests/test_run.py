@@ -89,7 +89,7 @@ def test_sensors_have_names_units_and_17_digits(buckens, models, tmp_path):
         assert re.fullmatch(r"[\w-]+(\.[\w-]+)* \[.+\]", name), name
     assert values.shape == (51, len(header))
     assert numpy.allclose(values[:, 0], numpy.arange(51) * 1e-3, rtol=0, atol=1e-15)
-    # 17 significant digits give back every double: text -> number -> text changes nothing.
+    # 17 significant digits reproduce every double: text -> number -> text changes nothing.
     digits = max(len(re.sub(r"e.*|[^0-9]", "", text).lstrip("0")) for row in texts for text in row)
     assert digits == 17
     with h5py.File(tmp_path / "out" / "results.h5", "r") as file:
@@ -144,7 +144,7 @@ def test_a_model_with_a_mistake_leaves_the_earlier_run(buckens, models, tmp_path
 def test_a_set_up_that_fails_leaves_the_earlier_run(buckens, models, tmp_path):
     buckens("run", models / "pendulum.yaml", "-o", "out").must(0)
     before = {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()}
-    # The tip cannot be that far out: found when the mechanism is assembled, after OUT was taken.
+    # The tip cannot be that far out: found when the mechanism is assembled, after OUT was opened.
     model = (models / "pendulum.yaml").read_text().replace(
         "joints:", "joints:\n  far: {fixed: {between: [{ground: [9 m, 0, 0]}, rod/tip]}}")
     (tmp_path / "far.yaml").write_text(model)
@@ -152,7 +152,7 @@ def test_a_set_up_that_fails_leaves_the_earlier_run(buckens, models, tmp_path):
     assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
     buckens("static", "far.yaml", "-o", "out").must(3, "earlier run in out is as it was")
     assert {path.name: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
-    # Where there is none, the reason stands in the directory.
+    # If there is none, the directory contains the reason.
     buckens("run", "far.yaml", "-o", "new").must(3, "cannot be assembled")
     assert "cannot be assembled" in summary_of(tmp_path / "new")["interrupted"]
 

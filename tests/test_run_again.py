@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The model.yaml of a run is the model that was run: with what --set changed, and finding its files
-from wherever it lies. Running it again gives the same numbers to the last bit."""
+"""The model.yaml of a run is the model that was run: with the changes by --set, and finding its files from
+any directory. Running it again gives the same numbers to the last bit."""
 
 import json
 import pathlib
@@ -65,14 +65,14 @@ def test_changes_by_set_are_in_the_model_of_the_run(buckens, models, tmp_path):
     buckens("run", "-q", models / "beam.yaml", "-o", "out", *options(CHANGES)).must(0)
     buckens("run", "-q", "out/model.yaml", "-o", "again").must(0)
     same_run(tmp_path / "out", tmp_path / "again")
-    # It differs from what was not changed, and keeps what it says about itself.
+    # It differs from the unchanged model, and keeps its title and comments.
     buckens("run", "-q", models / "beam.yaml", "-o", "plain").must(0)
     assert (tmp_path / "plain" / "sensors.csv").read_text() != (tmp_path / "out" / "sensors.csv").read_text()
     text = (tmp_path / "out" / "model.yaml").read_text()
     assert "# A flexible beam swings about a hinge" in text and "--set simulation.step" in text
     assert 'title: "With: changes"' in text and "E: 200 GPa" in text
     assert (tmp_path / "again" / "model.yaml").read_text() == text
-    # What was not changed stays as it was written.
+    # Everything not changed stays as it was written.
     assert (tmp_path / "plain" / "model.yaml").read_text() == (models / "beam.yaml").read_text()
 
 
@@ -116,7 +116,7 @@ def web(tmp_path):
 
 
 def test_files_are_found_from_the_model_of_the_run(buckens, web, tmp_path):
-    """Relative names in it begin where they began, wherever the run, the user and the copy are."""
+    """Relative names in it refer to the original directory, wherever the run, the user and the copy are."""
     out = tmp_path / "runs" / "first"
     buckens("run", "-q", "web.yaml", "-o", out, "--set", "simulation.step=0.5 ms", cwd=web).must(0)
     assert (web / "web.basis").is_file()
@@ -131,7 +131,7 @@ def test_files_are_found_from_the_model_of_the_run(buckens, web, tmp_path):
     assert "file: parts/web.msh" in text and "# the bore of the shaft" in text
     assert f'base: "{web}"' in text
     assert (tmp_path / "third" / "model.yaml").read_text() == text
-    # No basis beside the copies: that of the project serves them.
+    # No basis beside the copies: they use that of the project.
     assert [path.relative_to(tmp_path) for path in tmp_path.rglob("web.basis")] == \
         [pathlib.Path("a place/project/web.basis")]
 
@@ -161,7 +161,7 @@ def test_variants_of_a_sweep_run_again(buckens, web, tmp_path):
     for variant in variants:
         buckens("run", "-q", variant, "-o", "again").must(0)
         same_run(variant.parent, tmp_path / "again")
-    # Resumed, it keeps what is there and runs again what was damaged.
+    # Resumed, it keeps intact runs and repeats damaged ones.
     damaged = variants[0].parent / "results.h5"
     kept = variants[1].parent / "results.h5"
     before = kept.stat().st_mtime_ns

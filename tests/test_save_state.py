@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A run that goes on from a saved state is the uninterrupted one, bit for bit."""
+"""A run continued from a saved state equals the uninterrupted one, bit for bit."""
 
 import csv
 import json
@@ -45,7 +45,7 @@ output:
 """
 
 # Three parallel cranks on one coupler: which of the joint equations are independent changes as they
-# turn, so that others are chosen on the way (verification/row_selection).
+# turn, so that others are chosen in between (verification/row_selection).
 CRANKS = (MODELS / "parallel_cranks.yaml").read_text().replace("step: 5 ms", "step: 5 ms, STEP")
 
 # A block on a hinge in space, with stresses and their extremes over the run.
@@ -70,7 +70,7 @@ def model(text, rod="", step=""):
     return text.replace("ROD", rod).replace(", STEP", ", " + step if step else "")
 
 
-# Laws that remember: friction that sticks and slides, a stop, and an angle counted over turns.
+# Laws with memory: friction that sticks and slides, a stop, and an angle counted over turns.
 LAWS = SLIDER_CRANK.replace("simulation:", """  rub: {slide-friction: {joint: guide, static: 0.2, dynamic: 0.1, stribeck-velocity: 1 m/s}}
   drag: {hinge-friction: {joint: big_end, static: 0.3, radius: 10 mm, preload: 0.1 N m}}
   stop: {slide-stop: {joint: guide, from: -290 mm, stiffness: 2e4 N/m, damping: 20 N s/m}}
@@ -173,7 +173,7 @@ def test_a_resumed_run_is_the_uninterrupted_one(buckens, tmp_path, name):
     assert 1 < len(rest) < len(whole) or t < 1e-3
     assert float(rest[0][0]) > t
     assert rest == whole[-len(rest):]
-    # Everything that steps to come depend on, and what the summary reports of the whole run.
+    # Everything on which later steps depend, and what the summary reports of the whole run.
     assert (tmp_path / "end.state").read_bytes() == (tmp_path / "whole.state").read_bytes()
     summaries = [json.loads((tmp_path / d / "summary.json").read_text()) for d in ("whole", "rest")]
     for key in ("steps", "residuals", "energy_error", "newton_iterations"):
@@ -181,7 +181,7 @@ def test_a_resumed_run_is_the_uninterrupted_one(buckens, tmp_path, name):
 
 
 def test_rows_were_chosen_anew(buckens, tmp_path):
-    """What the case of the cranks is about: other rows are in use later than at the start."""
+    """Checks the purpose of the case of the cranks: other rows are in use later than at the start."""
     h5py = pytest.importorskip("h5py")
     (tmp_path / "model.yaml").write_text(model(CRANKS))
     chosen = []

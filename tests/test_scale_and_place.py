@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results depend neither on the units that a machine is described in nor on where it stands."""
+"""Results depend neither on the units in which a machine is described nor on its position."""
 
 import csv
 import json
 
 import pytest
 
-# What a machine of ordinary size becomes in other units of length, mass and time.
+# Factors that convert a machine of ordinary size to other units of length, mass and time.
 UNITS = {"micrometres": (1e-6, 1, 1), "thousand km": (1e6, 1, 1), "milligrams": (1, 1e-6, 1),
          "kilotons": (1, 1e6, 1), "microseconds": (1, 1, 1e-6), "weeks": (1, 1, 1e6),
          "all small": (1e-6, 1e-6, 1e-6), "all large": (1e6, 1e6, 1e6)}
@@ -121,7 +121,7 @@ def test_the_place_changes_nothing(measured, machine, place):
     curves, summary = measured(machine(place=place))
     assert summary["newton_iterations"]["total"] == pytest.approx(effort["newton_iterations"]["total"], rel=0.01)
     assert summary["steps"] == effort["steps"]
-    # What the model file says is rounded to 1e-16 of the distance: of 0.7 m, and times the ratio of
+    # Numbers in the model file are rounded to 1e-16 of the distance: relative to 0.7 m, and times the ratio of
     # axial stiffness to forces for strains.
     rounding = 2e-16 * max(abs(x) for x in place) / 0.7
     for family, change in largest_difference(curves, reference).items():

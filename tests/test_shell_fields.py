@@ -61,7 +61,7 @@ def test_a_strip_has_the_stresses_of_a_beam(fields):
 def test_von_mises_is_that_of_the_worse_side(fields):
     found = fields(STRIP, "--set=loads.bend.torque.value=[0, -0.01 N m, 0]")
     bend, pull = 6 * M / T**2, N / T
-    # The bottom is stretched by bending and pull, the top pressed.
+    # The bottom is stretched by bending and pull, the top compressed.
     assert found["nodes/stress"][:, 0] == pytest.approx(pull - bend, rel=1.01 * ARM)
     assert found["nodes/von_mises"] == pytest.approx(pull + bend, rel=1.01 * ARM)
 
@@ -102,7 +102,7 @@ def test_nodes_where_the_thickness_changes_have_both_stresses(fields):
     thick, thin = 20 / 0.1 / 0.01, 20 / 0.1 / 0.005
     for node, expected in (0, [thick]), (1, [thick, thin]), (2, [thin]), (4, [thick, thin]):
         assert sorted(stress[nodes == node]) == pytest.approx(expected, rel=CLOSE)
-    # Each face points to the places of its own.
+    # Each face points to its own places.
     for face, expected in zip(found["face_places"], (thick, thin)):
         assert stress[face] == pytest.approx(expected, rel=CLOSE)
 

@@ -20,7 +20,7 @@ bodies:
       material: {E: 200 GPa, nu: 0.3, rho: 8000}
 """
 
-# A strip that hangs at one edge and swings.
+# A strip that hangs from one edge and swings.
 SWING = """
 buckens: 1
 gravity: [0, 0, -9.81]
@@ -197,7 +197,7 @@ def test_a_strip_of_single_shells_bends_as_a_beam(buckens, tmp_path):
     assert tip == pytest.approx(beam, rel=0.04)
 
 
-# A curved strip whose middle surface lies beside its nodes.
+# A curved strip whose middle surface is offset from its nodes.
 ARC = """
 buckens: 1
 gravity: [0, 0, 0]
@@ -254,7 +254,7 @@ bodies:
 
 def test_solids_shells_beams_and_masses_share_nodes(frequencies, buckens, tmp_path):
     found = frequencies(MIXED, 2)
-    # The mast is clamped where the skin holds its rotation: softer than on a rigid foot.
+    # The mast is clamped where the skin restrains its rotation: softer than on a rigid foot.
     stiffness = 3 * 210e9 * math.pi * 0.05**4 / 64 / 1.5**3
     assert 0.05 < found[0] / (math.sqrt(stiffness / 10) / 2 / math.pi) < 1
     part = buckens("check", "model.yaml", "--json").must(0).json["bodies"]["part"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Blocks of solids cut into parts with a frame each, and the watch over their frequencies."""
+"""Blocks of solids divided into parts with a frame each, and the monitoring of their frequencies."""
 
 import csv
 import json
@@ -51,10 +51,10 @@ def test_a_cut_block_falls_like_a_stone(run):
     t = columns["t"]
     start = vector(columns, "com")[0]
     path = start + numpy.outer(t, [1, 0, 2]) + numpy.outer(0.5 * t**2, [0, 0, -9.81])
-    # Uniform acceleration: the method is exact, what is left is rounding through the ties.
+    # Uniform acceleration: the method is exact, only rounding through the ties remains.
     assert numpy.abs(vector(columns, "com") - path).max() < 1e-9
     assert numpy.abs(vector(columns, "tip") - vector(columns, "com") - [0.5, 0, 0]).max() < 1e-9
-    # Every part falls alike and nothing is strained: E times 1e-9 of strain.
+    # All parts fall equally and nothing is strained: E times 1e-9 of strain.
     assert columns["peak.mises"].max() < 20e9 * 1e-9
 
 
@@ -83,6 +83,6 @@ def test_the_watch_knows_the_lowest_frequency_of_a_larger_solid(buckens, run, st
     lowest = 2 * numpy.pi * report["analyses"][0]["modes"][0]["frequency"]
     body = summary["bodies"]["block"]
     assert body["dof"] == 3 * 41 * 5 * 5
-    # Without a factor of its own; 1 % is enough to warn by, at short steps, too.
+    # Without a separate factor; 1 % is accurate enough for a warning, at short steps, too.
     assert summary["setup_solves"] <= 6 + 100
     assert body["spin_over_lowest_frequency"] == pytest.approx(30 / lowest, rel=0.01)

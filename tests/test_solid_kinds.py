@@ -34,7 +34,7 @@ def frequencies(buckens):
 
 
 # Bar of 0.5 x 0.03 x 0.02 m: bending in both planes, torsion (mode 6), tension; differences from the
-# Timoshenko beam in percent. verification/solid_bending/README.md lists them all and what is behind.
+# Timoshenko beam in percent. verification/solid_bending/README.md lists them all and the reasons.
 @pytest.mark.parametrize("element, divisions, first, bending, torsion", [
     ("hex20", "[40,2,2]", 0.03, 0.31, 1.0),
     ("tet10", "[40,2,2]", 0.04, 0.40, 2.1),
@@ -133,12 +133,12 @@ def test_slider_crank_with_a_solid_rod_bends_as_with_a_beam(buckens, tmp_path):
     solid = deflection_from_chord(buckens, tmp_path, solid_model, *places)
     # The first peak of the independent route in test_examples.py; records miss it by 0.1 %.
     assert numpy.abs(beam).max() == pytest.approx(0.018772 * 0.3, rel=5e-3)
-    # 0.1 %: bending frequencies of rod and beam are that near, and the joints press on single nodes.
+    # 0.1 %: bending frequencies of rod and beam are that close, and the joints act on single nodes.
     assert numpy.abs(solid - beam).max() < 0.005 * numpy.abs(beam).max()
 
 
 def drawn_circle(element, diameter, around):
-    """Area within the chords or parabolas that stand for a circle."""
+    """Area within the chords or parabolas that approximate a circle."""
     a = math.pi / around
     sector = 0.5 * math.sin(2 * a)
     if element in ("hex20", "tet10"):  # and the parabola over each chord

@@ -55,7 +55,7 @@ def test_free_blocks_have_the_known_frequencies(buckens, model, name):
     known = json.loads((FREE_FREE / "reference.json").read_text())["hex8"][name]["freq_Hz"]
     report = buckens("modes", FREE_FREE / model, "--count", len(known), "--json").must(0).json
     found = [mode["frequency"] for mode in report["analyses"][0]["modes"]]
-    # Asked for; rounding allows eps (omega_max/omega)^2 < 1e-12.
+    # Tolerance requested; rounding allows eps (omega_max/omega)^2 < 1e-12.
     assert found == pytest.approx(known, rel=1e-10)
 
 
@@ -66,7 +66,7 @@ def test_a_hanging_bar_carries_what_is_below(sensors):
     # the hooks, and at the centre of the first element of the fifth layer.
     assert out["middle.mises"] == pytest.approx(weight * 1.0, rel=1e-3)
     assert out["low.mises"] == pytest.approx(weight * 0.45, rel=2e-3)
-    # Two nodes hold it: stresses rise there.
+    # It is held at two nodes, where stresses rise.
     assert (out["peak.mises"] > 2 * weight * 2.0).all()
     assert out["pull.z"] + out["hold.z"] == pytest.approx(weight * 2 * 0.04, rel=1e-6)
 

@@ -31,7 +31,7 @@ class Spline:
             matrix[i, i - 1:i + 2] = width[i - 1], 2 * (width[i - 1] + width[i]), width[i]
             right[i] = 6 * ((points[i + 1] - points[i]) / width[i] - (points[i] - points[i - 1]) / width[i - 1])
         bend = numpy.linalg.solve(matrix, right)
-        # Every knot is the end of a piece: the third derivative jumps there.
+        # The pieces end at the knots, where the third derivative jumps.
         self.t = numpy.unique(numpy.concatenate([numpy.linspace(a, b, pieces + 1)
                                                  for a, b in zip(knots[:-1], knots[1:])]))
         k = numpy.clip(numpy.searchsorted(knots, self.t, side="right") - 1, 0, count - 2)
@@ -47,7 +47,7 @@ class Spline:
 
 
 class Leg:
-    """The leg on a hinge at its foot, its upper end led along y without turning."""
+    """The leg on a hinge at its foot, its upper end guided along y without rotation."""
 
     def __init__(self, pieces=40):
         self.line = Spline(POINTS, pieces)
@@ -136,7 +136,7 @@ def pressed():
 
 @pytest.fixture
 def sensors(buckens, tmp_path):
-    """Columns of sensors.csv of the example, and how deep the machine has sunk."""
+    """Columns of sensors.csv of the example, and the depth by which the machine has sunk."""
     def call(*options):
         out = str(tmp_path / "out")
         buckens("run", MODEL, "-o", out, *options).must(0)
@@ -188,5 +188,5 @@ def test_the_machine_sinks_as_deep_as_the_work_of_its_weight_bends_the_leg(senso
     assert bounce["foot.y"].max() == pytest.approx(force(low), rel=8e-3)
     # Sections are taken at the ends of elements, where the moment of the leg is within 1 % of the largest.
     assert bounce["stress.axial"].max() == pytest.approx(stress(low), rel=1.5e-2)
-    # It comes back to where it started.
+    # It returns to its starting position.
     assert abs(bounce["depth"][bounce["t"] > 0.2].min()) < 1e-3 * deepest

@@ -77,7 +77,7 @@ initial: {start: static}
 simulation: {duration: 1 ms, step: 0.1 ms}
 output: {every: 1 ms, sensors: {force: {spring-force: mount}, torque: {spring-torque: mount}, turn: {rotation: block}}}
 """)
-    # The load along world x is along -y of the base; equilibrium: the bushing answers it.
+    # The load along world x is along -y of the base; equilibrium: the bushing balances it.
     assert [out[f"force.{c}"][0] for c in "xyz"] == pytest.approx([0, -4, 0], abs=1e-6)
     assert [out[f"torque.{c}"][0] for c in "xyz"] == pytest.approx([0, 0, 0.6], abs=1e-7)
 
@@ -123,7 +123,7 @@ output:
 def test_a_speed_is_integrated_to_its_angle(sensors, speed, angle):
     out = sensors(WHEEL.replace("LAW", "speed: " + speed))
     assert out["angle"] == pytest.approx(angle(out["t"]), rel=1e-10, abs=1e-11)
-    # The angle as a law of its own gives the same motion and torque.
+    # Driving the angle instead gives the same motion and torque.
     if speed == "\"80*t - 300*t^2\"":
         same = sensors(WHEEL.replace("LAW", "angle: \"40*t^2 - 100*t^3\""))
         assert out["spin"] == pytest.approx(same["spin"], rel=1e-9, abs=1e-9)

@@ -36,7 +36,7 @@ def test_path_of_the_truss_is_written_as_a_run_directory(buckens, tmp_path):
     assert numpy.all(numpy.diff(columns["t [s]"]) > 0)
     w, load = columns["w [m]"], 1000 * columns["load-factor [1]"]
     assert load[0] == 0 and load[-1] == 1000
-    # Newton goes down to rounding of the forces in the bars.
+    # Newton converges to rounding of the forces in the bars.
     assert numpy.max(numpy.abs(load - force(w))) < 1e-9 * force(W_LIMIT)
     assert w[-1] > 2 * H
 
@@ -117,7 +117,7 @@ def test_bars_that_bend_buckle_before_the_truss_snaps(buckens, tmp_path):
 
 
 def test_an_unloaded_start_of_a_path_is_balanced(buckens, tmp_path):
-    """Without gravity all forces are rounding there; none may be asked to balance to a share of the others."""
+    """Without gravity all forces are rounding errors there; none can be required to balance to a fraction of the others."""
     model = SOURCE / "examples" / "large_bend" / "large_bend.yaml"
     buckens("static", model, "-o", "path").must(0)
     with open(tmp_path / "path" / "sensors.csv") as file:

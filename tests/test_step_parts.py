@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""STEP parts as they come: meshed with nothing but a material given, mended where they can be, refused in words
-where they cannot."""
+"""STEP parts as supplied: meshed with only a material given, repaired if possible, refused with a reason if not."""
 
 import importlib.util
 import math
@@ -59,7 +58,7 @@ def test_one_solid_of_several_is_chosen_by_name_or_number(buckens, tmp_path):
 
 
 def test_elements_that_gmsh_cannot_bend_are_straightened(buckens, bad):
-    """Large elements in a wall of 0.6 mm around a bore of 20: Gmsh does not reach its aim, which is no reason to give up."""
+    """Large elements in a wall of 0.6 mm around a bore of 20: Gmsh does not reach its target, which is no reason to fail."""
     told = info(buckens, bad["tube"], "--size", "12 mm")
     assert told["inverted"] == [] and told["pieces"] == 1
     assert "would invert have straight edges" in notes(told)
@@ -71,7 +70,7 @@ def test_elements_that_gmsh_cannot_bend_are_straightened(buckens, bad):
 
 
 def test_other_ways_are_tried_before_a_part_is_refused(buckens, bad):
-    """Eight elements to a turn cut through a wall of 0.3 mm: smaller ones are taken, and that is told."""
+    """Eight elements to a turn cut through a wall of 0.3 mm: smaller ones are used, and that is reported."""
     told = info(buckens, bad["thin_tube"], "--size", "12 mm")
     assert told["inverted"] == [] and told["pieces"] == 1
     assert "elements that fit the walls, for the usual way failed: Gmsh:" in notes(told)
@@ -81,7 +80,7 @@ def test_other_ways_are_tried_before_a_part_is_refused(buckens, bad):
 def test_gaps_are_sewn_or_told(buckens, bad):
     told = info(buckens, bad["gap_small"])
     assert "6 faces became 6" in notes(told) and told["pieces"] == 1
-    # The upper face lies 0.01 mm above the walls; where the seam comes to lie is the kernel's choice.
+    # The upper face lies 0.01 mm above the walls; the position of the seam is the kernel's choice.
     assert told["volume"] == pytest.approx(BOX, rel=0.02 / 40)
     buckens("mesh-info", bad["gap_wide"]).must(2, "gap_wide.step", "only 6 faces", "24 edges", "after which",
                                                "8 edges belong to one face only", "0.04) m", "CAD program")

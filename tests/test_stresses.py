@@ -37,7 +37,7 @@ def follows(found, sizes, order):
     assert abs(C * h3**order + D * h3**(order + 1) - e3) <= last, (found, C * h3**order, last)
 
 
-# The bar's elements answer the axial load as bars: those of hex20 have the exact displacement of their nodes and a linear
+# The bar's elements respond to the axial load as bars: those of hex20 have the exact displacement of their nodes and a linear
 # stress, those of hex8 the mean stress of their length. With h = length of an element: relative errors at the ends, and at
 # centres.
 @pytest.mark.parametrize("element, at_ends, at_centres", [
@@ -71,7 +71,7 @@ def test_rotating_disc_of_trilinear_elements(errors):
     meshes = 3, 6, 12
     found = [errors("disc", f"[{n},{16 * n // 3},1]", "hex8") for n in meshes]
     follows([error[NODES] for error in found], [3 / n for n in meshes], 1)
-    # At centres theory has 1 for any elements and 2 for parallelograms, which these are only in the limit.
+    # At centres theory gives 1 for any elements and 2 for parallelograms, which these are only in the limit.
     assert found[0][CENTRES] > 2 * found[1][CENTRES] > 4 * found[2][CENTRES]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`buckens sweep`: variants side by side give what they give alone, and nothing is lost."""
+"""`buckens sweep`: concurrent variants give the same results as alone, and nothing is lost."""
 
 import csv
 import json
@@ -7,7 +7,7 @@ import json
 import numpy
 import pytest
 
-# Solids: a factor that is worth reading once for several variants.
+# Solids: a factor large enough that reading it once for several variants pays.
 LARGE_BLOCK = """
 buckens: 1
 gravity: [0, "-g", 0]
@@ -45,14 +45,14 @@ def test_variants_are_what_they_are_alone(buckens, large_block, tmp_path):
     rows = table_of(tmp_path / "out")
     assert [row["name"] for row in rows] == ["plain", "moon", "pushed", "nudged"]
     assert {row["status"] for row in rows} == {"done"}
-    # One factor for the four; every pass over it serves all that wait.
+    # One factor for the four; every pass over it serves all that are waiting.
     assert result.json["factorisations"] == 1
     assert result.json["passes"] <= result.json["solves"] / 3
     for row in rows:
         buckens("run", large_block, "-o", "alone", "-q", "--set", "parameters.g=" + row["parameters.g"],
                 "--set", "parameters.push=" + row["parameters.push"]).must(0)
         together, alone = sensors_of(tmp_path / "out" / row["name"]), sensors_of(tmp_path / "alone")
-        # Another number of columns may round differently; 1e-10 of the largest is what is promised.
+        # Another number of columns may round differently; the documented tolerance is 1e-10 of the largest.
         for column in range(together.shape[1]):
             scale = abs(alone[:, column]).max()
             assert abs(together[:, column] - alone[:, column]).max() <= 1e-10 * scale + 1e-14
@@ -82,7 +82,7 @@ def test_failed_variants_do_not_stop_the_rest(buckens, models, tmp_path):
 def test_continues_after_an_interruption(buckens, models, tmp_path):
     call = ("sweep", models / "pendulum.yaml", "-o", "out", "--json")
     buckens(*call, "--vary", "simulation.duration=[0.01, 0.02]").must(0)
-    # One run was cut off, one has another value now.
+    # One run is incomplete, one has a different value now.
     summary = tmp_path / "out" / "001" / "summary.json"
     summary.write_text(json.dumps({**json.loads(summary.read_text()), "status": "interrupted"}))
     result = buckens(*call, "--vary", "simulation.duration=[0.01, 0.02, 0.03]").must(0)
@@ -112,7 +112,7 @@ simulation: {duration: 2 ms, step: 1 ms}
 
 
 def test_changed_files_are_noticed(buckens, tmp_path):
-    """Decks, what they include, and tables belong to a variant as its values do."""
+    """Decks, their included files, and tables belong to a variant like its values."""
     (tmp_path / "parts").mkdir()
     files = {"cube.yaml": CUBE, "cube.inp": DECK, "nodes.inp": NODES, "push.csv": "0, 0\n1, 1\n"}
     for name, text in files.items():
@@ -134,7 +134,7 @@ def test_changed_files_are_noticed(buckens, tmp_path):
 
 
 def test_bases_and_modes_chosen_by_trial(buckens, models, tmp_path):
-    """A variant is reduced as a run of its own would be."""
+    """A variant is reduced as a separate run would be."""
     model = models / "beam.yaml"
     (tmp_path / "beam.yaml").write_text(model.read_text())
     basis = "bodies.beam.reduction={craig-bampton: 3, file: beam.h5}"
@@ -161,5 +161,5 @@ def test_says_what_is_wrong(buckens, models, tmp_path):
     buckens("sweep", "none.yaml", "--vary", "a=[1]").must(5, "none.yaml")
     (tmp_path / "table.csv").write_text("simulation.duration\n1,2\n")
     buckens("sweep", model, "table.csv").must(2, "table.csv:2", "2 cells")
-    # A path that the format does not know is named in every variant's message.
+    # A path unknown to the format is named in every variant's message.
     buckens("sweep", model, "-o", "out", "--vary", "simulation.durration=[1]").must(4, "duration")

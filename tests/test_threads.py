@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program starts no threads that nobody asked for."""
+"""The program starts no unrequested threads."""
 
 import os
 import pathlib
@@ -64,7 +64,7 @@ def test_one_thread_unless_asked(start, tmp_path, model, arguments):
     most = threads_of(process)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 0, err
-    # Results that wait are written once a second: the recorder of a run has a clock of its own.
+    # Pending results are written once a second: the recorder of a run has its own timer thread.
     assert most == (2 if arguments[0] == "run" else 1)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a run says of its own results: contradicting joints, loads that a frame leaves out, strains, energy."""
+"""Trust statements of a run: contradicting joints, loads that a frame neglects, strains, energy."""
 
 import csv
 import json
@@ -48,7 +48,7 @@ def conflict(run, joints, step="1 ms"):
     assert summary["interrupted"] in result.err
     time = float(re.search(r"at t = (\S+) s", result.err)[1])
     size = float(re.search(r"open by (\S+) rad", result.err)[1])
-    # Records up to there are kept; the wheel stands as its hinge or the first drive wants it.
+    # Records up to there are kept; the wheel is as its hinge or the first drive requires.
     assert columns["t"][-1] == pytest.approx(math.floor(time / 0.01) * 0.01, abs=1e-9)
     return result.err, time, size
 
@@ -127,7 +127,7 @@ def test_axial_loads_that_bending_does_not_feel_lower_trust(run):
     assert load == pytest.approx(0.58, abs=0.01)
     text = trust_of(one, "buckling load")
     assert '"rod"' in text and "deflections err by up to about" in text and "`frames: 4`" in text
-    # What it advises mends it: the load of a part is less by the square of their number.
+    # The advice helps: the load of a part is smaller by the square of their number.
     _, four, _ = run(EXAMPLES / "slider_crank" / "slider_crank.yaml", "--set", "bodies.rod.frames=4", out="four")
     assert four["trust"] == "ok"
     assert four["bodies"]["rod"]["largest_axial_load_over_buckling_load"] == pytest.approx(load / 16, rel=0.2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`buckens view`: where it finds its page and what it writes; viewer/ tests the page itself."""
+"""`buckens view`: where it finds its page and what it writes; viewer/ contains tests of the page itself."""
 
 import base64
 import json
@@ -17,7 +17,7 @@ from conftest import PROGRAM, Result
 
 @pytest.fixture
 def installed(tmp_path):
-    """The program in a place of its own, so that the test says whether there is a viewer."""
+    """The program in a separate directory, so that the test decides whether there is a viewer."""
     program = tmp_path / "prefix" / "bin" / "buckens"
     program.parent.mkdir(parents=True)
     try:
@@ -28,7 +28,7 @@ def installed(tmp_path):
 
 
 def add_viewer(program):
-    """A page with nothing but the place for the data."""
+    """A page with only the placeholder for the data."""
     template = program.parents[1] / "share" / "buckens" / "viewer.html"
     template.parent.mkdir(parents=True)
     template.write_text("<script>const run = /*BUCKENS_DATA*/null;</script>")
@@ -127,7 +127,7 @@ def numbers(field, kind):
 
 @pytest.mark.parametrize("every, frames", [("4 ms", 26), ("50 ms", 101)])
 def test_fields_over_meshes_go_into_the_page(buckens, installed, tmp_path, every, frames):
-    """Frames at the fields' instants where they make a film, else all with the fields between."""
+    """Frames at the fields' instants if these suffice for an animation, else all frames with fields interpolated."""
     (tmp_path / "block.yaml").write_text(BLOCK.replace("EVERY", every))
     buckens("run", "block.yaml", "-o", "out", "-q").must(0)
     add_viewer(installed)
@@ -200,7 +200,7 @@ def test_section_forces_layers_and_joint_forces_go_into_the_page(buckens, instal
     run = json.loads(text.split("const run = ")[1].split(";</script>")[0])["runs"][0]
     rod, strip = run["bodies"]
     frames = run["time"]["n"]
-    # A force of 10 N at the end: bending moments fall from 10 N m to nothing, from end to end of every element.
+    # A force of 10 N at the end: bending moments fall from 10 N m to zero, from end to end of every element.
     moment = next(f for f in rod["fields"] if f["name"] == "section_moment")
     assert (moment["on"], moment["unit"], moment["components"]) == ("lineEnds", "N m", ["Mt", "My", "Mz"])
     ends = numbers(moment["values"]["values"], "<f4").reshape(frames, 4, 2, 3)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What becomes of files that nobody here wrote: each is read as a new user would, alone, under limits.
+"""Outcome of reading files written by others: each is read separately as a new user would, under limits.
 
     tools/census.py FOLDER... [--program build/release/bin/buckens] [--json FILE] [--list] [--jobs 1]
 
@@ -33,7 +33,7 @@ MATERIAL = "steel"
 MATERIALS = {MATERIAL: {"E": "210 GPa", "nu": 0.3, "rho": "7850 kg/m^3"}}
 MOST_ATTEMPTS = 8
 
-# Messages after which nobody can be helped: the file holds no body, or not all of it is there.
+# Messages without a remedy: the file contains no body, or only part of one.
 RIGHT = [re.compile(text) for text in (
     r"the deck has no nodes", r"the deck has nodes, but no elements", r"the mesh has no elements", r"the file is empty",
     r"INCLUDE.*cannot read", r"there is no (GRID|material|PBUSH|node|element) ", r"truncated|cut off|not complete",
@@ -76,7 +76,7 @@ class Runner:
 
 
 class Model:
-    """A model file of one body; grows by what the program's messages ask for, as a user would write it. Shells and
+    """A model file of one body; extended by what the program's messages ask for, as a user would write it. Shells and
     beams become as thick as a hundredth of the body."""
 
     def __init__(self, path, ending):
@@ -127,7 +127,7 @@ class Model:
 
 
 def reason(text):
-    """A message without what differs from file to file."""
+    """A message without the parts that differ from file to file."""
     text = re.sub(r"^model\.yaml:\d+:\d+: ", "", text)
     text = re.sub(r"^(body )?\"b\": ", "", text)
     text = re.sub(r"(/[^/:]+)+\.\w+(:\d+)*: ", "", text)

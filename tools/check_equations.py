@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every equation tag in the sources is explained in the theory pages.
+"""Checks that every equation tag in the sources is explained in the theory pages.
 
 `FM (n)` is an equation of Fischer & Mangler (1991): lists and ranges such as `FM (25), (26)` and
 `FM (22)–(24)` count with all their numbers. `eq. (L1)` is an equation of Buckens' own, labelled at

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Include floors: a module includes lower floors only, and no includes run in a circle.
+"""Include floors: a module includes lower floors only, and there are no include cycles.
 
 The floors stand in src/CMakeLists.txt (buckens_module(name floor ...)), nowhere else. A module may
 have rooms, src/buckens/<module>/<room>/; rooms have no floor of their own and hold no folders.
@@ -59,7 +59,7 @@ def check_file(name, includes, floors, present):
 
 
 def check_header(name, text, includes, present):
-    """Errors of a file as a header, or as the source that shows that a header stands alone."""
+    """Errors of a file as a header, or as the source that shows that a header compiles alone."""
     if name.endswith(".h"):
         return [] if "#pragma once" in text else [f"{name}: a header needs `#pragma once`"]
     header = name[:-len(".cpp")] + ".h"
@@ -72,7 +72,7 @@ def check_header(name, text, includes, present):
 
 
 def find_cycle(graph):
-    """Some circle in the graph as a list of nodes, or None."""
+    """A cycle in the graph as a list of nodes, or None."""
     state = {}
     for start in sorted(graph):
         if start in state:

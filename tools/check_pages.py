@@ -22,19 +22,19 @@ TORN_TABLE = re.compile(r"^\|.*\|\n\n(?=\|.*\|\n(?!\|[-:| ]+\|\n))", re.MULTILIN
 
 TEXT = re.compile(r"\.(h|cpp|py|sh|cmake|ts|mjs|js|css|html|md|yaml|yml|json|inp|bdf|geo|csv|toml)$"
                   r"|(^|/)(CMakeLists\.txt|NOTICE|CITATION\.cff)$")
-# Written so that this file does not hold what it looks for.
+# Written so that this file does not contain what it searches for.
 MACHINE_PATH = re.compile(r"(?<![\w.])/(?:work|home|root|Users)/\w|/tm" r"p/\w|\.\./shar" "ed")
 UNFINISHED = re.compile(r"\b(TO" r"DO|FIX" r"ME|HA" r"CK|XX" r"X)\b")
 
 
 def anchor(heading):
-    """What a link to a heading is called."""
+    """The anchor of a heading."""
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading.strip())
     return re.sub(r"[^\w\- ]", "", text.lower()).replace(" ", "-")
 
 
 def blank_fences(text):
-    """Blocks of code are no prose; lines stay where they are."""
+    """Removes blocks of code; line numbers are kept."""
     return FENCE.sub(lambda match: re.sub(r"[^\n]", " ", match.group(0)), text)
 
 
@@ -60,7 +60,7 @@ def links(root, names, page, text):
 
 
 def check_page(root, names, page):
-    """Errors of one page, and where its links lead."""
+    """Errors of one page, and the targets of its links."""
     errors, targets = [], set()
     text = blank_fences(source_files.read(root, page))
 

@@ -13,21 +13,21 @@ MAX_FILE, WARN_FILE, MAX_FUNCTION = 600, 300, 60
 SIZED = re.compile(r"\.(h|cpp|py|ts|mjs|js|css|cmake|sh)$|(^|/)CMakeLists\.txt$")
 NAMESPACE = re.compile(r"(\bnamespace\b[\w:\s]*|\bextern\s*)$")
 TYPE = re.compile(r"\b(class|struct|union|enum)\b")
-# Behind "Type(...) :" a brace after a name opens a member's initialiser, not the function's body.
+# After "Type(...) :" a brace following a name opens a member's initialiser, not the function's body.
 MEMBER_INITIALISER = re.compile(r"\)\s*(noexcept\s*)?:(?!:).*[\w>]\s*$", re.DOTALL)
 
 
 def blank_preprocessor(text):
-    """Macros may hold unbalanced braces."""
+    """Macros may contain unbalanced braces."""
     return re.sub(r"^[ \t]*#(?:[^\n\\]|\\\n|\\.)*",
                   lambda match: re.sub(r"[^\n]", " ", match.group(0)), text, flags=re.MULTILINE)
 
 
 def scope_kind(head):
-    """What the brace after this head of a statement opens."""
+    """The kind of block opened by the brace after this statement head."""
     if NAMESPACE.search(head):
         return "namespace"
-    # Parameters may name a struct, template parameters a class: look at what is left.
+    # Parameters may name a struct, template parameters a class: examine the rest.
     flat = re.sub(r"<[^<>]*>", "", re.sub(r"<[^<>]*>", "", head))
     if ")" not in flat:
         return "type" if TYPE.search(flat) else "initialiser"

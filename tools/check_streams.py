@@ -26,7 +26,7 @@ FORBIDDEN = [
      "changes how the whole process writes numbers; use fmt and std::from_chars"),
 ]
 
-# Processes that this project has started itself end here, not that of the user.
+# These end child processes started by this project, not the user's process.
 FORKED = ("src/buckens/files/write_process.cpp", "src/buckens/files/isolated_work.cpp")
 
 

@@ -25,7 +25,7 @@ if [ ${#files[@]} -eq 0 ]; then
   echo "tidy: no source has changed"
   exit 0
 fi
-# Sources are compiled in pieces, which the list of commands names: flags are given here instead.
+# The compilation database lists unity pieces, not sources: so flags are given here.
 flags=(-std=c++20 -DBUCKENS_GMSH_LIBRARY=\"libgmsh.so\" -Isrc -Iapps "-I$build/generated" -isystem /usr/include/eigen3
   -isystem /usr/include/hdf5/serial -isystem /usr/include/suitesparse -isystem /usr/include/cairo
   -isystem "/usr/include/$(gcc -print-multiarch)/openblas-openmp")

@@ -5,7 +5,7 @@
 
 buckens_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
-# Debian packages the build and the tests need; keep in step with cmake/BuckensDependencies.cmake.
+# Debian packages for the build and the tests; keep consistent with cmake/BuckensDependencies.cmake.
 buckens_packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
@@ -16,7 +16,7 @@ buckens_packages=(
   python3 python3-pytest python3-numpy python3-h5py python3-vtk9
 )
 
-# Object files are cached by what the sources say, not by where the checkout lies.
+# Object files are cached by the contents of the sources, not by the location of the checkout.
 export CCACHE_BASEDIR="$buckens_root"
 
 say() {
@@ -27,15 +27,15 @@ fail() { printf 'error: %s\n' "$*" >&2; return 1; }
 
 # Installed packages among the arguments, one per line. Replaced in the test of this script.
 installed_packages() {
-  # dpkg-query fails when it does not know one of the names; what it prints is right all the same.
+  # dpkg-query fails if it does not know one of the names; its output is right nevertheless.
   { dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' "$@" 2>/dev/null || true; } |
     sed -n 's/^ii *//p' | sort -u
 }
 
 has_command() { command -v "$1" >/dev/null 2>&1; }
 
-# Packages that are not there, one per line. Programs that people install by other ways (node,
-# npm, a Chromium) count as there when the command exists.
+# Missing packages, one per line. Programs that are often installed in other ways (node,
+# npm, a Chromium) count as installed if the command exists.
 missing_packages() {
   local installed package
   installed="$(installed_packages "${buckens_packages[@]}")"
@@ -113,7 +113,7 @@ install_npm_packages() {
   echo "$sum" >"$stamp"
 }
 
-# Warnings are errors with the compiler this project is tested with; others may know more warnings.
+# Warnings are errors with the compiler used for testing; others may have more warnings.
 werror_setting() {
   local major
   major="$("${CXX:-g++}" -dumpversion 2>/dev/null | cut -d. -f1)"

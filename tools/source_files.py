@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which files the structural checks look at, and C++ text without comments and strings."""
+"""The files examined by the structural checks, and C++ text without comments and strings."""
 
 import os
 import re
@@ -38,13 +38,13 @@ def read(root, name):
 
 
 def blank_comments_and_strings(text, keep_strings=False):
-    """Replaces comments (and strings) by blanks; lines and columns stay where they are."""
+    """Replaces comments (and strings) by blanks; lines and columns are kept."""
 
     def blank(match):
         token = match.group(0)
         if keep_strings and not token.startswith("/"):
             return token
-        # A digit separator (1'000) is no character literal.
+        # A digit separator (1'000) is not a character literal.
         if token.startswith("'") and match.start() and text[match.start() - 1].isalnum():
             return token
         return re.sub(r"[^\n]", " ", token)

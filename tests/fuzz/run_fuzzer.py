@@ -11,7 +11,7 @@ import tempfile
 
 
 def arguments_of(options, scratch):
-    """Everything libFuzzer is told. New inputs and artifacts go to the scratch directory."""
+    """All options of libFuzzer. New inputs and artifacts go to the scratch directory."""
     (scratch / "found").mkdir()
     arguments = [options.program, f"-max_total_time={options.seconds}", f"-seed={options.seed}",
                  # A reader of a few kilobytes needs neither; with the sanitizer's own share. Inputs

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # with_clang.sh CLANG [CCACHE] -- COMPILER ARGUMENTS...: runs CLANG with the arguments that CMake wrote
-# for another compiler. So the fuzz programs are built by clang, which has libFuzzer, in a build by g++.
+# for another compiler. Thus clang, which has libFuzzer, builds the fuzz programs in a build by g++.
 command=
 while [ "$1" != -- ]; do
   command="$1${command:+ $command}"

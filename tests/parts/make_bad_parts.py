@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes STEP parts with the faults that drawings have, by the library of Gmsh: make_bad_parts.py DIRECTORY.
+"""Makes STEP parts with typical faults of drawings, using the Gmsh library: make_bad_parts.py DIRECTORY.
 
-The tests make them anew each time. Lengths are in millimetres; the box has edges of 100, 60 and 40."""
+The tests regenerate them each time. Lengths are in millimetres; the box has edges of 100, 60 and 40."""
 
 import ctypes
 import ctypes.util
@@ -33,7 +33,7 @@ class Kernel:
         return self.call("gmshModelOccAddBox", *map(ctypes.c_double, (*corner, *size)), -1)
 
     def face(self, corners):
-        """A plane face of its own: it shares no edge with others."""
+        """A separate plane face: it shares no edge with others."""
         points = [self.call("gmshModelOccAddPoint", *map(ctypes.c_double, (*p, 0.0)), -1) for p in corners]
         lines = [self.call("gmshModelOccAddLine", a, b, -1) for a, b in zip(points, points[1:] + points[:1])]
         array = ctypes.c_int * len(lines)
@@ -48,7 +48,7 @@ class Kernel:
 
 
 def shell_with_gap(gap):
-    """Six faces of the box, the uppermost farther up than the walls reach."""
+    """Six faces of the box, the top one above the upper edges of the walls."""
     def build(kernel):
         x, y, z = BOX
         low = [(0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0)]

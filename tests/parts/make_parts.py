@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Makes the meshes in this folder with the program gmsh (Debian: gmsh). It is needed only to change
-them. All files named crank_web hold the same mesh."""
+them. All files named crank_web contain the same mesh."""
 
 import pathlib
 import subprocess

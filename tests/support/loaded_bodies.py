@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A bar of solids and a rod of beams under loads, and how to run them."""
+"""A bar of solids and a rod of beams under loads, and functions to run them."""
 
 import csv
 import itertools

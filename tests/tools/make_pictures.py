@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes all pictures of docs/pictures and of the examples anew: runs the models, writes their pages, photographs them.
+"""Regenerates all pictures of docs/pictures and of the examples: runs the models, writes their pages, takes screenshots.
 
     tests/tools/make_pictures.py [--program build/release/bin/buckens] [--out docs/pictures] [NAME...]
 
@@ -21,7 +21,7 @@ CRANK = "examples/slider_crank/slider_crank.yaml"
 
 @dataclasses.dataclass(frozen=True)
 class Picture:
-    """A page at a moment, seen in one way."""
+    """A page at one time in one view."""
 
     name: str
     runs: tuple = ()  # per run directory the arguments of `buckens`; two of them are shown side by side
@@ -40,7 +40,7 @@ class Drawing:
     script: tuple  # with PROGRAM and OUT for the program and the folder of the pictures
 
 
-# Which model, at which time and seen how, gives which picture.
+# Model, time and view of each picture.
 PICTURES = (
     Picture("slider_crank", (("run", CRANK),), time=0.055),
     Picture("spring_leg", (("run", "examples/spring_leg/spring_leg.yaml"),), time=0.19375),
@@ -74,7 +74,7 @@ def call(*arguments):
 
 
 def page_of(picture, program, folder):
-    """Writes the page that a picture shows."""
+    """Writes the page for a picture."""
     page = folder / "page.html"
     if picture.fixture:
         call("node", "viewer/tests/fixture.mjs", page, picture.fixture)

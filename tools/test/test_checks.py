@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Each structural check rejects a tree with the fault it is there for, and passes a sound one."""
+"""Each structural check rejects a tree with the fault it is meant to find, and passes a sound one."""
 
 import os
 import subprocess
@@ -38,7 +38,7 @@ def run_check(script, files):
 
 class Checks(unittest.TestCase):
     def expect(self, script, changes, *words):
-        """The sound tree with these changes is rejected with these words; none: it passes."""
+        """The sound tree with these changes is rejected with these words, or passes if there are none."""
         status, output = run_check(script, {**SOUND, **changes})
         self.assertEqual(status, 1 if words else 0, output)
         for word in words:

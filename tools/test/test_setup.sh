@@ -55,7 +55,7 @@ sudo() { return 100; }
 if got="$(install_debian_packages 2>&1)"; then expect "failing apt-get" failure success; fi
 expect_words "message of a failing apt-get" "could not install: libmuparser-dev" "$got"
 
-# Another system: the list, and on.
+# Another system: prints the list and continues.
 is_debian() { false; }
 if ! got="$(install_debian_packages 2>&1)"; then expect "other systems go on" success failure; fi
 expect_words "list for other systems" "libsuitesparse-dev" "$got"
