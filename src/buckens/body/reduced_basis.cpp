@@ -142,6 +142,7 @@ Matrix self_equilibrated(const FlexiblePart& part, const Matrix& loads) {
   const Matrix resultants = part.sieve.Phi().transpose() * loads;
   Eigen::ColPivHouseholderQR<Matrix> qr(resultants.transpose());
   qr.setThreshold(kStraining);
+  if (qr.rank() == loads.cols()) return Matrix(loads.rows(), 0);
   Matrix E = Matrix::Zero(loads.cols(), loads.cols() - qr.rank());
   E.bottomRows(E.cols()).setIdentity();
   return loads * (qr.householderQ() * E);

@@ -14,9 +14,10 @@
 #include <unistd.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/sanitizers.h"
 #include "buckens/files/output_file.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if BUCKENS_IS_SANITIZED
 #define BUCKENS_UNDER_SANITIZER
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstddef>
 
+#include "buckens/base/sanitizers.h"
+
 // Counts calls of malloc (which operator new and Eigen use), calloc and so on. Include in one
 // source of a test program only: it replaces the C library's functions.
 
@@ -12,7 +14,7 @@ namespace buckens::test {
 inline std::atomic<long> num_allocations{0};
 inline std::atomic<std::size_t> least_counted{0};  // bytes
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !BUCKENS_IS_SANITIZED
 inline constexpr bool kCountsAllocations = true;
 #else
 inline constexpr bool kCountsAllocations = false;  // sanitizers have their own malloc
@@ -35,7 +37,7 @@ inline void note_allocation(std::size_t size) {
 
 }  // namespace buckens::test
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !BUCKENS_IS_SANITIZED
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

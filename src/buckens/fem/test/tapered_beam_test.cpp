@@ -70,7 +70,8 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 TEST(TaperedBeam, IsDrawnWithTheRadiiOfItsEnds) {
   SkewBeam beam(tapered(cone(0.05, 0.02)), 3);
-  const auto lines = line_elements(assemble(beam.structure));
+  const FeModel model = assemble(beam.structure);
+  const auto lines = line_elements(model);
   ASSERT_EQ(lines.size(), 3U);
   for (std::size_t e = 0; e < 3; ++e) {
     for (std::size_t end = 0; end < 2; ++end) {

@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/sanitizers.h"
 #include "buckens/linalg/conjugate_gradients.h"
 #include "buckens/linalg/row_rank.h"
 #include "buckens/linalg/sparse_cholesky.h"
@@ -115,7 +116,7 @@ TEST(SparseCholesky, SaysWhichEntryIsNotFinite) {
 }
 
 TEST(SparseCholesky, SaysHowMuchMemoryItNeeds) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if BUCKENS_IS_SANITIZED
   GTEST_SKIP() << "sanitizers need more address space than the limit";
 #endif
   // A full matrix as a sparse one: its factor of 4000²/2 numbers takes 64 MB or more.
