@@ -9,6 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/element/node_number.h"
+#include "buckens/model/build/imported_springs.h"
 
 namespace buckens::model {
 
@@ -21,12 +22,13 @@ class LinkImport {
              const SourceLocation& where, fem::Structure& structure)
       : mesh_(mesh), numbers_(numbers), where_(where), out_(structure) {}
 
-  void run() {
+  std::vector<std::string> run() {
     for (const fem::ImportedRigidLink& link : mesh_.rigid_links) add(link);
     for (const fem::ImportedAverage& average : mesh_.averages) add(average);
     for (const fem::ImportedEquation& equation : mesh_.equations) add(equation);
-    for (const fem::ImportedSpring& spring : mesh_.springs) add(spring);
     for (const fem::ImportedMass& mass : mesh_.masses) add(mass);
+    for (const fem::ImportedSpring& spring : mesh_.springs) add(spring);
+    return add_node_springs(springs_, mesh_.file, out_);
   }
 
  private:
@@ -74,7 +76,7 @@ class LinkImport {
                                            "to ground; take it out and attach it by a load",
                                            mesh_.file));
     }
-    out_.springs.add(node(spring.nodes[0]), node(spring.nodes[1]), spring.stiffness);
+    springs_.push_back({node(spring.nodes[0]), node(spring.nodes[1]), spring.stiffness});
   }
   void add(const fem::ImportedMass& mass) {
     int at = node(mass.node);
@@ -94,6 +96,7 @@ class LinkImport {
   const std::vector<int>& numbers_;
   const SourceLocation& where_;
   fem::Structure& out_;
+  std::vector<NodeSpring> springs_;
 };
 
 }  // namespace
@@ -153,9 +156,11 @@ void mark_given_nodes(const fem::ImportedMesh& mesh, const fem::GroupMaterials& 
   }
 }
 
-void add_imported_links(const fem::ImportedMesh& mesh, const std::vector<int>& numbers,
-                        const SourceLocation& where, fem::Structure& structure) {
-  LinkImport(mesh, numbers, where, structure).run();
+std::vector<std::string> add_imported_links(const fem::ImportedMesh& mesh,
+                                            const std::vector<int>& numbers,
+                                            const SourceLocation& where,
+                                            fem::Structure& structure) {
+  return LinkImport(mesh, numbers, where, structure).run();
 }
 
 }  // namespace buckens::model

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "buckens/base/source_location.h"
@@ -23,8 +24,10 @@ void mark_given_nodes(const fem::ImportedMesh& mesh, const fem::GroupMaterials& 
 /// offset gets a node of its own, linked rigidly.
 /// @param numbers node of the structure per node of the file
 /// @param where the body in the model file, for messages
+/// @return notes on what became of springs, see add_node_springs()
 /// @throws InputError for a spring to ground or an average without nodes
-void add_imported_links(const fem::ImportedMesh& mesh, const std::vector<int>& numbers,
-                        const SourceLocation& where, fem::Structure& structure);
+std::vector<std::string> add_imported_links(const fem::ImportedMesh& mesh,
+                                            const std::vector<int>& numbers,
+                                            const SourceLocation& where, fem::Structure& structure);
 
 }  // namespace buckens::model

@@ -62,7 +62,7 @@ class Import {
   ImportedStructure run() {
     number_nodes();
     for (const fem::ImportedBlock& block : mesh_.blocks) add_block(block);
-    add_imported_links(mesh_, new_numbers_, where_, out_.structure);
+    out_.notes = add_imported_links(mesh_, new_numbers_, where_, out_.structure);
     add_sets();
     return std::move(out_);
   }

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "buckens/fem/mesh/mesh_file_spec.h"
 #include "buckens/fem/structure.h"
@@ -14,6 +16,7 @@ namespace buckens::model {
 struct ImportedStructure {
   fem::Structure structure;
   std::unordered_map<std::int64_t, int> numbers;  ///< nodes by their number in the file
+  std::vector<std::string> notes;                 ///< on what was taken otherwise than written
 };
 
 /// Gives every element of a mesh file its material, section and thickness. Unused nodes are left

@@ -182,6 +182,7 @@ void StructureBuilder::add_imported(const fem::GroupMaterials& source,
   ImportedStructure imported = imported_structure(*source.imported, source, spec_.damping, where);
   out_.structure = std::move(imported.structure);
   out_.numbers = std::move(imported.numbers);
+  out_.notes = std::move(imported.notes);
   if (spec_.geometric_stiffness &&
       out_.structure.beams.num_elements() + out_.structure.bars.num_elements() == 0) {
     throw InputError(where, fmt::format("{}: `geometric-stiffness` belongs to beams and bars, and "

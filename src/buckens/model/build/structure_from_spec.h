@@ -33,7 +33,8 @@ struct NamedStructure {
   std::vector<InterfaceRegion> interfaces;
   /// Of a body without elements; its nodes are those of `structure`.
   std::shared_ptr<const fem::BodyMatrices> matrices;
-  fem::RayleighFactors rayleigh;  ///< damping of such a body
+  fem::RayleighFactors rayleigh;   ///< damping of such a body
+  std::vector<std::string> notes;  ///< on what of a mesh file was taken otherwise than written
 
   /// A named place; nodes of mesh files are `n` and the number.
   std::optional<MeshPlace> find(const std::string& name) const;
