@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/loose_motions.h"
 #include "buckens/body/second_moments.h"
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/element/node_label.h"
@@ -20,10 +21,6 @@ using linalg::SparseMatrix;
 using linalg::Triplet;
 
 namespace {
-
-// Share of a node's mass that a motion of it must have: rounding stays below 1e-15, nodes that are
-// nearly on a line above 1e-10.
-constexpr double kMassless = 1e-12;
 
 void refuse_common_nodes(const std::string& body, std::size_t num_nodes,
                          const std::vector<RigidRegion>& regions) {
@@ -64,7 +61,7 @@ class Condensation {
  public:
   Condensation(const fem::FeModel& full, const std::vector<RigidRegion>& regions,
                fem::NodeLinks links)
-      : full_(full), nodes_(full.nodes) {
+      : full_(&full), nodes_(full.nodes) {
     fem::DofMap dofs = full.dofs;
     const std::array<bool, 6> known = known_variables(full.dofs);
     for (const RigidRegion& region : regions) {
@@ -92,17 +89,17 @@ class Condensation {
   /// Component `axis` of the displacements of all nodes, a row each.
   SparseMatrix component(std::size_t axis) const {
     std::vector<Triplet> entries;
-    for (std::size_t node = 0; node < full_.nodes.size(); ++node) {
-      const int dof = full_.dofs.node_dofs[node][axis];
+    for (std::size_t node = 0; node < full_->nodes.size(); ++node) {
+      const int dof = full_->dofs.node_dofs[node][axis];
       if (dof >= 0) entries.emplace_back(static_cast<int>(node), dof, 1.0);
     }
-    SparseMatrix pick(static_cast<Eigen::Index>(full_.nodes.size()), T_.rows());
+    SparseMatrix pick(static_cast<Eigen::Index>(full_->nodes.size()), T_.rows());
     pick.setFromTriplets(entries.begin(), entries.end());
     return pick * T_;
   }
 
  private:
-  const fem::FeModel& full_;
+  const fem::FeModel* full_;
   std::vector<fem::Node> nodes_;
   fem::Elimination elimination_;
   SparseMatrix T_;
@@ -155,86 +152,43 @@ fem::ShapeIntegrals condensed(const fem::ShapeIntegrals& full, const Condensatio
   return out;
 }
 
-/// The entries of a symmetric matrix between these variables.
-Eigen::MatrixXd block_of(const SparseMatrix& A, const std::vector<int>& variables) {
-  const auto count = static_cast<Eigen::Index>(variables.size());
-  Eigen::MatrixXd out(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < count; ++j) {
-      out(i, j) =
-          A.coeff(variables[static_cast<std::size_t>(i)], variables[static_cast<std::size_t>(j)]);
-    }
-  }
-  return out;
-}
-
-/// Motions of a node that move no mass, orthonormal in the variables that have some, a column each.
-Eigen::MatrixXd massless_motions(const Eigen::MatrixXd& M) {
-  const Eigen::Index count = M.rows();
-  // Variables without mass stand for themselves.
-  const Eigen::VectorXd size =
-      (M.diagonal().array() > 0.0).select(M.diagonal().cwiseSqrt(), Eigen::VectorXd::Ones(count));
-  const Eigen::MatrixXd scaled =
-      size.cwiseInverse().asDiagonal() * M * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-  Eigen::Index num_massless = 0;
-  while (num_massless < count && solver.eigenvalues()[num_massless] < kMassless) ++num_massless;
-  return size.cwiseInverse().asDiagonal() * solver.eigenvectors().leftCols(num_massless);
-}
-
-/// Refuses variables that move neither mass nor an element: a reference node whose links leave it a
-/// free motion. If elements resist, as ends of massless beams do, the motion follows.
-void refuse_massless(const std::string& body, const fem::FeModel& fe) {
-  for (std::size_t node = 0; node < fe.dofs.node_dofs.size(); ++node) {
-    std::vector<int> own;
-    for (const int dof : fe.dofs.node_dofs[node]) {
-      if (dof >= 0) own.push_back(dof);
-    }
-    if (own.empty()) continue;
-    const Eigen::MatrixXd Z = massless_motions(block_of(fe.M, own));
-    if (Z.cols() == 0) continue;
-    const Eigen::MatrixXd K = block_of(fe.K, own);
-    const Eigen::VectorXd size =
-        (K.diagonal().array() > 0.0)
-            .select(K.diagonal().cwiseSqrt(), Eigen::VectorXd::Ones(K.rows()));
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(size.asDiagonal() * Z);
-    const Eigen::MatrixXd motions =
-        qr.householderQ() * Eigen::MatrixXd::Identity(Z.rows(), Z.cols());
-    const Eigen::MatrixXd scaled =
-        size.cwiseInverse().asDiagonal() * K * size.cwiseInverse().asDiagonal();
-    const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-                             motions.transpose() * scaled * motions, Eigen::EigenvaluesOnly)
-                             .eigenvalues()[0];
-    if (least > kMassless) continue;
-    throw ModelError(fmt::format(
-        "body \"{}\": {} can move or turn without moving any mass, since what is linked to it does "
-        "not hold it in all directions; link nodes that span a surface, or nodes with rotations, "
-        "or give it a point mass with inertia",
-        body, fem::node_label(fe.nodes, static_cast<int>(node))));
-  }
+/// The mesh with its links solved.
+fem::FeModel condensed(const fem::FeModel& full, const Condensation& elimination) {
+  fem::FeModel fe;
+  fe.nodes = elimination.nodes();
+  fe.dofs = elimination.dofs();
+  fe.M = elimination.condensed(full.M);
+  fe.K = elimination.condensed(full.K);
+  fe.K_damping = elimination.condensed(full.K_damping);
+  fe.mass_damping = full.mass_damping;
+  fe.damps_held_motion = full.damps_held_motion;
+  fe.shape = condensed(full.shape, elimination);
+  return fe;
 }
 
 }  // namespace
 
-std::unique_ptr<FlexiblePart> with_links(const std::string& body, FlexiblePart& part,
-                                         const std::vector<RigidRegion>& regions,
-                                         const fem::NodeLinks& links) {
+LinkedPart with_links(const std::string& body, FlexiblePart& part,
+                      const std::vector<RigidRegion>& regions, const fem::NodeLinks& links) {
   auto full = std::make_shared<const fem::FeModel>(std::move(part.fe));
   refuse_common_nodes(body, full->nodes.size(), regions);
-  const Condensation elimination(*full, regions, links);
-  fem::FeModel fe;
-  fe.nodes = elimination.nodes();
-  fe.dofs = elimination.dofs();
-  fe.M = elimination.condensed(full->M);
-  fe.K = elimination.condensed(full->K);
-  fe.K_damping = elimination.condensed(full->K_damping);
-  fe.mass_damping = full->mass_damping;
-  fe.damps_held_motion = full->damps_held_motion;
-  fe.shape = condensed(full->shape, elimination);
-  if (!links.empty()) refuse_massless(body, fe);
-  auto out = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);
-  out->full_mesh = std::move(full);
-  out->recovery = NodalRecovery(elimination.T());
+  Condensation elimination(*full, regions, links);
+  fem::FeModel fe = condensed(*full, elimination);
+  LinkedPart out;
+  const std::vector<LooseMotion> loose =
+      links.empty() ? std::vector<LooseMotion>{} : loose_motions(fe);
+  if (!loose.empty()) {
+    fem::NodeLinks more = links;
+    for (fem::LinearEquation& equation : follow_nearest(body, *full, loose)) {
+      more.equations.push_back(std::move(equation));
+    }
+    elimination = Condensation(*full, regions, more);
+    fe = condensed(*full, elimination);
+    out.note = loose_motions_note(*full, loose);
+  }
+  out.part = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);
+  out.part->full_mesh = std::move(full);
+  out.part->recovery = NodalRecovery(elimination.T());
   return out;
 }
 

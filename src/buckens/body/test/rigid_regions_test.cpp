@@ -46,7 +46,7 @@ struct Block {
   }
   std::unique_ptr<FlexiblePart> held() const {
     const auto part = full();
-    return with_links("block", *part, regions);
+    return with_links("block", *part, regions).part;
   }
 };
 

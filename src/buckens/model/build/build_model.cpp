@@ -129,6 +129,9 @@ class Builder {
     meshes_[w] = std::make_unique<NamedStructure>(structure_from_spec(spec));
     // Loads on offset shells find the directors that their inertia has.
     meshes_[w]->structure.shells.choose_directors(meshes_[w]->structure.nodes);
+    for (const std::string& note : meshes_[w]->notes) {
+      model_.notes.push_back(fmt::format("body \"{}\": {}", spec.name, note));
+    }
     whole.interfaces = meshes_[w]->interfaces;
     if (spec.frames.is_one()) return;
     // The whole mesh comes first: it finds what is wrong with nodes and elements.
@@ -217,7 +220,7 @@ class Builder {
       const bool has_links = !mesh->structure.links.empty();
       if (!has_links) refuse_mechanisms(body);
       if (spec.geometric_stiffness) body.flexible->stiffen();
-      eliminate_links(*mesh, body);
+      eliminate_links(*mesh, body, model_.notes);
       if (has_links) refuse_mechanisms(body);
     }
     if (!(body.mass > 0.0)) {

@@ -2,6 +2,7 @@
 #include "buckens/model/build/eliminate_links.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,7 +25,8 @@ std::vector<body::RigidRegion> rigid_regions(const std::vector<InterfaceRegion>&
 
 }  // namespace
 
-void eliminate_links(const NamedStructure& mesh, body::Body& body) {
+void eliminate_links(const NamedStructure& mesh, body::Body& body,
+                     std::vector<std::string>& notes) {
   const std::vector<body::RigidRegion> regions = rigid_regions(mesh.interfaces);
   const fem::NodeLinks& links = mesh.structure.links;
   if (regions.empty() && links.empty()) return;
@@ -37,7 +39,11 @@ void eliminate_links(const NamedStructure& mesh, body::Body& body) {
         "body more `frames`",
         what));
   }
-  body.flexible = body::with_links(body.name, *body.flexible, regions, links);
+  body::LinkedPart linked = body::with_links(body.name, *body.flexible, regions, links);
+  body.flexible = std::move(linked.part);
+  if (!linked.note.empty()) {
+    notes.push_back(fmt::format("body \"{}\": {}", body.name, linked.note));
+  }
 }
 
 std::unique_ptr<body::FlexiblePart> undivided_part(const WholeBody& whole,
@@ -45,7 +51,7 @@ std::unique_ptr<body::FlexiblePart> undivided_part(const WholeBody& whole,
   auto out = std::make_unique<body::FlexiblePart>(whole.name, *whole.mesh, coupling);
   const std::vector<body::RigidRegion> regions = rigid_regions(whole.interfaces);
   if (regions.empty()) return out;
-  return body::with_links(whole.name, *out, regions);
+  return body::with_links(whole.name, *out, regions).part;
 }
 
 }  // namespace buckens::model
