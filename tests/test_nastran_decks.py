@@ -109,3 +109,66 @@ def test_a_deck_of_nastran_may_end_as_those_of_abaqus(buckens, tmp_path):
     assert told["format"] == "Nastran"
     assert told["mass"] == pytest.approx(0.1, rel=1e-12)
     buckens("mesh-info", "none.inp").must(5, "none.inp")
+
+
+def two_cubes(between):
+    """A cube from 0 to 1 m and one from 1 to 2 m, of steel, and what joins nodes 2, 3, 6, 7 to 9, 12, 13, 16."""
+    second = "".join(f"GRID,{i + 9},,{1 + x}.,{y}.,{z}.\n" for i, (x, y, z) in enumerate(
+        [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]))
+    return (CUBE + second + "CHEXA,1,1,1,2,3,4,5,6\n,7,8\nCHEXA,2,1,9,10,11,12,13,14\n,15,16\nPSOLID,1,1\n"
+            "MAT1,1,2.1E11,,0.3,7850.\n" + between + "ENDDATA\n")
+
+
+def test_springs_that_turn_nodes_of_solids_turn_them_freely(body, buckens):
+    """At one place moments go nowhere; with an arm between, the end on the solid follows like a ball joint."""
+    pairs = [(2, 9), (3, 12), (6, 13), (7, 16)]
+
+    def bushes(stiffness):
+        cards = "".join(f"CBUSH,{20 + i},7,{a},{b},,,,0\n" for i, (a, b) in enumerate(pairs))
+        return two_cubes(cards + f"PBUSH,7,K,{stiffness}\n")
+
+    turning = body(bushes("1.E8,2.E8,3.E8,4.E7,4.E7,4.E7"))
+    plain = body(bushes("1.E8,2.E8,3.E8"))
+    assert turning["frequencies"] == pytest.approx(plain["frequencies"], rel=1e-9)
+    told = buckens("check", "model.yaml").must(0).out
+    assert "would turn" not in told
+    body(bushes("1.E8,2.E8,3.E8,4.E7,4.E7,4.E7"))
+    assert "4 springs would turn nodes of solids" in buckens("check", "model.yaml").must(0).out
+
+    # A beam on the far side has rotations; the spring in the middle of the arm L then is, seen from the solid,
+    # 1/(1/k + (L/2)²/k_θ) at its node.
+    k, turn, gap = 2e7, 3e6, 0.5
+
+    def with_beam(cards):
+        return (CUBE + f"GRID,9,,{1 + gap},0.,0.\nGRID,10,,{2 + gap},0.,0.\nGRID,11,,{1 + gap},1.,0.\n"
+                "CHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\nMAT1,1,2.1E11,,0.3,7850.\n"
+                "CBAR,3,3,9,10,0.,0.,1.\nCBAR,4,3,9,11,0.,0.,1.\nPBAR,3,1,1.E-2,1.E-5,2.E-5,3.E-5\n" + cards
+                + f"CBUSH,21,8,3,11,,,,0\n,0.\nCBUSH,22,8,6,9,,,,0\n,0.\nPBUSH,8,K,1.E7,1.E7,1.E7\nENDDATA\n")
+
+    soft = 1 / (1 / k + (gap / 2)**2 / turn)
+    one = body(with_beam(f"CBUSH,20,7,2,9,,,,0\n,.5\nPBUSH,7,K,{k},{k},{k},{turn},{turn},{turn}\n"))
+    other = body(with_beam(f"CBUSH,20,7,2,9,,,,0\n,0.\nPBUSH,7,K,{k},{soft!r},{soft!r}\n"))
+    assert one["frequencies"] == pytest.approx(other["frequencies"], rel=1e-8)
+
+
+def test_nodes_that_nothing_holds_in_some_directions_follow_the_body(body, buckens):
+    """A mean of one direction, and a node on springs along two: neither changes a frequency."""
+    tied = "RBE2,5,2,123,9\nRBE2,6,3,123,12\nRBE2,7,6,123,13\nRBE2,8,7,123,16\n"
+    bare = body(two_cubes(tied))["frequencies"]
+    loose = body(two_cubes(tied + "GRID,30,,2.5,.5,.5\nRBE3,31,,30,1,1.,123,10,11\n,14,15\n"
+                           "GRID,40,,2.,0.,0.\nCELAS2,41,1.E6,10,1,40,1\nCELAS2,42,1.E6,10,2,40,2\n"))
+    assert loose["frequencies"] == pytest.approx(bare, rel=1e-6)
+    assert "move or turn in some directions without mass or stiffness" in buckens("check", "model.yaml").must(0).out
+
+
+def test_shells_and_solids_without_some_mid_side_nodes(body, buckens):
+    deck = ("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,.5,0.,0.\nGRID,6,,1.,.5,0.\n"
+            "GRID,7,,.5,1.,0.\nGRID,8,,2.,0.,0.\nGRID,9,,2.,1.,0.\nPSHELL,1,1,.02,1\nMAT1,1,2.1E11,,0.3,7850.\n"
+            "CQUAD8,1,1,1,2,3,4,5,{}\n,7,{}\nCQUAD4,2,1,2,8,9,3\nENDDATA\n")
+    mixed = body(deck.format("", ""))
+    assert mixed["mass"] == pytest.approx(7850 * 0.02 * 2, rel=1e-9)
+    told = buckens("mesh-info", "deck.bdf").must(0).out
+    assert "edges without a mid-side node are straight and move linearly" in told
+    # Nearly as a plate of four quadratic elements of the same size: between the coarse mesh and it.
+    assert 0.8 < mixed["frequencies"][0] / body(deck.replace("CQUAD4,2,1,2,8,9,3", "CQUAD8,2,1,2,8,9,3,,\n,,6")
+                                                 .format("6", ""))["frequencies"][0] < 1.25

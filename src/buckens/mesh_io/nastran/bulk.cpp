@@ -17,13 +17,14 @@ using Names = std::set<std::string_view>;
 
 const Names& kept_names() {
   static const Names names = {
-      "CORD1R", "CORD1C", "CORD1S", "CORD2R",  "CORD2C",  "CORD2S", "PSOLID", "PSHELL", "PCOMP",
-      "PCOMPG", "PBAR",   "PBARL",  "PBEAM",   "PBEAML",  "PROD",   "PTUBE",  "PBUSH",  "PIHEX",
-      "PQUAD1", "PQUAD2", "PQDMEM", "PQDMEM1", "PQDMEM2", "PTRIA1", "PTRIA2", "PTRMEM", "MAT1",
-      "MAT2",   "MAT3",   "MAT8",   "MAT9",    "MAT10",   "CONM1",  "SPOINT", "CELAS1", "CELAS2",
-      "CELAS3", "CELAS4", "PELAS",  "CMASS1",  "CMASS2",  "CMASS3", "CMASS4", "PMASS",  "CONM2",
-      "CBUSH",  "RBE2",   "RBE3",   "RBAR",    "RBE1",    "RTRPLT", "RROD",   "CRIGD1", "CRIGD2",
-      "CRIGD3", "MPC",    "MPCADD", "SET1",    "SET3"};
+      "CORD1R", "CORD1C",  "CORD1S", "CORD2R",  "CORD2C",  "CORD2S", "PSOLID", "PSHELL", "PCOMP",
+      "PCOMPG", "PBAR",    "PBARL",  "PBEAM",   "PBEAML",  "PROD",   "PTUBE",  "PBUSH",  "PIHEX",
+      "PQUAD1", "PQUAD2",  "PQDMEM", "PQDMEM1", "PQDMEM2", "PTRIA1", "PTRIA2", "PTRMEM", "MAT1",
+      "MAT2",   "MAT3",    "MAT8",   "MAT9",    "MAT10",   "CONM1",  "SPOINT", "CELAS1", "CELAS2",
+      "CELAS3", "CELAS4",  "PELAS",  "CMASS1",  "CMASS2",  "CMASS3", "CMASS4", "PMASS",  "CONM2",
+      "CBUSH",  "RBE2",    "RBE3",   "RBAR",    "RBE1",    "RTRPLT", "RROD",   "CRIGD1", "CRIGD2",
+      "CRIGD3", "MPC",     "MPCADD", "SET1",    "SET3",    "NSM",    "NSM1",   "NSML",   "NSML1",
+      "NSMADD", "CBUSH1D", "PBUSH1D"};
   return names;
 }
 
@@ -117,7 +118,9 @@ void read_grid_defaults(const NastranCard& card, NastranBulk& bulk) {
   bulk.default_cp = card.integer(1, 0);
   bulk.default_cd = card.integer(5, 0);
   for (const int field : {1, 5}) {
-    if (card.integer(field, 0) < 0) card.fail(field, "this is not a coordinate system");
+    if (card.integer(field, 0) >= 0) continue;
+    card.fail(field, fmt::format("{} is not a coordinate system; fluid points are not supported",
+                                 card.integer(field)));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,12 +65,13 @@ struct NastranElement {
 
 /// Fields of shells beyond nodes and property, where any is given.
 struct NastranShellDetails {
-  bool has_system = false;        ///< MCID instead of THETA
-  std::int64_t system = 0;        ///< MCID
-  double theta = 0;               ///< [degrees]
-  double offset = 0;              ///< ZOFFS
-  bool relative = false;          ///< TFLAG: thicknesses are fractions of that of the property
-  std::vector<double> thickness;  ///< T1…; empty if all are blank
+  bool has_system = false;  ///< MCID instead of THETA
+  std::int64_t system = 0;  ///< MCID
+  double theta = 0;         ///< [degrees]
+  double offset = 0;        ///< ZOFFS
+  bool relative = false;    ///< TFLAG: thicknesses are fractions of that of the property
+  /// T1…, those without a value as the property says; empty if all are blank
+  std::vector<std::optional<double>> thickness;
 };
 
 /// Fields of CBAR and CBEAM beyond nodes and property.
@@ -96,6 +98,7 @@ struct NastranBulk {
   std::int64_t default_cp = 0;  ///< GRDSET
   std::int64_t default_cd = 0;
   std::vector<NastranElement> elements;
+  static constexpr std::int64_t kNoNode = 0;  ///< a mid-side node that is left out
   std::vector<std::int64_t> element_nodes;
   std::vector<NastranShellDetails> shells;
   std::vector<NastranLineDetails> lines;

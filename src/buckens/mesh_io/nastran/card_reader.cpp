@@ -39,7 +39,8 @@ void append(NastranCard& card, const NastranRow& row, const NastranLine& line) {
   for (const std::string_view field : row.more) add(field);
 }
 
-std::string card_name(const NastranRow& row, const NastranLine& line) {
+/// @param is_first whether no card came before, so that the file may be none of Nastran at all
+std::string card_name(const NastranRow& row, const NastranLine& line, bool is_first) {
   std::string_view text = row.head;
   if (text.ends_with('*')) text.remove_suffix(1);
   std::string name = upper_case(trimmed(text));
@@ -51,7 +52,8 @@ std::string card_name(const NastranRow& row, const NastranLine& line) {
     is_name = is_name && ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_');
   }
   if (!is_name) {
-    fail(line, fmt::format("{} is not the name of a bulk data card", quoted_excerpt(row.head)));
+    fail(line, fmt::format("{} is not the name of a bulk data card{}", quoted_excerpt(row.head),
+                           is_first ? "; is this a deck of Nastran?" : ""));
   }
   return name;
 }
@@ -167,7 +169,8 @@ bool NastranCardReader::next(NastranCard& card) {
     first = *line;
     row = first_row(first);
   }
-  card.name = card_name(row, first);
+  card.name = card_name(row, first, !has_card_);
+  has_card_ = true;
   card.file = first.file;
   card.line = first.number;
   card.fields.clear();

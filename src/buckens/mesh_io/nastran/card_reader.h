@@ -42,7 +42,7 @@ class NastranCardReader {
 
   NastranSource& source_;
   std::optional<NastranLine> pending_;  // read ahead
-  bool found_end_ = false;
+  bool found_end_ = false, has_card_ = false;
   NastranReplication replication_;
   NastranLine repeating_;  // the line being executed by replication_
 

@@ -138,18 +138,30 @@ class SetStatement {
   bool open_ = false, usable_ = false, thru_ = false, except_ = false, ranging_ = false;
 };
 
-void read_mpc(const std::vector<std::string>& words, const NastranLine& line,
-              NastranControl& control) {
-  if (words.size() < 3 || words[0] != "MPC" || words[1] != "=") return;
+/// `MPC = n` or `NSM = n`, one for all subcases.
+void read_choice(const std::vector<std::string>& words, const NastranLine& line,
+                 const char* keyword, const char* what, std::optional<std::int64_t>& choice) {
+  if (words.size() < 3 || words[0] != keyword || words[1] != "=") return;
   const auto id = nastran_integer(words[2]);
   if (!id) return;
-  if (control.mpc_set && *control.mpc_set != *id) {
+  if (choice && *choice != *id) {
     throw InputError({line.file->name, line.number, 1},
-                     fmt::format("MPC = {}: another subcase asks for MPC = {}; a body has one set "
-                                 "of equations, keep one of them",
-                                 *id, *control.mpc_set));
+                     fmt::format("{} = {}: another subcase asks for {} = {}; a body has one set "
+                                 "of {}, keep one of them",
+                                 keyword, *id, keyword, *choice, what));
   }
-  control.mpc_set = *id;
+  choice = *id;
+}
+
+/// Matrices that add mass, stiffness or both to the structure.
+void read_matrix_choice(const std::vector<std::string>& words, const NastranLine& line,
+                        NastranControl& control) {
+  constexpr std::array<std::string_view, 5> keywords = {"K2GG", "M2GG", "K2PP", "M2PP", "K42GG"};
+  if (words.size() < 3 || words[1] != "=" ||
+      std::find(keywords.begin(), keywords.end(), words[0]) == keywords.end()) {
+    return;
+  }
+  control.matrices.push_back({words[0], words[2], line.file, line.number});
 }
 
 void read_parameter(const std::vector<std::string>& words, const NastranLine& line,
@@ -190,7 +202,9 @@ NastranControl read_nastran_control(NastranSource& source,
     } else if (set.start(words, *line)) {
       if (!set.is_open()) finish_set();
     } else {
-      read_mpc(words, *line, control);
+      read_choice(words, *line, "MPC", "equations", control.mpc_set);
+      read_choice(words, *line, "NSM", "non-structural masses", control.nsm_set);
+      read_matrix_choice(words, *line, control);
       read_parameter(words, *line, control);
     }
   }

@@ -24,13 +24,20 @@ constexpr std::size_t kLargestDeck = std::size_t{2} << 30;
 void note_sections(const NastranControl& control, bool found_end, const NastranFile& file,
                    NastranNotes& notes) {
   if (control.num_lines > 0) {
-    notes.add(fmt::format("executive and case control, {} lines: left out but for SET, MPC and "
-                          "PARAM,WTMASS",
-                          control.num_lines),
-              {&file, 1}, true);
+    notes.add(
+        fmt::format("executive and case control, {} lines: left out but for SET, MPC, NSM and "
+                    "PARAM,WTMASS",
+                    control.num_lines),
+        {&file, 1}, true);
   }
   if (control.present && !found_end) {
     notes.add("ENDDATA is missing; is the deck complete?", {&file, 0});
+  }
+  for (const NastranMatrixChoice& choice : control.matrices) {
+    notes.add(fmt::format("{} = {}: matrices of the deck (DMIG) are left out, and their mass or "
+                          "stiffness with them",
+                          choice.keyword, choice.name),
+              {choice.file, choice.line}, false, true);
   }
 }
 
@@ -57,8 +64,9 @@ fem::ImportedMesh read_nastran_text(std::string text, const std::filesystem::pat
   std::vector<NastranGrid>().swap(bulk.grids);
   NastranMaterials materials(bulk, source.names(), notes);
   NastranProperties properties(bulk, source.names(), coordinates, materials, notes);
+  NastranNonstructuralMass nonstructural(bulk, control.present, control.nsm_set, notes);
   const std::vector<std::int64_t> element_ids =
-      add_nastran_elements(bulk, coordinates, properties, notes, mesh);
+      add_nastran_elements(bulk, coordinates, properties, nonstructural, notes, mesh);
   mesh.properties = properties.take();
   mesh.materials = materials.take();
   add_nastran_points(bulk, coordinates, notes, mesh);

@@ -53,12 +53,21 @@ const OldElement* old_element(std::string_view name) {
   return found == all.end() ? nullptr : found;
 }
 
-/// Adds the nodes in the fields from `first` on. @throws InputError if one stands there twice
-void add_nodes(const NastranCard& card, int first, int count, NastranBulk& bulk,
+bool is_without_node(const NastranCard& card, int field) {
+  return card.blank(field) || card.text(field) == "0";
+}
+
+/// Adds the nodes in the fields from `first` on. Behind the corners a blank or 0 is a mid-side node
+/// that is left out. @throws InputError if one stands there twice
+void add_nodes(const NastranCard& card, int first, int count, int corners, NastranBulk& bulk,
                NastranElement& element) {
   element.first_node = static_cast<std::uint32_t>(bulk.element_nodes.size());
   element.num_nodes = count;
   for (int i = 0; i < count; ++i) {
+    if (i >= corners && is_without_node(card, first + i)) {
+      bulk.element_nodes.push_back(NastranBulk::kNoNode);
+      continue;
+    }
     const std::int64_t node = card.id(first + i);
     const auto begin = bulk.element_nodes.begin() + element.first_node;
     if (std::find(begin, bulk.element_nodes.end(), node) != bulk.element_nodes.end()) {
@@ -68,23 +77,14 @@ void add_nodes(const NastranCard& card, int first, int count, NastranBulk& bulk,
   }
 }
 
-/// Corners alone, or all nodes. A mid-side node that is left out would make a transition element.
+/// Corners alone, or all nodes, some of which may be left out.
 int num_solid_nodes(const NastranCard& card, int corners, int all) {
   int num_mid = 0;
-  for (int i = 2 + corners; i < 2 + all; ++i) num_mid += card.blank(i) ? 0 : 1;
+  for (int i = 2 + corners; i < 2 + all; ++i) num_mid += is_without_node(card, i) ? 0 : 1;
   if (card.size() > 2 + all) {
     card.fail(2 + all, fmt::format("too many nodes; there are {} at most", all));
   }
   if (num_mid == 0) return corners;
-  if (card.name == "CPYRAM") {
-    card.fail(
-        "pyramids with mid-side nodes are not supported; mesh with CPYRAM of five nodes or "
-        "with CTETRA of ten");
-  }
-  if (num_mid != all - corners) {
-    card.fail(fmt::format("{} of {} mid-side nodes are given; give all or none of them", num_mid,
-                          all - corners));
-  }
   return all;
 }
 
@@ -96,7 +96,7 @@ void read_solid(const NastranCard& card, NastranBulk& bulk, NastranElement& elem
                       : element.kind == Kind::pyramid ? Count{5, 13}
                       : element.kind == Kind::penta   ? Count{6, 15}
                                                       : Count{8, 20};
-  add_nodes(card, 2, num_solid_nodes(card, count.corners, count.all), bulk, element);
+  add_nodes(card, 2, num_solid_nodes(card, count.corners, count.all), count.corners, bulk, element);
   if (card.name != "CIHEX2" || element.num_nodes != 20) return;
   // It lists nodes around the lower face, those of upright edges, and around the upper face.
   static constexpr std::array<std::size_t, 20> kOrder = {0, 2, 4, 6, 12, 14, 16, 18, 1,  3,
@@ -135,17 +135,14 @@ void read_shell(const NastranCard& card, NastranBulk& bulk, NastranElement& elem
   }
   const ShellFields at = shell_fields(element.kind);
   int given = 0;
-  for (int i = at.corners; i < at.nodes; ++i) given += card.blank(2 + i) ? 0 : 1;
+  for (int i = at.corners; i < at.nodes; ++i) given += is_without_node(card, 2 + i) ? 0 : 1;
   if (at.nodes > at.corners && given == 0) {  // all sides are straight
     element.kind = element.kind == Kind::tria6 ? Kind::tria3 : Kind::quad4;
     notes.add(
         fmt::format("{} without mid-side nodes: taken as {}", card.name, name_of(element.kind)),
         element.place);
-  } else if (given != at.nodes - at.corners) {
-    card.fail(fmt::format("{} of {} mid-side nodes are given; give all or none of them", given,
-                          at.nodes - at.corners));
   }
-  add_nodes(card, 2, given == 0 ? at.corners : at.nodes, bulk, element);
+  add_nodes(card, 2, given == 0 ? at.corners : at.nodes, at.corners, bulk, element);
   NastranShellDetails details;
   if (!card.blank(at.theta)) {
     details.has_system = card.is_integer(at.theta);
@@ -159,10 +156,13 @@ void read_shell(const NastranCard& card, NastranBulk& bulk, NastranElement& elem
   for (int i = 0; i < at.corners; ++i) any = any || !card.blank(at.thickness + i);
   for (int i = 0; any && i < at.corners; ++i) {
     const int field = at.thickness + i;
-    if (card.blank(field)) card.fail(field, "is blank; give the thickness at all corners");
+    if (card.blank(field)) {
+      details.thickness.emplace_back();
+      continue;
+    }
     const double thickness = card.real(field);
     if (thickness < 0) card.fail(field, fmt::format("the thickness {:g} is negative", thickness));
-    details.thickness.push_back(thickness);
+    details.thickness.emplace_back(thickness);
   }
   if (card.blank(at.theta) && card.blank(at.theta + 1) && !any) return;
   element.details = static_cast<std::int32_t>(bulk.shells.size());
@@ -212,7 +212,7 @@ void read_orientation(const NastranCard& card, NastranLineDetails& line) {
 }
 
 void read_beam(const NastranCard& card, NastranBulk& bulk, NastranElement& element) {
-  add_nodes(card, 2, 2, bulk, element);
+  add_nodes(card, 2, 2, 2, bulk, element);
   NastranLineDetails line;
   read_orientation(card, line);
   read_pins(card, line);
@@ -271,12 +271,12 @@ bool read_element_card(const NastranCard& card, NastranBulk& bulk, NastranNotes&
     case Kind::rod:
     case Kind::tube:
       element.property = card.id(1, element.id);
-      add_nodes(card, 2, 2, bulk, element);
+      add_nodes(card, 2, 2, 2, bulk, element);
       break;
     case Kind::conrod:
       // Its constants stand on it: the card is its own property.
       element.property = element.id;
-      add_nodes(card, 1, 2, bulk, element);
+      add_nodes(card, 1, 2, 2, bulk, element);
       bulk.cards[card.name].push_back(card);
       break;
   }

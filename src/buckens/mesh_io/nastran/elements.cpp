@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/mesh_io/nastran/elements.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <tuple>
@@ -10,6 +11,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/mesh_io/nastran/hinges.h"
+#include "buckens/mesh_io/nastran/midside_nodes.h"
 
 namespace buckens::mesh_io {
 
@@ -20,6 +22,8 @@ using fem::CellKind;
 namespace {
 
 using Kind = NastranElementKind;
+
+constexpr int kMissing = -2;  // a mid-side node that is left out
 
 /// Where Nastran lists the nodes of a shape of fem::CellKind; empty where the order is the same.
 std::span<const int> node_order(CellKind kind) {
@@ -60,19 +64,23 @@ CellKind cell_kind(const NastranElement& element) {
 class ElementBuilder {
  public:
   ElementBuilder(const NastranBulk& bulk, NastranCoordinates& coordinates,
-                 NastranProperties& properties, NastranNotes& notes, fem::ImportedMesh& mesh)
+                 NastranProperties& properties, NastranNonstructuralMass& nonstructural,
+                 NastranNotes& notes, fem::ImportedMesh& mesh)
       : bulk_(bulk),
         coordinates_(coordinates),
         properties_(properties),
+        nonstructural_(nonstructural),
         notes_(notes),
+        midsides_(coordinates, mesh),
         mesh_(mesh) {}
 
   void add(const NastranElement& element);
-  void add_masses();
 
  private:
   fem::ImportedBlock& block_of(const NastranElement& element, CellKind kind, int property);
   void read_nodes(const NastranElement& element);
+  void fill_midsides(const NastranElement& element);
+  void straighten(const NastranElement& element);
   void add_line(const NastranElement& element);
   int shifted_end(int node, const Vector3d& shift, const NastranElement& element);
   void add_hinges(const NastranElement& element, const NastranLineDetails& line, int node_a);
@@ -91,12 +99,13 @@ class ElementBuilder {
   const NastranBulk& bulk_;
   NastranCoordinates& coordinates_;
   NastranProperties& properties_;
+  NastranNonstructuralMass& nonstructural_;
   NastranNotes& notes_;
+  NastranMidsides midsides_;
   fem::ImportedMesh& mesh_;
   std::map<std::tuple<CellKind, Kind, int>, std::size_t> block_of_;
   std::map<std::tuple<int, std::array<double, 3>>, int> shifted_;
-  std::map<int, double> masses_;  // non-structural, by node
-  std::vector<int> nodes_;        // of the element at hand
+  std::vector<int> nodes_;  // of the element at hand
   std::vector<Vector3d> corners_;
 };
 
@@ -118,10 +127,56 @@ void ElementBuilder::read_nodes(const NastranElement& element) {
   nodes_.clear();
   for (int i = 0; i < element.num_nodes; ++i) {
     const std::int64_t id = bulk_.element_nodes[element.first_node + static_cast<std::size_t>(i)];
-    const int node = coordinates_.find_node(id);
-    if (node < 0) fail(element, fmt::format("there is no GRID {}", id));
+    const int node = id == NastranBulk::kNoNode ? kMissing : coordinates_.find_node(id);
+    if (node == -1) fail(element, fmt::format("there is no GRID {}", id));
     nodes_.push_back(node);
   }
+  if (element.kind == Kind::pyramid) {
+    straighten(element);
+  } else if (std::find(nodes_.begin(), nodes_.end(), kMissing) != nodes_.end()) {
+    fill_midsides(element);
+  }
+}
+
+/// Pyramids have five nodes here: those in the middle of their edges follow the ends, so that
+/// neighbours meet without a gap.
+void ElementBuilder::straighten(const NastranElement& element) {
+  const std::span<const NastranEdge> edges = nastran_edges(element.kind);
+  const std::size_t corners = 5;
+  for (std::size_t i = corners; i < nodes_.size(); ++i) {
+    if (nodes_[i] == kMissing) continue;
+    const auto a = static_cast<std::size_t>(edges[i - corners][0]);
+    const auto b = static_cast<std::size_t>(edges[i - corners][1]);
+    if (midsides_.straighten(nodes_[i], nodes_[a], nodes_[b], element.place.line)) continue;
+    fail(element,
+         "a mid-side node is off the middle of its edge; pyramids have straight edges here: "
+         "straighten it, or mesh with CTETRA of ten nodes");
+  }
+  if (nodes_.size() == corners) return;
+  nodes_.resize(corners);
+  notes_.add("CPYRAM of 13 nodes: taken with 5; the nodes of its edges follow the corners",
+             element.place);
+}
+
+/// Nodes in the place of mid-side nodes that are left out.
+void ElementBuilder::fill_midsides(const NastranElement& element) {
+  const std::span<const NastranEdge> edges = nastran_edges(element.kind);
+  const std::size_t corners = nodes_.size() - edges.size();
+  Vector3d normal = Vector3d::Zero();
+  if (fem::dimension_of(cell_kind(element)) == 2) {
+    const Vector3d a = position(nodes_[2]) - position(nodes_[0]);
+    const Vector3d b = position(nodes_[corners - 1]) - position(nodes_[1]);
+    normal = a.cross(b).normalized();
+  }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (nodes_[corners + i] != kMissing) continue;
+    const auto a = static_cast<std::size_t>(edges[i][0]), b = static_cast<std::size_t>(edges[i][1]);
+    nodes_[corners + i] = midsides_.node(nodes_[a], nodes_[b], normal, element.place.line);
+  }
+  notes_.add(fmt::format("{}: edges without a mid-side node are straight and move linearly "
+                         "between their ends",
+                         name_of(element.kind)),
+             element.place);
 }
 
 void ElementBuilder::add(const NastranElement& element) {
@@ -257,28 +312,14 @@ void ElementBuilder::add_line(const NastranElement& element) {
 }
 
 void ElementBuilder::spread_mass(const NastranElement& element, int property) {
-  const double mass = properties_.nonstructural_mass(property);
-  if (mass == 0.0) return;
-  double size = 0;
   const std::size_t count = nodes_.size() == 2 ? 2 : corners_.size();
-  if (count == 2) {
-    size = (position(nodes_[1]) - position(nodes_[0])).norm();
-  } else {
-    size = 0.5 * (corners_[2] - corners_[0]).cross(corners_[count - 1] - corners_[1]).norm();
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    masses_[nodes_[i]] += mass * size * bulk_.weight_to_mass / static_cast<double>(count);
-  }
-  notes_.add("non-structural mass NSM becomes point masses at the nodes", element.place);
-}
-
-void ElementBuilder::add_masses() {
-  for (const auto& [node, mass] : masses_) {
-    fem::ImportedMass point;
-    point.node = node;
-    point.mass = mass;
-    mesh_.masses.push_back(point);
-  }
+  if (count < 2) return;  // solids
+  const double size =
+      count == 2
+          ? (position(nodes_[1]) - position(nodes_[0])).norm()
+          : 0.5 * (corners_[2] - corners_[0]).cross(corners_[count - 1] - corners_[1]).norm();
+  nonstructural_.add(element, std::span(nodes_).first(count), size,
+                     properties_.nonstructural_mass(property));
 }
 
 /// @throws InputError if two elements have one number
@@ -302,12 +343,13 @@ void check_numbers(const NastranBulk& bulk) {
 
 std::vector<std::int64_t> add_nastran_elements(const NastranBulk& bulk,
                                                NastranCoordinates& coordinates,
-                                               NastranProperties& properties, NastranNotes& notes,
-                                               fem::ImportedMesh& mesh) {
+                                               NastranProperties& properties,
+                                               NastranNonstructuralMass& nonstructural,
+                                               NastranNotes& notes, fem::ImportedMesh& mesh) {
   check_numbers(bulk);
-  ElementBuilder builder(bulk, coordinates, properties, notes, mesh);
+  ElementBuilder builder(bulk, coordinates, properties, nonstructural, notes, mesh);
   for (const NastranElement& element : bulk.elements) builder.add(element);
-  builder.add_masses();
+  nonstructural.finish(mesh);
   std::vector<std::int64_t> ids;
   ids.reserve(bulk.elements.size());
   for (const fem::ImportedBlock& block : mesh.blocks) {

@@ -24,8 +24,9 @@ class NastranNotes {
   /// @param main_file notes of other files name theirs
   explicit NastranNotes(const NastranFile& main_file) : main_file_(&main_file) {}
 
-  /// @param is_expected see fem::ImportNote
-  void add(const std::string& text, const NastranPlace& place, bool is_expected = false) {
+  /// @param is_expected, is_doubtful see fem::ImportNote
+  void add(const std::string& text, const NastranPlace& place, bool is_expected = false,
+           bool is_doubtful = false) {
     const auto [entry, is_new] = place_of_.try_emplace(text, notes_.size());
     if (!is_new) {
       ++notes_[entry->second].count;
@@ -33,7 +34,7 @@ class NastranNotes {
     }
     const bool elsewhere = place.file != nullptr && place.file != main_file_;
     notes_.push_back({elsewhere ? place.file->name + ": " + text : text, elsewhere ? 0 : place.line,
-                      1, is_expected});
+                      1, is_expected, is_doubtful});
   }
 
   std::vector<fem::ImportNote> take() { return std::move(notes_); }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/nastran/scalar_elements.h"
+#include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
 
@@ -33,7 +34,10 @@ void add_mass(const NastranCard& card, const NastranBulk& bulk,
   fem::ImportedMass out;
   out.node = node_of(card, 1, coordinates);
   out.mass = card.real(3, 0.0) * bulk.weight_to_mass;
-  if (out.mass < 0) card.fail(3, fmt::format("the mass {:g} is negative", card.real(3)));
+  if (out.mass < 0) {
+    card.fail(
+        3, fmt::format("the mass {:g} is negative{}", card.real(3), SkipList::remedy(card.name)));
+  }
   const Vector3d& position = coordinates.positions()[static_cast<std::size_t>(out.node)];
   const std::int64_t system = card.integer(2, 0);
   if (system < -1) card.fail(2, "there are no such coordinate systems");
@@ -58,7 +62,9 @@ void add_mass(const NastranCard& card, const NastranBulk& bulk,
       Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
   // Eight digits of a small field.
   if (!(principal[0] >= -1e-7 * principal.cwiseAbs().maxCoeff())) {
-    card.fail(8, fmt::format("a principal moment of inertia, {:g}, is negative", principal[0]));
+    card.fail(8,
+              fmt::format("a principal moment of inertia, {:g}, is negative, which no body has{}",
+                          principal[0], SkipList::remedy(card.name)));
   }
   out.inertia = bulk.weight_to_mass * axes * inertia * axes.transpose();
   mesh.masses.push_back(out);
@@ -89,6 +95,11 @@ class SpringBuilder {
   SpringBuilder(const NastranBulk& bulk, NastranCoordinates& coordinates, NastranNotes& notes,
                 fem::ImportedMesh& mesh)
       : coordinates_(coordinates), notes_(notes), mesh_(mesh) {
+    for (const NastranCard& card : bulk.cards_named("PBUSH1D")) {
+      axial_stiffnesses_.try_emplace(card.id(0), card.real(1, 0.0));
+      notes.add("PBUSH1D: K alone is taken; damping, mass and tables are left out",
+                {card.file, card.line});
+    }
     for (const NastranCard& card : bulk.cards_named("PBUSH")) {
       if (!properties_.try_emplace(card.id(0), &card).second) {
         card.fail("there is another PBUSH with this number");
@@ -97,6 +108,7 @@ class SpringBuilder {
   }
 
   void add(const NastranCard& card);
+  void add_axial(const NastranCard& card);
 
  private:
   Matrix3d axes_of(const NastranCard& card, const std::array<int, 2>& nodes,
@@ -111,6 +123,7 @@ class SpringBuilder {
   NastranNotes& notes_;
   fem::ImportedMesh& mesh_;
   std::unordered_map<std::int64_t, const NastranCard*> properties_;
+  std::unordered_map<std::int64_t, double> axial_stiffnesses_;  // PBUSH1D
 };
 
 /// Axes of the spring: of CID, or x along the nodes and y near the orientation vector.
@@ -211,6 +224,40 @@ void SpringBuilder::add(const NastranCard& card) {
   mesh_.springs.push_back(spring);
 }
 
+/// CBUSH1D: a spring along the line of its nodes, or along x of CID for nodes on that line.
+void SpringBuilder::add_axial(const NastranCard& card) {
+  const std::int64_t property = card.id(1, card.id(0));
+  const std::array<int, 2> nodes = {
+      node_of(card, 2, coordinates_),
+      card.blank(3) || card.text(3) == "0" ? -1 : node_of(card, 3, coordinates_)};
+  if (nodes[1] < 0) {
+    notes_.add("CBUSH1D: those to ground (GB blank) are left out; use a spring of the model file",
+               {card.file, card.line});
+    return;
+  }
+  const auto entry = axial_stiffnesses_.find(property);
+  if (entry == axial_stiffnesses_.end()) {
+    card.fail(1, fmt::format("there is no PBUSH1D {}", property));
+  }
+  if (entry->second < 0) card.fail(fmt::format("the stiffness {:g} is negative", entry->second));
+  const Vector3d between = position(nodes[1]) - position(nodes[0]);
+  Vector3d along = between.normalized();
+  if (!card.blank(4)) {
+    const std::int64_t system = card.integer(4);
+    if (system < 0) card.fail(4, "there are no such coordinate systems");
+    along = coordinates_.axes_at(system, position(nodes[0]), {card.file, card.line}).col(0);
+    if (between.cross(along).norm() > 1e-6 * between.norm()) {
+      card.fail(4, "x of CID is across the line of the nodes; use CBUSH with K1 alone");
+    }
+  } else if (!(between.norm() > 0)) {
+    card.fail(4, "is blank; nodes at one place need a system CID");
+  }
+  fem::ImportedSpring spring;
+  spring.nodes = nodes;
+  spring.stiffness.topLeftCorner<3, 3>() = entry->second * along * along.transpose();
+  mesh_.springs.push_back(spring);
+}
+
 }  // namespace
 
 void add_nastran_points(const NastranBulk& bulk, NastranCoordinates& coordinates,
@@ -224,6 +271,7 @@ void add_nastran_points(const NastranBulk& bulk, NastranCoordinates& coordinates
   add_nastran_scalar_elements(bulk, coordinates, notes, mesh);
   SpringBuilder springs(bulk, coordinates, notes, mesh);
   for (const NastranCard& card : bulk.cards_named("CBUSH")) springs.add(card);
+  for (const NastranCard& card : bulk.cards_named("CBUSH1D")) springs.add_axial(card);
 }
 
 }  // namespace buckens::mesh_io

@@ -60,6 +60,7 @@ class NastranProperties {
     fem::ImportedProperty property;
     double mass = 0;
     bool has_directions = false;
+    bool is_isotropic = false;  ///< has directions, which change nothing but where stress is shown
   };
 
   /// Of material direction 1 of a shell.
@@ -92,9 +93,10 @@ class NastranProperties {
   Shell convert_pshell(const NastranCard& card);
   Shell convert_old_shell(const NastranCard& card);
   Shell convert_pcomp(const NastranCard& card);
-  std::vector<fem::ImportedLayer> read_layers(const NastranCard& card);
-  double thickness_of(const NastranElement& element, const Shell& shell);
-  Direction shell_direction(const NastranElement& element,
+  std::vector<fem::ImportedLayer> read_layers(const NastranCard& card, bool& is_isotropic);
+  double thickness_of(const NastranElement& element, const Shell& shell,
+                      const std::vector<Eigen::Vector3d>& nodes);
+  Direction shell_direction(const NastranElement& element, const Shell& shell,
                             const std::vector<Eigen::Vector3d>& nodes) const;
 
   const NastranBulk* bulk_;

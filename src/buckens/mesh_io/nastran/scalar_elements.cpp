@@ -245,7 +245,7 @@ void ScalarBuilder::add_between(const Terminal& a, const Terminal& b, double k,
 void ScalarBuilder::add_mass(const NastranCard& card) {
   card.id(0);
   const double m = read_property(card, "PMASS", mass_values_) * bulk_.weight_to_mass;
-  if (m < 0) card.fail(fmt::format("the mass {:g} is negative", m));
+  if (m < 0) refuse(card, fmt::format("the mass {:g} is negative", m));
   if (m == 0.0) return;
   const std::array<Terminal, 2> ends = read_ends(card);
   for (const Terminal& end : ends) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shells of NastranProperties: PSHELL, PCOMP, PCOMPG and what elements add to them.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -25,6 +26,32 @@ std::array<double, 3> rounded(const Vector3d& direction) {
     out[static_cast<std::size_t>(i)] = std::round(direction[i] * 1e6) * 1e-6 + 0.0;
   }
   return out;
+}
+
+/// Shells take no direction closer to their normal: sine of the angle.
+constexpr double kAlongNormal = 2e-3;
+
+/// Bending stiffness of a linear thickness with this difference, as a share of its mean, is that of
+/// the mean but for 2.5e-5: nothing to tell.
+constexpr double kAlike = 0.01;
+
+/// Of a quantity that is linear between three corners or bilinear between four.
+double mean_over_area(const std::vector<double>& values, const std::vector<Vector3d>& x) {
+  if (x.size() == 3) return (values[0] + values[1] + values[2]) / 3.0;
+  const double g = 1.0 / std::sqrt(3.0);
+  double sum = 0, area = 0;
+  for (const double r : {-g, g}) {
+    for (const double s : {-g, g}) {
+      const std::array<double, 4> N = {0.25 * (1 - r) * (1 - s), 0.25 * (1 + r) * (1 - s),
+                                       0.25 * (1 + r) * (1 + s), 0.25 * (1 - r) * (1 + s)};
+      const Vector3d along = 0.25 * ((1 - s) * (x[1] - x[0]) + (1 + s) * (x[2] - x[3]));
+      const Vector3d across = 0.25 * ((1 - r) * (x[3] - x[0]) + (1 + r) * (x[2] - x[1]));
+      const double dA = along.cross(across).norm();
+      area += dA;
+      for (std::size_t i = 0; i < 4; ++i) sum += N[i] * values[i] * dA;
+    }
+  }
+  return area > 0 ? sum / area : std::accumulate(values.begin(), values.end(), 0.0) / 4.0;
 }
 
 /// Turns the layers of a shell about its normal; a shell of one material becomes a layer of it.
@@ -96,7 +123,8 @@ NastranProperties::Shell NastranProperties::convert_old_shell(const NastranCard&
   return out;
 }
 
-std::vector<fem::ImportedLayer> NastranProperties::read_layers(const NastranCard& card) {
+std::vector<fem::ImportedLayer> NastranProperties::read_layers(const NastranCard& card,
+                                                               bool& is_isotropic) {
   const NastranPlace place{card.file, card.line};
   const bool is_global = card.name == "PCOMPG";
   const int stride = is_global ? 8 : 4;
@@ -116,6 +144,7 @@ std::vector<fem::ImportedLayer> NastranProperties::read_layers(const NastranCard
       const std::string lack =
           materials_->lack(material, NastranMaterials::Use::shell, card.label());
       if (!lack.empty()) throw InputError(place.where(), lack);
+      is_isotropic = is_isotropic && !materials_->has_directions(material);
       layer.material =
           materials_->name(material, NastranMaterials::Use::shell, card.label(), place);
     }
@@ -129,7 +158,8 @@ std::vector<fem::ImportedLayer> NastranProperties::read_layers(const NastranCard
 
 NastranProperties::Shell NastranProperties::convert_pcomp(const NastranCard& card) {
   Shell out;
-  std::vector<fem::ImportedLayer> layers = read_layers(card);
+  out.is_isotropic = true;
+  std::vector<fem::ImportedLayer> layers = read_layers(card, out.is_isotropic);
   const std::string lay_up = card.word(7);
   if (lay_up == "SYM") {
     // Half of it is written, from the bottom to the middle.
@@ -154,59 +184,76 @@ NastranProperties::Shell NastranProperties::convert_pcomp(const NastranCard& car
   return out;
 }
 
-double NastranProperties::thickness_of(const NastranElement& element, const Shell& shell) {
+/// The mean over the area where corners have thicknesses of their own: with it the mass is right.
+double NastranProperties::thickness_of(const NastranElement& element, const Shell& shell,
+                                       const std::vector<Vector3d>& nodes) {
   const std::optional<double>& general = shell.property.thickness;
   const auto fail = [&](const std::string& text) {
     throw InputError(element.place.where(),
                      fmt::format("{} {}: {}", name_of(element.kind), element.id, text));
   };
   if (!shell.property.layers.empty()) return 0.0;
+  static const NastranShellDetails none;
+  const NastranShellDetails& details =
+      element.details < 0 ? none : bulk_->shells[static_cast<std::size_t>(element.details)];
   std::vector<double> corners;
-  if (element.details >= 0) {
-    const NastranShellDetails& details = bulk_->shells[static_cast<std::size_t>(element.details)];
-    corners = details.thickness;
-    if (details.relative && !corners.empty()) {
-      if (!general) fail("TFLAG = 1 needs a thickness T of the PSHELL");
-      for (double& corner : corners) corner *= *general;
+  for (const std::optional<double>& own : details.thickness) {
+    if (!general && (!own || details.relative)) {
+      fail(details.relative ? "TFLAG = 1 needs a thickness T of the PSHELL"
+                            : "one of T1, T2, … is blank and its PSHELL gives no thickness");
     }
+    corners.push_back(!own ? *general : (details.relative ? *own * *general : *own));
   }
   if (corners.empty()) {
     if (!general) fail("neither the element nor its PSHELL gives a thickness");
     return *general;
   }
-  const auto count = static_cast<double>(corners.size());
-  const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / count;
-  for (const double corner : corners) {
-    if (!differs(corner, mean)) continue;
-    notes_->add(fmt::format("{}: thicknesses T1, T2, ... that differ are taken as their mean",
+  const double mean = mean_over_area(corners, nodes);
+  if (!(mean > 0.0)) fail("the thickness must be greater than zero");
+  const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
+  if (*most - *least > kAlike * mean) {
+    notes_->add(fmt::format("{}: thicknesses T1, T2, ... that differ by more than 1 % are taken as "
+                            "their mean over the area: mass is right, bending a little too soft",
                             name_of(element.kind)),
                 element.place);
-    break;
   }
-  if (!(mean > 0.0)) fail("the thickness must be greater than zero");
   return mean;
 }
 
 /// Without MCID the direction is that of the first side, turned by THETA: curved shells have one
-/// property then, not one per element.
+/// property then, not one per element. An axis along the normal is no direction, but isotropic
+/// layers need none.
 NastranProperties::Direction NastranProperties::shell_direction(
-    const NastranElement& element, const std::vector<Vector3d>& nodes) const {
+    const NastranElement& element, const Shell& shell, const std::vector<Vector3d>& nodes) const {
   if (element.details < 0) return {};
   const NastranShellDetails& details = bulk_->shells[static_cast<std::size_t>(element.details)];
   if (!details.has_system) return {std::nullopt, details.theta * kDegree};
   Vector3d centre = Vector3d::Zero();
   for (const Vector3d& node : nodes) centre += node / static_cast<double>(nodes.size());
   const Matrix3d system = coordinates_->axes_at(details.system, centre, element.place);
-  if (coordinates_->is_rectangular(details.system, element.place)) return {system, 0.0};
   // Diagonals of four corners, sides of three.
   const std::size_t last = nodes.size() - 1;
   const Vector3d n = (nodes[2] - nodes[0]).cross(nodes[last] - nodes[1]).normalized();
   const Vector3d flat = system.col(0) - system.col(0).dot(n) * n;
-  if (!(n.norm() > 0) || !(flat.norm() > 1e-6)) {
+  if (n.norm() > 0 && !(flat.norm() > kAlongNormal)) {
+    if (!shell.is_isotropic) {
+      throw InputError(element.place.where(),
+                       fmt::format("{} {}: the x axis of MCID {}, from which the material's "
+                                   "directions are counted, is along its normal; give another "
+                                   "system, or THETA",
+                                   name_of(element.kind), element.id, details.system));
+    }
+    notes_->add(
+        fmt::format("{}: MCID along the normal is left out, which changes nothing since all "
+                    "layers are isotropic",
+                    name_of(element.kind)),
+        element.place);
+    return {};
+  }
+  if (coordinates_->is_rectangular(details.system, element.place)) return {system, 0.0};
+  if (!(n.norm() > 0)) {
     throw InputError(element.place.where(),
-                     fmt::format("{} {}: it has no area, or the direction of its material is along "
-                                 "its normal",
-                                 name_of(element.kind), element.id));
+                     fmt::format("{} {}: it has no area", name_of(element.kind), element.id));
   }
   Matrix3d axes;
   axes.col(0) = flat.normalized();
@@ -232,11 +279,11 @@ int NastranProperties::shell(const NastranElement& element, const std::vector<Ve
     found = shells_.emplace(&card, std::move(shell)).first;
   }
   const Shell& general = found->second;
-  const double thickness = thickness_of(element, general);
+  const double thickness = thickness_of(element, general, nodes);
   const double offset =
       element.details < 0 ? 0.0 : bulk_->shells[static_cast<std::size_t>(element.details)].offset;
   Direction direction;
-  if (general.has_directions) direction = shell_direction(element, nodes);
+  if (general.has_directions) direction = shell_direction(element, general, nodes);
   std::array<double, 3> axis = {0, 0, 0};
   if (direction.axes) axis = rounded(direction.axes->col(0));
   const auto [entry, is_new] =

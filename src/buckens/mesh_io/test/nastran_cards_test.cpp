@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How lines become cards and fields numbers, and cards whose variants the large deck lacks.
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -141,6 +142,81 @@ TEST(NastranCards, thickness_at_corners_is_averaged) {
   EXPECT_NEAR(mesh.properties.at(1).thickness.value_or(0), 0.2, 1e-15);
   EXPECT_NEAR(mesh.properties.at(2).thickness.value_or(0), 0.3, 1e-15);
   EXPECT_TRUE(has_note(mesh, "mean"));
+}
+
+TEST(NastranCards, thickness_at_corners_keeps_the_mass) {
+  // t = 0.1 + 0.1 x over the trapezium 0 ≤ x ≤ 2 − y, 0 ≤ y ≤ 1; T1 and T4 are blank.
+  const auto mesh = read_deck(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+      "MAT1,1,1.,,.3\nPSHELL,2,1,.1,1\nCQUAD4,2,2,1,2,3,4\n,,,,.3,.2\n"
+      "CQUAD4,3,2,1,2,3,4\n,,,.1,.1005,.1\n");
+  // ∫₀¹ (0.1 (2 − y) + 0.05 (2 − y)²) dy = 0.15 + 0.05 · 7/3, over an area of 1.5.
+  EXPECT_NEAR(mesh.properties.at(0).thickness.value_or(0), (0.15 + 0.35 / 3) / 1.5, 1e-15);
+  for (const fem::ImportNote& note : mesh.notes) {
+    if (note.text.find("mean") != std::string::npos) {
+      EXPECT_EQ(note.count, 1) << "half a percent is not worth a note";
+    }
+  }
+}
+
+TEST(NastranCards, a_system_along_the_normal_gives_isotropic_layers_no_direction) {
+  const std::string deck =
+      kTetra +
+      "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,0.,1.\nPCOMP,2\n,{},.1,0.\nCTRIA3,2,2,1,2,3,7\n"
+      "MAT8,2,1.+5,1.+4,.3,5.+3\n";
+  const auto with = [&](const std::string& material) {
+    std::string text = deck;
+    text.replace(text.find("{}"), 2, material);
+    return text;
+  };
+  const auto mesh = read_deck(with("1"));
+  EXPECT_FALSE(mesh.properties.at(1).axes.has_value());
+  EXPECT_TRUE(has_note(mesh, "MCID along the normal"));
+  test::expect_words(test::refusal(with("2")),
+                     {"deck.bdf:12:1", "CTRIA3 2", "MCID 7", "along its normal"});
+}
+
+TEST(NastranCards, nonstructural_mass_by_cards_of_its_own) {
+  // Two squares of one unit, a rod of length 2 and a bar of length 1.
+  const std::string deck =
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,2.,0.,0.\n"
+      "GRID,6,,2.,1.,0.\nMAT1,1,1.,,.3\nPSHELL,2,1,.1,1\nPSHELL,3,1,.1,1\nPROD,4,1,.1\n"
+      "PBAR,5,1,1.,1.,1.,1.\nCQUAD4,2,2,1,2,3,4\nCQUAD4,3,3,2,5,6,3\nCROD,4,4,1,5\n"
+      "CBAR,5,5,4,3,0.,0.,1.\n";
+  const auto total = [](const fem::ImportedMesh& mesh) {
+    double out = 0;
+    for (const auto& mass : mesh.masses) out += mass.mass;
+    return out;
+  };
+  EXPECT_NEAR(total(read_deck(deck + "NSM,9,PSHELL,2,5.,3,7.\n")), 12, 1e-14);
+  EXPECT_NEAR(total(read_deck(deck + "NSM1,9,PSHELL,5.,2,THRU,3\n")), 10, 1e-14);
+  EXPECT_NEAR(total(read_deck(deck + "NSM1,9,PROD,5.,ALL\n")), 10, 1e-14);
+  EXPECT_NEAR(total(read_deck(deck + "NSML,9,PROD,4,5.\nNSML1,9,ELEMENT,3.,2,5\n")), 8, 1e-14);
+  EXPECT_NEAR(total(read_deck("PARAM,WTMASS,.5\n" + deck + "NSML1,9,PSHELL,3.,1,THRU,5,BY,2\n")),
+              1.5, 1e-14);
+  // Of a total each element has its share by size: 2 of area 1 and the bar, at their nodes.
+  const auto mesh = read_deck(deck + "NSML1,9,ELEMENT,3.,2,5\n");
+  ASSERT_EQ(mesh.masses.size(), 4u);
+  EXPECT_NEAR(mesh.masses[0].mass, 1.5 / 4, 1e-15);
+  EXPECT_NEAR(mesh.masses[3].mass, 1.5 / 4 + 1.5 / 2, 1e-15);
+  const auto none = read_deck(deck + "NSM,9,PTUBE,2,5.\n");
+  EXPECT_TRUE(none.masses.empty());
+  EXPECT_TRUE(has_note(none, "NSM: it names no shell or line element"));
+  // With case control only what it asks for.
+  const std::string cards = "NSM,9,PROD,4,1.\nNSM,8,PROD,4,10.\nNSM,7,PROD,4,100.\nNSMADD,6,8,7\n";
+  EXPECT_NEAR(total(read_deck("SOL 103\nCEND\nNSM = 9\nBEGIN BULK\n" + deck + cards)), 2, 1e-14);
+  EXPECT_NEAR(total(read_deck("SOL 103\nCEND\nNSM = 6\nBEGIN BULK\n" + deck + cards)), 220, 1e-13);
+  const auto unasked = read_deck("SOL 103\nCEND\nBEGIN BULK\n" + deck + cards);
+  EXPECT_TRUE(unasked.masses.empty());
+  EXPECT_TRUE(has_note(unasked, "does not ask for it (NSM = 9)"));
+}
+
+TEST(NastranCards, matrices_that_the_case_control_adds_are_named_as_missing) {
+  const auto mesh =
+      read_deck("SOL 103\nCEND\nK2GG = KAAX\nBEGIN BULK\n" + kTetra + "DMIG,KAAX,0,6,1,0\n");
+  EXPECT_TRUE(has_note(mesh, "K2GG = KAAX: matrices of the deck (DMIG) are left out"));
+  EXPECT_TRUE(std::any_of(mesh.notes.begin(), mesh.notes.end(),
+                          [](const fem::ImportNote& note) { return note.is_doubtful; }));
 }
 
 TEST(NastranCards, material_direction_by_coordinate_system) {

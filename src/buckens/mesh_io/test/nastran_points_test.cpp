@@ -133,5 +133,20 @@ TEST(NastranPins, an_end_is_tied_in_what_is_not_released) {
   EXPECT_EQ(read_deck(beam + ",4,4\n").equations.size(), 2u);
 }
 
+TEST(NastranPoints, axial_bushes_act_along_their_line) {
+  const std::string deck =
+      kTetra + "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nPBUSH1D,5,40.\nCBUSH1D,8,5,2,3\n";
+  const auto mesh = read_deck(deck + "CBUSH1D,9,5,1\n");
+  ASSERT_EQ(mesh.springs.size(), 1u);
+  const Vector3d along = Vector3d(-1, 1, 0).normalized();
+  const auto& k = mesh.springs[0].stiffness;
+  const Matrix3d moved = k.topLeftCorner<3, 3>(), turned = k.bottomRightCorner<3, 3>();
+  EXPECT_LT((moved - 40 * along * along.transpose()).norm(), 1e-13);
+  EXPECT_TRUE(turned.isZero(0.0));
+  EXPECT_TRUE(has_note(mesh, "CBUSH1D: those to ground"));
+  test::expect_words(test::refusal(deck + "CBUSH1D,9,5,1,4,7\n"), {"x of CID is across the line"});
+  test::expect_words(test::refusal(deck + "CBUSH1D,9,6,1,4\n"), {"there is no PBUSH1D 6"});
+}
+
 }  // namespace
 }  // namespace buckens::mesh_io
