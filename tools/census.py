@@ -26,7 +26,7 @@ import sys
 import tempfile
 import time
 
-DECKS = {".inp", ".bdf", ".dat", ".nas"}
+DECKS = {".inp", ".bdf", ".dat", ".nas", ".nastran", ".fem"}
 MESHES = {".msh", ".unv"}
 STEPS = {".step", ".stp", ".p21"}
 MATERIAL = "steel"
@@ -39,7 +39,9 @@ RIGHT = [re.compile(text) for text in (
     r"INCLUDE.*cannot read", r"there is no (GRID|material|PBUSH|node|element) ", r"truncated|cut off|not complete",
     r"there is another (element|property|material)", r"appears twice", r"not a text file|zero byte",
     r"fluid|acoustic|axisymmetric|hyperelastic|superelement", r"parts that nothing holds together",
-    r"the mesh has no mass", r"is not a (Gmsh mesh|deck of Nastran|STEP file)",
+    r"the mesh has no mass", r"is not a (Gmsh mesh|deck of Nastran|STEP file)", r"is this a deck of Nastran",
+    r"is connected to no element",  # a mass in the air, which only supports or contact would hold
+    r"the (mass|stiffness) \S+ is negative",
     r"turned inside out", r"is a mechanism in itself",
     r"no element of this deck can be part of a flexible body", r"plane and no part of a body in space",
     r"and there is no \*NODE|the file has no \*NODE",

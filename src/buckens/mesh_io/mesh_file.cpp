@@ -58,7 +58,8 @@ fem::ImportedMesh gmsh_mesh(const std::filesystem::path& path, const fem::MeshWi
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = {{".inp", abaqus_deck},  {".msh", gmsh_mesh},
                                           {".unv", gmsh_mesh},    {".bdf", nastran_deck},
-                                          {".dat", nastran_deck}, {".nas", nastran_deck}};
+                                          {".dat", nastran_deck}, {".nas", nastran_deck},
+                                          {".fem", nastran_deck}, {".nastran", nastran_deck}};
   return all;
 }
 

@@ -65,7 +65,7 @@ struct MeshFileSpec {
   static constexpr const char* kKey = "file";
   static constexpr const char* kDoc =
       "mesh from a file of Gmsh (.msh, .unv), Abaqus or CalculiX (.inp) or Nastran (.bdf, .dat, "
-      ".nas)";
+      ".nas, .nastran, .fem)";
   SourceLocation where;
   std::string path;
 

@@ -128,6 +128,19 @@ std::string line_of(const std::string& elements, const std::string& groups = "")
   return groups.empty() ? text : text + "    -1\n  2467\n" + groups + "    -1\n";
 }
 
+TEST(UniversalFile, WhatHasNoShapeIsLeftOutAndCounted) {
+  const ImportedMesh mesh =
+      read_gmsh_bytes(line_of("7 11 1 1 7 2\n1 3\n8 161 3 1 1 1\n2\n9 161 3 1 1 1\n3\n"
+                              "10 122 4 1 1 3\n1 2 3\n"),
+                      "part.unv");
+  EXPECT_EQ(mesh.num_elements(), 1);
+  ASSERT_EQ(mesh.notes.size(), 2u);
+  EXPECT_THAT(mesh.notes[0].text, HasSubstr("lumped masses are left out"));
+  EXPECT_EQ(mesh.notes[0].count, 2);
+  EXPECT_TRUE(mesh.notes[0].is_doubtful);
+  EXPECT_THAT(mesh.notes[1].text, HasSubstr("rigid elements"));
+}
+
 TEST(UniversalFile, RodsMayHaveTheRecordOfBeams) {
   // Salome writes it, the format has it for beams only.
   for (const char* rod : {"7 11 1 1 7 2\n0 1 1\n1 3\n", "7 11 1 1 7 2\n1 3\n"}) {

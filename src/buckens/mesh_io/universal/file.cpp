@@ -2,6 +2,7 @@
 #include "buckens/mesh_io/universal/file.h"
 
 #include <algorithm>
+#include <map>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -62,6 +63,31 @@ const UniversalElement* element_of(std::int64_t descriptor, std::size_t nodes) {
 
 constexpr std::int64_t kRod = 11;
 
+/// What a mesh cannot hold and the file describes but half: without the tables of properties there
+/// is neither a mass nor a stiffness. Null for elements that have a shape.
+const char* bodiless_element(std::int64_t descriptor) {
+  switch (descriptor) {
+    case 121:
+    case 122:
+      return "rigid elements";
+    case 136:
+    case 137:
+    case 138:
+    case 139:
+      return "springs";
+    case 141:
+    case 142:
+      return "dampers";
+    case 151:
+    case 152:
+      return "gaps";
+    case 161:
+      return "lumped masses";
+    default:
+      return nullptr;
+  }
+}
+
 std::size_t num_words(std::string_view line) {
   std::vector<std::string_view> words;
   files::split_words(line, words);
@@ -98,6 +124,7 @@ class UniversalReader {
   std::unordered_map<std::int64_t, int> nodes_, element_numbers_;
   std::vector<Element> elements_;
   int unknown_members_ = 0;
+  std::map<std::string, int> left_out_;
 };
 
 void UniversalReader::read_nodes() {
@@ -130,6 +157,11 @@ void UniversalReader::read_elements() {
     const UniversalElement* shape = element_of(descriptor, count);
     std::vector<std::int64_t> ids(count);
     for (std::int64_t& node : ids) node = text_.integer("a node of an element", 0);
+    if (const char* what = bodiless_element(descriptor)) {
+      ++left_out_[what];
+      text_.next_line("the next element");
+      continue;
+    }
     if (shape == nullptr) {
       text_.fail(
           fmt::format("element {} has the descriptor {}, which cannot be used; beams, "
@@ -245,6 +277,12 @@ void UniversalReader::read() {
   if (unknown_members_ > 0) {
     mesh_.notes.push_back(
         {"members of groups that the file does not have are left out", 0, unknown_members_});
+  }
+  for (const auto& [what, count] : left_out_) {
+    const std::string text = what +
+                             " are left out; give what they are in the model file: point "
+                             "masses, links, springs";
+    mesh_.notes.push_back({text, 0, count, false, true});
   }
   for (Element& element : elements_) {
     std::sort(element.groups.begin(), element.groups.end());
