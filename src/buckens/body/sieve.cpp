@@ -42,16 +42,19 @@ Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
 }
 
 void Sieve::apply(Vector& d) const {
+  if (rank() == 0) return;
   const Amplitudes rigid = P_.transpose() * d;
   d.noalias() -= Phi_ * rigid;
 }
 
 void Sieve::apply(Matrix& columns) const {
+  if (rank() == 0) return;
   const Matrix amplitudes = P_.transpose() * columns;
   columns.noalias() -= Phi_ * amplitudes;
 }
 
 void Sieve::apply_transposed(Vector& f) const {
+  if (rank() == 0) return;
   const Amplitudes rigid = Phi_.transpose() * f;
   f.noalias() -= P_ * rigid;
 }

@@ -160,7 +160,7 @@ void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
     auto increment = after.d_alg.segment(first, size);  // until it is assigned
     increment = free_.segment(first, size) - before.d.segment(first, size);
-    increment.noalias() -= Phi.middleRows(first, size) * rigid_;
+    if (rigid_.size() > 0) increment.noalias() -= Phi.middleRows(first, size) * rigid_;
     op_->add_answer(load, first, increment);
     if (corrects) op_->add_correction_answer(correction, first, increment);
     auto d = after.d.segment(first, size);

@@ -43,6 +43,7 @@ Matrix null_space(const Matrix& A, double tolerance) {
   }
   Eigen::ColPivHouseholderQR<Matrix> qr(A.transpose());
   qr.setThreshold(tolerance);
+  if (qr.rank() == A.cols()) return Matrix(A.cols(), 0);
   Matrix Z = Matrix::Zero(A.cols(), A.cols() - qr.rank());
   Z.bottomRows(Z.cols()).setIdentity();
   return qr.householderQ() * Z;
