@@ -13,6 +13,7 @@
 #include "cli/failure.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
+#include "cli/work_display.h"
 
 #include "buckens/base/nearest.h"
 #include "buckens/base/version.h"
@@ -121,6 +122,7 @@ int run_program(int argc, const char* const* argv) {
       return static_cast<int>(ExitCode::input);
     }
     json = invocation.json;
+    const WorkDisplay work(stderr, json ? ProgressDisplay::Style::none : style_for(stderr));
     return static_cast<int>(invocation.action());
   } catch (...) {
     return report_failure(describe_failure(std::current_exception()), json);

@@ -20,12 +20,6 @@ constexpr double kBarInterval = 0.1;  // [s]
 constexpr double kLineInterval = 5;   // [s]
 constexpr int kWidestBar = 30;
 
-int columns_of(std::FILE* stream) {
-  struct winsize size = {};
-  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 80;
-}
-
 double fraction(const analysis::Progress& progress) {
   // Where the number of steps is open, time measures the way.
   if (progress.steps <= 0) {
@@ -50,6 +44,12 @@ Pace pace(const analysis::Progress& progress, double seconds) {
 }
 
 }  // namespace
+
+int columns_of(std::FILE* stream) {
+  struct winsize size = {};
+  if (::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 80;
+}
 
 std::string clock_text(double seconds) {
   if (!(seconds >= 0) || seconds > 3.6e9) return "?";

@@ -9,6 +9,9 @@
 
 namespace buckens::cli {
 
+/// Columns of a terminal; 80 if it does not say.
+int columns_of(std::FILE* stream);
+
 /// "0:07", "12:30", "3:05:00"; "?" if unknown.
 std::string clock_text(double seconds);
 

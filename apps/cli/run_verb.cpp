@@ -25,6 +25,7 @@
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/version.h"
+#include "buckens/base/work.h"
 #include "buckens/files/output_file.h"
 #include "buckens/model_file/model_file.h"
 
@@ -158,6 +159,7 @@ void check_error_statement(const RunArguments& arguments,
 
 ExitCode run(const RunArguments& arguments, bool json) {
   const bool silent = json || arguments.quiet;
+  if (silent) base::set_work_sink({});
   ProgressDisplay display(stderr, silent ? ProgressDisplay::Style::none : style_for(stderr));
   RunJournal journal(display, json              ? LogLevel::error
                               : arguments.quiet ? LogLevel::warning

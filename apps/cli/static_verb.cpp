@@ -18,6 +18,7 @@
 
 #include "buckens/analysis/statics/path.h"
 #include "buckens/base/version.h"
+#include "buckens/base/work.h"
 #include "buckens/files/output_file.h"
 
 namespace buckens::cli {
@@ -68,6 +69,7 @@ results::RunSummary trace(const model::BuiltModel& built, JournaledSink& sink,
 }
 
 ExitCode run(const StaticArguments& arguments, bool json) {
+  if (arguments.quiet) base::set_work_sink({});
   ProgressDisplay display(stderr, ProgressDisplay::Style::none);
   RunJournal journal(display, json              ? LogLevel::error
                               : arguments.quiet ? LogLevel::warning

@@ -15,6 +15,7 @@
 #include "cli/verbs.h"
 
 #include "buckens/base/errors.h"
+#include "buckens/base/work.h"
 #include "buckens/files/output_file.h"
 #include "buckens/sweep/summary.h"
 #include "buckens/sweep/table.h"
@@ -131,6 +132,7 @@ ExitCode exit_code_of(const sweep::SweepOutcome& outcome) {
 }
 
 ExitCode sweep(const SweepArguments& arguments, bool json) {
+  if (arguments.quiet) base::set_work_sink({});
   const sweep::SweepTable variants = variants_of(arguments);
   const fs::path directory = arguments.directory();
   const fs::path table = directory / sweep::kSweepName;

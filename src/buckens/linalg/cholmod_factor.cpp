@@ -10,6 +10,7 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 
+#include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/single_thread.h"
 
 namespace buckens::linalg {
@@ -101,8 +102,6 @@ const To* converted(const void* from, std::size_t count, std::vector<To>& copy) 
   }
 }
 
-std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
-
 template <class Api>
 class FactorOf final : public CholmodFactor {
  public:
@@ -175,11 +174,13 @@ class FactorOf final : public CholmodFactor {
  private:
   void factorise(const SparseMatrix& A, const Options& options) {
     const SingleThread alone;
+    FactorWork work(size_);
     LowerTriangle<Api> lower(A);
     factor_ = Api::analyze(lower.view(), &common_);
     if (factor_ == nullptr) fail("analyse", 0.0);
     constexpr bool is_narrow = std::is_same_v<Index, int>;
     if (is_narrow && reach() > options.most_narrow) throw TooLarge{};
+    work.begin(predicted_bytes());
     Api::factorize(lower.view(), factor_, &common_);
     if (common_.status < CHOLMOD_OK) fail("factorise", predicted_bytes());
     if (factor_->minor < static_cast<std::size_t>(size_)) {

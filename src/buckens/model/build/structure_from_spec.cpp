@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/log.h"
+#include "buckens/base/stopwatch.h"
 #include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/element/node_number.h"
 #include "buckens/fem/mesh/curved_beam.h"
@@ -20,6 +22,9 @@
 namespace buckens::model {
 
 namespace {
+
+// Variables from which on it is worth a line in the log how long their assembly took.
+constexpr Eigen::Index kManyVariables = 20000;
 
 class StructureBuilder {
  public:
@@ -244,9 +249,15 @@ const InterfaceRegion* NamedStructure::find_interface(const std::string& name) c
 }
 
 fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> planar) {
+  const base::Stopwatch watch;
   // Matrices keep all variables in a plane model, as solids do.
-  return mesh.matrices ? fem::assemble(*mesh.matrices, mesh.rayleigh)
-                       : fem::assemble(mesh.structure, planar);
+  fem::FeModel out = mesh.matrices ? fem::assemble(*mesh.matrices, mesh.rayleigh)
+                                   : fem::assemble(mesh.structure, planar);
+  if (out.M.rows() >= kManyVariables) {
+    base::log(base::LogLevel::debug,
+              fmt::format("assembling {} variables: {:.2f} s", out.M.rows(), watch.seconds()));
+  }
+  return out;
 }
 
 NamedStructure structure_from_spec(const body::BodySpec& spec) {
