@@ -3,9 +3,15 @@
 
 import importlib.util
 import math
+import os
 import pathlib
+import pty
+import re
+import subprocess
 
 import pytest
+
+from conftest import PROGRAM
 
 PARTS = pathlib.Path(__file__).parent / "parts"
 ASSEMBLY = PARTS / "assembly.step"  # a plate of 5000 mm³, a pin that stands on it, a block apart from both
@@ -19,6 +25,7 @@ def bad(tmp_path_factory):
     spec = importlib.util.spec_from_file_location("make_bad_parts", PARTS / "make_bad_parts.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
+    module.PARTS["sieve"] = module.sieve(40, 20)
     return {path.stem: path for path in module.make(tmp_path_factory.mktemp("bad"))}
 
 
@@ -105,3 +112,67 @@ def test_doubtful_sizes_are_told(buckens, tmp_path, bad):
     (tmp_path / "part.yaml").write_text(MODEL.format(bad["in_metres"], ""))
     assert "a body of 140 m, more than 100 m" in buckens("check", "part.yaml").must(0).out
     buckens("mesh-info", bad["in_metres"], "--size", "1 mm").must(2, "give a larger size")
+
+
+def test_solids_that_share_only_an_edge_are_told(buckens, tmp_path, bad):
+    """Two boxes could turn about the edge: mesh-info says where, and a body of them is refused with the remedy."""
+    told = info(buckens, bad["along_an_edge"])
+    assert told["volume"] == pytest.approx(2 * BOX, rel=1e-9)
+    assert "meet along an edge only, near (0.1, 0.06, 0.02) m" in notes(told)
+    (tmp_path / "part.yaml").write_text(MODEL.format(bad["along_an_edge"], ""))
+    buckens("check", "part.yaml").must(3, "mechanism in itself", "share a face or overlap")
+
+
+def test_thousands_of_faces_are_read(buckens, bad):
+    """With the kernel's own settings the time to read grows with the square of the number of faces."""
+    assert bad["sieve"].read_text().count("ADVANCED_FACE") == 4 * 800 + 6
+    told = info(buckens, bad["sieve"], "--order", "1")
+    # Plane faces: the mesh has the volume of the part, whose numbers have some 15 digits.
+    assert told["volume"] == pytest.approx(2e-9 * (9 * 800 - 800), rel=1e-9) and told["pieces"] == 1
+
+
+def told_on_terminal(program, *arguments):
+    """The exit code, and what a terminal of 80 columns gets on the standard error stream."""
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen([program, *map(str, arguments)], stderr=theirs, stdout=subprocess.DEVNULL,
+                               env={**os.environ, "TERM": "xterm"})
+    os.close(theirs)
+    out = b""
+    while True:
+        try:
+            piece = os.read(ours, 4096)
+        except OSError:  # how Linux says that the other end is closed
+            piece = b""
+        if not piece:
+            break
+        out += piece
+    os.close(ours)
+    return process.wait(), out.decode()
+
+
+def test_terminals_see_how_far_meshing_is(buckens, bad):
+    """What the mesh will be, before it is made; then stage by stage in one line, which is wiped at the end."""
+    file = PARTS.parents[1] / "examples/connecting_rod/rod.step"
+    told = info(buckens, file, "--size", "4 mm")
+    code, shown = told_on_terminal(PROGRAM, "mesh-info", file, "--size", "4 mm")
+    assert code == 0 and shown.endswith("\r\x1b[K")
+    expected, variables = re.search(r"about (\d+) elements with (\d+) variables are expected\r\n", shown).groups()
+    # A factor of two either way is what the estimate promises.
+    assert 0.5 < int(expected) / told["elements"] < 2 and 0.5 < int(variables) / told["variables"] < 2
+    stages = [shown.find(word) for word in (": reading, 0:0", ": edges, ", "second order, ")]
+    assert -1 < stages[0] < stages[1] < stages[2]
+    redrawn = [line for line in re.split(r"\r\x1b\[K|\r\n", shown) if not line.startswith("buckens: ")]
+    assert 4 < len(redrawn) and max(map(len, redrawn)) < 80
+    assert told_on_terminal(PROGRAM, "mesh-info", file, "--json") == (0, "")
+
+
+def test_the_log_says_what_took_how_long(buckens, tmp_path):
+    """From the file to the first step: each phase of meshing, assembly and factor."""
+    (tmp_path / "rod.yaml").write_text(MODEL.format(PARTS.parents[1] / "examples/connecting_rod/rod.step", ", size: 4 mm")
+                                       + "simulation: {duration: 1 ms, step: 1 ms}\n")
+    buckens("run", "rod.yaml", "-o", "out").must(0)
+    log = (tmp_path / "out" / "log.txt").read_text()
+    for phase in ("read", "names", "surface", "volume", "second-order", "straightening"):
+        assert re.search(rf"STEP, meshed by Gmsh.*[;,] {phase} \d+\.\d\d s", log), phase
+    assert re.search(r"assembling \d{5} variables: \d+\.\d\d s", log)
+    assert re.search(r"factorising \d{5} equations \(factor of 0\.\d+ GB\): \d+\.\d\d s", log)

@@ -86,6 +86,26 @@ def tube(wall):
     return build
 
 
+def sieve(columns, rows):
+    """A plate of 2 mm with square holes of 1 mm, 3 mm apart: four faces each."""
+    def loop(kernel, corner, side_x, side_y):
+        x, y = corner
+        corners = [(x, y), (x + side_x, y), (x + side_x, y + side_y), (x, y + side_y)]
+        points = [kernel.call("gmshModelOccAddPoint", *map(ctypes.c_double, (*p, 0.0, 0.0)), -1) for p in corners]
+        lines = [kernel.call("gmshModelOccAddLine", a, b, -1) for a, b in zip(points, points[1:] + points[:1])]
+        return kernel.call("gmshModelOccAddCurveLoop", (ctypes.c_int * 4)(*lines), ctypes.c_size_t(4), -1)
+
+    def build(kernel):
+        loops = [loop(kernel, (0, 0), 3 * columns, 3 * rows)]
+        loops += [loop(kernel, (3 * i + 1, 3 * j + 1), 1, 1) for i in range(columns) for j in range(rows)]
+        face = kernel.call("gmshModelOccAddPlaneSurface", (ctypes.c_int * len(loops))(*loops),
+                           ctypes.c_size_t(len(loops)), -1)
+        out, count, none = ctypes.POINTER(ctypes.c_int)(), ctypes.c_size_t(0), ctypes.c_size_t(0)
+        kernel.call("gmshModelOccExtrude", (ctypes.c_int * 2)(2, face), ctypes.c_size_t(2),
+                    *map(ctypes.c_double, (0, 0, 2)), ctypes.byref(out), ctypes.byref(count), None, none, None, none, 0)
+    return build
+
+
 PARTS = {
     "tube": tube(0.6),
     "thin_tube": tube(0.3),

@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -42,13 +43,15 @@ void limit_memory() {
 #endif
 }
 
-void keep_to_itself() {
+/// @param listener where the standard output goes; -1: nowhere
+void keep_to_itself(int listener) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGQUIT, SIGHUP, SIGSEGV, SIGFPE, SIGABRT, SIGXCPU}) {
     ::signal(number, SIG_DFL);
   }
   const int nothing = ::open("/dev/null", O_RDWR);
   for (int stream = 0; nothing >= 0 && stream < 3; ++stream) ::dup2(nothing, stream);
+  if (listener >= 0) ::dup2(listener, STDOUT_FILENO);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   limit_memory();
@@ -63,14 +66,59 @@ void send(int pipe, const std::string& text) {
   }
 }
 
-std::string received(int pipe) {
-  std::string out;
+/// Both ends of a pipe; those that are open are closed at the end.
+struct Pipe {
+  std::array<int, 2> ends = {-1, -1};  // to read, to write
+
+  void open() {
+    if (::pipe2(ends.data(), O_CLOEXEC) == 0) return;
+    throw IoError(fmt::format("cannot start a process: {}", system_reason(errno)));
+  }
+  void close(std::size_t end) {
+    if (ends[end] >= 0) ::close(ends[end]);
+    ends[end] = -1;
+  }
+  Pipe() = default;
+  ~Pipe() {
+    close(0);
+    close(1);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+};
+
+/// Reads once. @return whether there may be more
+bool read_some(int pipe, std::string& text) {
   std::array<char, 1 << 16> piece;
+  const ssize_t count = ::read(pipe, piece.data(), piece.size());
+  if (count < 0 && errno == EINTR) return true;
+  if (count > 0) text.append(piece.data(), static_cast<std::size_t>(count));
+  return count > 0;
+}
+
+void hear_lines(std::string& text, const IsolatedListener& listener) {
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    if (end > begin) listener(text.substr(begin, end - begin));
+  }
+  text.erase(0, begin);
+}
+
+/// What comes through the first pipe until its end, while a listener hears the other.
+std::string received(Pipe& output, Pipe& said, const IsolatedListener& listener) {
+  constexpr int kSilence = 500;  // [ms]
+  std::string out, lines;
   for (;;) {
-    const ssize_t count = ::read(pipe, piece.data(), piece.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return out;
-    out.append(piece.data(), static_cast<std::size_t>(count));
+    std::array<pollfd, 2> waiting = {{{output.ends[0], POLLIN, 0}, {said.ends[0], POLLIN, 0}}};
+    const int count = ::poll(waiting.data(), waiting.size(), listener ? kSilence : -1);
+    if (count < 0 && errno != EINTR) return out;
+    if (count == 0) listener({});
+    if (count <= 0) continue;
+    if (waiting[1].revents != 0) {
+      if (!read_some(said.ends[0], lines)) said.close(0);
+      hear_lines(lines, listener);
+    }
+    if (waiting[0].revents != 0 && !read_some(output.ends[0], out)) return out;
   }
 }
 
@@ -88,32 +136,35 @@ void limit_time_from_now(double seconds) {
   ::setrlimit(RLIMIT_CPU, &limit);
 }
 
-IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds) {
-  std::array<int, 2> ends;
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw IoError(fmt::format("cannot start a process: {}", system_reason(errno)));
-  }
+void say_to_listener(const std::string& line) {
+  const std::string text = line + '\n';
+  [[maybe_unused]] const ssize_t ignored = ::write(STDOUT_FILENO, text.data(), text.size());
+}
+
+IsolatedResult do_isolated(const std::function<std::string()>& work, unsigned seconds,
+                           const IsolatedListener& listener) {
+  Pipe output, said;
+  output.open();
+  if (listener) said.open();
   const pid_t child = ::fork();
   if (child == 0) {
-    ::close(ends[0]);
-    keep_to_itself();
+    output.close(0);
+    keep_to_itself(said.ends[1]);
     if (seconds > 0) limit_time_from_now(seconds);
     try {
-      send(ends[1], work() + kEnd);
+      send(output.ends[1], work() + kEnd);
     } catch (...) {
       ::_exit(1);
     }
     ::_exit(0);  // no destructors of static objects: they belong to the other process
   }
-  const int error = errno;
-  ::close(ends[1]);
   if (child < 0) {
-    ::close(ends[0]);
-    throw IoError(fmt::format("cannot start a process: {}", system_reason(error)));
+    throw IoError(fmt::format("cannot start a process: {}", system_reason(errno)));
   }
+  output.close(1);
+  said.close(1);
   IsolatedResult out;
-  out.output = received(ends[0]);
-  ::close(ends[0]);
+  out.output = received(output, said, listener);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/mesh_io/gmsh/library.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -182,6 +186,32 @@ double GmshLibrary::size(const GmshEntity& entity) const {
   return out;
 }
 
+double GmshLibrary::largest_curvature(int face) const {
+  int error = 0;
+  double *low = nullptr, *high = nullptr, *most = nullptr, *least = nullptr, *ignored[2] = {};
+  std::size_t num_low = 0, num_high = 0, num_most = 0, num_least = 0, sizes[2] = {};
+  BUCKENS_GMSH(gmshModelGetParametrizationBounds)
+  (2, face, &low, &num_low, &high, &num_high, &error);
+  if (error != 0 || num_low < 2 || num_high < 2) return 0;
+  std::vector<double> places;
+  for (const double u : {1.0 / 6, 0.5, 5.0 / 6}) {
+    for (const double v : {1.0 / 6, 0.5, 5.0 / 6}) {
+      places.push_back(low[0] + u * (high[0] - low[0]));
+      places.push_back(low[1] + v * (high[1] - low[1]));
+    }
+  }
+  BUCKENS_GMSH(gmshModelGetPrincipalCurvatures)
+  (face, places.data(), places.size(), &most, &num_most, &least, &num_least, &ignored[0], &sizes[0],
+   &ignored[1], &sizes[1], &error);
+  double out = 0;
+  for (std::size_t k = 0; error == 0 && k < std::min(num_most, num_least); ++k) {
+    for (const double found : {most[k], least[k]}) {
+      if (std::isfinite(found)) out = std::max(out, std::abs(found));
+    }
+  }
+  return out;
+}
+
 std::array<double, 3> GmshLibrary::centre(const GmshEntity& entity) const {
   int error = 0;
   std::array<double, 3> out{};
@@ -233,14 +263,34 @@ void GmshLibrary::write(const std::string& file) {
   check(error);
 }
 
-std::vector<std::string> GmshLibrary::messages() const {
+void GmshLibrary::be_heard() { set_number("General.Terminal", 1); }
+
+std::vector<std::string> GmshLibrary::log() const {
   int error = 0;
   char** lines = nullptr;
   std::size_t count = 0;
   BUCKENS_GMSH(gmshLoggerGet)(&lines, &count, &error);
+  return error == 0 ? std::vector<std::string>(lines, lines + count) : std::vector<std::string>();
+}
+
+std::array<double, 3> GmshLibrary::mesh_seconds() const {
+  std::array<double, 3> out{};
+  for (const std::string& line : log()) {
+    int dimension = 0;
+    double seconds = 0;
+    const std::size_t at = line.find("Done meshing");
+    if (at == std::string::npos) continue;
+    if (std::sscanf(line.c_str() + at, "Done meshing %dD (Wall %lfs", &dimension, &seconds) == 2 &&
+        dimension >= 1 && dimension <= 3) {
+      out[static_cast<std::size_t>(dimension - 1)] = seconds;
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> GmshLibrary::messages() const {
   std::vector<std::string> out;
-  for (std::size_t i = 0; error == 0 && i < count; ++i) {
-    const std::string line = lines[i];
+  for (const std::string& line : log()) {
     if (line.starts_with("Warning") || line.starts_with("Error")) out.push_back(line);
   }
   return out;

@@ -48,6 +48,8 @@ class GmshLibrary {
   Color color(const GmshEntity& entity) const;
   /// Volume, area or length of an entity.
   double size(const GmshEntity& entity) const;
+  /// Of a face [1/length], at nine places of its parameters; 0 if the kernel knows none.
+  double largest_curvature(int face) const;
   std::array<double, 3> centre(const GmshEntity& entity) const;
   /// Smallest and largest x, y, z, slightly enlarged.
   std::array<double, 6> box(const GmshEntity& entity) const;
@@ -58,6 +60,10 @@ class GmshLibrary {
   /// Moves nodes of badly shaped elements of higher order.
   void optimize_order();
   void write(const std::string& file);
+  /// Says on the standard output what it does.
+  void be_heard();
+  /// Wall seconds of the last mesh(): edges, faces, volumes.
+  std::array<double, 3> mesh_seconds() const;
   /// Warnings and errors so far.
   std::vector<std::string> messages() const;
   /// Where the mesher failed, as far as it reports it.
@@ -67,6 +73,7 @@ class GmshLibrary {
   template <class Function>
   Function function(const char* name) const;
   void check(int error) const;
+  std::vector<std::string> log() const;
 
   void* handle_ = nullptr;
 };

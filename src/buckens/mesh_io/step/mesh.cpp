@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/stopwatch.h"
 #include "buckens/fem/mesh/cell_measure.h"
 #include "buckens/fem/mesh/straighten.h"
 #include "buckens/files/isolated_work.h"
@@ -21,6 +22,8 @@
 #include "buckens/files/text_file.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/step/faces.h"
+#include "buckens/mesh_io/step/progress.h"
+#include "buckens/mesh_io/step/quick_settings.h"
 #include "buckens/mesh_io/step/text.h"
 #include "buckens/mesh_io/step/trial.h"
 
@@ -48,6 +51,7 @@ class TemporaryDirectory {
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
+  const fs::path& path() const { return path_; }
   fs::path operator/(const char* name) const { return path_ / name; }
 
  private:
@@ -132,8 +136,11 @@ class Told {
 /// The trials of one part.
 class Trials {
  public:
-  Trials(const StepTask& task, std::string file) : task_(task), file_(std::move(file)) {}
+  Trials(const StepTask& task, std::string file, MeshingProgress& progress)
+      : task_(task), file_(std::move(file)), progress_(progress) {}
 
+  /// Seconds of the trials that came to no mesh.
+  double in_vain() const { return in_vain_; }
   /// @return the lines of the first that came to a mesh
   std::string run() {
     for (const StepTrial& trial : step_trials()) {
@@ -173,11 +180,19 @@ class Trials {
   bool try_it(const StepTrial& trial) {
     if (has_no_solid_ && trial.tolerance == 0) return false;
     if (timeouts_ == kMostTimeouts) return false;
-    ++count_;
-    const files::IsolatedResult result =
-        files::do_isolated([&] { return mesh_in_trial(task_, trial); }, kSeconds);
+    progress_.trial(++count_);
+    const base::Stopwatch watch;
+    const files::IsolatedResult result = files::do_isolated(
+        [&] { return mesh_in_trial(task_, trial); }, kSeconds, progress_.listener());
     output_ = result.output;
     if (!result.is_complete && result.signal == SIGXCPU) {
+      if (!progress_.has_read()) {
+        refuse(
+            fmt::format("it was not read within {} s of computing, whatever its size; make the "
+                        "part simpler in the CAD program: leave out threads, letters and "
+                        "patterns of many holes",
+                        kSeconds));
+      }
       output_ = "failed Gmsh came to no end within minutes of computing";
       ++timeouts_;
     } else if (!result.is_complete) {
@@ -189,6 +204,7 @@ class Trials {
     const std::string kind = output_.substr(0, word);
     if (kind == "error") refuse(output_.substr(word + 1));
     if (kind != "failed" && kind != "open") return true;
+    in_vain_ += watch.seconds();
     is_open_ = is_open_ || kind == "open";
     has_no_solid_ = has_no_solid_ || output_.starts_with("open there is no solid");
     if (first_.empty()) first_ = output_.substr(word + 1);
@@ -197,7 +213,9 @@ class Trials {
 
   const StepTask& task_;
   std::string file_, output_, first_;
+  MeshingProgress& progress_;
   int count_ = 0, timeouts_ = 0;
+  double in_vain_ = 0;  // seconds
   bool is_open_ = false, has_no_solid_ = false;
 };
 
@@ -253,8 +271,16 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequ
   const ColoredStep copy = color_named_faces(text);
   files::replace_text_file(step, text);
   if (!copy.names.empty()) files::replace_text_file(named, copy.text);
-  const StepTask task{step.string(), named.string(), mesh.string(), copy.names.size(), request};
-  const std::string lines = Trials(task, file).run();
+  MeshingProgress progress(file);
+  StepTask task{step.string(), named.string(), mesh.string(), copy.names.size(), request};
+  if (has_many_faces(text)) {
+    write_quick_settings(directory.path());
+    task.settings = directory.path().string();
+  }
+  Trials trials(task, file, progress);
+  const std::string lines = trials.run();
+  progress.stage("straightening");
+  const base::Stopwatch watch;
   StepMesh out{read_gmsh_mesh(mesh), {}};
   out.mesh.file = file;
   out.mesh.format = "STEP, meshed by Gmsh";
@@ -262,7 +288,11 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequ
   add_face_names(out.mesh, out.faces);
   if (request.order == 2) straighten(out.mesh);
   compare_volumes(out.mesh, told.volume(), request.order);
-  out.mesh.making = fmt::format("size {:.4g} m; {}", out.size, told.times());
+  out.mesh.making = fmt::format("size {:.4g} m; {}, straightening {:.2f} s", out.size, told.times(),
+                                watch.seconds());
+  if (trials.in_vain() > 0) {
+    out.mesh.making += fmt::format(", other ways before {:.2f} s", trials.in_vain());
+  }
   return out;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -121,6 +123,35 @@ GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& 
     const auto pieces = pieces_of(face, after);
     if (pieces.empty()) ++out.lost;
     for (const Face* piece : pieces) add(piece->number, face.color);
+  }
+  return out;
+}
+
+std::vector<SharedEdge> edges_without_faces(const GmshLibrary& gmsh) {
+  const auto solids = gmsh.entities(3);
+  std::vector<SharedEdge> out;
+  if (solids.size() < 2) return out;
+  // Solids that share faces get the number of one of them.
+  std::vector<std::size_t> group(solids.size());
+  std::map<int, std::size_t> of_face;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    group[k] = k;
+    for (const GmshEntity& face : gmsh.boundary({solids[k]})) {
+      const auto [known, is_new] = of_face.emplace(std::abs(face.second), k);
+      if (is_new) continue;
+      const std::size_t joined = group[known->second], own = group[k];
+      std::replace(group.begin(), group.begin() + static_cast<std::ptrdiff_t>(k) + 1, own, joined);
+    }
+  }
+  std::map<int, std::size_t> of_curve;
+  for (const auto& [face, solid] : of_face) {
+    for (const GmshEntity& curve : gmsh.boundary({{2, face}})) {
+      const int number = std::abs(curve.second);
+      const auto [known, is_new] = of_curve.emplace(number, solid);
+      if (is_new || group[known->second] == group[solid]) continue;
+      out.push_back({number, label_of_solid(gmsh, solids[known->second]),
+                     label_of_solid(gmsh, solids[solid])});
+    }
   }
   return out;
 }

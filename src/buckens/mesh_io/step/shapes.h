@@ -34,4 +34,12 @@ std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid);
 GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file,
                        const std::string& solid);
 
+/// A curve that two solids have in common, which no chain of common faces connects.
+struct SharedEdge {
+  int curve = 0;
+  std::string first, second;  ///< labels of the solids
+};
+
+std::vector<SharedEdge> edges_without_faces(const GmshLibrary& gmsh);
+
 }  // namespace buckens::mesh_io

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -12,10 +13,13 @@
 #include <fmt/ranges.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/stopwatch.h"
 #include "buckens/fem/mesh/straighten.h"
 #include "buckens/files/isolated_work.h"
 #include "buckens/mesh_io/gmsh/library.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
+#include "buckens/mesh_io/step/estimate.h"
+#include "buckens/mesh_io/step/progress.h"
 #include "buckens/mesh_io/step/shapes.h"
 #include "buckens/mesh_io/step/text.h"
 
@@ -24,8 +28,6 @@ namespace buckens::mesh_io {
 namespace {
 
 constexpr double kMostElements = 5e6;
-constexpr double kTetrahedron = 0.1179;  // volume of a regular one with edges of length 1
-constexpr double kTriangle = 0.433;      // area of a regular one
 // Passes in which Gmsh moves nodes of badly shaped elements of second order. Its own number is 25:
 // of a dozen printer parts where that did not reach the aim, after 1 to 20 s, each kept all of its
 // inverted elements.
@@ -38,19 +40,9 @@ constexpr int kMostMoved = 300;
 // never ends.
 constexpr double kMeshSeconds = 100, kSecondsPerElement = 1e-3;
 
-/// Times of the parts of the work, for users who wait.
-class Watch {
- public:
-  std::string lap(const char* what) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return fmt::format("time {} {:.3f}\n", what, seconds);
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
+std::string time_line(const char* what, double seconds) {
+  return fmt::format("time {} {:.3f}\n", what, seconds);
+}
 
 /// What the file holds, in metres.
 struct Extent {
@@ -69,27 +61,33 @@ class Trial {
       : task_(task), trial_(trial), metre_(trial.in_millimetres ? 1e3 : 1.0) {}
 
   std::string run() {
+    gmsh_.be_heard();
     gmsh_.set_text("Geometry.OCCTargetUnit", trial_.in_millimetres ? "MM" : "M");
     const GluedShapes shapes = load_glued(gmsh_, "part", task_.step, task_.request.solid);
     if (!shapes.problem.empty()) return "error " + shapes.problem;
-    std::string out = watch_.lap("read");
-    if (trial_.tolerance > 0) out += sew();
+    std::string out = time_line("read", watch_.lap());
+    if (trial_.tolerance > 0) {
+      out += sew();
+      out += time_line("mending", watch_.lap());
+    }
     const std::string open = gap();
     if (gmsh_.entities(3).empty()) return open;
     measure();
     if (trial_.tolerance == 0) out += told(shapes);
-    out += loose_faces() + watch_.lap("names");
+    out += loose_faces() + hinges();
+    out += time_line("names", watch_.lap());
     const double wanted = task_.request.size ? *task_.request.size : chosen();
     const double used = trial_.size * (trial_.size < 1 ? std::min(wanted, chosen()) : wanted);
-    const double expected = expected_elements(used, part_.volume, part_.area);
-    if (!(expected < kMostElements)) {
+    const MeshOutlook outlook = expected(used);
+    if (!(outlook.elements < kMostElements)) {
       return fmt::format(
           "error elements of {:g} m in a volume of {:g} m^3 would be about {:.2g}, more than a "
-          "body "
-          "can have; give a larger size",
-          wanted, part_.volume, expected);
+          "body can have; give a larger size",
+          wanted, part_.volume, outlook.elements);
     }
-    files::limit_time_from_now(kMeshSeconds + expected * kSecondsPerElement);
+    say_outlook(outlook, gmsh_.entities(2).size());
+    const double seconds = kMeshSeconds + outlook.elements * kSecondsPerElement;
+    files::limit_time_from_now(seconds);
     out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume);
     set_options(used * metre_);
     add_groups();
@@ -97,15 +95,31 @@ class Trial {
     if (const std::string reason = failure(); !reason.empty()) {
       return open.empty() ? "failed " + reason : fmt::format("{}; {}", open, reason);
     }
-    out += messages() + watch_.lap("mesh");
-    files::limit_time_from_now(kMeshSeconds + expected * kSecondsPerElement);
-    if (task_.request.order == 2) curve();
-    gmsh_.write(task_.mesh);
-    return out + watch_.lap("second-order");
+    out += messages() + mesh_times();
+    files::limit_time_from_now(seconds);
+    if (task_.request.order == 2) {
+      curve();
+    } else {
+      gmsh_.write(task_.mesh);
+    }
+    return out + time_line("second-order", watch_.lap());
   }
 
  private:
   double chosen() const { return chosen_size(part_.diagonal, part_.volume, part_.area); }
+
+  MeshOutlook expected(double size) const {
+    const double triangles = expected_triangles(face_extents(gmsh_), size * metre_,
+                                                trial_.smallest * size * metre_, trial_.in_a_turn);
+    return expected_mesh(part_.volume, size, triangles, task_.request.order);
+  }
+
+  std::string mesh_times() {
+    const double whole = watch_.lap();
+    const auto [edges, faces, volumes] = gmsh_.mesh_seconds();
+    const double surface = edges + faces;
+    return time_line("surface", surface) + time_line("volume", std::max(0.0, whole - surface));
+  }
 
   std::string place(const std::array<double, 6>& box) const {
     return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", (box[0] + box[3]) / (2 * metre_),
@@ -118,6 +132,7 @@ class Trial {
   }
 
   std::string sew() {
+    say_stage("mending");
     const bool was_open = !gap().empty();
     const std::size_t before = gmsh_.entities(2).size();
     const double tolerance = trial_.tolerance * diagonal();
@@ -165,6 +180,17 @@ class Trial {
         "note {} faces bound no solid and get no elements (walls without thickness?), the first, "
         "face_{}, near {}\n",
         loose.size(), loose.begin()->second, place(gmsh_.box(*loose.begin())));
+  }
+
+  /// Where solids meet along an edge only.
+  std::string hinges() const {
+    const std::vector<SharedEdge> found = edges_without_faces(gmsh_);
+    if (found.empty()) return {};
+    return fmt::format(
+        "note solids \"{}\" and \"{}\" meet along an edge only, near {}, and could turn about it; "
+        "let them share a face or overlap{}\n",
+        found.front().first, found.front().second, place(gmsh_.box({1, found.front().curve})),
+        found.size() > 1 ? fmt::format(" ({} such edges)", found.size()) : "");
   }
 
   void measure() {
@@ -278,47 +304,36 @@ class Trial {
 
   /// Elements that stay inverted are straightened later: Gmsh's errors are ignored here.
   void curve() {
+    say_stage("second order");
     gmsh_.set_number("General.AbortOnError", 0);
     gmsh_.set_order(2);
     gmsh_.write(task_.mesh);
     fem::ImportedMesh unmoved = read_gmsh_mesh(task_.mesh);
-    if (fem::straighten_inverted(unmoved) <= kMostMoved) gmsh_.optimize_order();
+    if (fem::straighten_inverted(unmoved) > kMostMoved) return;
+    gmsh_.optimize_order();
+    const std::string moved = task_.mesh + ".moved.msh";
+    gmsh_.write(moved);
+    try {
+      read_gmsh_mesh(moved);
+    } catch (const InputError&) {
+      return;  // nodes were moved to places that are no numbers
+    }
+    std::filesystem::rename(moved, task_.mesh);
   }
 
   const StepTask& task_;
   const StepTrial& trial_;
   double metre_;
   GmshLibrary gmsh_;
-  Watch watch_;
+  base::Stopwatch watch_;
   Extent part_;
 };
 
 }  // namespace
 
-const std::vector<StepTrial>& step_trials() {
-  static const std::vector<StepTrial> trials = {
-      {},
-      {"in millimetres", true},
-      {"faces by another algorithm (MeshAdapt)", false, 1},
-      {"with elements that fit the walls", true, 5, 0.9, 0.25},
-      {"with smaller elements, on faces by another algorithm (Delaunay)", true, 5, 0.6, 0.15},
-      {"with smaller elements, 32 to a turn of curved faces", true, 6, 0.5, 0.02, 32},
-      {"after mending edges and small faces", true, 6, 0.7, 0.15, 8, 1e-6},
-  };
-  return trials;
-}
-
-const std::vector<StepTrial>& sewing_trials() {
-  static const std::vector<StepTrial> trials = {
-      {"sewn", true, 6, 1, 0.25, 8, 1e-6},
-      {"sewn", true, 6, 1, 0.25, 8, 1e-5},
-      {"sewn", true, 6, 1, 0.25, 8, 1e-4},
-      {"sewn", true, 6, 1, 0.25, 8, 4e-4},
-  };
-  return trials;
-}
-
 std::string mesh_in_trial(const StepTask& task, const StepTrial& trial) {
+  // Heeded when the kernel is loaded.
+  if (!task.settings.empty()) ::setenv("CSF_STEPDefaults", task.settings.c_str(), 1);
   try {
     return Trial(task, trial).run();
   } catch (const std::exception& error) {
@@ -327,16 +342,6 @@ std::string mesh_in_trial(const StepTask& task, const StepTrial& trial) {
         text.starts_with("Could not read file") || text.find("library") != std::string::npos;
     return (is_hopeless ? "error " : "failed ") + text;
   }
-}
-
-double chosen_size(double diagonal, double volume, double area) {
-  const double wall = area > 0 ? 2 * volume / area : diagonal;
-  return std::clamp(2 * wall, diagonal / 30, diagonal / 20);
-}
-
-double expected_elements(double size, double volume, double area) {
-  return std::max(volume / (kTetrahedron * std::pow(size, 3)),
-                  1.5 * area / (kTriangle * size * size));
 }
 
 }  // namespace buckens::mesh_io

@@ -59,10 +59,15 @@ void refuse_mechanisms(const body::Body& body) {
         "without strain, or the matrix is not positive; write the matrices of one connected body",
         body.name, node));
   }
-  throw ModelError(fmt::format(
-      "body \"{}\" is a mechanism in itself: {} can move without straining an element; add bars, "
-      "beams or solids that hold it, or make separate bodies with joints",
-      body.name, node));
+  const char* remedy =
+      fem::solids_join_by_faces(body.flexible->mesh())
+          ? "add bars, beams or solids that hold it"
+          : "solids that share an edge or a corner only turn about it, so let them share a face or "
+            "overlap";
+  throw ModelError(
+      fmt::format("body \"{}\" is a mechanism in itself: {} can move without straining an element; "
+                  "{}, or make separate bodies with joints",
+                  body.name, node, remedy));
 }
 
 }  // namespace buckens::model
