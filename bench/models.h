@@ -125,7 +125,7 @@ inline std::string divided_tree(int levels) {
 }
 
 /// Rigid links in space, each on a revolute joint, starting horizontally. The first two come from a
-/// model file, the others are copies: ten thousand would make a longer text than is admitted.
+/// model file, the others are copies: the text for ten thousand would exceed the size limit.
 inline model::ModelDescription rigid_chain(int links) {
   std::string text = "buckens: 1\ngravity: [0, -9.81, 0]\nbodies:\n";
   for (int k = 0; k < 2; ++k) {

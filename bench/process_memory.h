@@ -6,8 +6,8 @@
 
 namespace buckens::bench {
 
-/// An entry of /proc/self/status in bytes, 0 where there is none: "VmRSS" is resident now, "VmHWM"
-/// was at most.
+/// An entry of /proc/self/status in bytes, 0 if there is none: "VmRSS" is the current size, "VmHWM"
+/// the peak.
 inline double process_memory(const std::string& key) {
   std::ifstream status("/proc/self/status");
   std::string line;

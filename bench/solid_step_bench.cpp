@@ -6,7 +6,7 @@
 //                      [--budget SECONDS] [--setup] [--no-reference]
 //
 // Prints one JSON object. Times are the shortest of several [s], those of steps among steps with
-// the usual number of large solves; what CHOLMOD takes was measured before and after the steps.
+// the usual number of large solves; CHOLMOD's time is measured before and after the steps.
 
 #include <algorithm>
 #include <iostream>
@@ -66,7 +66,7 @@ std::vector<std::string> split(const std::string& text) {
 std::string block_pendulum(const SolidBlock& block, const std::string& level, int loads = 0) {
   std::string markers, forces;
   for (int k = 0; k < loads; ++k) {
-    // Nodes of the face x = 0 but the one that is held.
+    // Nodes of the face x = 0 except the one that is held.
     const int across = block.divisions[1] + 1;
     const double y = 0.1 * ((k + 1) % across) / block.divisions[1];
     const double z = 0.1 * ((k + 1) / across) / block.divisions[2];
@@ -97,7 +97,7 @@ double reference_solve(const SparseCholesky& factor, double budget) {
       budget, [&] { factor.solve_in_place(x); }, [&] { x.normalize(); });
 }
 
-/// What the levels of coupling keep.
+/// Names of the levels of coupling.
 CouplingTerms terms_of(const std::string& level) {
   if (level == "none") return CouplingTerms::none();
   if (level == "first-order") return CouplingTerms::first_order();
@@ -137,7 +137,7 @@ json measure_level(Running& run, const std::string& level, int threads, double b
     AlikeSteps& alike = by_solves[run.stepper->counts(0).solves - solved];
     if (alike.count++ == 0 || seconds < alike.shortest) alike.shortest = seconds;
   }
-  // A step that happens to need fewer solves than most is no measure of the others.
+  // A step that happens to need fewer solves than most is not representative.
   const auto usual = std::max_element(
       by_solves.begin(), by_solves.end(),
       [](const auto& a, const auto& b) { return a.second.count < b.second.count; });

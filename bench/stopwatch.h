@@ -16,7 +16,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Shortest time of f() [s]: others may use the machine, and they only ever make it slower.
+/// Shortest time of f() [s]: other load on the machine only makes it slower.
 /// @param budget repeats for about so long [s], three times at least
 /// @param between is called after each, and not counted
 template <class F, class G>

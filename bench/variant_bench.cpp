@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six variants of one model with a solid body that advance side by side and share a factor,
+// Six variants of one model with a solid body that advance concurrently and share a factor,
 // against one of them alone.
 //
 //     variant_bench hex8:124,8,8 [--steps N]
@@ -72,7 +72,7 @@ double time_per_step(const SolidBlock& block, const std::string& level, int coun
       participants.front()();
     }
     const double one = all.seconds() / steps;
-    // The first steps find the history of the coupling.
+    // The first steps build up the history of the coupling.
     if (round == 1 || (round > 1 && one < best)) best = one;
   }
   return best;

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     buckens::mesh_io::read_matrix_file(path);
   } catch (const buckens::Error&) {
-    // The table has its turn all the same.
+    // The table is read nevertheless.
   }
   try {
     buckens::mesh_io::read_matrix_node_table(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results and a kept basis, changed as the input says (result_edits.h): all that reads them takes
+// Results and a stored basis, changed as the input says (result_edits.h): every reader accepts
 // them or refuses them with an error of this library. Changes of whole objects leave a file that is
 // sound as such, so that they reach our own checks; changed bytes are for HDF5.
 #include <nlohmann/json.hpp>

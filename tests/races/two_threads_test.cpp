@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One factor that two threads read, small enough for the thread sanitizer. That it gives the right
+// One factor read by two threads, small enough for the thread sanitizer. That it gives the right
 // numbers is shown by linalg/test/panel_factor_test.cpp.
 #include <array>
 #include <vector>

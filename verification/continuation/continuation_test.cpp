@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A copy of the state is all that a run needs to go on; see README.md.
+// A copy of the state is all that a run needs to continue; see README.md.
 #include <array>
 #include <memory>
 #include <utility>

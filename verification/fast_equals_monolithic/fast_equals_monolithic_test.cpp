@@ -197,7 +197,7 @@ TEST(FastEqualsMonolithic, BushingAndSpringBetweenRigidAndFlexibleBody) {
 }
 
 /// A flexible rod that swings on a hinge with a spring, and a sled on a rough way
-/// between stops, which a spring at the tip of the rod draws about.
+/// between stops, pulled by a spring at the tip of the rod.
 model::Model rubbing_rod() {
   test::Mechanism m;
   m.set_gravity({2.0, -9.81, -4.0});

@@ -72,7 +72,7 @@ output: {{every: 0.05, sensors: {{tip: {{position: rod/end}}}}}}
 }
 
 TEST(Frames, PendulumWithAFramePerElement) {
-  // Asked for: 1e-6 m. The axial waves of the release need steps below 1e-4 s, as with one frame.
+  // Required: 1e-6 m. The axial waves of the release need steps below 1e-4 s, as with one frame.
   for (const int elements : {4, 8}) {
     const double error = pendulum_error(elements, 5e-5);
     EXPECT_LT(error, 1e-6) << elements;
@@ -204,7 +204,7 @@ TEST(Frames, RotatingBeamStiffensWithTheNumberOfFrames) {
   for (const auto& [frames, omega] : known["frames"].items()) {
     const double expected = omega.get<double>();
     const double found = lead_lag_frequency("frames: " + frames, 6.0, expected);
-    // Asked for: 0.5 %. The fit over four periods finds 0.07 %.
+    // Required: 0.5 %. The fit over four periods finds 0.07 %.
     EXPECT_NEAR(found, expected, 2e-3 * expected) << frames << " frames";
     RecordProperty("omega_" + frames, fmt::format("{:.4f}", found));
   }
@@ -244,7 +244,7 @@ output: {{every: 1e-6, sensors: {{tip: {{position: rod/end}}}}}}
 }
 
 TEST(Frames, CantileverRollsUpToACircle) {
-  // Asked for: closes to 1e-3 L. Equal frames close exactly, whatever their number.
+  // Required: closes to 1e-3 L. Equal frames close exactly, whatever their number.
   EXPECT_LT(rolled_up_tip(64, 2.0 * std::numbers::pi).norm(), 1e-9);
   // A tenth of a turn shows the error of the frames: order 2.
   const double turn = 0.2 * std::numbers::pi;

@@ -23,7 +23,7 @@ std::string point(const Vector3d& p) {
   return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", p.x(), p.y(), p.z());
 }
 
-/// A clamped chain of beams of one element between the points, each a body with a frame of its own.
+/// A clamped chain of one-element beams between the points, each a body with its own frame.
 std::string chain(const std::vector<Vector3d>& points) {
   std::string bodies;
   std::string joints = "  clamp: {fixed: {between: [ground, b0/start]}}\n";

@@ -72,7 +72,7 @@ test::Start flying(const model::Model& model) {
 
 /// Places of the tip at ten equal instants up to 1 s, two numbers each.
 Vector tips(const model::Model& model, const test::Start& start, double h) {
-  // Without numerical damping, iterated to rounding: what is left is the error of the step.
+  // Without numerical damping, iterated to rounding: only the error of the step remains.
   stepping::StepSettings settings = test::settings(stepping::Method::generalized_alpha, h);
   settings.rho_inf = 1.0;
   settings.iterate_coupling = true;

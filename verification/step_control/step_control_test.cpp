@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The march along the ladder of steps: what is undone leaves no trace, the error follows the
+// The march along the ladder of steps: rejected steps leave no trace, the error follows the
 // tolerance, and steps of changing length keep the order; see README.md.
 #include <array>
 #include <cmath>
@@ -99,7 +99,7 @@ TEST(TimeMarch, RejectedStepsLeaveNoTrace) {
 }
 
 TEST(TimeMarch, AQuarterOfTheToleranceGivesAQuarterOfTheError) {
-  // Each step may make as large a share of the tolerance as it is long: the errors of all add up to
+  // Each step may use a fraction of the tolerance in proportion to its length: all errors add up to
   // no more than the tolerance, and fall with it. A step errs with h³, per time with h².
   const model::Model model = test::rigid_double_pendulum(true);
   const test::Start start = test::consistent_start(model);

@@ -19,7 +19,7 @@ namespace buckens::verification {
 namespace {
 
 constexpr std::array<int, 2> kBars = {1, 2};
-// All that the reference has; what each leaves out: docs/theory/08-coupling.md.
+// All levels in the reference; what each neglects: docs/theory/08-coupling.md.
 constexpr std::array<const char*, 7> kVariants = {"full",   "none",   "nocent",        "nocor",
                                                   "nojvar", "noquad", "no_cent_no_cor"};
 

@@ -48,7 +48,7 @@ TEST_P(TrussPath, LiesOnTheClosedFormThroughBothLimitPoints) {
   EXPECT_TRUE(path.summary.finished);
   double last_error = 0.0;
   for (std::size_t k = 0; k < path.w.size(); ++k) {
-    // Newton goes down to rounding of the largest bar force; 1e-9 is asked for.
+    // Newton converges to rounding of the largest bar force; 1e-9 is required.
     last_error = std::max(last_error, std::abs(path.F[k] - truss.force(path.w[k])));
   }
   EXPECT_LT(last_error, 1e-9 * truss.F_crit);

@@ -48,7 +48,7 @@ struct Truss {
 
   /// The model file up to `loads`, `static` and `simulation`; the load acts on left/apex, the
   /// sensor w is the way of the apex downwards.
-  /// @param bars per member, 1 or 2, each with a frame of its own
+  /// @param bars per member, 1 or 2, each with its own frame
   std::string model(int bars, const std::string& coupling = "full") const {
     std::string bodies, joints;
     for (const int side : {-1, 1}) {

@@ -159,7 +159,8 @@ void CouplingWatch::fill(const model::State& state, results::RunSummary& summary
     std::string level = fmt::format("{}", fmt::join(now, " and "));
     if (bodies_[first].is_automatic) {
       const std::string start = fmt::format("{}", fmt::join(at_start, " and "));
-      level = "auto: " + (start == level ? start : start + ", then " + level);
+      level = start == level ? fmt::format("auto: {}", start)
+                             : fmt::format("auto: {}, then {}", start, level);
     }
     summary.bodies[k].coupling = level;
     summary.bodies[k].measures.emplace_back("largest_neglected_share", neglected);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the levels of coupling cost, and that their answers hold.
+// The cost of the levels of coupling, and the accuracy of their results.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,12 +99,12 @@ TEST(CouplingLevel, TwoSolvesGiveTheFullyIteratedAnswer) {
   const double best = bending(iterated);
   const double of_iteration = std::abs(bending(two) - best);
   const double of_step = std::abs(bending(finer) - best);
-  // The error of not iterating lies far below that of the step; measured in README of the example.
+  // The error without iteration is far below that of the step; measured in README of the example.
   EXPECT_LT(of_iteration, 1e-3 * of_step);
   RecordProperty("of_iteration", std::to_string(of_iteration / of_step));
 }
 
-/// A steel block of 1 × 0.1 × 0.1 m on a ball joint at a corner, let go from the horizontal: it
+/// A steel block of 1 × 0.1 × 0.1 m on a ball joint at a corner, released from the horizontal: it
 /// rings in bending at 366 Hz and above.
 model::Model released_block(const std::array<int, 3>& divisions) {
   fem::Structure structure;
@@ -181,8 +181,8 @@ TEST(CouplingLevel, DiagonalJudgesChangesOfTheLoadWithinAFactorOfTenOfTheWholeSt
     least = std::min(least, strict / exact);
   }
   RecordProperty("least", std::to_string(least));
-  // What extrapolation misses goes with (h ω)³: a factor of ten in the tolerance is one of two in
-  // the frequencies that it admits.
+  // The extrapolation error is of order (h ω)³: a factor of ten in the tolerance is one of two in
+  // the admissible frequencies.
   EXPECT_GT(least, 0.1);
 }
 

@@ -12,7 +12,7 @@
 namespace buckens::analysis {
 namespace {
 
-/// Displaces every node of a straight beam along x by a law of its place.
+/// Displaces every node of a straight beam along x by a function of its position.
 template <class Law>
 linalg::Vector displaced(const fem::FeModel& fe, Law law) {
   linalg::Vector d = linalg::Vector::Zero(fe.dofs.num_dofs);
@@ -131,7 +131,7 @@ TEST(DeformationLimits, CompressionBendsMoreThanTensionStiffens) {
   EXPECT_THAT(found.trust[0], testing::HasSubstr("25 %"));
   EXPECT_THAT(judge_deformation(rod, measured(0, 0, 0, 1.5)).trust.at(0),
               testing::HasSubstr("without bound"));
-  // A load that is in the equations, or a body that does not bend, has nothing to err.
+  // A load included in the equations, or a body that does not bend, causes no error.
   EXPECT_TRUE(
       judge_deformation({"rod", "rod", 1, true}, measured(0.01, 0, 0.2, 0.2)).trust.empty());
   EXPECT_TRUE(judge_deformation(rod, measured(0, 0, 5.0, 0)).trust.empty());

@@ -74,7 +74,7 @@ TEST(ErrorEstimate, PhaseShowsInTheCurveAndNotInThePeak) {
 }
 
 TEST(ErrorEstimate, APeakIsSoughtOnItsOwnSide) {
-  // Of two extremes alike the further run must not take the other one.
+  // Of two equal extremes the further run must not pick the other one.
   const auto run = curves([](double t) { return std::cos(t) + 1e-6; }, none);
   const auto further = curves([](double t) { return std::cos(t) - 1e-6; }, none);
   ErrorEstimate estimate(*run);

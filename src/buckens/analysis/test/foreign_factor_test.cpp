@@ -11,7 +11,7 @@
 namespace buckens::analysis {
 namespace {
 
-/// A factor of somebody else's: SparseCholesky behind a counter.
+/// A factor supplied from outside: SparseCholesky with a counter.
 class CountedFactor final : public linalg::Factor {
  public:
   CountedFactor(const linalg::SparseMatrix& A, long& columns) : factor_(A), columns_(columns) {}

@@ -71,7 +71,7 @@ TEST(InitialVelocity, IsThatOfTheWholeBodyWhateverItsFrames) {
     EXPECT_NEAR(dynamics::energy(three->model, state).kinetic,
                 dynamics::energy(one->model, reference).kinetic,
                 1e-12 * dynamics::energy(one->model, reference).kinetic);
-    // The field was sieved: the mass centre moves as asked for.
+    // The field was sieved: the mass centre moves as requested.
     EXPECT_LT((a.linear / one->model.wholes[0].mass - Vector3d(1, -2, 0.5)).norm(), 1e-12);
   }
 }

@@ -31,7 +31,7 @@ TEST(PositionAssembly, ClosesMisalignedPlacements) {
     const auto built = four_bar(0.9, misplaced).build();
     model::State state = model::placed_state(built->model);
     const dynamics::MassMetric metric(built->model);
-    // 1e-12 of the model's length is where the iteration stops.
+    // The iteration stops at 1e-12 of the model's length.
     EXPECT_LE(assemble_positions(built->model, metric, state), 1e-11);
     EXPECT_NEAR(
         (place(built->model, state, "crank", "e") - place(built->model, state, "coupler", "s"))
@@ -83,7 +83,7 @@ TEST(PositionAssembly, RefusesAnImpossibleFourBarWithItsGap) {
     EXPECT_THAT(error.what(), HasSubstr("joint \""));
     EXPECT_THAT(error.what(), HasSubstr("m apart"));
   }
-  // The state holds the closest approach: the gaps of all joints add up to what is missing.
+  // The state is the closest approach: the gaps of all joints add up to the missing length.
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(built->model, dynamics::motions_of(built->model, state), 0.0,
                                  constraints);

@@ -62,7 +62,7 @@ TEST(Prepare, VelocitiesAreProjectedByTheLeastChange) {
   // The hinge leaves the angular momentum about it: m l v / (J + m l²) = 10/5; v_z is lost.
   EXPECT_NEAR((ready.body().frame.w - Vector3d(0, 0, 2)).norm(), 0, 1e-10);
   EXPECT_NEAR((ready.body().frame.v - Vector3d(0, 2, 0)).norm(), 0, 1e-10);
-  // Not without a word.
+  // A warning is given.
   ASSERT_FALSE(ready.prepared.notes.empty());
   EXPECT_THAT(ready.prepared.notes.back(),
               AllOf(HasSubstr("body \"block\""), HasSubstr("by (0, -3, -3) to (0, 2, 0) m/s"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods and step control as a model file asks for them.
+// Methods and step control as requested in a model file.
 #include <cmath>
 #include <numbers>
 

@@ -112,7 +112,7 @@ TEST(Simulate, BalancesEnergyBetweenStepsAsWellAsAtThem) {
     EXPECT_GT(table.values("energies/strain").maxCoeff(), 0.1);
     return table.values("energies/balance").cwiseAbs().maxCoeff();
   };
-  // A linear value between two points exceeds neither, but for rounding of energies of 100 J.
+  // A linear value between two points exceeds neither, except for rounding of energies of 100 J.
   EXPECT_LE(largest_balance(0.37e-4), largest_balance(1e-4) + 1e-12);
 }
 
@@ -291,7 +291,7 @@ TEST(Simulate, AStaticCantileverCarriesItsLoad) {
   EXPECT_NEAR((last("wall_torque") - Vector3d(0, 0, -F)).norm(), 0, 1e-4 * F);
   const double sag = F / (3 * model::test::kE * model::test::kIz);
   EXPECT_NEAR(last("tip").y(), sag, 1e-4 * sag);
-  // It was at rest from the beginning.
+  // It is at rest from the beginning.
   EXPECT_NEAR(last("way").norm(), 0, 1e-6 * sag);
 }
 

@@ -67,7 +67,7 @@ TEST(Simulation, StepsByHandAreThoseOfARun) {
   EXPECT_TRUE(simulation.is_done());
   EXPECT_EQ(simulation.time(), simulation.end_time());
   EXPECT_FALSE(simulation.step());
-  // To the last bit: what a sensor shows is what the run has recorded.
+  // To the last bit: sensors show what the run has recorded.
   const Eigen::MatrixXd recorded = table.values("sensors/tip");
   const auto seen = simulation.sensor("tip");
   ASSERT_EQ(seen.size(), 3);

@@ -49,7 +49,7 @@ TEST(ElasticCompliance, IsTheSievedInverseOfTheStiffness) {
 }
 
 TEST(ElasticCompliance, EqualsTheInverseOfTheStiffnessMadeDefinite) {
-  // K + c P Pᵀ is definite and answers sieved loads like K⁺, whatever c, FM (29).
+  // K + c P Pᵀ is definite and responds to sieved loads like K⁺, whatever c, FM (29).
   const auto built = beam(false);
   const body::FlexiblePart& part = *built->model.bodies[0].flexible;
   const ElasticCompliance compliance(built->model.bodies[0]);

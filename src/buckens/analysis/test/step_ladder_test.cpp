@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the ladder counts is what was done, and rungs that were given up leave no trace.
+// The counts of the ladder match the work done, and discarded rungs leave no trace.
 #include "buckens/stepping/step_ladder.h"
 
 #include <gtest/gtest.h>
@@ -124,7 +124,7 @@ TEST(StepLadder, WhatWasGivenUpLeavesNoTrace) {
   }
   test::expect_same(a, b);
   EXPECT_GT(narrow.counts(0).factorisations, roomy.counts(0).factorisations);
-  // Solves of those given up are counted on.
+  // Solves of discarded factors remain counted.
   EXPECT_EQ(narrow.counts(0).solves, roomy.counts(0).solves);
   EXPECT_GE(narrow.counts(0).solves, steps);
 }

@@ -143,7 +143,7 @@ TEST(SystemVibration, RigidPendulumSwingsAboutItsEquilibrium) {
   ASSERT_EQ(report.vibrations.size(), 1U);
   // Differences of loads: 1e-10; the equilibrium is found to 1e-9 of the weight.
   EXPECT_NEAR(omegas(report)[0], std::sqrt(1.5 * kGravity / 0.8), 1e-8);
-  // About the position as built nothing drives it back.
+  // About the position as built there is no restoring force.
   const VibrationReport initial = vibrate(m, 3);
   EXPECT_EQ(initial.rigid_modes, 1);
   EXPECT_TRUE(initial.vibrations.empty());

@@ -19,7 +19,7 @@ TEST(Characteristic, StoresTheIntegralOfItsForce) {
   for (const double x : {-0.7, -1e-3, 0.0, 0.2, 1.3}) {
     SCOPED_TRACE(x);
     EXPECT_NEAR(law.force(x, 0.5), 2.0 * (3 * x + 40 * x * x * x + 0.5), 1e-12);
-    // Quadrature is exact for polynomials of this order; what is left is rounding.
+    // Quadrature is exact for polynomials of this order; only rounding remains.
     EXPECT_NEAR(law.energy(x), 2.0 * (1.5 * x * x + 10 * std::pow(x, 4)), 1e-12);
     const Characteristic::Slopes slopes = law.slopes(x, 0.5);
     EXPECT_NEAR(slopes.stiffness, 2.0 * (3 + 120 * x * x), 1e-5);

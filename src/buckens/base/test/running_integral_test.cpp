@@ -11,7 +11,7 @@ namespace buckens::base {
 namespace {
 
 TEST(RunningIntegral, IsExactForPolynomialsUpToTheDegreeOfTheRule) {
-  // One panel of 15 Kronrod points holds degree 22; rounding of some forty panels.
+  // One panel of 15 Kronrod points is exact to degree 22; rounding of some forty panels.
   const RunningIntegral sum([](double t) { return 23 * std::pow(t, 22); });
   EXPECT_NEAR(sum.to(1.0), 1.0, 1e-13);
   EXPECT_NEAR(sum.to(0.5), std::pow(0.5, 23), 1e-13 * std::pow(0.5, 23));
@@ -27,7 +27,7 @@ TEST(RunningIntegral, FollowsOscillationsOverManyPeriods) {
 
 TEST(RunningIntegral, TakesJumpsAndCorners) {
   const RunningIntegral jump([](double t) { return t > 0.3 ? 5.0 : 1.0; });
-  // The jump is placed to 1e-12 of its time.
+  // The jump is located to 1e-12 of its time.
   EXPECT_NEAR(jump.to(1.0), 0.3 + 3.5, 1e-11);
   const RunningIntegral corner([](double t) { return std::abs(t - 0.3); }, {0.3});
   EXPECT_NEAR(corner.to(1.0), 0.5 * (0.09 + 0.49), 1e-14);

@@ -27,7 +27,7 @@ TEST(TaskPool, CarriesEachTaskOutOnce) {
 TEST(TaskPool, TwoTasksRunAtTheSameTime) {
   TaskPool pool(2);
   std::atomic<int> arrived{0};
-  // Each waits for the other: this ends only if both run.
+  // Each waits for the other: this ends only if both run concurrently.
   pool.run(2, [&](int) {
     ++arrived;
     while (arrived < 2) std::this_thread::yield();

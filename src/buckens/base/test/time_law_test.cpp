@@ -85,7 +85,7 @@ TEST(TimeLaw, DerivativesOfSmoothFormulasAreExactToElevenDigits) {
   }
 }
 
-// Wide differences see the same values left and right here; they must not be believed.
+// Wide differences give equal values on both sides here; they must not be trusted.
 TEST(TimeLaw, PulsesAndKinksElsewhereDoNoHarm) {
   const TimeLaw gauss = law("exp(-((t - 0.1)/0.01)^2)");
   const double x = 0.5, f = std::exp(-x * x);
@@ -226,7 +226,7 @@ TEST(TimeLaw, SeveralThreadsGetTheSameNumbers) {
   EXPECT_THAT(wrong, testing::Each(0));
 }
 
-// The upswing law loses digits inside the formula; the estimate must not be fooled by luck
+// The upswing law loses digits inside the formula; the estimate must not be misled by chance
 // anywhere.
 TEST(TimeLaw, DerivativesHoldAllAlongAFormulaThatCancels) {
   const TimeLaw upswing = law("6/15*(t - 15/(2*pi)*sin(2*pi*t/15))");

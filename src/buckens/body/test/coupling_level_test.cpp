@@ -24,7 +24,7 @@ TEST(CouplingTerms, NamesOfSets) {
   EXPECT_EQ(to_string(CouplingTerms::first_order()), "first-order");
   const CouplingChoice two(CouplingLevel::full, {CouplingTerm::cent0, CouplingTerm::cor_fe});
   EXPECT_EQ(to_string(two.terms), "drop cent0, cor-fe");
-  // Dropping by name comes to the same as the level that leaves out the same terms.
+  // Dropping terms by name is equivalent to the level that neglects the same terms.
   const CouplingChoice centrifugal(CouplingLevel::full, {CouplingTerm::cent0, CouplingTerm::cent1});
   EXPECT_EQ(to_string(centrifugal.terms), "nocent");
 }

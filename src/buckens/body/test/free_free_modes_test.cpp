@@ -131,7 +131,7 @@ TEST(FreeFreeModes, TheEstimateIsABoundAndCloseForSlenderBeams) {
   const double bound = lowest_square_estimate(part);
   EXPECT_GE(bound, lowest * lowest);
   // A parabola bends a free beam with ω² = 720 EI/(ρA L⁴) instead of 500.56; slopes that do not
-  // fit quite make it softer by a hair.
+  // fit quite make it slightly softer.
   EXPECT_NEAR(bound / (lowest * lowest), 720.0 / 500.5639, 1e-2);
 }
 

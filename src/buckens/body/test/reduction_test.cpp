@@ -122,9 +122,9 @@ TEST_P(Reduction, CountsItsCoordinates) {
   EXPECT_EQ(bare.num_modes, 4);
   EXPECT_EQ(bare.num_residuals, 0);
   EXPECT_EQ(bare.Z.cols(), 4);
-  // Loads that push and turn the whole body strain nothing: two interfaces of k rows have 2k − 6
+  // Loads that push and turn the whole body cause no strain: two interfaces of k rows have 2k − 6
   // independent self-equilibrated loads, the rest acts against the inertia of the body and strains
-  // it, too. All 2k answers are independent.
+  // it, too. All 2k responses are independent.
   const ReducedBasis corrected = free_free_basis("thing", *full, 4, true, kLength);
   EXPECT_EQ(corrected.num_residuals, full->num_interface_rows);
   EXPECT_EQ(corrected.omega.size(), 4 + full->num_interface_rows);
@@ -146,7 +146,7 @@ TEST_P(Reduction, QuasiStaticBodiesHaveNoInertiaOfTheirOwn) {
   // The inertia of the deformed shape is that of the full mesh.
   const Matrix3d J = full->invariants.rotary_inertia(reduced->nodal(eta));
   EXPECT_LE((reduced->invariants.rotary_inertia(eta) - J).norm(), 1e-12 * J.norm());
-  // Centrifugal loads are answered as by the full mesh.
+  // The response to centrifugal loads is that of the full mesh.
   const ElasticInverse inverse("thing", full->fe, full->sieve, kLength);
   const Matrix exact = inverse.solve_checked(full->invariants.centrifugal_patterns());
   const Matrix found = reduced->recovery.dense() *
@@ -189,7 +189,7 @@ TEST_P(Reduction, CraigBamptonKeepsInterfaceAndModesLessSix) {
   EXPECT_LE((bare.Z.transpose() * (full->fe.M * bare.Z) - Matrix::Identity(n, n)).norm(), 1e-10);
   const Matrix K = bare.Z.transpose() * (full->fe.K * bare.Z);
   EXPECT_LE((K - Matrix(K.diagonal().asDiagonal())).norm(), 1e-10 * K.norm());
-  // It holds what the interface can be displaced to statically.
+  // It contains the static interface displacements.
   const Vector omega_full = free_modes(full->fe.M, full->fe.K, full->sieve.Phi(), 3).omega;
   for (Eigen::Index k = 0; k < 3; ++k) {
     EXPECT_GE(bare.omega[k], omega_full[k] * (1.0 - 1e-9)) << "Rayleigh: from above";

@@ -92,7 +92,7 @@ TEST(RigidRegions, HaveTheInertiaOfTheirNodes) {
   held->invariants.add_weighted(A, x, load);
   full->invariants.add_weighted(A, d, full_load);
   EXPECT_NEAR((load - held->recovery.transposed(full_load)).norm(), 0, 1e-12 * load.norm());
-  // The scalar mass matrix serves the nodes outside the regions as before.
+  // The scalar mass matrix is used for the nodes outside the regions as before.
   EXPECT_FALSE(held->fe.shape.nodal.empty());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joints side by side against the model's own evaluation of them.
+// Joints stored contiguously against the model's own evaluation of them.
 #include "buckens/dynamics/joint_set.h"
 
 #include <cmath>
@@ -54,7 +54,7 @@ model::Model all_joints() {
   return m.take();
 }
 
-/// Bodies as placed, moved and deformed by numbers in general position.
+/// Bodies moved from their placement and deformed by arbitrary numbers.
 std::vector<BodyMotion> any_motions(const model::Model& model) {
   std::vector<BodyMotion> out(model.bodies.size());
   int k = 0;

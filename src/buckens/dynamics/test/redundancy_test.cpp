@@ -57,7 +57,7 @@ TEST_F(Door, FiveRowsOfTenFollowFromTheOthers) {
 }
 
 TEST_F(Door, TheLeastMultipliersShareTheLoadEvenly) {
-  // What holds the leaf: its weight upwards at the hinges' line.
+  // The forces that hold the leaf: its weight upwards at the hinges' line.
   Eigen::Matrix<double, 6, 1> needed;
   needed << 0, 0, 0, 0, 0, 20 * 9.81;
   const linalg::RowRank split = metric.split(constraints.rows);

@@ -42,7 +42,7 @@ class CommaLocale {
     std::ofstream(place_ / "source") << "comment_char %\nescape_char /\nLC_NUMERIC\n"
                                         "decimal_point \",\"\nthousands_sep \".\"\n"
                                         "grouping 3;3\nEND LC_NUMERIC\n";
-    // It fails, because the locale has nothing but numbers, and writes it all the same.
+    // It fails, because the locale contains only numbers, but writes it nevertheless.
     const std::string command = "localedef -c --quiet -f ANSI_X3.4-1968 -i '" +
                                 (place_ / "source").string() + "' '" + (place_ / "xx_XX").string() +
                                 "' 2>/dev/null";
@@ -68,7 +68,7 @@ class CommaLocale {
   bool is_chosen_ = false;
 };
 
-/// All that a run directory and its exports hold, by name, but for times of day.
+/// Contents of a run directory and its exports, by name, except times of day.
 std::map<std::string, std::string> texts_of_a_run(const std::filesystem::path& place) {
   run_store::test::write_fields_run(place / "run", 1234);
   const run_store::RunReader run(place / "run");

@@ -122,7 +122,7 @@ TEST(BodyMatrices, StraightBeamsHaveTheirFirstMomentsAndNearlyTheirProducts) {
   const double end = 9.0 / 420.0 * 7850.0 * 1e-4 * 3.14159265 * l * l;
   EXPECT_LT((own.shape.c - plain.shape.c).norm(), 1.02 * std::sqrt(2.0) * end);
   for (std::size_t k = 3; k < 6; ++k) {
-    // Mean of 1/3 and 13/35 in place of 7/20, and of 1/6 and 9/70 in place of 3/20: 2 %.
+    // Mean of 1/3 and 13/35 instead of 7/20, and of 1/6 and 9/70 instead of 3/20: 2 %.
     const Matrix exact = W(plain.shape, k, plain.dofs);
     EXPECT_LT((W(own.shape, k, own.dofs) - exact).norm(), 0.02 * exact.norm());
   }

@@ -39,7 +39,7 @@ Matrix3d strain_matrix(const Eigen::Matrix<double, 6, 1>& e) {
   return out;
 }
 
-// Pulls and shears along the turned axes of the material give its constants back.
+// Tension and shear along the turned axes of the material reproduce its constants.
 TEST(Orthotropy, ComplianceIsThatOfUniaxialTests) {
   const Orthotropy o = *ply().orthotropy;
   const Elasticity S = solid_elasticity(ply()).inverse();
@@ -76,7 +76,7 @@ TEST(Orthotropy, IsIsotropyWhereTheConstantsAre) {
 }
 
 // The pull on a mesh: uniform stress along the fibres of a distorted block needs the nodal
-// displacements that the constants say, in every kind of element.
+// displacements that follow from the constants, in every kind of element.
 TEST(Orthotropy, BlocksStretchAsTheirConstantsSay) {
   const Orthotropy o = *ply().orthotropy;
   const double pull = 1e6;

@@ -46,7 +46,7 @@ struct Parts {
   }
 };
 
-/// T leaves rigid motion possible and its independent rows alone.
+/// T permits rigid motion and is the identity on independent rows.
 void expect_rigid_motion(const FeModel& fe, const Elimination& e) {
   const Matrix Phi = test::rigid_motions(fe);
   Matrix x(e.dofs.num_dofs, 6);
@@ -89,7 +89,7 @@ TEST(Elimination, FollowsRigidLinksInChainsAndLoops) {
     expect_rigid(fe, e, p.near, node);
     expect_rigid(fe, e, p.hub, node);
   }
-  // 12 + 6 variables depend; the third link says nothing new.
+  // 12 + 6 variables are dependent; the third link is redundant.
   EXPECT_EQ(e.dofs.num_dofs, fe.dofs.num_dofs - 18);
   EXPECT_TRUE(e.is_free[static_cast<std::size_t>(p.far)]);
   EXPECT_FALSE(e.is_free[static_cast<std::size_t>(p.near)]);
@@ -153,7 +153,7 @@ TEST(Elimination, AveragesMoveTheChosenVariablesOnly) {
   expect_rigid_motion(fe, e);
   EXPECT_THAT(e.dofs.node_dofs[static_cast<std::size_t>(p.near)],
               testing::ElementsAre(-1, -1, testing::Ge(0), -1, testing::Ge(0), testing::Ge(0)));
-  // A node that nothing else turns gets rotations only if the average tells all three.
+  // A node without other rotations gets rotations only if the average determines all three.
   Parts q;
   q.s.links.rigid = {Parts::rigid(q.near, q.face_x1())};  // holds the beam
   q.s.links.averages = {
@@ -177,7 +177,7 @@ TEST(Elimination, AveragesOfAllComponentsAreThoseWithoutChoice) {
 }
 
 TEST(Elimination, AveragesFitTheComponentsThatCount) {
-  // Of a face across x the displacements along x tell u_x and the rotations about y and z.
+  // For a face across x the displacements along x determine u_x and the rotations about y and z.
   Parts p;
   const auto face = p.face_x1();
   p.s.links.averages = {
@@ -212,7 +212,7 @@ TEST(Elimination, AveragesFitTheComponentsThatCount) {
 TEST(Elimination, SolvesEquationsThatLetRigidMotionBe) {
   Parts p;
   // far moves along x as near does plus the lever of its rotations: 0.2 along y, −0.05 along z.
-  // Rounding of the levers is mended.
+  // Rounding of the levers is corrected.
   p.s.links.equations = {{"equation",
                           {{p.far, 0, 2.0},
                            {p.near, 0, -2.0},
@@ -239,7 +239,7 @@ TEST(Elimination, RefusesWhatHoldsTheBodyOrDoesNotExist) {
   EXPECT_THAT(with({"deck.inp:7: equation", {{p.far, 2, 1.0}}}),
               ThrowsMessage<ModelError>(AllOf(HasSubstr("deck.inp:7: equation"),
                                               HasSubstr("holds the body against rigid"))));
-  // No lever: turning the body would break it.
+  // No lever: the equation would block a rotation of the body.
   EXPECT_THAT(with({"equation", {{p.far, 0, 1.0}, {p.near, 0, -1.0}}}),
               ThrowsMessage<ModelError>(HasSubstr("rigid rotation about")));
   EXPECT_THAT(with({"equation", {{p.block, 4, 1.0}, {p.near, 4, -1.0}}}),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed forms of M, W_ab, c_ab and C0 against quadrature over the volume with interpolations
-// written down a second time, and against the paper's printed element matrices.
+// written independently, and against the paper's printed element matrices.
 #include "buckens/fem/element/shape_integrals.h"
 
 #include <array>

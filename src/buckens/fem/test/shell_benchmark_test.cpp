@@ -178,7 +178,7 @@ TEST_P(ShellProblems, ConvergeToTheReferences) {
         "shell {} n={} Scordelis-Lo={:.4f} cylinder={:.4f} hemisphere={:.4f} twist-in={:.4f} "
         "twist-across={:.4f}\n",
         test::shell_name(GetParam()), n, roof, cylinder, sphere, in_plane, across);
-    // Drilling rotations hold no more energy than bending, however coarse the mesh.
+    // Drilling rotations store no more energy than bending, however coarse the mesh.
     EXPECT_GE(sphere, 0.5) << n;
     if (n < (is_quadratic ? 4 : 8)) continue;
     const std::array found = {roof, cylinder, sphere, in_plane, across};
@@ -245,7 +245,7 @@ TEST_P(ShellProblems, HaveTheFrequenciesOfAFreePlate) {
       EXPECT_GE(ratio[k], 1 - certain - shortened(nafems[k])) << n << ", " << k;
       EXPECT_LE(ratio[k], dispersion(nafems[k], 10.0 / n) + certain) << n << ", " << k;
       // Quadrilaterals are in the range of their order: of (f_h − f) ∝ h² the next power remains.
-      // Modes 6 to 8 change places between the meshes.
+      // Modes 6 to 8 change their order between the meshes.
       if (!is_quad() || n < 8 || k > 4) continue;
       const double next =
           4 * 0.0123 * std::pow(10.0 / n, 4) * std::pow(squared_wave_number(nafems[k]), 2);
@@ -266,7 +266,7 @@ TEST_P(ShellProblems, HaveTheFrequenciesOfASupportedPlate) {
     fmt::print("plate {} n={} {:.6f} {:.6f} {:.6f} {:.6f}\n", test::shell_name(GetParam()), n,
                ratio[0], ratio[1], ratio[2], ratio[3]);
     if (n == 8) {
-      // Shear and rotary inertia of a plate of a thousandth are worth 1e-5.
+      // Shear and rotary inertia of a plate of a thousandth contribute 1e-5.
       const double order = is_quadratic ? 4 : 2;
       for (Eigen::Index k = 0; k < 4; ++k) {
         const double left = std::abs(before[k] - 1) * std::pow(0.5, 0.85 * order);

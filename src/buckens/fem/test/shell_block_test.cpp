@@ -40,7 +40,7 @@ ShellSection laminate() {
 
 ShellSection steel_plate() { return ShellSection::homogeneous(test::steel(), 0.02); }
 
-/// A plane patch of 3 × 3 fields, inner nodes moved about, turned in space.
+/// A plane patch of 3 × 3 fields, inner nodes displaced, turned in space.
 ShellGrid patch(ShellKind kind, const ShellSection& section, const Matrix3d& R,
                 test::Sides sides = test::Sides::straight) {
   return {kind,

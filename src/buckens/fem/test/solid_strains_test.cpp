@@ -45,7 +45,7 @@ TEST_P(SolidStrainsOfForm, UniformStrainComesOutEverywhere) {
   Eigen::Matrix<double, 6, 1> expected;
   expected << 1, 5, 9, 6, 14, 10;
   expected *= 1e-3;
-  // Isoparametric elements hold linear fields exactly; rounding of gradients.
+  // Isoparametric elements represent linear fields exactly; rounding of gradients.
   for (Eigen::Index p = 0; p < mesh.at_places.cols(); ++p) {
     EXPECT_LT((mesh.at_places.col(p) - expected).norm(), 1e-14);
   }
@@ -85,7 +85,7 @@ TEST(SolidStrains, OneHex8AcrossShowsBendingAtItsSurface) {
     const Vector3d& x =
         mesh.fe.nodes[static_cast<std::size_t>(mesh.strains.places()[p].node)].position;
     const auto strain = mesh.at_places.col(static_cast<Eigen::Index>(p));
-    // The inner modes take the false shear away and leave the bending strain of the nodes exactly.
+    // The inner modes remove the spurious shear and leave the bending strain of the nodes exactly.
     EXPECT_NEAR(strain[0], x.z(), 1e-13);
     EXPECT_NEAR(strain[5], 0.0, 1e-13);
   }

@@ -240,7 +240,7 @@ TEST(TaperedBeam, KnowsSectionsAndForcesAtItsEnds) {
   // The larger of both ends of each element: that at its thin end, 4 F/(π d²).
   EXPECT_NEAR(stress(0, 0), 4e3 / (kPi * 0.07 * 0.07), 1.0);
   EXPECT_NEAR(stress(0, 1), 4e3 / (kPi * d * d), 1.0);
-  // The tension that stiffens is the same all along.
+  // The stiffening tension is constant along the beam.
   const linalg::Vector tension = GeometricStiffness(fe).axial_forces(u);
   EXPECT_NEAR(tension[0], 1e3, 1e-6);
   EXPECT_NEAR(tension[1], 1e3, 1e-6);
@@ -347,7 +347,7 @@ TEST(CurvedBeam, RingsVibrateByTheirFormulaWithSecondOrder) {
     const double n = 2 + pair;
     const double exact = n * (n * n - 1) / std::sqrt(n * n + 1) * scale;
     const double far = coarse[2 * pair] / exact - 1, near = fine[2 * pair] / exact - 1;
-    // Both modes of a pair are alike in a regular polygon.
+    // Both modes of a pair are equal in a regular polygon.
     EXPECT_NEAR(fine[2 * pair + 1] / fine[2 * pair], 1.0, 1e-6);
     EXPECT_NEAR(far / near, 4.0, 0.1) << n;
     // What the formula leaves out, extension, has the share n² (d/4)²: 1e-4 at most.
@@ -394,7 +394,7 @@ TEST(CurvedBeam, SplinesGoThroughTheirPoints) {
       EXPECT_NEAR(second, 0.5115087777, 1e-9);
     }
   }
-  // Points of a circle: the spline is as near to it as its fourth order says, ends apart.
+  // Points of a circle: the spline approximates it to fourth order, except at the ends.
   std::vector<Vector3d> round;
   for (int k = 0; k <= 8; ++k) {
     round.emplace_back(std::cos(kPi * k / 8), std::sin(kPi * k / 8), 0);

@@ -103,7 +103,7 @@ TEST_F(WriteProcessTest, AKillLeavesNoHalfWrite) {
     int status = 0;
     ::waitpid(child, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status));
-    // The second process may still be at the last order; the pipe ends with it.
+    // The second process may still be executing the last request; the pipe ends with it.
     char drained[64];
     while (::read(go[0], drained, sizeof drained) > 0) {
     }

@@ -133,7 +133,7 @@ TEST(ConstraintRow, ScrewFollowsAngleAndDisplacementOverTurns) {
     const auto open = [&](double t) {
       return M.slide(t) - pitch * M.angle(t) / (2.0 * std::numbers::pi);
     };
-    // Whole turns are told by the displacement: the residual is what is left of them.
+    // Whole turns are determined by the displacement: the residual is the remainder.
     EXPECT_NEAR(row.evaluate(kF.at(0), M.at(0), 0).g, open(0) - pitch * std::round(open(0) / pitch),
                 1e-14);
     const RowValue value = row.evaluate(kF.at(0), M.at(0), 0);

@@ -123,7 +123,7 @@ TEST(Joint, DrivesFollowTheirLaw) {
   p.M = turned(p.M, 0.7 * t * p.axis_W);
   EXPECT_LE(largest_residual(rows, p, t), 1e-15);
   p = placed(JointType::prescribed_translation);
-  // Counted from the position as placed, wherever the markers stand.
+  // Counted from the initial placement, wherever the markers are.
   p.M.p += Vector3d(0.2, -0.6, 0.3);
   p.placement.r_F = p.F.R.transpose() * (p.M.p - p.F.p);
   rows = make_rows(JointType::prescribed_translation, p.placement);

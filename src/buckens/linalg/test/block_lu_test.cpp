@@ -140,7 +140,7 @@ TEST(BlockLu, TellsPoorPivots) {
   example.enter(lu);
   lu.diagonal(0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(lu.factorise());
-  // Two equal rows and columns but for 1e-9 of the diagonal.
+  // Two rows and columns equal up to 1e-9 of the diagonal.
   BlockLu small({2}, {});
   small.clear();
   for (int k = 0; k < 4; ++k) small.block(0)[k] = 1.0;

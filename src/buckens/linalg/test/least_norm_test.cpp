@@ -10,7 +10,7 @@
 namespace buckens::linalg {
 namespace {
 
-/// A chain of equations between neighbours, of which every `repeat`-th is said twice, the second
+/// A chain of equations between neighbours, of which every `repeat`-th appears twice, the second
 /// time mixed with the one before.
 SparseMatrix chain(int unknowns, int repeat) {
   std::vector<Triplet> entries;

@@ -308,7 +308,7 @@ TEST(BlasKernels, FitTheProcessor) {
     GTEST_SKIP() << "nothing to choose";
   }
   EXPECT_NE(blas_kernels(), "Prescott");
-  // What was set for the choice is not left behind.
+  // The setting for the choice is restored.
   EXPECT_EQ(std::getenv("OPENBLAS_CORETYPE"), nullptr);
 }
 

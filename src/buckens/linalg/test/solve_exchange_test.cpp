@@ -84,7 +84,7 @@ TEST(SolveExchange, SolvesTogetherWhatSeparateRunsSolve) {
   }
   EXPECT_EQ(exchange.num_factorisations(), 2);
   EXPECT_EQ(exchange.num_columns(), 5 + 7 + 3 + 7 + 1 + 6);
-  // Those with A together in each of 7 rounds, the one with B for itself.
+  // Those with A together in each of 7 rounds, the one with B alone.
   EXPECT_EQ(exchange.num_passes(), 7 + 7);
 }
 

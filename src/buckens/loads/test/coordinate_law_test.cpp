@@ -55,7 +55,7 @@ TEST(CoordinateLaw, StopPushesBeyondItsEndsAndNeverPulls) {
   EXPECT_NEAR(stop.respond(sled.at(0.21, 0.1)).along_coordinate, -15, 1e-12);
   EXPECT_NEAR(stop.respond(sled.at(-0.13, -0.1)).along_coordinate, 35, 1e-12);
   EXPECT_EQ(stiffness(stop, sled.at(-0.13, -0.1)), 1000);
-  // Its damper would pull: it lets go, and what its spring held is lost.
+  // Its damper would pull: it releases, and the energy of its spring is lost.
   const Action released = stop.respond(sled.at(0.21, -1));
   EXPECT_EQ(released.along_coordinate, 0);
   EXPECT_NEAR(released.dissipation, 1000 * 0.01 * 1, 1e-12);
@@ -64,7 +64,7 @@ TEST(CoordinateLaw, StopPushesBeyondItsEndsAndNeverPulls) {
 }
 
 TEST(CoordinateLaw, StopSetsInWithoutAJumpAtAnySpeed) {
-  // A damper that set in at once would push by 50 N at 1 m/s: no end of a step near 0.2 would fit.
+  // A damper that acted at once would push with 50 N at 1 m/s: no step could end near 0.2.
   Sled sled;
   const CoordinateStop stop(-0.1, 0.2, 1000, 50);
   EXPECT_NEAR(stop.respond(sled.at(0.2 + 1e-9, 1)).along_coordinate, -2e-6, 1e-12);
@@ -118,7 +118,7 @@ TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
   EXPECT_EQ(stiffness(friction, sight), 0);
   friction.find_states(sight, &next);
   EXPECT_DOUBLE_EQ(next, 1e-3);
-  // Going back it is elastic first.
+  // On reversal it is elastic at first.
   sled.state = next;
   sight.coordinate.change = -5e-4;
   sight.coordinate.rate = 0;

@@ -122,8 +122,8 @@ TEST(AbaqusSolids, SurfacesAreFacesByTheirCorners) {
   ASSERT_NE(under, nullptr);
   ASSERT_EQ(under->faces.size(), 1u);
   EXPECT_THAT(labels(mesh, under->faces[0].corners), ElementsAre(1, 2, 3, 4));
-  // Free faces: those that no other solid of the deck has. Element 1 shares its lower face with
-  // the element of 20 nodes and others, and all the other ones, too; element 8 stands on it.
+  // Free faces: those not shared with another solid of the deck. Element 1 shares its lower face
+  // with the element of 20 nodes and others, and all the other ones, too; element 8 stands on it.
   const auto* outside = base::find_named(mesh.face_sets, std::string("Outside"));
   ASSERT_NE(outside, nullptr);
   EXPECT_EQ(outside->faces.size(), 5u);
@@ -286,7 +286,7 @@ TEST(AbaqusMasses, MassesAndInertiasSitOnTheirNodes) {
 TEST(AbaqusAssembly, InstancesAreMovedThenTurned) {
   const ImportedMesh mesh = read("assembly.inp");
   EXPECT_EQ(mesh.num_nodes(), 1 + 8 + 8 + 4);
-  // Numbers of instances would meet, so they are shifted.
+  // Numbers of instances would collide, so they are shifted.
   EXPECT_THAT(set_labels(mesh, "Pin-1.Top"), ElementsAre(15, 16, 17, 18));
   EXPECT_THAT(set_labels(mesh, "Pin-2.Top"), ElementsAre(25, 26, 27, 28));
   EXPECT_THAT(note(mesh, "Pin-2").text, HasSubstr("node 12 is n32"));
@@ -301,7 +301,7 @@ TEST(AbaqusAssembly, SetsOfTheAssemblyReachIntoInstances) {
   const ImportedMesh mesh = read("assembly.inp");
   EXPECT_THAT(set_labels(mesh, "Heads"), ElementsAre(15, 16, 25, 26, 27, 28));
   EXPECT_THAT(set_labels(mesh, "Reference"), ElementsAre(1));
-  // Internal sets are not handed on.
+  // Internal sets are not passed on.
   EXPECT_EQ(base::find_named(mesh.element_sets, std::string("_Upper_S2")), nullptr);
   // One property for both pins, another one for the plate, whose set has the same name.
   ASSERT_EQ(mesh.properties.size(), 2u);

@@ -21,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// Decks in a folder of their own.
+/// Decks in a separate folder.
 class AbaqusMalformed : public testing::Test {
  protected:
   fs::path write(const std::string& name, const std::string& text) const {
@@ -105,7 +105,7 @@ TEST_F(AbaqusMalformed, OverlappingRangesCostNoMoreThanTheirNodes) {
 }
 
 TEST_F(AbaqusMalformed, ManyInstancesAreLookedUpAtOnce) {
-  // 3000 instances, and as many references to them: nothing may go through all for each.
+  // 3000 instances, and as many references to them: there must be no search over all for each.
   std::string text = "*PART, NAME=P\n*NODE\n1,0,0,0\n*END PART\n*ASSEMBLY, NAME=A\n";
   std::string set = "*NSET, NSET=ALL\n";
   for (int k = 0; k < 3000; ++k) {
@@ -159,7 +159,7 @@ TEST_F(AbaqusMalformed, SetsAndSurfacesThatReferToNothing) {
 }
 
 TEST_F(AbaqusMalformed, SetsOfSetsWithoutEndDoNotTakeForEver) {
-  // Each set holds the next one twice under two names: 2^60 ways through them.
+  // Each set contains the next one twice under two names: 2^60 paths through them.
   std::string text = kNodeCards;
   for (int k = 0; k < 60; ++k) {
     text += fmt::format("*NSET, NSET=A{0}\nA{1}, B{1}\n*NSET, NSET=B{0}\nA{1}, B{1}\n", k, k + 1);
@@ -196,7 +196,7 @@ TEST_F(AbaqusMalformed, CirclesAndCascadesOfIncludedFilesEnd) {
 TEST_F(AbaqusMalformed, EveryBeginningOfADeckIsReadOrRefused) {
   const fs::path folder = fs::path(buckens::test::kSourceDirectory) / "tests/decks/abaqus";
   fs::copy(folder / "solids_nodes.inc", folder_ / "solids_nodes.inc");
-  // Whoever changes a deck or what is read of it counts again, and looks at the difference.
+  // If a deck or its reader is changed, count again and examine the difference.
   const std::map<std::string, int> refused = {
       {"assembly.inp", 215}, {"constraints.inp", 81}, {"lines.inp", 292}, {"solids.inp", 260}};
   for (const auto& [name, expected] : refused) {

@@ -193,7 +193,7 @@ TEST(GmshMesh, GroupsOfOneNameBelongTogether) {
   EXPECT_THAT(mesh.node_sets[0].nodes, ElementsAre(0, 1, 2, 3));
 }
 
-/// One element of each kind, each beside the next, with places that tell every node.
+/// One element of each kind, side by side, with a distinct position for every node.
 ImportedMesh one_of_each() {
   ImportedMesh mesh;
   mesh.file = "all.msh";
@@ -265,7 +265,7 @@ TEST_P(Formats, RoundTripsEveryKind) {
     EXPECT_EQ(faces[f].corners, mesh.face_sets[0].faces[f].corners);
   }
   EXPECT_THAT(named(back.node_sets, "points").nodes, ElementsAre(0, 5, 9));
-  // A second journey adds nothing.
+  // A second conversion adds nothing.
   const ImportedMesh again = read_gmsh_bytes(gmsh_bytes(back, GetParam()), "all.msh");
   ASSERT_EQ(again.node_sets.size(), back.node_sets.size());
   for (const auto& set : back.node_sets) {

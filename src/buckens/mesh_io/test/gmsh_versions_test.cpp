@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Older versions of the format of Gmsh, and what other programs write as such.
+// Older versions of the Gmsh format, and files of other programs in that format.
 #include <cstring>
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decks that cannot be taken over: a message with file, line and what to do.
+// Decks that cannot be converted: a message with file, line and remedy.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -201,7 +201,7 @@ TEST(NastranMalformed, every_beginning_of_a_deck_is_read_or_refused) {
   for (std::size_t size = 0; size < text.size(); size += 7) {
     num_refused += refusal(text.substr(0, size)).empty() ? 0 : 1;
   }
-  // Whoever changes the deck or what is read of it counts again, and looks at the difference.
+  // If the deck or its reader is changed, count again and examine the difference.
   EXPECT_EQ(num_refused, 571);
 }
 

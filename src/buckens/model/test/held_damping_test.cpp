@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mass damping of held bodies: what it takes from a deformation, and what it leaves alone.
+// Mass damping of held bodies: its effect on deformations, and none on rigid motion.
 #include "buckens/model/build/held_damping.h"
 
 #include <gmock/gmock.h>
@@ -90,7 +90,7 @@ double mass_share(const Described& m, std::size_t b) {
 }
 
 TEST(HeldDamping, LiesBetweenFreeAndHeldWithAPartnerThatMoves) {
-  // A clamp on a rigid body: light, it hardly holds; heavy, it is a wall.
+  // A clamp on a rigid body: a light one hardly holds; a heavy one acts as a wall.
   const auto with_hub = [](double mass) {
     Described m;
     m.rigid("hub", mass, {0, 0, 0}, {mass, mass, mass});

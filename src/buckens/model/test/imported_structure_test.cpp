@@ -116,7 +116,7 @@ TEST(ImportedStructure, OrthotropicSolidsLieInTheAxesOfTheirProperty) {
   mesh.properties[0].axes = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const auto turned = imported(mesh, {}).structure.solids.material(0)->orthotropy;
   EXPECT_LT((turned->axes - *mesh.properties[0].axes).norm(), 1e-15);
-  // Materials of the model take the place of that of the file, in the same axes or in their own.
+  // Materials of the model replace that of the file, in the same axes or in their own.
   fem::MaterialSpec spruce = material("spruce", 0, 450);
   spruce.orthotropic = wood;
   fem::GroupMaterials given;

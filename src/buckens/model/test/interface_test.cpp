@@ -207,7 +207,7 @@ TEST(Interfaces, RigidOnesLieInOnePartOfADividedBody) {
   const Model& model = built->model;
   int eliminated = 0;
   for (const body::Body& part : model.bodies) {
-    // The nodes of the face lose their variables, and six of the region come in their place.
+    // The nodes of the face lose their variables, which are replaced by six of the region.
     if (part.num_dofs() == static_cast<Eigen::Index>(part.flexible->mesh().dofs.num_dofs)) continue;
     ++eliminated;
     const auto lost = 3 * model.wholes[0].interfaces[0].region.nodes.size() - 6;

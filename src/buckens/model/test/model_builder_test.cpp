@@ -80,7 +80,7 @@ TEST(ModelBuilder, AForceOnTheFrameOfAFlexibleBodyIsRefused) {
   EXPECT_THAT([&] { m.build(); },
               ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:99:1"), HasSubstr("\"rod\""),
                                               HasSubstr("start, end, mid"))));
-  // A sensor may look at it.
+  // A sensor may observe it.
   m.d.loads.clear();
   m.sensor_of<PositionSensor>("middle", "rod");
   EXPECT_NO_THROW(m.build());
@@ -196,7 +196,7 @@ TEST(ModelBuilder, PlanarModelsRefuseLoadsThatLeaveThePlane) {
   EXPECT_NO_THROW(with(false, LoadAxes::fixed, {1, 2, 0}).build());
   EXPECT_NO_THROW(with(false, LoadAxes::following, {1, 2, -2}).build()) << "along y of the world";
   EXPECT_NO_THROW(with(true, LoadAxes::following, {0, 2, 2}).build()) << "about the normal";
-  // A law of time is not added up with others.
+  // A time function is not added to others.
   Described m = with(false, LoadAxes::following, {1, 0, 0});
   std::get<loads::ForceSpec>(m.d.loads[0].kind).value[1] =
       base::TimeLaw::expression(base::Expression("t", {"t"}, {}, {}));

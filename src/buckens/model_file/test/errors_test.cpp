@@ -23,7 +23,7 @@ std::string message(const std::string& text, const std::vector<std::string>& ove
   return "no InputError";
 }
 
-/// A bad text and what must be said about it.
+/// A bad text and the expected message.
 struct Bad {
   std::string text;
   std::vector<std::string> words;

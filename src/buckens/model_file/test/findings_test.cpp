@@ -124,7 +124,7 @@ std::vector<Fault> faults_between_bodies() {
   };
 }
 
-/// The message without the place in the file.
+/// The message without its position in the file.
 template <class Work>
 std::string refusal_of(Work&& work) {
   try {

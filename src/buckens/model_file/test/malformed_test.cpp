@@ -23,7 +23,7 @@ bool is_read(const std::string& text) {
     read_model_text(text, "broken.yaml");
     return true;
   } catch (const InputError& error) {
-    // The place is in the text.
+    // The reported position is within the text.
     const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
     EXPECT_EQ(error.where().file, "broken.yaml") << error.what();
     EXPECT_LE(error.where().line, lines) << error.what();
@@ -72,7 +72,7 @@ TEST(MalformedModelFile, CutOffItIsAModelOnlyWhereAllThatWasBegunIsComplete) {
 }
 
 TEST(MalformedModelFile, WithoutALineItIsAModelOnlyWhereNothingNeedsIt) {
-  // What others refer to, what has no default, and what opens a map.
+  // Entries to which others refer, entries without a default, and those that open a map.
   const std::vector<std::string> needed = {
       "buckens:",       "planar:",         "parameters:",       "materials:",      "  steel:",
       "  soft: {E",     "  ply:",          "sections:",         "  rod6:",         "  tube:",

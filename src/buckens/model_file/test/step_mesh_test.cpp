@@ -152,7 +152,7 @@ TEST(StepMesh, SaysWhatIsWrong) {
   EXPECT_THAT(message_of("ISO-10303-21;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"),
               HasSubstr("cannot be meshed: Could not read file 'buckens_step_test"));
   EXPECT_THAT(message_of(step, 1e-6), HasSubstr("give a larger size"));
-  // Data are missing in the middle: whatever OpenCASCADE makes of it, this process goes on.
+  // Data are missing in the middle: whatever OpenCASCADE does with it, this process continues.
   std::string hole = step;
   hole.erase(step.size() / 3, step.size() / 3);
   message_of(hole, 0.03);
@@ -181,7 +181,7 @@ TEST(StepText, ColoursStandForNames) {
 }
 
 TEST(StepText, LooksNoFurtherThanEachEntity) {
-  // Two million entities that are none: to search the rest of the file for each takes hours.
+  // Two million invalid entities: searching the rest of the file for each would take hours.
   const std::string empty(2'000'000, ';');
   EXPECT_TRUE(mesh_io::color_named_faces("ISO-10303-21;\nDATA;\n" + empty).names.empty());
   std::string wrong;

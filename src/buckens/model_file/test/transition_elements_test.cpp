@@ -43,7 +43,7 @@ class Solved {
   linalg::Vector independent(const Field& field) const {
     return values(elimination_.dofs, elimination_.T.cols(), field);
   }
-  /// How far the dependent variables are off the field that the independent ones have.
+  /// Deviation of the dependent variables from the field of the independent ones.
   double error(const Field& field) const {
     const linalg::Vector all = values(fe_.dofs, fe_.dofs.num_dofs, field);
     return (elimination_.T * independent(field) - all).cwiseAbs().maxCoeff();
@@ -224,7 +224,7 @@ TEST(TransitionElements, shells_with_some_mid_side_nodes_pass_in_plane_and_bend)
       0.5 * stiffness * std::pow(kThickness, 3) / 12 * area *
       (kx * kx + ky * ky + 2 * kPoisson * kx * ky + 2 * (1 - kPoisson) * kxy * kxy);
   EXPECT_LT(solved.error(bend), kRounding);
-  // A plate of a fiftieth: what cancels in shear is 1e4 as large.
+  // A plate of a fiftieth: the terms that cancel in shear are 1e4 times larger.
   EXPECT_NEAR(solved.energy(bend), bending, 1e4 * kRounding * bending);
 }
 

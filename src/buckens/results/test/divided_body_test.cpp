@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A body of several frames as results and sensors show it.
+// A body of several frames in results and sensors.
 #include "buckens/results/divided_body.h"
 
 #include <gtest/gtest.h>

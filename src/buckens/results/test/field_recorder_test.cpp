@@ -144,7 +144,7 @@ TEST(FieldRecorder, MotionIsThatOfTheNodesInTheWorld) {
   const Vector3d a =
       s.v_dot + R * (s.w_dot.cross(z) + w.cross(w.cross(z)) + 2 * w.cross(u_dot) + u_ddot);
   EXPECT_LT((row("acceleration") - a).norm(), 1e-14);
-  // There is no motion at elements, and no stress was asked for.
+  // There is no motion at elements, and no stress was requested.
   EXPECT_EQ(run.recorder.layout().fields.channels().size(), 3U);
   EXPECT_FALSE(run.recorder.has_extremes());
 }
@@ -214,7 +214,7 @@ TEST(FieldRecorder, DividedBlocksShowTensorsInTheAxesOfTheWhole) {
   for (std::size_t b = 0; b < 3; ++b) {
     model::BodyState& s = three.state.bodies[b];
     const Vector3d com = three.built->model.bodies[b].com;
-    // The frame of a part goes with its mass centre; only the rest deforms.
+    // The frame of a part follows its mass centre; only the rest is deformation.
     three.set(
         b, [&](const Vector3d& x) { return Vector3d(stretch(x) - stretch(com)); }, s.d);
     s.frame.X_WB.p += stretch(com);

@@ -134,7 +134,7 @@ struct Loaded {
   }
 };
 
-/// A beam of three frames on two hinges about its length, which say some things twice, with a
+/// A beam of three frames on two partly redundant hinges about its length, with a
 /// spring, a force, a torque and a load per length over all of its parts.
 Described loaded_beam() {
   Described m;
@@ -240,7 +240,7 @@ TEST(InterfaceLoads, OfPressureAndTractionOverAllPartsAreThoseOfTheWholeFace) {
 
 TEST(InterfaceLoads, OfRedundantJointsAreSharedAsTheirMultipliersAre) {
   // A door on two hinges: five of ten equations follow from the others. One hinge alone is said to
-  // carry the door; least multipliers give each its half.
+  // carry the door; multipliers of least norm give each its half.
   Described m;
   m.d.gravity = {0, 0, -kGravity};
   m.rigid("door", 20, {0.5, 0, 0}, {7, 8.4, 1.7});

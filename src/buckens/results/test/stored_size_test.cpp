@@ -28,7 +28,7 @@ TEST(StoredSize, StartedChunksCountInFull) {
   EXPECT_EQ(one, stored_bytes(scalar, 256, sizeof(double)));
   // The instants and the scalar.
   EXPECT_EQ(stored_bytes(scalar, 257, sizeof(double)) - one, 2 * 256 * 8.0);
-  // Large channels have chunks of one row, which hold nothing in vain.
+  // Large channels have chunks of one row, without unused space.
   const RecordLayout large = layout_of({10000, 3});
   const double ten = stored_bytes(large, 10, sizeof(float));
   EXPECT_EQ(stored_bytes(large, 11, sizeof(float)) - ten, 30000 * 4.0);

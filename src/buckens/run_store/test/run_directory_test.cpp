@@ -42,7 +42,7 @@ void write_run(const std::filesystem::path& path, std::size_t records, bool fini
   if (finish) run.finish(finished_summary());
 }
 
-/// While it lives, files cannot grow beyond `bytes`: as on a full disk.
+/// During its lifetime, files cannot grow beyond `bytes`: as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -92,7 +92,7 @@ TEST(RunDirectory, ComesBackAsWritten) {
     ASSERT_EQ(values.size(), kRecords * channel.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::size_t record = i / channel.size();
-      // The file keeps doubles: equal to the last bit.
+      // The file stores doubles: equal to the last bit.
       ASSERT_EQ(values[i], sample_value(record, layout.offset(c) + i % channel.size()));
     }
   }
@@ -209,7 +209,7 @@ TEST(RunDirectory, BringsAnEarlierRunBackAfterAKill) {
   write_run(directory / "out", 50);
   const auto before = contents_of(directory / "out");
   RunDirectory run(directory / "out");
-  // What lies there now is what SIGKILL would leave.
+  // The files are now as SIGKILL would leave them.
   std::filesystem::copy(directory / "out", directory / "left",
                         std::filesystem::copy_options::recursive);
   RunDirectory(directory / "left").finish({});
@@ -270,7 +270,7 @@ TEST(RunDirectory, RefusesRecordsOfTheWrongLength) {
       ThrowsMessage<IoError>(AllOf(HasSubstr("t = 0.25 s"), HasSubstr("1 values"))));
 }
 
-/// Many limits, so that each part of the files is once the one that does not fit.
+/// Many limits, so that each part of the files is the one that does not fit at least once.
 TEST(RunDirectory, FullDiskKeepsWhatWasWritten) {
   const results::RecordLayout layout = sample_layout();
   int stopped = 0;

@@ -45,7 +45,7 @@ TEST(StateFile, EveryCutAndEveryFlippedByteIsRefused) {
   }
 }
 
-/// A file whose checksum is right although its content is none: nothing of it can crash.
+/// A file whose checksum is right although its content is invalid: it must not cause a crash.
 TEST(StateFile, ForeignContentWithASoundTrailerIsRefused) {
   const std::string bytes = state_bytes(some_state());
   EXPECT_THAT([&] { parse_state(sealed("no HDF5 at all"), "s"); },

@@ -240,7 +240,7 @@ TEST(Stepper, FullCouplingTakesOneOrTwoSolvesPerStep) {
   for (int k = 0; k < 200; ++k) rounds += stepper.step(state).large_solve_rounds;
   const SolveCounts counts = stepper.counts(0);
   EXPECT_EQ(counts.factorisations, 1);
-  // A round may leave the load as it was and change moments of the frame only.
+  // A round may leave the load unchanged and change only moments of the frame.
   EXPECT_LE(counts.solves, rounds);
   EXPECT_GE(counts.solves, 200);
   EXPECT_LE(counts.solves, 400);

@@ -27,7 +27,7 @@ TEST(Complementarity, OneStopPushesOrDoesNot) {
 }
 
 TEST(Complementarity, AStopThatOthersRelieveDoesNotPull) {
-  // A push on the first row moves the second one away by more than it asks for.
+  // An impulse on the first row moves the second one away by more than required.
   Matrix D(2, 2);
   D << 1.0, 0.9, 0.9, 1.0;
   const Vector b = (Vector(2) << 1.0, 0.5).finished();

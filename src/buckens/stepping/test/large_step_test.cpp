@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes over the vectors of a mesh leave of their digits and bits.
+// Accuracy and reproducibility of passes over the vectors of a mesh.
 #include "buckens/stepping/large_step.h"
 
 #include <algorithm>

@@ -54,7 +54,7 @@ TEST_P(SmallBodies, AnswerAsTheProductsDo) {
   EXPECT_LE((found - N * d).norm(), rounding);
 }
 
-// Bars, beams in the plane and in space, and the most there are.
+// Bars, beams in the plane and in space, and the largest number.
 INSTANTIATE_TEST_SUITE_P(Variables, SmallBodies,
                          testing::Values(4, 6, 12, SmallBodyAnswers::kMostVariables));
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Springs that no step can tell from rigid links.
+// Springs that no step can distinguish from rigid links.
 #include <memory>
 #include <string>
 
@@ -13,7 +13,7 @@
 namespace buckens::stepping {
 namespace {
 
-/// A body that hangs on as many springs side by side.
+/// A body that hangs on this number of parallel springs.
 model::Model hanging_body(int springs, double stiffness) {
   test::Mechanism m;
   m.set_gravity({0, -9.81, 0});
