@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The condensed step and the monolithic saddle-point step end in the same states; see README.md.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/test/example_models.h"
+#include "buckens/loads/bushing.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/joint_friction.h"
 #include "buckens/loads/rigid_law.h"
@@ -265,6 +269,77 @@ TEST(FastEqualsMonolithic, RowsThatHoldRigidlyUntilTheyWouldPull) {
   }
   for (const Method method : {Method::generalized_alpha, Method::hht}) {
     expect_same(model, start, tight(method, 1e-3));
+  }
+}
+
+/// A flexible shaft that a gear drives at one end, with its other wheel on an elastic bearing; a
+/// drum on a carrier that is coupled to the shaft's far end and to a sled, one coordinate by a
+/// polynomial; a rack on the sled. Numbers in no particular ratio.
+model::Model geared_shaft(std::uint32_t seed) {
+  std::mt19937 engine(seed);
+  const auto any = [&](double from, double to) {
+    return std::uniform_real_distribution(from, to)(engine);
+  };
+  using Kind = joints::JointCoordinate::Kind;
+  test::Mechanism m;
+  m.set_gravity({any(-3, 3), -9.81, any(-3, 3)});
+  m.set_length(1.0);
+  test::BeamConstants beam = soft_damped_beam();
+  beam.elements = 2;
+  const Eigen::Matrix3d J =
+      Vector3d(any(0.02, 0.05), any(0.02, 0.05), any(0.02, 0.06)).asDiagonal();
+  const int shaft = m.add_flexible(test::straight_beam(beam), body::CouplingLevel::full, {});
+  const double reach = any(0.2, 0.4);
+  const int wheel = m.add_rigid(any(0.5, 2), J, {{0, reach, 0}, Eigen::Quaterniond::Identity()});
+  const int carrier = m.add_rigid(any(0.5, 2), J, {{1, 0, 0}, Eigen::Quaterniond::Identity()});
+  const int sled =
+      m.add_rigid(any(0.5, 2), J, {{0, reach - 0.1, 0.3}, Eigen::Quaterniond::Identity()});
+  const Vector3d x = Vector3d::UnitX();
+  m.add_joint(joints::JointType::revolute, test::Mechanism::ground({0, 0, 0}),
+              m.node_marker(shaft, 0), x);
+  m.add_joint(joints::JointType::revolute, test::Mechanism::ground({1, 0, 0}),
+              m.rigid_marker(carrier, {0, 0, 0}), x);
+  const auto tip = m.node_marker(shaft, beam.elements);
+  m.add_joint(joints::JointType::revolute, m.rigid_marker(carrier, {0, 0, 0}), tip, x);
+  loads::Bushing::Coefficients k;
+  k.stiffness << 4e3, 3e3, 5e3;
+  k.rotational_stiffness << 0, 400, 500;
+  k.damping << 2, 3, 1;
+  m.add_load(std::make_unique<loads::Bushing>(k, Eigen::Matrix3d::Identity(), Vector3d::Zero()),
+             test::Mechanism::ground({0, reach, 0}), m.rigid_marker(wheel, {0, 0, 0}));
+  m.add_joint(joints::JointType::prismatic, test::Mechanism::ground({0, reach - 0.1, 0.3}),
+              m.rigid_marker(sled, {0, 0, 0}), Vector3d::UnitZ());
+  const double teeth = std::round(any(15, 40));
+  m.add_joint(joints::JointType::gear, m.node_marker(shaft, 0), m.rigid_marker(wheel, {0, 0, 0}), x,
+              std::nullopt, [&](joints::Placement& p) {
+                p.sizes = {teeth, 27};
+                p.pressure_angle = 0.35;
+                p.helix_angle = any(-0.3, 0.3);
+              });
+  m.add_joint(joints::JointType::rack, m.rigid_marker(sled, {0, 0, 0}),
+              m.rigid_marker(wheel, {0, 0, 0}), x, std::nullopt, [&](joints::Placement& p) {
+                p.sizes = {0.1, 0.1};
+                p.second_axis_F = Vector3d::UnitZ();
+                p.pressure_angle = 0.35;
+              });
+  const int inner = m.add_coordinate(1, Kind::angle);
+  const int outer = m.add_coordinate(2, Kind::angle);
+  const int slide = m.add_coordinate(3, Kind::displacement);
+  joints::CoordinateTerm curve;
+  curve.function = joints::CoordinateFunction::polynomial({0, any(0.1, 0.3), any(-0.1, 0.1)});
+  m.add_coupler({{slide, {any(0.5, 2), std::nullopt}},
+                 {inner, curve},
+                 {outer, {any(-0.2, -0.1), std::nullopt}}});
+  return m.take();
+}
+
+TEST(FastEqualsMonolithic, GearsRacksAndCouplers) {
+  for (const std::uint32_t seed : {1U, 2U, 3U}) {
+    SCOPED_TRACE(seed);
+    const model::Model model = geared_shaft(seed);
+    const Start start = test::consistent_start(model);
+    EXPECT_EQ(start.rows_in_use.size(), static_cast<std::size_t>(model.num_constraint_rows()));
+    expect_same(model, start, tight(kMethods[seed % 4], 1e-3));
   }
 }
 

@@ -142,6 +142,54 @@ function orientation(material: THREE.Material): THREE.Object3D {
   return rods;
 }
 
+/** A toothed wheel about z. */
+function gear(material: THREE.Material): THREE.Object3D {
+  const group = new THREE.Group();
+  const wheel = new THREE.CylinderGeometry(1.3, 1.3, 0.7, 32).rotateX(Math.PI / 2);
+  group.add(new THREE.Mesh(wheel, material));
+  for (let k = 0; k < 12; k++) {
+    const tooth = new THREE.Mesh(new THREE.BoxGeometry(0.5, 0.3, 0.7), material);
+    const angle = (k * Math.PI) / 6;
+    tooth.position.set(1.5 * Math.cos(angle), 1.5 * Math.sin(angle), 0);
+    tooth.rotation.z = angle;
+    group.add(tooth);
+  }
+  const hole = new THREE.CylinderGeometry(0.35, 0.35, 0.8, 18).rotateX(Math.PI / 2);
+  return group.add(new THREE.Mesh(hole, solid(kDark)));
+}
+
+/** A small wheel on a bar with teeth; the wheel's axis along z. */
+function rack(material: THREE.Material): THREE.Object3D {
+  const wheel = gear(material);
+  const bar = new THREE.Mesh(new THREE.BoxGeometry(5, 0.5, 0.7), solid(kDark));
+  bar.position.y = -2;
+  return new THREE.Group().add(wheel, bar);
+}
+
+/** Two pulleys about z with a belt around them. */
+function belt(material: THREE.Material): THREE.Object3D {
+  const group = new THREE.Group();
+  for (const x of [-1.2, 1.2]) {
+    const pulley = new THREE.CylinderGeometry(0.8, 0.8, 0.6, 28).rotateX(Math.PI / 2);
+    group.add(new THREE.Mesh(pulley.translate(x, 0, 0), material));
+  }
+  for (const y of [-0.85, 0.85]) {
+    const span = new THREE.Mesh(new THREE.BoxGeometry(2.4, 0.12, 0.6), solid(kDark));
+    span.position.y = y;
+    group.add(span);
+  }
+  return group;
+}
+
+/** Two links of a chain: coordinates that hang on each other. */
+function coupler(material: THREE.Material): THREE.Object3D {
+  const first = new THREE.Mesh(new THREE.TorusGeometry(0.9, 0.22, 10, 28), material);
+  const second = new THREE.Mesh(new THREE.TorusGeometry(0.9, 0.22, 10, 28), solid(kDark));
+  second.position.x = 1.1;
+  second.rotation.x = Math.PI / 2;
+  return new THREE.Group().add(first, second);
+}
+
 /** Glyph of a joint by its type, its axis along z; unknown types get an octahedron. */
 export function jointGlyph(type: string, color: THREE.ColorRepresentation): THREE.Object3D {
   const material = solid(color);
@@ -177,6 +225,14 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
       return orientation(material);
     case 'distance':
       return pinEnd(material);
+    case 'gear':
+      return gear(material);
+    case 'rack':
+      return rack(material);
+    case 'belt':
+      return belt(material);
+    case 'coupler':
+      return coupler(material);
     case 'prescribed-rotation':
       return drivenRotation();
     case 'prescribed-translation':

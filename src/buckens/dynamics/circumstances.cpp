@@ -14,18 +14,6 @@ namespace {
 // A measured angle jumps at π; without memory the side is unknown.
 constexpr double kLargestUncounted = 3.0;
 
-/// Force and torque of a joint on its second marker.
-spatial::Wrench reaction_of(const model::Joint& joint, const linalg::Vector& lambda, double t,
-                            const spatial::MarkerMotion& first,
-                            const spatial::MarkerMotion& second) {
-  Eigen::Matrix<double, 1, 6> sum = Eigen::Matrix<double, 1, 6>::Zero();
-  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
-    sum += lambda[joint.first_row + static_cast<int>(k)] *
-           joint.rows[k].evaluate(first, second, t).J.tail<6>();
-  }
-  return {sum.head<3>().transpose(), sum.tail<3>().transpose()};
-}
-
 /// How the rigid row of a law stands.
 loads::RowStand stand_of(const model::Load& load, const Circumstances& around,
                          const double* states) {
@@ -40,6 +28,52 @@ Circumstances circumstances_of(const model::State& state) {
   return {&state.inputs, &state.memory, &state.lambda, nullptr};
 }
 
+joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate,
+                                        const model::RowMemory* memory,
+                                        const spatial::MarkerMotion& first,
+                                        const spatial::MarkerMotion& second) {
+  const joints::JointCoordinate& law = model.coordinates[coordinate].law;
+  const double fraction = law.fraction(first, second);
+  if (memory != nullptr && !memory->coordinates.empty()) {
+    return law.follow(memory->coordinates[coordinate], fraction);
+  }
+  const bool is_angle = law.kind() == joints::JointCoordinate::Kind::angle;
+  if (is_angle && std::abs(fraction) > kLargestUncounted) {
+    const auto joint = static_cast<std::size_t>(model.coordinates[coordinate].joint);
+    throw NumericalError(fmt::format(
+        "the angle of joint \"{}\" is {:.4g} rad; static analyses count no turns and measure "
+        "angles up to {} rad; keep the motion within that",
+        model.joints[joint].name, fraction, kLargestUncounted));
+  }
+  return {0, fraction};
+}
+
+JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
+                          const model::RowMemory* memory, const linalg::Vector& lambda,
+                          const spatial::MarkerMotion& first, const spatial::MarkerMotion& second,
+                          std::size_t coupled) {
+  spatial::PairRow sum = spatial::PairRow::Zero();
+  if (!joint.coupled.empty()) {
+    const model::CoupledCoordinate& own = joint.coupled[coupled];
+    const auto index = static_cast<std::size_t>(own.coordinate);
+    const double value = counted_coordinate(model, index, memory, first, second).value();
+    sum = lambda[joint.first_row] * own.term.slope(value) *
+          model.coordinates[index].law.derivatives(first, second);
+  } else {
+    const double* states = states_of(joint, memory);
+    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+      const joints::ConstraintRow& row = joint.rows[k];
+      sum +=
+          lambda[joint.first_row + static_cast<int>(k)] * row.evaluate(first, second, t, states).J;
+      if (states != nullptr) states += row.num_states();
+    }
+  }
+  JointWrenches out;
+  out.on_first = {sum.segment<3>(0).transpose(), sum.segment<3>(3).transpose()};
+  out.on_second = {sum.segment<3>(6).transpose(), sum.segment<3>(9).transpose()};
+  return out;
+}
+
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
                                           const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
@@ -50,22 +84,10 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
   Eigen::Matrix<double, 12, 1> V;
   V << first.w, first.v, second.w, second.v;
   out.rate = out.J.dot(V);
-  const double fraction = law.fraction(first, second);
-  if (memory == nullptr || memory->coordinates.empty()) {
-    const bool is_angle = law.kind() == joints::JointCoordinate::Kind::angle;
-    if (is_angle && std::abs(fraction) > kLargestUncounted) {
-      const auto joint = static_cast<std::size_t>(model.coordinates[coordinate].joint);
-      throw NumericalError(fmt::format(
-          "the angle of joint \"{}\" is {:.4g} rad; static analyses count no turns and measure "
-          "angles up to {} rad; keep the motion within that",
-          model.joints[joint].name, fraction, kLargestUncounted));
-    }
-    out.value = fraction;
-    return out;
-  }
-  const joints::CountedValue& before = memory->coordinates[coordinate];
-  const joints::CountedValue now = law.follow(before, fraction);
+  const joints::CountedValue now = counted_coordinate(model, coordinate, memory, first, second);
   out.value = now.value();
+  if (memory == nullptr || memory->coordinates.empty()) return out;
+  const joints::CountedValue& before = memory->coordinates[coordinate];
   out.change = joints::difference(before, now);
   return out;
 }
@@ -80,8 +102,9 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                                          around.memory, first, second);
   }
   if (own.joint >= 0 && around.lambda != nullptr && around.lambda->size() > 0) {
-    sight.reaction = reaction_of(model.joints[static_cast<std::size_t>(own.joint)], *around.lambda,
-                                 t, first, second);
+    sight.reaction = wrenches_of(model, model.joints[static_cast<std::size_t>(own.joint)], t,
+                                 around.memory, *around.lambda, first, second)
+                         .on_second;
   }
   if (around.memory != nullptr && around.memory->laws.size() > 0) {
     sight.states = around.memory->laws.data() + own.first_state;

@@ -21,6 +21,20 @@ struct Circumstances {
 /// Those of a state.
 Circumstances circumstances_of(const model::State& state);
 
+/// What the rows of a joint remember; null where nothing is known, or nothing remembered.
+inline const double* states_of(const model::Joint& joint, const model::RowMemory* memory) {
+  return memory == nullptr || memory->rows.size() == 0 ? nullptr
+                                                       : memory->rows.data() + joint.first_state;
+}
+
+/// Value of a joint coordinate with its turns.
+/// @param first,second motions of its markers
+/// @throws NumericalError beyond 3 rad where no memory counts the turns
+joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate,
+                                        const model::RowMemory* memory,
+                                        const spatial::MarkerMotion& first,
+                                        const spatial::MarkerMotion& second);
+
 /// Motion of a joint coordinate.
 /// @param first,second motions of its markers
 /// @throws NumericalError beyond 3 rad where no memory counts the turns
@@ -29,7 +43,17 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
                                           const spatial::MarkerMotion& first,
                                           const spatial::MarkerMotion& second);
 
-/// Everything a load may use.
+/// What a joint does to its two markers, a coupler to those of one of its coordinates.
+/// @param first,second motions of these markers, @param coupled which coordinate of a coupler
+struct JointWrenches {
+  spatial::Wrench on_first, on_second;
+};
+JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
+                          const model::RowMemory* memory, const linalg::Vector& lambda,
+                          const spatial::MarkerMotion& first, const spatial::MarkerMotion& second,
+                          std::size_t coupled = 0);
+
+/// All that a load may see.
 /// @param load index into Model::loads
 loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const spatial::MarkerMotion& first,

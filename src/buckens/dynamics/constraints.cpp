@@ -1,23 +1,104 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/constraints.h"
 
+#include <utility>
+
+#include "buckens/dynamics/circumstances.h"
+
 namespace buckens::dynamics {
+
+namespace {
+
+using spatial::MarkerBias;
+using Twists = Eigen::Matrix<double, 12, 1>;
+
+Twists twists(const spatial::MarkerMotion& first, const spatial::MarkerMotion& second) {
+  Twists V;
+  V << first.w, first.v, second.w, second.v;
+  return V;
+}
+
+/// The row of a coupler: shares of all joints whose coordinates it couples.
+void evaluate_coupler(const model::Model& model, const model::Joint& joint,
+                      const std::vector<BodyMotion>& motions, const model::RowMemory* memory,
+                      Constraints& out) {
+  joints::CouplerSum sum;
+  double rate = 0.0;
+  SystemRow row;
+  for (std::size_t k = 0; k < joint.coupled.size(); ++k) {
+    const auto index = static_cast<std::size_t>(joint.coupled[k].coordinate);
+    const model::Coordinate& coordinate = model.coordinates[index];
+    const model::Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
+    const auto first = evaluate_marker(model, owner.first, motions);
+    const auto second = evaluate_marker(model, owner.second, motions);
+    const joints::CountedValue value =
+        counted_coordinate(model, index, memory, first.motion, second.motion);
+    const joints::CoordinateTerm& term = joint.coupled[k].term;
+    sum.add(term, value);
+    const spatial::PairRow J =
+        term.slope(value.value()) * coordinate.law.derivatives(first.motion, second.motion);
+    rate += J.dot(twists(first.motion, second.motion));
+    const SystemRow share = system_row(model, owner.first, first, owner.second, second, J);
+    if (k == 0) {
+      row.first = share.first;
+      row.second = share.second;
+    } else {
+      row.more.push_back(share.first);
+      row.more.push_back(share.second);
+    }
+  }
+  out.g[joint.first_row] = sum.value();
+  out.g_dot[joint.first_row] = rate;
+  out.g_t[joint.first_row] = 0.0;
+  out.rows[static_cast<std::size_t>(joint.first_row)] = std::move(row);
+}
+
+double coupler_bias(const model::Model& model, const model::Joint& joint,
+                    const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
+  double out = 0.0;
+  for (const model::CoupledCoordinate& coupled : joint.coupled) {
+    const auto index = static_cast<std::size_t>(coupled.coordinate);
+    const model::Coordinate& coordinate = model.coordinates[index];
+    const model::Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
+    const spatial::MarkerMotion F = evaluate_marker(model, owner.first, motions).motion;
+    const spatial::MarkerMotion M = evaluate_marker(model, owner.second, motions).motion;
+    const double value = counted_coordinate(model, index, memory, F, M).value();
+    const double rate = coordinate.law.derivatives(F, M).dot(twists(F, M));
+    out += coupled.term.slope(value) *
+               coordinate.law.bias(F, M, evaluate_bias(model, owner.first, motions),
+                                   evaluate_bias(model, owner.second, motions)) +
+           coupled.term.curvature(value) * rate * rate;
+  }
+  return out;
+}
+
+}  // namespace
 
 void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
                           double t, Constraints& out) {
+  evaluate_constraints(model, motions, t, nullptr, out);
+}
+
+void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
+                          double t, const model::RowMemory* memory, Constraints& out) {
   const int count = model.num_constraint_rows();
   out.g.resize(count);
   out.g_dot.resize(count);
   out.g_t.resize(count);
   out.rows.resize(static_cast<std::size_t>(count));
   for (const model::Joint& joint : model.joints) {
+    if (!joint.coupled.empty()) {
+      evaluate_coupler(model, joint, motions, memory, out);
+      continue;
+    }
     const auto first = evaluate_marker(model, joint.first, motions);
     const auto second = evaluate_marker(model, joint.second, motions);
-    Eigen::Matrix<double, 12, 1> V;
-    V << first.motion.w, first.motion.v, second.motion.w, second.motion.v;
+    const Twists V = twists(first.motion, second.motion);
+    const double* states = states_of(joint, memory);
     int row = joint.first_row;
     for (const joints::ConstraintRow& constraint : joint.rows) {
-      const joints::RowValue value = constraint.evaluate(first.motion, second.motion, t);
+      const joints::RowValue value = constraint.evaluate(first.motion, second.motion, t, states);
+      if (states != nullptr) states += constraint.num_states();
       out.g[row] = value.g;
       out.g_dot[row] = value.J.dot(V) + value.g_t;
       out.g_t[row] = value.g_t;
@@ -29,16 +110,23 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
 }
 
 linalg::Vector constraint_bias(const model::Model& model, const std::vector<BodyMotion>& motions,
-                               double t) {
+                               double t, const model::RowMemory* memory) {
   linalg::Vector bias(model.num_constraint_rows());
   for (const model::Joint& joint : model.joints) {
+    if (!joint.coupled.empty()) {
+      bias[joint.first_row] = coupler_bias(model, joint, motions, memory);
+      continue;
+    }
     const auto first = evaluate_marker(model, joint.first, motions);
     const auto second = evaluate_marker(model, joint.second, motions);
-    const auto bias_first = evaluate_bias(model, joint.first, motions);
-    const auto bias_second = evaluate_bias(model, joint.second, motions);
+    const MarkerBias bias_first = evaluate_bias(model, joint.first, motions);
+    const MarkerBias bias_second = evaluate_bias(model, joint.second, motions);
+    const double* states = states_of(joint, memory);
     for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+      const joints::ConstraintRow& row = joint.rows[k];
       bias[joint.first_row + static_cast<int>(k)] =
-          joint.rows[k].bias(first.motion, second.motion, bias_first, bias_second, t);
+          row.bias(first.motion, second.motion, bias_first, bias_second, t, states);
+      if (states != nullptr) states += row.num_states();
     }
   }
   return bias;

@@ -16,11 +16,16 @@ struct Constraints {
 };
 
 /// Evaluates every joint. Cost O(rows); reuses the vectors of `out`.
+/// @param memory turns of coupled coordinates and states of rows; null: no turns yet
+/// @throws NumericalError where a coupled angle passes 3 rad without memory
+void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
+                          double t, const model::RowMemory* memory, Constraints& out);
+/// The same without memory.
 void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
                           double t, Constraints& out);
 
 /// The part of g̈ without coordinate accelerations, for the initial accelerations.
 linalg::Vector constraint_bias(const model::Model& model, const std::vector<BodyMotion>& motions,
-                               double t);
+                               double t, const model::RowMemory* memory = nullptr);
 
 }  // namespace buckens::dynamics

@@ -145,8 +145,7 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
   for (std::size_t k = 0; k < constraints.rows.size(); ++k) {
     const double multiplier = lambda[static_cast<Eigen::Index>(k)];
     if (multiplier == 0.0) continue;
-    add_row(constraints.rows[k].first, multiplier, out);
-    add_row(constraints.rows[k].second, multiplier, out);
+    for (const BodyRow* part : constraints.rows[k].parts()) add_row(*part, multiplier, out);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "buckens/dynamics/joint_set.h"
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/circumstances.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::dynamics {
@@ -33,7 +34,8 @@ struct JointSet::Motion {
   spatial::MarkerMotion marker(const End& end) const { return {p, axes * end.R, w, v}; }
 };
 
-JointSet::JointSet(const model::Model& model) : num_rows_(model.num_constraint_rows()) {
+JointSet::JointSet(const model::Model& model)
+    : model_(model), num_rows_(model.num_constraint_rows()) {
   const auto end_of = [&](const model::MarkerId& id) {
     End end;
     end.body = id.body;
@@ -55,9 +57,16 @@ JointSet::JointSet(const model::Model& model) : num_rows_(model.num_constraint_r
     if (joint.rows.size() > kMostRows) {
       throw ModelError("joint \"" + joint.name + "\" has more than six equations");
     }
-    const Joint& own =
-        joints_.emplace_back(Joint{end_of(joint.first), end_of(joint.second), joint.first_row,
-                                   static_cast<int>(joint.rows.size()), rows_.size()});
+    const Joint& own = joints_.emplace_back(Joint{
+        end_of(joint.first), end_of(joint.second), joint.first_row,
+        static_cast<int>(joint.rows.size()), rows_.size(), coupled_.size(), joint.coupled.size()});
+    for (const model::CoupledCoordinate& coupled : joint.coupled) {
+      const auto index = static_cast<std::size_t>(coupled.coordinate);
+      const model::Joint& owner =
+          model.joints[static_cast<std::size_t>(model.coordinates[index].joint)];
+      coupled_.push_back({end_of(owner.first), end_of(owner.second), index, &coupled.term});
+    }
+    int state = joint.first_state;
     for (const joints::ConstraintRow& row : joint.rows) {
       Kind kind = Kind::other;
       if (row.kind() == joints::ConstraintRow::Kind::point_world) kind = Kind::point;
@@ -65,7 +74,8 @@ JointSet::JointSet(const model::Model& model) : num_rows_(model.num_constraint_r
         kind = Kind::direction;
       }
       const Vector3d b = kind == Kind::direction ? own.first.R * row.direction() : row.direction();
-      rows_.push_back({kind, b, own.second.R * row.second_direction(), &row});
+      rows_.push_back({kind, b, own.second.R * row.second_direction(), &row, state});
+      state += row.num_states();
     }
   }
 }
@@ -135,10 +145,65 @@ void JointSet::derive(const End& end, const Motion& motion, const Wrench& wrench
   out.interface.tail<3>() = against(motion.rotation_map, torque).transpose();
 }
 
-void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t, JointResiduals& out,
+void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+                                const model::RowMemory* memory, JointResiduals& out,
+                                double multiplier, Forces* forces) const {
+  joints::CouplerSum sum;
+  double rate = 0.0;
+  for (std::size_t k = 0; k < joint.num_coupled; ++k) {
+    const Coupled& own = coupled_[joint.coupled + k];
+    const Motion F = motion_of(own.first, motions);
+    const Motion M = motion_of(own.second, motions);
+    const spatial::MarkerMotion first = F.marker(own.first);
+    const spatial::MarkerMotion second = M.marker(own.second);
+    const joints::CountedValue value =
+        counted_coordinate(model_, own.coordinate, memory, first, second);
+    sum.add(*own.term, value);
+    const spatial::PairRow J = own.term->slope(value.value()) *
+                               model_.coordinates[own.coordinate].law.derivatives(first, second);
+    rate += J.segment<3>(0).dot(F.w) + J.segment<3>(3).dot(F.v) + J.segment<3>(6).dot(M.w) +
+            J.segment<3>(9).dot(M.v);
+    if (forces == nullptr) continue;
+    const spatial::PairRow f = multiplier * J;
+    add_wrench(own.first, F, {f.segment<3>(0).transpose(), f.segment<3>(3).transpose()}, *forces);
+    add_wrench(own.second, M, {f.segment<3>(6).transpose(), f.segment<3>(9).transpose()}, *forces);
+  }
+  out.g[joint.first_row] = sum.value();
+  out.g_dot[joint.first_row] = rate;
+  out.g_t[joint.first_row] = 0.0;
+}
+
+void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+                              const model::RowMemory* memory, SystemRow& out) const {
+  out.more.resize(2 * joint.num_coupled - 2);
+  for (std::size_t k = 0; k < joint.num_coupled; ++k) {
+    const Coupled& own = coupled_[joint.coupled + k];
+    const Motion F = motion_of(own.first, motions);
+    const Motion M = motion_of(own.second, motions);
+    const spatial::MarkerMotion first = F.marker(own.first);
+    const spatial::MarkerMotion second = M.marker(own.second);
+    const double value = counted_coordinate(model_, own.coordinate, memory, first, second).value();
+    const spatial::PairRow J =
+        own.term->slope(value) * model_.coordinates[own.coordinate].law.derivatives(first, second);
+    derive(own.first, F, {J.segment<3>(0).transpose(), J.segment<3>(3).transpose()},
+           out.part(2 * k));
+    derive(own.second, M, {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()},
+           out.part(2 * k + 1));
+  }
+}
+
+void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
+                        const model::RowMemory* memory, JointResiduals& out,
                         const linalg::Vector* lambda, Forces* forces) const {
+  const double* const states =
+      memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() : nullptr;
   for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
   for (const Joint& joint : joints_) {
+    if (joint.num_coupled > 0) {
+      evaluate_coupler(joint, motions, memory, out,
+                       lambda != nullptr ? (*lambda)[joint.first_row] : 0.0, forces);
+      continue;
+    }
     const Motion F = motion_of(joint.first, motions);
     const Motion M = motion_of(joint.second, motions);
     const Vector3d r = M.p - F.p;
@@ -166,7 +231,8 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t, JointR
         on_second.torque -= multiplier * b_x_c;
       } else {
         const joints::RowValue value =
-            row.row->evaluate(F.marker(joint.first), M.marker(joint.second), t);
+            row.row->evaluate(F.marker(joint.first), M.marker(joint.second), t,
+                              states != nullptr ? states + row.state : nullptr);
         const auto& J = value.J;
         out.g[at] = value.g;
         out.g_t[at] = value.g_t;
@@ -185,8 +251,12 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t, JointR
 }
 
 void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
+                           const model::RowMemory* memory,
                            std::array<SystemRow, kMostRows>& out) const {
   const Joint& own = joints_[joint];
+  if (own.num_coupled > 0) return derive_coupler(own, motions, memory, out[0]);
+  const double* const states =
+      memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() : nullptr;
   const Motion F = motion_of(own.first, motions);
   const Motion M = motion_of(own.second, motions);
   for (int k = 0; k < own.num_rows; ++k) {
@@ -199,11 +269,15 @@ void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& mot
       on_first.torque = (F.axes * row.b).cross(M.axes * row.c);
       on_second.torque = -on_first.torque;
     } else {
-      const spatial::PairRow J = row.row->evaluate(F.marker(own.first), M.marker(own.second), t).J;
+      const spatial::PairRow J = row.row
+                                     ->evaluate(F.marker(own.first), M.marker(own.second), t,
+                                                states != nullptr ? states + row.state : nullptr)
+                                     .J;
       on_first = {J.segment<3>(0).transpose(), J.segment<3>(3).transpose()};
       on_second = {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()};
     }
     SystemRow& values = out[static_cast<std::size_t>(k)];
+    values.more.clear();  // of a coupler before
     derive(own.first, F, on_first, values.first);
     derive(own.second, M, on_second, values.second);
   }

@@ -33,15 +33,17 @@ class JointSet {
   int num_rows(std::size_t joint) const { return joints_[joint].num_rows; }
 
   /// Residuals of all rows. With multipliers, the forces Gᵀλ are added: the rows of a joint act on
-  /// its two markers together, and each marker's wrench is added to its body once. Allocates
-  /// nothing once `out` has its size.
+  /// its two markers together, and a marker's wrench goes to its body once. Allocates nothing once
+  /// `out` has its size.
+  /// @param memory turns and states as at the start of the step, null: none yet
   /// @param lambda,forces both or neither
-  void evaluate(const std::vector<BodyMotion>& motions, double t, JointResiduals& out,
-                const linalg::Vector* lambda = nullptr, Forces* forces = nullptr) const;
+  void evaluate(const std::vector<BodyMotion>& motions, double t, const model::RowMemory* memory,
+                JointResiduals& out, const linalg::Vector* lambda = nullptr,
+                Forces* forces = nullptr) const;
 
   /// Derivatives of the rows of one joint, num_rows() of them.
   void derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
-                   std::array<SystemRow, kMostRows>& out) const;
+                   const model::RowMemory* memory, std::array<SystemRow, kMostRows>& out) const;
 
  private:
   /// A marker in the undeformed body, on the ground in the world.
@@ -57,11 +59,19 @@ class JointSet {
     Eigen::Vector3d b;  // of a direction row, in the first body; of a point row, in the world
     Eigen::Vector3d c;  // in the second body
     const joints::ConstraintRow* row;
+    int state;  // first of its own in RowMemory::rows
+  };
+  /// A coordinate that a coupler takes part in.
+  struct Coupled {
+    End first, second;
+    std::size_t coordinate;
+    const joints::CoordinateTerm* term;
   };
   struct Joint {
     End first, second;
     int first_row, num_rows;
-    std::size_t rows;  // first of them in rows_
+    std::size_t rows;                  // first of them in rows_
+    std::size_t coupled, num_coupled;  // of a coupler in coupled_
   };
   struct Motion;
 
@@ -71,8 +81,16 @@ class JointSet {
   static void derive(const End& end, const Motion& motion, const spatial::Wrench& wrench,
                      BodyRow& out);
 
+  void evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+                        const model::RowMemory* memory, JointResiduals& out, double multiplier,
+                        Forces* forces) const;
+  void derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+                      const model::RowMemory* memory, SystemRow& out) const;
+
+  const model::Model& model_;
   std::vector<Joint> joints_;
   std::vector<Row> rows_;
+  std::vector<Coupled> coupled_;
   int num_rows_ = 0;
 };
 

@@ -97,7 +97,7 @@ SparseMatrix MassMetric::weighted_jacobian(const std::vector<SystemRow>& rows) c
     }
   };
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (const BodyRow* part : {&rows[r].first, &rows[r].second}) {
+    for (const BodyRow* part : rows[r].parts()) {
       if (part->body == model::kGround) continue;
       const auto b = static_cast<std::size_t>(part->body);
       const int row = static_cast<int>(r);

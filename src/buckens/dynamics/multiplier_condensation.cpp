@@ -26,7 +26,7 @@ std::vector<std::pair<int, int>> couples_of(const RowBlocks& rows, int num_bodie
   std::vector<std::pair<int, int>> out;
   for (std::size_t k = 0; k < rows.blocks().size(); ++k) {
     out.emplace_back(static_cast<int>(k), static_cast<int>(k));
-    for (const RowBlock::Side& side : rows.blocks()[k].sides) {
+    for (const RowBlock::Side& side : rows.sides(rows.blocks()[k])) {
       if (side.body == model::kGround) continue;
       on_body[static_cast<std::size_t>(side.body)].push_back(static_cast<int>(k));
     }
@@ -68,10 +68,12 @@ MultiplierCondensation::MultiplierCondensation(int num_bodies, const std::vector
       block_lu_(sizes_of(force_), couples_) {
   const auto& blocks = force_.blocks();
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    for (int side = 0; side < 2; ++side) {
-      const int b = blocks[k].sides[static_cast<std::size_t>(side)].body;
+    const auto sides = force_.sides(blocks[k]);
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      const int b = sides[side].body;
       if (b == model::kGround) continue;
-      blocks_on_body_[static_cast<std::size_t>(b)].push_back({static_cast<int>(k), side});
+      blocks_on_body_[static_cast<std::size_t>(b)].push_back(
+          {static_cast<int>(k), static_cast<int>(side)});
     }
   }
   for (const auto& list : blocks_on_body_) {
@@ -100,8 +102,8 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
   const Eigen::Matrix3d translation = compliance.frame.bottomRightCorner<3, 3>();
   const RowBlocks& test = test_rows();
   const auto side_of = [&](const BlockOnBody& k) -> const RowBlock::Side& {
-    return force_.blocks()[static_cast<std::size_t>(k.block)]
-        .sides[static_cast<std::size_t>(k.side)];
+    return force_.sides(
+        force_.blocks()[static_cast<std::size_t>(k.block)])[static_cast<std::size_t>(k.side)];
   };
   const auto count_of = [&](const BlockOnBody& k) {
     return force_.blocks()[static_cast<std::size_t>(k.block)].count;

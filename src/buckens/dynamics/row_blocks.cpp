@@ -12,31 +12,41 @@ bool touch_the_same(const BodyRow& row, const RowBlock::Side& side) {
          row.rotation_row == side.rotation_row;
 }
 
+bool touch_the_same(const SystemRow& row, std::span<const RowBlock::Side> sides) {
+  if (row.num_parts() != sides.size()) return false;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (!touch_the_same(row.part(s), sides[s])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 RowBlocks::RowBlocks(const std::vector<SystemRow>& pattern) {
   for (std::size_t r = 0; r < pattern.size(); ++r) {
     const SystemRow& row = pattern[r];
     const bool fits = !blocks_.empty() && blocks_.back().count < kMostRows &&
-                      touch_the_same(row.first, blocks_.back().sides[0]) &&
-                      touch_the_same(row.second, blocks_.back().sides[1]);
+                      touch_the_same(row, sides(blocks_.back()));
     if (!fits) {
       RowBlock& block = blocks_.emplace_back();
       block.first_row = static_cast<int>(r);
-      for (std::size_t s = 0; s < 2; ++s) {
-        const BodyRow& part = s == 0 ? row.first : row.second;
-        block.sides[s].body = part.body;
-        block.sides[s].translation_row = part.translation_row;
-        block.sides[s].rotation_row = part.rotation_row;
+      block.first_side = sides_.size();
+      block.num_sides = row.num_parts();
+      for (const BodyRow* part : row.parts()) {
+        RowBlock::Side& side = sides_.emplace_back();
+        side.body = part->body;
+        side.translation_row = part->translation_row;
+        side.rotation_row = part->rotation_row;
       }
     }
     ++blocks_.back().count;
     block_of_row_.push_back(static_cast<int>(blocks_.size()) - 1);
   }
   std::size_t next = 0;
-  for (RowBlock& block : blocks_) {
+  for (const RowBlock& block : blocks_) {
     const auto numbers = static_cast<std::size_t>(6 * block.count);
-    for (RowBlock::Side& side : block.sides) {
+    for (std::size_t s = 0; s < block.num_sides; ++s) {
+      RowBlock::Side& side = sides_[block.first_side + s];
       if (side.body == model::kGround) continue;
       side.frame = next;
       next += numbers;
@@ -52,10 +62,10 @@ void RowBlocks::set(int row, const SystemRow& values) {
   const RowBlock& block =
       blocks_[static_cast<std::size_t>(block_of_row_[static_cast<std::size_t>(row)])];
   const auto offset = static_cast<std::size_t>(6 * (row - block.first_row));
-  for (std::size_t s = 0; s < 2; ++s) {
-    const RowBlock::Side& side = block.sides[s];
+  for (std::size_t s = 0; s < block.num_sides; ++s) {
+    const RowBlock::Side& side = sides_[block.first_side + s];
     if (side.body == model::kGround) continue;
-    const BodyRow& part = s == 0 ? values.first : values.second;
+    const BodyRow& part = values.part(s);
     std::copy_n(part.frame.data(), 6, &values_[side.frame + offset]);
     if (side.follows_mesh())
       std::copy_n(part.interface.data(), 6, &values_[side.interface + offset]);
@@ -69,7 +79,7 @@ void RowBlocks::gather(const linalg::Vector& x, std::vector<BodyResponse>& respo
   }
   for (const RowBlock& block : blocks_) {
     const double* const forces = x.data() + block.first_row;
-    for (const RowBlock::Side& side : block.sides) {
+    for (const RowBlock::Side& side : sides(block)) {
       if (side.body == model::kGround) continue;
       BodyResponse& out = responses[static_cast<std::size_t>(side.body)];
       Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();

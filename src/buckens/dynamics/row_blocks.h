@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "buckens/dynamics/system_kinematics.h"
@@ -21,7 +21,8 @@ struct Displacement {
   const Eigen::VectorXd* y;  ///< of bodies with a mesh
 };
 
-/// Up to six rows between the same markers, side by side: usually a joint.
+/// Up to six rows between the same markers, side by side: usually a joint. A row that couples
+/// several joints has a side for each marker of theirs.
 struct RowBlock {
   /// The rows' derivatives with respect to one body.
   struct Side {
@@ -33,7 +34,8 @@ struct RowBlock {
   };
   int first_row = 0;
   int count = 0;
-  std::array<Side, 2> sides;
+  std::size_t first_side = 0;
+  std::size_t num_sides = 0;
 };
 
 /// Derivatives of many rows, stored compactly in the order of the rows.
@@ -49,6 +51,9 @@ class RowBlocks {
   explicit RowBlocks(const std::vector<SystemRow>& pattern);
 
   const std::vector<RowBlock>& blocks() const { return blocks_; }
+  std::span<const RowBlock::Side> sides(const RowBlock& block) const {
+    return {&sides_[block.first_side], block.num_sides};
+  }
   int num_rows() const { return static_cast<int>(block_of_row_.size()); }
 
   /// Stores the numbers of a row. Its bodies are those of the pattern.
@@ -71,7 +76,7 @@ class RowBlocks {
   void changes(linalg::Vector& out, F&& displacement) const {
     out.setZero(num_rows());
     for (const RowBlock& block : blocks_) {
-      for (const RowBlock::Side& side : block.sides) {
+      for (const RowBlock::Side& side : sides(block)) {
         if (side.body == model::kGround) continue;
         const Displacement moved = displacement(side.body);
         for (int k = 0; k < block.count; ++k) {
@@ -94,6 +99,7 @@ class RowBlocks {
   }
 
   std::vector<RowBlock> blocks_;
+  std::vector<RowBlock::Side> sides_;  // block by block
   std::vector<int> block_of_row_;
   std::vector<double> values_;
 };

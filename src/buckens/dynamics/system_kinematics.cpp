@@ -71,7 +71,8 @@ SystemRow system_row(const model::Model& model, const model::MarkerId& first,
                      const MarkerKinematics& first_kinematics, const model::MarkerId& second,
                      const MarkerKinematics& second_kinematics, const spatial::PairRow& J) {
   return {body_row(model, first, first_kinematics, J.head<6>()),
-          body_row(model, second, second_kinematics, J.tail<6>())};
+          body_row(model, second, second_kinematics, J.tail<6>()),
+          {}};
 }
 
 std::vector<BodyMotion> motions_of(const model::Model& model, const model::State& state) {

@@ -29,9 +29,36 @@ struct BodyRow {
   double change(const Eigen::Matrix<double, 6, 1>& u, const Eigen::VectorXd& y) const;
 };
 
-/// Contributions of both bodies to a scalar between two markers.
+/// The bodies' shares of a scalar: two of one between two markers, more of one that couples
+/// coordinates of several joints. Several shares may be of the same body.
 struct SystemRow {
   BodyRow first, second;
+  std::vector<BodyRow> more;  ///< empty of nearly all rows
+
+  std::size_t num_parts() const { return 2 + more.size(); }
+  const BodyRow& part(std::size_t k) const {
+    return k == 0 ? first : k == 1 ? second : more[k - 2];
+  }
+  BodyRow& part(std::size_t k) { return k == 0 ? first : k == 1 ? second : more[k - 2]; }
+
+  /// All shares one after the other: `for (const BodyRow* part : row.parts())`.
+  class Parts {
+   public:
+    struct Place {
+      const SystemRow* row;
+      std::size_t k;
+      const BodyRow* operator*() const { return &row->part(k); }
+      Place& operator++() { return ++k, *this; }
+      bool operator!=(const Place& other) const { return k != other.k; }
+    };
+    explicit Parts(const SystemRow& row) : row_(row) {}
+    Place begin() const { return {&row_, 0}; }
+    Place end() const { return {&row_, row_.num_parts()}; }
+
+   private:
+    const SystemRow& row_;
+  };
+  Parts parts() const { return Parts(*this); }
 };
 
 /// Kinematics of one marker, on a body or on the ground.

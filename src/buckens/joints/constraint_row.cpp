@@ -81,6 +81,20 @@ ConstraintRow ConstraintRow::screw(const Vector3d& axis_F, const Vector3d& x_F, 
   return row;
 }
 
+ConstraintRow ConstraintRow::by_law(std::shared_ptr<const RowLaw> law) {
+  ConstraintRow row;
+  row.kind_ = Kind::law;
+  row.own_ = std::move(law);
+  return row;
+}
+
+ConstraintRow ConstraintRow::coupled(bool is_length) {
+  ConstraintRow row;
+  row.kind_ = Kind::coupled;
+  row.is_angle_ = !is_length;
+  return row;
+}
+
 ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, bool with_acceleration) const {
   TurningVector b{e_, Vector3d::Zero(), Vector3d::Zero()};
   if (!law_) return b;
@@ -112,7 +126,9 @@ double ConstraintRow::distance_bias(const Vector3d& r, const Vector3d& r_dot,
   return n.dot(a) + (r_dot.squaredNorm() - along * along) / length;
 }
 
-RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t) const {
+RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t,
+                                 const double* states) const {
+  if (own_) return own_->evaluate(F, M, states);
   RowValue out;
   const Vector3d r = M.p - F.p;
   switch (kind_) {
@@ -182,7 +198,8 @@ void ConstraintRow::evaluate_coupling(const MarkerMotion& F, const MarkerMotion&
 }
 
 double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                           const MarkerBias& bias_M, double t) const {
+                           const MarkerBias& bias_M, double t, const double* states) const {
+  if (own_) return own_->bias(F, M, bias_F, bias_M, states);
   const Vector3d r = M.p - F.p;
   const Vector3d r_dot = M.v - F.v;
   const Vector3d a = bias_M.a - bias_F.a;

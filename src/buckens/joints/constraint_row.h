@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "buckens/base/time_law.h"
-#include "buckens/spatial/marker_motion.h"
+#include "buckens/joints/row_law.h"
 
 namespace buckens::joints {
-
-/// One scalar constraint g(X_F, X_M, t) = 0 evaluated at a configuration.
-///
-///     ġ = J V + g_t,      g̈ = J V̇ + bias                                   FM (20), (34)
-///
-/// V contains the twists of both markers (see PairRow). The multiplier λ of the row exerts the
-/// wrench Jᵀλ on the markers.
-struct RowValue {
-  double g = 0;    ///< residual: [m] for point rows, [-] for direction rows
-  double g_t = 0;  ///< partial time derivative of g
-  spatial::PairRow J = spatial::PairRow::Zero();
-};
 
 /// One scalar constraint between marker frames F (first) and M (second).
 ///
@@ -29,10 +18,22 @@ struct RowValue {
 ///   there is one;
 ///   - `distance`:    |p_M − p_F| − L = 0;
 ///   - `homokinetic`: (R_F x)·(R_M y′) − (R_F y)·(R_M x′) = 0, x and y across the shafts;
-///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F.
+///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F;
+///   - `law`:         what a RowLaw says, which remembers something from step to step;
+///   - `coupled`:     a sum over coordinates of other joints. It lies between more than two markers
+///                    and is evaluated from model::Joint::coupled; here stands only its unit.
 class ConstraintRow {
  public:
-  enum class Kind { point_world, point_along, direction, distance, homokinetic, screw };
+  enum class Kind {
+    point_world,
+    point_along,
+    direction,
+    distance,
+    homokinetic,
+    screw,
+    law,
+    coupled
+  };
 
   static ConstraintRow point_world(const Eigen::Vector3d& e);
   /// @param offset s₀ [m], @param displacement s(t) [m], zero if absent
@@ -56,20 +57,36 @@ class ConstraintRow {
   static ConstraintRow screw(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
                              const Eigen::Vector3d& x_M, double offset, double pitch);
 
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t) const;
+  static ConstraintRow by_law(std::shared_ptr<const RowLaw> law);
+  /// @param is_length whether the sum is a length or an angle
+  static ConstraintRow coupled(bool is_length);
+
+  /// @param states what a row of kind `law` remembers; null: nothing is known yet
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
+                    const double* states = nullptr) const;
 
   /// Part of g̈ that does not depend on the accelerations of the bodies' coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t) const;
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
+              const double* states = nullptr) const;
 
   Kind kind() const { return kind_; }
   /// True for rows whose residual is a length, false for dimensionless ones.
-  bool is_length() const { return kind_ != Kind::direction && kind_ != Kind::homokinetic; }
-  /// Whether the row exerts a moment on the first marker, and on the second.
-  bool turns_first() const { return kind_ != Kind::point_world && kind_ != Kind::distance; }
-  bool turns_second() const { return turns_first() && kind_ != Kind::point_along; }
+  bool is_length() const {
+    return kind_ != Kind::direction && kind_ != Kind::homokinetic && !is_angle_;
+  }
+  /// Whether the row takes a moment of the first marker, and of the second.
+  bool turns_first() const {
+    return kind_ != Kind::point_world && kind_ != Kind::distance && kind_ != Kind::coupled;
+  }
+  bool turns_second() const {
+    return turns_first() && kind_ != Kind::point_along && (!own_ || own_->turns_second());
+  }
   bool depends_on_time() const { return law_.has_value(); }
-  /// e of a point row; b of a direction row, at zero angle if it rotates.
+  int num_states() const { return own_ ? own_->num_states() : 0; }
+  /// Of rows of kind `law`, else null.
+  const RowLaw* law() const { return own_.get(); }
+  /// e of a point row; b of a direction row, at angle zero where it turns.
   const Eigen::Vector3d& direction() const { return e_; }
   /// c of a direction row, in M.
   const Eigen::Vector3d& second_direction() const { return c_; }
@@ -96,7 +113,9 @@ class ConstraintRow {
   Eigen::Vector3d c2_ = Eigen::Vector3d::Zero();  // x of M of a homokinetic row
   double offset_ = 0;
   double pitch_ = 0;
+  bool is_angle_ = false;  // of a coupled row
   std::optional<base::TimeLaw> law_;
+  std::shared_ptr<const RowLaw> own_;
 };
 
 }  // namespace buckens::joints

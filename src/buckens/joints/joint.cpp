@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/joints/gear_mesh.h"
+#include "buckens/joints/path_row.h"
 
 namespace buckens::joints {
 
@@ -114,12 +116,13 @@ void check_axis(JointType type, const Placement& placement, const Vector3d& axis
                      ", or leave `planar` out");
   }
   if (type == JointType::spherical || type == JointType::fixed || type == JointType::orientation ||
-      type == JointType::distance) {
+      type == JointType::distance || type == JointType::slot) {
     return;
   }
   const double along_normal =
       std::abs((placement.R_WF * axis).dot(spatial::normal(*placement.planar)));
-  const bool turns = type == JointType::revolute || type == JointType::prescribed_rotation;
+  const bool turns = type == JointType::revolute || type == JointType::prescribed_rotation ||
+                     type == JointType::gear || type == JointType::rack || type == JointType::belt;
   if (turns && along_normal < std::sqrt(1.0 - kAlignment * kAlignment)) {
     throw ModelError("the axis of a " + to_string(type) +
                      " joint of a planar model must be normal to the plane; "
@@ -177,6 +180,50 @@ void add_distance(const Placement& placement, RowCollector& rows) {
   rows.push(ConstraintRow::distance(length));
 }
 
+void add_gear(JointType type, const Vector3d& axis, const Placement& placement,
+              RowCollector& rows) {
+  GearMesh::Data data;
+  data.axis_F = axis;
+  data.r_F = placement.r_F;
+  data.R_FM = placement.R_WF.transpose() * placement.R_WM;
+  data.sizes = placement.sizes;
+  data.same_sense = placement.same_sense;
+  data.has_teeth = type == JointType::gear;
+  data.pressure_angle = placement.pressure_angle;
+  data.helix_angle = placement.helix_angle;
+  rows.push(ConstraintRow::by_law(std::make_shared<GearMesh>(data)));
+}
+
+void add_rack(const Vector3d& axis, const Placement& placement, RowCollector& rows) {
+  const Vector3d along = placement.second_axis_F.value_or(Vector3d::Zero());
+  if (!(along.norm() > 0.0)) {
+    throw ModelError("`along` has no direction; give three numbers, not all zero");
+  }
+  if (std::abs(along.normalized().dot(axis)) > kRightAngle) {
+    throw ModelError(fmt::format(
+        "a rack runs across the axis of its pinion; `along` and `axis` meet at {:.4g} degrees; "
+        "turn one of them",
+        std::acos(std::clamp(along.normalized().dot(axis), -1.0, 1.0)) * kDegrees));
+  }
+  RackMesh::Data data;
+  data.axis_F = axis;
+  data.along_F = (along - along.dot(axis) * axis).normalized();
+  data.r_F = placement.r_F;
+  data.R_FM = placement.R_WF.transpose() * placement.R_WM;
+  data.radius = placement.sizes[0];
+  data.pressure_angle = placement.pressure_angle;
+  data.helix_angle = placement.helix_angle;
+  rows.push(ConstraintRow::by_law(std::make_shared<RackMesh>(data)));
+}
+
+/// A normal, the plane's where none is given.
+void add_slot(const Placement& placement, RowCollector& rows) {
+  std::optional<Vector3d> normal = placement.path_normal_F;
+  if (placement.planar) normal = placement.R_WF.transpose() * spatial::normal(*placement.planar);
+  const auto curve = std::make_shared<SpaceCurve>(placement.path, placement.is_closed);
+  for (auto& law : make_path_rows(curve, normal)) rows.push(ConstraintRow::by_law(std::move(law)));
+}
+
 void add_guide_or_coupling(JointType type, const Triad& f, const Placement& placement,
                            RowCollector& rows) {
   const auto parallel = [&] {
@@ -218,6 +265,13 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
       break;
     case JointType::distance:
       return add_distance(placement, rows);
+    case JointType::gear:
+    case JointType::belt:
+      return add_gear(type, f.z, placement, rows);
+    case JointType::slot:
+      return add_slot(placement, rows);
+    case JointType::rack:
+      return add_rack(f.z, placement, rows);
     default:
       break;
   }
@@ -226,7 +280,7 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
 }  // namespace
 
 std::string to_string(JointType type) {
-  static const std::array<const char*, 16> names = {"revolute",
+  static const std::array<const char*, 21> names = {"revolute",
                                                     "spherical",
                                                     "prismatic",
                                                     "fixed",
@@ -241,7 +295,12 @@ std::string to_string(JointType type) {
                                                     "parallel",
                                                     "orientation",
                                                     "distance",
-                                                    "screw"};
+                                                    "screw",
+                                                    "gear",
+                                                    "rack",
+                                                    "belt",
+                                                    "slot",
+                                                    "coupler"};
   return names[static_cast<std::size_t>(type)];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,12 @@ enum class JointType {
   parallel,
   orientation,
   distance,
-  screw
+  screw,
+  gear,
+  rack,
+  belt,
+  slot,
+  coupler
 };
 
 /// Name of the kind as spelled in the model file.
@@ -48,18 +54,26 @@ struct Placement {
   std::optional<Eigen::Vector3d> second_axis_F;  ///< of universal, constant velocity, as placed
   std::optional<double> length;                  ///< of distance [m]; none: as placed
   double pitch = 0;                              ///< of screw [m] per turn
+  std::array<double, 2> sizes{1, 1};             ///< teeth of gears, radii of belts and racks [m]
+  bool same_sense = false;                       ///< internal gears, open belts
+  double pressure_angle = 0;                     ///< of gears and racks [rad]
+  double helix_angle = 0;                        ///< of gears and racks [rad]
+  std::vector<Eigen::Vector3d> path;             ///< of a slot, in F [m]
+  bool is_closed = false;                        ///< whether the path is
+  std::optional<Eigen::Vector3d> path_normal_F;  ///< of a plane path; planar models need none
 };
 
 /// Rows of a joint of the given kind between two marker frames.
 ///
 /// Rows per kind (planar in brackets): revolute 5 (2), spherical 3 (2), prismatic 5 (2), fixed 6
 /// (3), prescribed rotation 1 (1), prescribed translation 1 (1), point on line 2 (1), point in
-/// plane 1 (1), orientation 3 (1), distance 1 (1); in space only: cylindrical 4, planar 3,
-/// universal 4, constant velocity 4, parallel 2, screw 5. Cost O(1).
+/// plane 1 (1), orientation 3 (1), distance 1 (1), gear, rack and belt 1 (1), slot 2 or,
+/// with a normal, 1 (1); in space only:
+/// cylindrical 4, planar 3, universal 4, constant velocity 4, parallel 2, screw 5. Cost O(1).
 /// @throws ModelError if the axis is zero or, in a planar model, neither normal to the plane
 ///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation, point on
-///         line, point in plane); if the joint is meaningless in a plane; if its second axis or its
-///         length is unsuitable
+///         line, point in plane); if the joint makes no sense in a plane or where it is placed; if
+///         its second axis or its length does not suit it
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);
 
 /// Rows that hold two points together and keep the direction `axis_F` common to both markers: for

@@ -100,8 +100,12 @@ double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
 }
 
 CountedValue JointCoordinate::follow(const CountedValue& before, double fraction) const {
+  if (kind_ != Kind::angle) return {before.turns, fraction};
+  return follow_turns(before, fraction);
+}
+
+CountedValue follow_turns(const CountedValue& before, double fraction) {
   CountedValue out{before.turns, fraction};
-  if (kind_ != Kind::angle) return out;
   const double jump = fraction - before.fraction;
   if (jump > 0.5 * kTurn) --out.turns;
   if (jump < -0.5 * kTurn) ++out.turns;

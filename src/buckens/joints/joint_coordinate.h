@@ -52,7 +52,11 @@ class JointCoordinate {
   double offset_ = 0;                               // of a displacement [m]
 };
 
-/// Difference between two values of a coordinate, to full precision.
+/// The counted angle that is reached from `before` on the shorter way.
+/// @param fraction within the turn, −π … π [rad]
+CountedValue follow_turns(const CountedValue& before, double fraction);
+
+/// How far a coordinate has gone from one value to another, with all digits.
 double difference(const CountedValue& from, const CountedValue& to);
 
 }  // namespace buckens::joints

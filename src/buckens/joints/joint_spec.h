@@ -9,9 +9,12 @@
 
 #include "buckens/base/motion_dimensions.h"
 #include "buckens/base/time_law.h"
+#include "buckens/joints/coupler_spec.h"
 #include "buckens/joints/coupling_specs.h"
 #include "buckens/joints/guide_specs.h"
 #include "buckens/joints/joint_ends.h"
+#include "buckens/joints/meshing_specs.h"
+#include "buckens/joints/slot_spec.h"
 
 namespace buckens::joints {
 
@@ -184,7 +187,8 @@ struct JointSpec {
   std::variant<RevoluteSpec, SphericalSpec, PrismaticSpec, FixedSpec, BushingSpec,
                PrescribedRotationSpec, PrescribedTranslationSpec, CylindricalSpec, PlanarJointSpec,
                UniversalSpec, ConstantVelocitySpec, PointOnLineSpec, PointInPlaneSpec, ParallelSpec,
-               OrientationSpec, DistanceSpec, ScrewSpec>
+               OrientationSpec, DistanceSpec, ScrewSpec, GearSpec, RackSpec, BeltSpec, SlotSpec,
+               CouplerSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -27,6 +27,14 @@ const Load& Model::load_of_rigid_row(int row) const {
                        [&](const Load& load) { return load.rigid_row == row; });
 }
 
+int Model::num_row_states() const {
+  int sum = 0;
+  for (const Joint& joint : joints) {
+    for (const joints::ConstraintRow& row : joint.rows) sum += row.num_states();
+  }
+  return sum;
+}
+
 std::pair<const Joint*, int> Model::owner_of_row(int row) const {
   const auto next = std::upper_bound(joints.begin(), joints.end(), row,
                                      [](int r, const Joint& j) { return r < j.first_row; });
@@ -65,6 +73,7 @@ State placed_state(const Model& model) {
   state.lambda = linalg::Vector::Zero(model.num_constraint_rows());
   state.memory.coordinates.resize(model.coordinates.size());
   state.memory.laws = linalg::Vector::Zero(model.num_law_states());
+  state.memory.rows = linalg::Vector::Zero(model.num_row_states());
   return state;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/body/body.h"
+#include "buckens/joints/coordinate_term.h"
 #include "buckens/joints/joint.h"
 #include "buckens/joints/joint_coordinate.h"
 #include "buckens/loads/force_element.h"
@@ -17,6 +18,12 @@
 
 namespace buckens::model {
 
+/// A joint coordinate that a coupler takes part in.
+struct CoupledCoordinate {
+  int coordinate = 0;  ///< index into Model::coordinates
+  joints::CoordinateTerm term;
+};
+
 /// Joint between two markers with its place in λ.
 struct Joint {
   std::string name;
@@ -24,13 +31,17 @@ struct Joint {
   MarkerId first, second;
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
   std::vector<joints::ConstraintRow> rows;
-  int first_row = 0;     ///< of λ
-  SourceLocation where;  ///< in the model file; for ties that of the body
-  /// Holds the parts of a divided body together; not in the model file.
+  int first_row = 0;    ///< of λ
+  int first_state = 0;  ///< of its rows in RowMemory::rows
+  /// Of a coupler, which has one row between the markers of all these coordinates; those of the
+  /// first are the joint's own. Empty of all other joints.
+  std::vector<CoupledCoordinate> coupled;
+  SourceLocation where;  ///< in the model file; that of the body for ties
+  /// Holds the parts of a divided body together; stands in no model file.
   bool is_tie = false;
 };
 
-/// A coordinate between two markers that a force law or a sensor needs.
+/// A coordinate between two markers that a force law, a coupler or a sensor needs.
 struct Coordinate {
   int joint = -1;  ///< index into Model::joints of the joint that it belongs to, −1: none
   MarkerId first, second;
@@ -95,6 +106,7 @@ struct Model {
   int num_law_states() const;
   int num_rigid_rows() const;
   const Load& load_of_rigid_row(int row) const;
+  int num_row_states() const;
   /// Joint and row within it that own a row of λ.
   std::pair<const Joint*, int> owner_of_row(int row) const;
   int find_body(const std::string& name) const;

@@ -72,6 +72,12 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
     one.number("fraction", memory.coordinates[k].fraction);
   }
   visit.vector("laws", memory.laws, model.num_law_states());
+  visit.vector("rows", memory.rows, model.num_row_states());
+  for (const double value : memory.rows) {
+    // Whole turns are among them.
+    if (!(std::abs(value) <= kMostTurns))
+      visit.refuse("rows", fmt::format("{:g} is no state of a joint", value));
+  }
   if (model.signals.empty()) return;
   visit.list("signals", memory.signals, model.signals.all.size() + 1);
   visit.vector("blocks", memory.blocks, 3 * model.signals.num_states);

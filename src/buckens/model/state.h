@@ -35,6 +35,7 @@ struct BodyState {
 struct RowMemory {
   std::vector<joints::CountedValue> coordinates;  ///< one per Model::coordinates
   linalg::Vector laws;          ///< states of force laws, from Load::first_state of each
+  linalg::Vector rows;          ///< states of joint rows, from Joint::first_state of each
   std::vector<double> signals;  ///< t and the values of all signals then; empty without signals
   /// States of blocks, their rates, and the rates of the method, SignalSet::num_states each.
   linalg::Vector blocks;

@@ -13,19 +13,6 @@ using spatial::Wrench;
 
 namespace {
 
-/// What the rows of a joint do to one of its markers. @param at first column of that marker
-Wrench joint_wrench(const model::Joint& joint, double t, const spatial::MarkerMotion& first,
-                    const spatial::MarkerMotion& second, const linalg::Vector& lambda, int at) {
-  Wrench out;
-  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
-    const double multiplier = lambda[joint.first_row + static_cast<int>(k)];
-    const spatial::PairRow J = joint.rows[k].evaluate(first, second, t).J;
-    out.torque += multiplier * J.segment<3>(at).transpose();
-    out.force += multiplier * J.segment<3>(at + 3).transpose();
-  }
-  return out;
-}
-
 const std::string& marker_name(const model::Model& model, const MarkerId& id) {
   return model.bodies[static_cast<std::size_t>(id.body)]
       .markers[static_cast<std::size_t>(id.marker)]
@@ -48,18 +35,28 @@ InterfaceLoads::InterfaceLoads(const model::Model& model, const model::FieldPlac
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const model::Joint& joint = model.joints[k];
     if (joint.is_tie) continue;
-    add_side(joint.first, {k, true, Side::first});
-    add_side(joint.second, {k, true, Side::second});
+    for (std::size_t c = 0; c < std::max<std::size_t>(joint.coupled.size(), 1); ++c) {
+      const model::Joint& owner = markers_of(joint, c);
+      add_side(owner.first, {k, true, Side::first, c});
+      add_side(owner.second, {k, true, Side::second, c});
+    }
   }
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (!load.region) {
-      add_side(load.first, {k, false, Side::first});
-      add_side(load.second, {k, false, Side::second});
+      add_side(load.first, {k, false, Side::first, 0});
+      add_side(load.second, {k, false, Side::second, 0});
     } else if (is_of_body(load.first) && is_wanted(model::part_of_place(load.region->place))) {
-      add("loads/" + load.name, true, {k, false, Side::first});
+      add("loads/" + load.name, true, {k, false, Side::first, 0});
     }
   }
+}
+
+const model::Joint& InterfaceLoads::markers_of(const model::Joint& joint,
+                                               std::size_t coupled) const {
+  if (joint.coupled.empty()) return joint;
+  const auto index = static_cast<std::size_t>(joint.coupled[coupled].coordinate);
+  return model_.joints[static_cast<std::size_t>(model_.coordinates[index].joint)];
 }
 
 bool InterfaceLoads::is_of_body(const MarkerId& id) const {
@@ -76,8 +73,8 @@ void InterfaceLoads::add(const std::string& path, bool is_distributed, const Sha
 const MarkerId& InterfaceLoads::marker_of(const Share& share) const {
   const bool is_first = share.side == Side::first;
   if (share.is_joint) {
-    const model::Joint& joint = model_.joints[share.index];
-    return is_first ? joint.first : joint.second;
+    const model::Joint& owner = markers_of(model_.joints[share.index], share.coupled);
+    return is_first ? owner.first : owner.second;
   }
   const model::Load& load = model_.loads[share.index];
   return is_first ? load.first : load.second;
@@ -105,8 +102,11 @@ Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
   const bool is_first = share.side == Side::first;
   if (share.is_joint) {
     const model::Joint& joint = model_.joints[share.index];
-    return joint_wrench(joint, state.t, motion(joint.first), motion(joint.second), lambda,
-                        is_first ? 0 : 6);
+    const model::Joint& owner = markers_of(joint, share.coupled);
+    const dynamics::JointWrenches both =
+        dynamics::wrenches_of(model_, joint, state.t, &state.memory, lambda, motion(owner.first),
+                              motion(owner.second), share.coupled);
+    return is_first ? both.on_first : both.on_second;
   }
   const model::Load& load = model_.loads[share.index];
   const loads::Action action =

@@ -41,6 +41,7 @@ class InterfaceLoads {
     std::size_t index = 0;  // of the joint or load in the model
     bool is_joint = false;
     Side side = Side::first;
+    std::size_t coupled = 0;  // which coordinate of a coupler
   };
   struct Place {
     std::string path;             // after the body's: "interfaces/end"
@@ -49,6 +50,8 @@ class InterfaceLoads {
   };
 
   void add(const std::string& path, bool is_distributed, const Share& share);
+  /// The joint on whose markers a joint acts: itself, of a coupler that of one of its coordinates.
+  const model::Joint& markers_of(const model::Joint& joint, std::size_t coupled) const;
   bool is_of_body(const model::MarkerId& id) const;
   const model::MarkerId& marker_of(const Share& share) const;
   spatial::Wrench wrench_of(const Share& share, const model::State& state,

@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/observation.h"
 
+#include "buckens/dynamics/circumstances.h"
+
 namespace buckens::results {
 
 using Eigen::Vector3d;
 
 std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
                                             const std::vector<dynamics::BodyMotion>& motions,
-                                            double t, const linalg::Vector& lambda) {
+                                            double t, const model::RowMemory& memory,
+                                            const linalg::Vector& lambda) {
   std::vector<spatial::Wrench> out;
   out.reserve(model.joints.size());
   for (const model::Joint& joint : model.joints) {
     const auto first = dynamics::evaluate_marker(model, joint.first, motions).motion;
     const auto second = dynamics::evaluate_marker(model, joint.second, motions).motion;
-    spatial::Wrench wrench;
-    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
-      const double multiplier = lambda[joint.first_row + static_cast<int>(k)];
-      const spatial::PairRow J = joint.rows[k].evaluate(first, second, t).J;
-      wrench.torque += multiplier * J.segment<3>(6).transpose();
-      wrench.force += multiplier * J.segment<3>(9).transpose();
-    }
-    out.push_back(wrench);
+    out.push_back(dynamics::wrenches_of(model, joint, t, &memory, lambda, first, second).on_second);
   }
   return out;
 }

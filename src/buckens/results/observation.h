@@ -39,11 +39,13 @@ struct Observation {
 /// What force laws see.
 dynamics::Circumstances circumstances_of(const Observation& now);
 
-/// Force and torque of each joint on its second marker at the marker's origin.
+/// Force and torque of each joint on its second marker at the marker's origin; of couplers on that
+/// of their first coordinate.
 /// @param lambda multipliers, with those of redundant rows distributed
 std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
                                             const std::vector<dynamics::BodyMotion>& motions,
-                                            double t, const linalg::Vector& lambda);
+                                            double t, const model::RowMemory& memory,
+                                            const linalg::Vector& lambda);
 
 /// Motion of a marker with its acceleration.
 struct MarkerObservation {

@@ -195,10 +195,10 @@ Record Recorder::record(const model::State& state, WorkBalance work,
   linalg::Vector lambda = state.lambda;
   if (has_redundant_joints_) {
     dynamics::Constraints constraints;
-    dynamics::evaluate_constraints(model, now.motions, state.t, constraints);
+    dynamics::evaluate_constraints(model, now.motions, state.t, &state.memory, constraints);
     lambda = dynamics::least_multipliers(model, metric_, constraints.rows, lambda);
   }
-  now.joint_wrenches = joint_wrenches(model, now.motions, state.t, lambda);
+  now.joint_wrenches = joint_wrenches(model, now.motions, state.t, state.memory, lambda);
   multipliers_ = std::move(lambda);
   now.nodal.resize(model.bodies.size());
   now.section_forces.resize(model.bodies.size());

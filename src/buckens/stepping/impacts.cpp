@@ -152,7 +152,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
     is_struck = look(k, around, motions, t) || is_struck;
   if (!is_struck) return false;
   const std::vector<dynamics::BodyMotion> then = at_impact(motions);
-  condense(then, bodies, rows_in_use, t);
+  condense(then, bodies, rows_in_use, around.memory, t);
   for (Touch& touch : touches_) {
     set_row(touch, then);
     answer(touch);
@@ -255,7 +255,7 @@ void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
 
 void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
                        const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
-                       double t) {
+                       const model::RowMemory* memory, double t) {
   compliance_.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const body::Body& body = model_.bodies[b];
@@ -266,7 +266,7 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
   joints_.reset();
   if (rows_in_use.empty()) return;
   dynamics::Constraints all;
-  dynamics::evaluate_constraints(model_, motions, t, all);
+  dynamics::evaluate_constraints(model_, motions, t, memory, all);
   std::vector<dynamics::SystemRow> rows;
   rows.reserve(rows_in_use.size());
   for (const int row : rows_in_use) rows.push_back(all.rows[static_cast<std::size_t>(row)]);

@@ -90,7 +90,8 @@ class Impacts {
   void set_approach(Touch& touch, const loads::RigidLaw& law, const loads::CoordinateMotion& start,
                     const loads::CoordinateMotion& end, double sign, double gap) const;
   void condense(const std::vector<dynamics::BodyMotion>& motions,
-                const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use, double t);
+                const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
+                const model::RowMemory* memory, double t);
   void answer(Touch& touch);
   void sum_up(const linalg::Vector& P);
 

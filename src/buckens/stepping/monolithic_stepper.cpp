@@ -200,8 +200,8 @@ void MonolithicStepper::evaluate(double t) {
                     part.frame_history.mean_velocity, &part.nodal_history.mean_velocity);
   }
   const double t_e = scheme_.evaluation_time(t);
-  dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, end_);
-  dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, evaluation_);
+  dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, &memory_, end_);
+  dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, &memory_, evaluation_);
   dynamics::evaluate_soft_rows(model_, motions_evaluation_, t_e, around(), soft_);
   dynamics::evaluate_forces(model_, motions_evaluation_, t_e, around(), forces_);
   dynamics::add_joint_forces(evaluation_, lambda_, forces_);
@@ -235,7 +235,7 @@ void MonolithicStepper::update_coupling(Part& part) {
 std::vector<MonolithicStepper::Entry> MonolithicStepper::entries(
     const dynamics::SystemRow& row) const {
   std::vector<Entry> out;
-  for (const dynamics::BodyRow* share : {&row.first, &row.second}) {
+  for (const dynamics::BodyRow* share : row.parts()) {
     if (share->body == model::kGround) continue;
     const Part& part = *parts_[static_cast<std::size_t>(share->body)];
     const Eigen::RowVectorXd frame = share->frame * part.basis;

@@ -59,7 +59,7 @@ linalg::SparseMatrix scaled_images(const model::Model& model,
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::size_t begin = entries.size();
     double square = 0;
-    for (const dynamics::BodyRow* part : {&rows[r].first, &rows[r].second}) {
+    for (const dynamics::BodyRow* part : rows[r].parts()) {
       if (part->body == model::kGround) continue;
       const auto b = static_cast<std::size_t>(part->body);
       const RowVectorXd values = image(*part, compliance[b]).cwiseProduct(lengths[b]);

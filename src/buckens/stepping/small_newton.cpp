@@ -94,9 +94,10 @@ void SmallNewton::use(const dynamics::Circumstances& around) {
 }
 
 dynamics::SystemRow SmallNewton::without_rates(dynamics::SystemRow row) const {
-  for (dynamics::BodyRow* part : {&row.first, &row.second}) {
-    if (part->body == model::kGround) continue;
-    if (shares_[static_cast<std::size_t>(part->body)].is_quasi_static()) part->interface.setZero();
+  for (std::size_t k = 0; k < row.num_parts(); ++k) {
+    dynamics::BodyRow& part = row.part(k);
+    if (part.body == model::kGround) continue;
+    if (shares_[static_cast<std::size_t>(part.body)].is_quasi_static()) part.interface.setZero();
   }
   return row;
 }
@@ -114,10 +115,10 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_);
   if (same) {
-    joints_.evaluate(end_, t + scheme_.h, residuals_, &lambda, &forces_);
+    joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_);
   } else {
-    joints_.evaluate(end_, t + scheme_.h, residuals_);
-    joints_.evaluate(evaluation_, t_e, other_residuals_, &lambda, &forces_);
+    joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_);
+    joints_.evaluate(evaluation_, t_e, around_.memory, other_residuals_, &lambda, &forces_);
   }
   keep_shapes_in_rates(bodies, t + scheme_.h);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -131,7 +132,7 @@ void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, doub
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].uncorrected_motion(scheme_, answers_[b], uncorrected_[b]);
   }
-  joints_.evaluate(uncorrected_, t_end, other_residuals_);
+  joints_.evaluate(uncorrected_, t_end, around_.memory, other_residuals_);
   residuals_.g_dot = other_residuals_.g_dot;
 }
 
@@ -158,7 +159,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     trusted_pivots_ = std::max(trusted_pivots_, pivots);
   }
   if (is_closed) return;
-  joints_.evaluate(end_, t + scheme_.h, residuals_);
+  joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_);
   StepReport report;
   report.worst_row = rows_in_use_.empty() ? 0 : rows_in_use_.front();
   if (!dependent_.empty()) report.worst_row = dependent_.front();
@@ -176,11 +177,13 @@ void SmallNewton::number_rows_in_use() {
 }
 
 void SmallNewton::set_joint_rows(double t) {
-  std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows, acting;
+  auto& rows = rows_of_joint_;
+  auto& acting = acting_of_joint_;
   const bool same = scheme_.weight == 1.0;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    joints_.derivatives(j, end_, t + scheme_.h, rows);
-    if (!same) joints_.derivatives(j, evaluation_, scheme_.evaluation_time(t), acting);
+    joints_.derivatives(j, end_, t + scheme_.h, around_.memory, rows);
+    if (!same)
+      joints_.derivatives(j, evaluation_, scheme_.evaluation_time(t), around_.memory, acting);
     for (int k = 0; k < joints_.num_rows(j); ++k) {
       const int place = place_in_use_[static_cast<std::size_t>(joints_.first_row(j) + k)];
       if (place < 0) continue;
@@ -219,7 +222,7 @@ std::vector<dynamics::SystemRow> SmallNewton::row_pattern(double t) {
   std::vector<dynamics::SystemRow> pattern(rows_in_use_.size());
   std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    joints_.derivatives(j, end_, t + scheme_.h, rows);
+    joints_.derivatives(j, end_, t + scheme_.h, around_.memory, rows);
     for (int k = 0; k < joints_.num_rows(j); ++k) {
       const int place = place_in_use_[static_cast<std::size_t>(joints_.first_row(j) + k)];
       if (place >= 0) pattern[static_cast<std::size_t>(place)] = rows[static_cast<std::size_t>(k)];
@@ -279,7 +282,7 @@ bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
     if (shares_[b].is_quasi_static()) compliance[b].interface = nullptr;
   }
   dynamics::Constraints all;
-  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
+  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, around_.memory, all);
   linalg::RowRank rank = select_rows(model_, all.rows, compliance);
   dependent_ = std::move(rank.dependent);
   // Fewer rows mean a dead centre. Near it the step continues with the rows it has; exactly at it,
@@ -303,7 +306,7 @@ void SmallNewton::watch_rows(double t, StepReport& report) {
   const int row = watch_.look(residuals_, place_in_use_, report);
   if (row < 0) return;
   dynamics::Constraints all;
-  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, all);
+  dynamics::evaluate_constraints(model_, end_, t + scheme_.h, around_.memory, all);
   throw StepFailure(watch_.describe_contradiction(row, t + scheme_.h, residuals_, all.rows,
                                                   compliance_, rows_in_use_));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -142,6 +143,8 @@ class SmallNewton {
   dynamics::JointResiduals residuals_;        // at the end of the step
   dynamics::JointResiduals other_residuals_;  // elsewhere
   dynamics::Forces forces_;
+  /// Scratch: rows of couplers own memory.
+  std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows_of_joint_, acting_of_joint_;
   dynamics::SoftRows soft_, soft_now_;  // at the predicted configuration; scratch
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff

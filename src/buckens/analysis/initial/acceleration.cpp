@@ -54,7 +54,7 @@ class Accelerations {
  private:
   void start() {
     const auto motions = dynamics::motions_of(model_, state_);
-    dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
+    dynamics::evaluate_constraints(model_, motions, state_.t, &state_.memory, constraints_);
     find_rows(motions);
     dynamics::evaluate_forces(model_, motions, state_.t, dynamics::circumstances_of(state_),
                               forces_);
@@ -95,7 +95,7 @@ class Accelerations {
 
   /// Joint rows in use, then the closed rigid rows of force laws, whose forces are to be found.
   void find_rows(const std::vector<dynamics::BodyMotion>& motions) {
-    const Vector bias = dynamics::constraint_bias(model_, motions, state_.t);
+    const Vector bias = dynamics::constraint_bias(model_, motions, state_.t, &state_.memory);
     for (const int row : rows_in_use_) {
       rows_.push_back(constraints_.rows[static_cast<std::size_t>(row)]);
       bias_.push_back(bias[row]);
@@ -140,7 +140,7 @@ class Accelerations {
     Vector X(static_cast<Eigen::Index>(rows_.size()));
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       double value = -bias_[k];
-      for (const dynamics::BodyRow* part : {&rows_[k].first, &rows_[k].second}) {
+      for (const dynamics::BodyRow* part : rows_[k].parts()) {
         if (part->body == model::kGround) continue;
         const auto b = static_cast<std::size_t>(part->body);
         value -= part->change(frame[b], y[b]);

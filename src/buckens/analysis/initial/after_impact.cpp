@@ -18,7 +18,7 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
                  const dynamics::MassMetric& metric, model::State& state) {
   const auto motions = dynamics::motions_of(model, state);
   dynamics::Constraints joints;
-  dynamics::evaluate_constraints(model, motions, state.t, joints);
+  dynamics::evaluate_constraints(model, motions, state.t, &state.memory, joints);
   dynamics::SoftRows soft;
   dynamics::evaluate_soft_rows(model, motions, state.t, dynamics::circumstances_of(state), soft);
   std::vector<dynamics::SystemRow> rows;

@@ -38,7 +38,8 @@ std::vector<OpenJoint> open_joints(const model::Model& model, double t) {
   model::State placed = model::placed_state(model);
   placed.t = t;
   dynamics::Constraints constraints;
-  dynamics::evaluate_constraints(model, dynamics::motions_of(model, placed), t, constraints);
+  dynamics::evaluate_constraints(model, dynamics::motions_of(model, placed), t, &placed.memory,
+                                 constraints);
   for (const model::Joint& joint : model.joints) {
     OpenJoint open{&joint, 0, 0};
     for (std::size_t k = 0; k < joint.rows.size(); ++k) {

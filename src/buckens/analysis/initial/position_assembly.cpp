@@ -53,7 +53,7 @@ class LeastMotion {
       const SystemRow& row = rows[k];
       const double length = lengths_[static_cast<Eigen::Index>(k)];
       double value = 0.0;
-      for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+      for (const dynamics::BodyRow* part : row.parts()) {
         if (part->body == model::kGround) continue;
         const auto& C = compliance_[static_cast<std::size_t>(part->body)];
         value += part->frame.dot(C.frame * part->frame.transpose());
@@ -192,7 +192,7 @@ class PositionClosure {
   Vector shares() const { return constraints_.g.cwiseQuotient(lengths_); }
   void evaluate() {
     const auto motions = dynamics::motions_of(model_, state_);
-    dynamics::evaluate_constraints(model_, motions, state_.t, constraints_);
+    dynamics::evaluate_constraints(model_, motions, state_.t, &state_.memory, constraints_);
     starts_.append(motions, share_, constraints_);
   }
   /// Moves as far as the gaps become smaller; not at all if they do not.
@@ -259,7 +259,7 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
   Constraints constraints;
   const auto evaluate = [&] {
     const auto motions = dynamics::motions_of(model, state);
-    dynamics::evaluate_constraints(model, motions, state.t, constraints);
+    dynamics::evaluate_constraints(model, motions, state.t, &state.memory, constraints);
     held.append(motions, 1.0, constraints);
   };
   std::vector<Eigen::Matrix3d> J;

@@ -40,6 +40,19 @@ std::vector<std::string> describe_redundancy(const model::Model& model,
   return out;
 }
 
+/// Settles which rigid rows hold. Rows that depend on the sign of their multiplier know it from
+/// here on.
+void settle_rows(const model::Model& model, const dynamics::MassMetric& metric,
+                 const std::vector<int>& rows_in_use, model::State& state) {
+  settle_rigid_rows(model, metric, rows_in_use, state);
+  constexpr int kMostRounds = 4;  // signs of redundant rows may hang on each other
+  for (int round = 0; round < kMostRounds; ++round) {
+    const auto motions = dynamics::motions_of(model, state);
+    if (!dynamics::follow_reactions(model, motions, state.lambda, state.memory)) return;
+    settle_rigid_rows(model, metric, rows_in_use, state);
+  }
+}
+
 }  // namespace
 
 Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric) {
@@ -81,7 +94,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
 
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, out.state), out.state.t,
-                                 constraints);
+                                 &out.state.memory, constraints);
   const linalg::RowRank rank = metric.split(constraints.rows);
   out.rows_in_use = rank.independent;
   out.redundant_rows = rank.dependent;
@@ -96,7 +109,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   out.state.memory = dynamics::start_memory(model, motions);
   count_start_turns(built.starts, model, out.state.memory);
   dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns
-  settle_rigid_rows(model, metric, out.rows_in_use, out.state);
+  settle_rows(model, metric, out.rows_in_use, out.state);
   const bool sees_reactions = std::any_of(model.loads.begin(), model.loads.end(),
                                           [](const model::Load& load) { return load.joint >= 0; });
   if (sees_reactions) settle_friction(model, metric, out.rows_in_use, out.state);

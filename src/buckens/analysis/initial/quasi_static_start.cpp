@@ -49,7 +49,7 @@ void settle_accelerations(const model::Model& model, const dynamics::MassMetric&
   for (int round = 0; round < kMostRounds; ++round) {
     const auto motions = dynamics::motions_of(model, state);
     dynamics::Constraints constraints;
-    dynamics::evaluate_constraints(model, motions, state.t, constraints);
+    dynamics::evaluate_constraints(model, motions, state.t, &state.memory, constraints);
     dynamics::Forces forces;
     dynamics::evaluate_forces(model, motions, state.t, dynamics::circumstances_of(state), forces);
     dynamics::add_joint_forces(constraints, state.lambda, forces);

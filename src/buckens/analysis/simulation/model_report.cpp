@@ -184,12 +184,12 @@ ModelReport report_model(const model::BuiltModel& built) {
 
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, prepared.state), 0.0,
-                                 constraints);
+                                 &prepared.state.memory, constraints);
   if (constraints.g.size() > 0) out.assembly_gap = constraints.g.cwiseAbs().maxCoeff();
   std::vector<dynamics::SystemRow> rigid_rows = constraints.rows;
   for (dynamics::SystemRow& row : rigid_rows) {
-    row.first.translation_row = row.first.rotation_row = -1;
-    row.second.translation_row = row.second.rotation_row = -1;
+    for (std::size_t k = 0; k < row.num_parts(); ++k)
+      row.part(k).translation_row = row.part(k).rotation_row = -1;
   }
   out.degrees_of_freedom =
       coordinates - static_cast<int>(metric.split(rigid_rows).independent.size());

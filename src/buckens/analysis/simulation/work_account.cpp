@@ -26,7 +26,7 @@ WorkAccount::Powers WorkAccount::powers(const model::State& state) {
   dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces_);
   out.active = forces_.active_power + forces_.dissipation;
   out.damping = forces_.dissipation;
-  joints_.evaluate(motions, state.t, residuals_, &state.lambda, &forces_);
+  joints_.evaluate(motions, state.t, &state.memory, residuals_, &state.lambda, &forces_);
   out.g_t = residuals_.g_t;
   return out;
 }

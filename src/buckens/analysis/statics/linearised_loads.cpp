@@ -6,6 +6,7 @@
 
 #include "buckens/body/body_lengths.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/row_memory.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -113,7 +114,8 @@ Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, doub
   }
   dynamics::Forces forces;
   dynamics::Constraints constraints;
-  dynamics::evaluate_constraints(model_, moved, t, constraints);
+  const model::RowMemory memory = dynamics::memory_at_rest(model_, moved, lambda);
+  dynamics::evaluate_constraints(model_, moved, t, &memory, constraints);
   dynamics::evaluate_forces(model_, moved, t, forces, load_factor);
   dynamics::add_joint_forces(constraints, lambda, forces);
   Vector out(size_);

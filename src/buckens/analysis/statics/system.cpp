@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "buckens/dynamics/row_memory.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -107,7 +108,8 @@ std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const St
 StaticBalance StaticSystem::balance(const StaticPoint& point) const {
   const std::vector<dynamics::BodyMotion> motions = motions_at(model_, point);
   StaticBalance out;
-  dynamics::evaluate_constraints(model_, motions, t_, out.constraints);
+  const model::RowMemory memory = dynamics::memory_at_rest(model_, motions, point.lambda);
+  dynamics::evaluate_constraints(model_, motions, t_, &memory, out.constraints);
   dynamics::evaluate_forces(model_, motions, t_, out.forces, point.load_factor);
   dynamics::add_joint_forces(out.constraints, point.lambda, out.forces);
   return out;
@@ -164,7 +166,7 @@ void StaticSystem::linearise(const StaticPoint& point, const StaticBalance& bala
 void StaticSystem::add_joint_derivatives(const StaticBalance& balance) {
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     const auto& row = balance.constraints.rows[static_cast<std::size_t>(rows_in_use_[k])];
-    for (const BodyRow* part : {&row.first, &row.second}) {
+    for (const BodyRow* part : row.parts()) {
       if (part->body != model::kGround) add_row(k, *part);
     }
   }

@@ -28,7 +28,7 @@ class AtRest {
       motion.frame.v.setZero();
       motion.y_dot.setZero();
     }
-    dynamics::evaluate_constraints(model, motions_, state.t, constraints_);
+    dynamics::evaluate_constraints(model, motions_, state.t, &state.memory, constraints_);
   }
 
   RestTangent run(RestLoads loads) {
@@ -79,7 +79,7 @@ void AtRest::add_joint_rows() {
   std::vector<Triplet> entries;
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     const auto& row = constraints_.rows[static_cast<std::size_t>(rows_in_use_[k])];
-    for (const BodyRow* part : {&row.first, &row.second}) {
+    for (const BodyRow* part : row.parts()) {
       if (part->body == model::kGround) continue;
       const Vector own = loads_.gradient(*part);
       const int first = out_.bodies[static_cast<std::size_t>(part->body)].first;

@@ -231,7 +231,7 @@ VibrationReport SystemVibrations::run() {
   find_position();
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model_, dynamics::motions_of(model_, out_.position),
-                                 out_.position.t, constraints);
+                                 out_.position.t, &out_.position.memory, constraints);
   const std::vector<int> rows_in_use = metric_.split(constraints.rows).independent;
   const bool is_static = settings_.about == RestPosition::static_equilibrium;
   const RestTangent tangent = rest_tangent(model_, out_.position, rows_in_use,

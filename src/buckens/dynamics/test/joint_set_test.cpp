@@ -51,6 +51,18 @@ model::Model all_joints() {
   m.add_joint(JointType::prescribed_translation, m.node_marker(block, 5),
               test::Mechanism::ground({0, 2, 0}), axis, way);
   m.add_joint(JointType::fixed, m.node_marker(rod, 1), m.node_marker(rod, 2));  // of one body
+  m.add_joint(JointType::gear, m.node_marker(rod, 1), on_rigid, axis, std::nullopt,
+              [](joints::Placement& placement) {
+                placement.sizes = {17, 29};
+                placement.pressure_angle = 0.3;
+              });
+  using Kind = joints::JointCoordinate::Kind;
+  joints::CoordinateTerm curve;
+  curve.function = joints::CoordinateFunction::polynomial({0.1, 0.2, -0.3});
+  m.add_coupler({{m.add_coordinate(0, Kind::angle), {0.7, std::nullopt}},
+                 {m.add_coordinate(3, Kind::displacement), curve},
+                 {m.add_coordinate(5, Kind::displacement), {-1.3, std::nullopt}}});
+  m.add_joint(JointType::spherical, test::Mechanism::ground({0.1, 0, 0}), on_rigid);  // behind it
   return m.take();
 }
 
@@ -77,6 +89,14 @@ std::vector<BodyMotion> any_motions(const model::Model& model) {
   return out;
 }
 
+/// Some turns, and a flank that carries.
+model::RowMemory any_memory(const model::Model& model) {
+  model::RowMemory out = model::placed_state(model).memory;
+  out.coordinates[0].turns = 2;
+  out.rows << -1, 0.1, 3, 0.2, -1;
+  return out;
+}
+
 constexpr double kInstant = 0.37;
 // Sums of a few products of numbers up to ten, in another order.
 constexpr double kOrder = 1e-13;
@@ -85,7 +105,8 @@ TEST(JointSet, EvaluatesAsTheModelDoes) {
   const model::Model model = all_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
   Constraints expected;
-  evaluate_constraints(model, motions, kInstant, expected);
+  const model::RowMemory memory = any_memory(model);
+  evaluate_constraints(model, motions, kInstant, &memory, expected);
   Vector lambda(model.num_constraint_rows());
   for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = any_number(7 * k);
   Forces by_model, by_set;
@@ -94,7 +115,7 @@ TEST(JointSet, EvaluatesAsTheModelDoes) {
 
   const JointSet joints(model);
   JointResiduals found;
-  joints.evaluate(motions, kInstant, found, &lambda, &by_set);
+  joints.evaluate(motions, kInstant, &memory, found, &lambda, &by_set);
   ASSERT_EQ(found.g.size(), expected.g.size());
   EXPECT_LE((found.g - expected.g).cwiseAbs().maxCoeff(), kOrder);
   EXPECT_LE((found.g_dot - expected.g_dot).cwiseAbs().maxCoeff(), kOrder);
@@ -111,18 +132,21 @@ TEST(JointSet, DerivesAsTheModelDoes) {
   const model::Model model = all_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
   Constraints expected;
-  evaluate_constraints(model, motions, kInstant, expected);
+  const model::RowMemory memory = any_memory(model);
+  evaluate_constraints(model, motions, kInstant, &memory, expected);
   const JointSet joints(model);
   std::array<SystemRow, JointSet::kMostRows> rows;  // as of another joint before
   int count = 0;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    joints.derivatives(j, motions, kInstant, rows);
+    joints.derivatives(j, motions, kInstant, &memory, rows);
     for (int k = 0; k < joints.num_rows(j); ++k, ++count) {
       ASSERT_EQ(joints.first_row(j) + k, count);
       const SystemRow& row = expected.rows[static_cast<std::size_t>(count)];
       const SystemRow& found = rows[static_cast<std::size_t>(k)];
-      for (const auto& [a, b] :
-           {std::pair(&row.first, &found.first), std::pair(&row.second, &found.second)}) {
+      ASSERT_EQ(row.num_parts(), found.num_parts()) << count;
+      for (std::size_t part = 0; part < row.num_parts(); ++part) {
+        const BodyRow* const a = &row.part(part);
+        const BodyRow* const b = &found.part(part);
         ASSERT_EQ(a->body, b->body) << count;
         if (a->body == model::kGround) continue;
         EXPECT_EQ(a->translation_row, b->translation_row);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -94,11 +95,13 @@ class Mechanism {
     return out;
   }
 
-  /// Joint between markers in their current positions.
+  /// Joint between markers as they stand now.
+  /// @param more sets what the joint needs beside its axis
   void add_joint(joints::JointType type, const model::MarkerId& first,
                  const model::MarkerId& second,
                  const Eigen::Vector3d& axis_F = Eigen::Vector3d::UnitZ(),
-                 std::optional<base::TimeLaw> law = std::nullopt) {
+                 std::optional<base::TimeLaw> law = std::nullopt,
+                 const std::function<void(joints::Placement&)>& more = nullptr) {
     model::Joint joint;
     joint.name = "j" + std::to_string(model_.joints.size());
     joint.type = type;
@@ -112,8 +115,37 @@ class Mechanism {
     placement.axis_F = axis_F;
     placement.planar = model_.planar;
     placement.law = std::move(law);
+    if (more) more(placement);
     joint.rows = joints::make_rows(type, placement);
     joint.first_row = model_.num_constraint_rows();
+    joint.first_state = model_.num_row_states();
+    model_.joints.push_back(std::move(joint));
+  }
+
+  /// Coordinate of a joint as it stands now. @return its index, for add_coupler()
+  int add_coordinate(int joint, joints::JointCoordinate::Kind kind) {
+    const model::Joint& owner = model_.joints[static_cast<std::size_t>(joint)];
+    const spatial::Pose F = world_pose(owner.first);
+    const spatial::Pose M = world_pose(owner.second);
+    model_.coordinates.push_back(
+        {joint, owner.first, owner.second,
+         kind == joints::JointCoordinate::Kind::angle
+             ? joints::JointCoordinate::angle(owner.axis_F, F.R().transpose() * M.R())
+             : joints::JointCoordinate::displacement(owner.axis_F, F.inverse() * M.p)});
+    return static_cast<int>(model_.coordinates.size()) - 1;
+  }
+
+  void add_coupler(const std::vector<model::CoupledCoordinate>& coupled) {
+    const model::Coordinate& front =
+        model_.coordinates[static_cast<std::size_t>(coupled.front().coordinate)];
+    model::Joint joint = model_.joints[static_cast<std::size_t>(front.joint)];
+    joint.name = "j" + std::to_string(model_.joints.size());
+    joint.type = joints::JointType::coupler;
+    joint.rows = {joints::ConstraintRow::coupled(front.law.kind() ==
+                                                 joints::JointCoordinate::Kind::displacement)};
+    joint.first_row = model_.num_constraint_rows();
+    joint.first_state = model_.num_row_states();
+    joint.coupled = coupled;
     model_.joints.push_back(std::move(joint));
   }
 

@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/loads/bushing.h"
+#include "buckens/model/build/add_coupler.h"
 
 namespace buckens::model {
 
@@ -52,6 +53,11 @@ class JointBuilder {
       }
       void operator()(const joints::DistanceSpec& k) { b.add_rows(JointType::distance, k, spec); }
       void operator()(const joints::ScrewSpec& k) { b.add_rows(JointType::screw, k, spec); }
+      void operator()(const joints::GearSpec& k) { b.add_rows(JointType::gear, k, spec); }
+      void operator()(const joints::RackSpec& k) { b.add_rows(JointType::rack, k, spec); }
+      void operator()(const joints::BeltSpec& k) { b.add_rows(JointType::belt, k, spec); }
+      void operator()(const joints::SlotSpec& k) { b.add_rows(JointType::slot, k, spec); }
+      void operator()(const joints::CouplerSpec&) { add_coupler(spec, b.find_); }
     };
     std::visit(Adder{*this, spec}, spec.kind);
   }
@@ -74,6 +80,7 @@ class JointBuilder {
     if constexpr (requires { kind.second_axis; }) placement.second_axis_F = kind.second_axis;
     if constexpr (requires { kind.length; }) placement.length = kind.length;
     if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;
+    place_teeth(kind, placement);
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
@@ -87,6 +94,32 @@ class JointBuilder {
     joint.where = spec.where;
     joint.first_row = find_.model().num_constraint_rows();
     find_.model().joints.push_back(std::move(joint));
+  }
+
+  /// What gears, racks, belts and slots say beside markers and axis.
+  template <class Spec>
+  static void place_teeth(const Spec& kind, joints::Placement& placement) {
+    if constexpr (requires { kind.pressure_angle; }) {
+      placement.pressure_angle = kind.pressure_angle;
+      placement.helix_angle = kind.helix_angle;
+    }
+    if constexpr (requires { kind.teeth; }) {
+      placement.sizes = kind.teeth;
+      placement.same_sense = kind.internal;
+    }
+    if constexpr (requires { kind.path; }) {
+      placement.path = kind.path;
+      placement.is_closed = kind.closed;
+      placement.path_normal_F = kind.normal;
+    }
+    if constexpr (requires { kind.radii; }) {
+      placement.sizes = kind.radii;
+      placement.same_sense = !kind.crossed;
+    }
+    if constexpr (requires { kind.radius; }) {
+      placement.sizes = {kind.radius, kind.radius};
+      placement.second_axis_F = kind.along;
+    }
   }
 
   void add_bushing(const joints::BushingSpec& kind, const joints::JointSpec& spec) {

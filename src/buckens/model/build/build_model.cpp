@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/model/build/add_coupler.h"
 #include "buckens/model/build/add_distributed_load.h"
 #include "buckens/model/build/add_joint.h"
 #include "buckens/model/build/add_joint_law.h"
@@ -55,7 +56,12 @@ class Builder {
     for (std::size_t w = 0; w < divisions_.size(); ++w) {
       if (divisions_[w]) add_ties(model_.wholes[w], *divisions_[w], find);
     }
-    for (const joints::JointSpec& joint : d.joints) add_joint(joint, find);
+    for (const joints::JointSpec& joint : d.joints) {
+      if (!is_coupler(joint)) add_joint(joint, find);
+    }
+    for (const joints::JointSpec& joint : d.joints) {
+      if (is_coupler(joint)) add_coupler(joint, find);
+    }
     add_signals(d, find);
     for (const loads::LoadSpec& load : d.loads) {
       if (!DistributedLoads::takes(load) && !is_joint_law(load)) add_load(load, find);
@@ -260,9 +266,15 @@ class Builder {
                     : joints::JointCoordinate::Kind::displacement;
   }
 
-  /// Places of the states and of the rigid rows of force laws, one law after the other.
+  /// Places of the states of joints, and of the states and rigid rows of force laws, one after the
+  /// other.
   void number_states() {
     int next = 0;
+    for (Joint& joint : model_.joints) {
+      joint.first_state = next;
+      for (const joints::ConstraintRow& row : joint.rows) next += row.num_states();
+    }
+    next = 0;
     int rigid_rows = 0;
     for (Load& load : model_.loads) {
       load.first_state = next;

@@ -42,7 +42,6 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
                                       base::suggestion(name, names_of(model.joints)))};
 }
 
-/// A law or sensor of a joint's angle or displacement needs a joint that has it.
 Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
                          const std::string& key) {
   if (Found found = joint_problem(name, model)) return Finding{key, found->text};
@@ -82,6 +81,8 @@ Found give_problem(const Spec& spec) {
   }
   return std::nullopt;
 }
+
+namespace {
 
 Found stop_problem(const loads::JointStop& spec, const char* unit) {
   if (!spec.from && !spec.to) {

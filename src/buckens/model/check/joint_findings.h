@@ -33,5 +33,10 @@ Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescriptio
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription& model);
+/// Whether a coupler names joints that do not exist, or have no such coordinate.
+Found coupled_joints_problem(const ModelDescription& model);
 
 }  // namespace buckens::model

@@ -11,13 +11,6 @@
 
 namespace buckens::model {
 
-namespace {
-
-constexpr double kMostSteps = 1e10;
-// Third differences of positions contain a few times their rounding.
-constexpr double kLeastTolerance = 1e-13;
-constexpr int kMostStaticPoints = 1000000;
-
 Found needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
                           const ModelDescription& model) {
   if (axis) return axis_problem(*axis);
@@ -26,6 +19,13 @@ Found needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
                  "the key \"axis\" is missing; a model in space needs it, for example "
                  "axis: [0, 0, 1]"};
 }
+
+namespace {
+
+constexpr double kMostSteps = 1e10;
+// Third differences of positions contain a few times their rounding.
+constexpr double kLeastTolerance = 1e-13;
+constexpr int kMostStaticPoints = 1000000;
 
 /// Springs and sensors may connect two markers of one flexible body, joints may not.
 Found ends_problem(const std::array<base::MarkerRef, 2>& between, bool is_joint) {
@@ -294,6 +294,7 @@ Found problem(const ModelDescription& spec, const ModelDescription&) {
                    "gravity of a planar model must lie in its plane; set the component "
                    "normal to it to zero"};
   }
+  if (Found found = coupled_joints_problem(spec)) return found;
   return stops_problem(spec);
 }
 

@@ -64,6 +64,9 @@ Found problem(const ModelDescription& spec, const ModelDescription& model);
 
 /// Joints that start outside of their stops.
 Found stops_problem(const ModelDescription& model);
+/// An axis is zero, or left out where no plane says it.
+Found needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
+                          const ModelDescription& model);
 
 /// What is wrong with a body once it is known what it is made of: `like` resolved, mesh read.
 Found problem_when_complete(const body::BodySpec& spec, const ModelDescription& model);

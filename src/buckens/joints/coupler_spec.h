@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "buckens/base/field.h"
+
+namespace buckens::joints {
+
+/// Coordinate of a joint.
+enum class CoordinateChoice { angle, displacement };
+
+constexpr std::array<const char*, 2> choice_names(CoordinateChoice) {
+  return {"angle", "displacement"};
+}
+
+/// One term of a coupler, named after its joint. At most one of factor, polynomial and table is
+/// given.
+struct CouplerTermSpec {
+  std::string name;  ///< of the joint
+  SourceLocation where;
+  std::optional<double> factor;
+  std::vector<double> polynomial;
+  std::vector<std::array<double, 2>> table;
+  std::optional<CoordinateChoice> which;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("times", factor, "factor of the coordinate, in rad or m")
+              .of_any_dimension()
+              .shorthand()
+              .like("-2")
+              .otherwise("1"));
+    visit(base::field("polynomial", polynomial,
+                      "in place of the factor: coefficients of 1, x, x^2, ..., x in rad or m")
+              .like("[0, 0.1, 0.02]")
+              .otherwise("a factor"));
+    visit(base::field("table", table,
+                      "in place of the factor: points [x, value], x in rad or m, of a smooth curve")
+              .like("[[0, 0], [1, 0.2], [2, 0.7]]")
+              .otherwise("a factor"));
+    visit(base::field("which", which, "of joints that turn and slide")
+              .like("displacement")
+              .otherwise("the angle of joints that turn"));
+  }
+};
+
+struct CouplerSpec {
+  static constexpr const char* kKey = "coupler";
+  static constexpr const char* kDoc =
+      "keeps a sum over coordinates of other joints at zero: angles counted over turns and "
+      "displacements, both from the position as placed";
+  std::vector<CouplerTermSpec> of;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "terms of the sum by the name of their joint: a factor or a map")
+              .required()
+              .like("{drum: 0.2, slide: -1}"));
+  }
+};
+
+}  // namespace buckens::joints

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with gears, racks and couplers.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/model/check/joint_findings.h"
+#include "buckens/model/check/marker_names.h"
+#include "buckens/model/check/spec_findings.h"
+
+namespace buckens::model {
+
+namespace {
+
+// Teeth of larger angles exist in no catalogue; 90 degrees would be singular.
+constexpr double kLargestToothAngle = 60.0 * std::numbers::pi / 180.0;
+
+std::string degrees(double angle) {
+  return fmt::format("{:.6g} degrees", angle * 180.0 / std::numbers::pi);
+}
+
+Found tooth_problem(const joints::ToothAngles& spec, const ModelDescription& model) {
+  for (const auto& [key, angle] : {std::pair("pressure-angle", spec.pressure_angle),
+                                   std::pair("helix-angle", spec.helix_angle)}) {
+    if (std::abs(angle) <= kLargestToothAngle) continue;
+    return Finding{key, fmt::format("expected at most 60 degrees, found {}; common are 20 degrees "
+                                    "of pressure and 0 to 30 degrees of helix",
+                                    degrees(angle))};
+  }
+  if (spec.helix_angle != 0.0 && model.planar) {
+    return Finding{"helix-angle",
+                   fmt::format("a helix of {} makes forces normal to the plane, which a planar "
+                               "model does not have; leave it out, or leave `planar` out",
+                               degrees(spec.helix_angle))};
+  }
+  return std::nullopt;
+}
+
+Found function_problem(const joints::CouplerTermSpec& term) {
+  const int given =
+      int{term.factor.has_value()} + int{!term.polynomial.empty()} + int{!term.table.empty()};
+  if (given > 1) {
+    return Finding{"", "only one of the keys times, polynomial and table can be given"};
+  }
+  if (term.factor && *term.factor == 0.0) {
+    return Finding{"times", "a factor of 0 takes the joint out of the sum; remove the term"};
+  }
+  if (term.table.empty()) return std::nullopt;
+  if (term.table.size() < 2) {
+    return Finding{"table", "a table of one point is no curve; give at least two"};
+  }
+  for (std::size_t i = 1; i < term.table.size(); ++i) {
+    if (term.table[i][0] > term.table[i - 1][0]) continue;
+    return Finding{
+        fmt::format("table.{}", i),
+        fmt::format("coordinates of a table must increase, but {:g} follows {:g}; sort the points",
+                    term.table[i][0], term.table[i - 1][0])};
+  }
+  if (term.table.front()[0] > 0.0 || term.table.back()[0] < 0.0) {
+    return Finding{"table", fmt::format("the joint starts at 0, as placed, outside of the table "
+                                        "from {:g} to {:g}; add points",
+                                        term.table.front()[0], term.table.back()[0])};
+  }
+  return std::nullopt;
+}
+
+Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& model) {
+  if (base::find_named(model.joints, term.name) == nullptr) {
+    return Finding{"", fmt::format("unknown joint \"{}\".{}", term.name,
+                                   base::suggestion(term.name, names_of(model.joints)))};
+  }
+  const auto* joint = base::find_named(model.joints, term.name);
+  const bool turns = term.which ? *term.which == joints::CoordinateChoice::angle : joint->turns();
+  if (Found found = coordinate_problem(term.name, turns, model, "")) return found;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model) {
+  if (spec.internal && spec.teeth[0] == spec.teeth[1]) {
+    return Finding{"teeth",
+                   fmt::format("a ring has more teeth than the gear inside of it, but both have "
+                               "{:g}; correct one",
+                               spec.teeth[0])};
+  }
+  if (Found found = tooth_problem(spec, model)) return found;
+  return needed_axis_problem(spec.axis, model);
+}
+
+Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model) {
+  if (!(spec.along.norm() > 0.0)) {
+    return Finding{"along", "[0, 0, 0] is not a direction; give for example [1, 0, 0]"};
+  }
+  if (Found found = tooth_problem(spec, model)) return found;
+  return needed_axis_problem(spec.axis, model);
+}
+
+Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription&) {
+  if (spec.of.size() < 2) {
+    return Finding{"of", fmt::format("expected at least two joints, found {}; to hold a single "
+                                     "coordinate use a `prescribed-rotation` or "
+                                     "`prescribed-translation`",
+                                     spec.of.size())};
+  }
+  for (const joints::CouplerTermSpec& term : spec.of) {
+    if (Found found = function_problem(term)) return under("of." + term.name, found);
+  }
+  return std::nullopt;
+}
+
+// Joints may stand in the model file behind the coupler that names them.
+Found coupled_joints_problem(const ModelDescription& model) {
+  for (const joints::JointSpec& joint : model.joints) {
+    const auto* coupler = std::get_if<joints::CouplerSpec>(&joint.kind);
+    if (coupler == nullptr) continue;
+    for (const joints::CouplerTermSpec& term : coupler->of) {
+      if (Found found = term_problem(term, model)) {
+        return under(fmt::format("joints.{}.coupler.of.{}", joint.name, term.name), found);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace buckens::model
