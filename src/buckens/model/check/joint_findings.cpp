@@ -82,8 +82,6 @@ Found give_problem(const Spec& spec) {
   return std::nullopt;
 }
 
-namespace {
-
 Found stop_problem(const loads::JointStop& spec, const char* unit) {
   if (!spec.from && !spec.to) {
     return Finding{"", "at least one of the keys from and to is needed: a stop without an end"};
