@@ -132,8 +132,8 @@ def test_a_speed_is_integrated_to_its_angle(sensors, speed, angle):
 
 
 @pytest.mark.parametrize("law, words", [
-    ("speed: 3, angle: 4", ["model.yaml:7:", "exactly one of the keys angle and speed"]),
-    ("axis: [0, 0, 1]", ["exactly one of the keys angle and speed"]),
+    ("speed: 3, angle: 4", ["model.yaml:7:", "exactly one of the keys angle, speed and acceleration"]),
+    ("axis: [0, 0, 1]", ["exactly one of the keys angle, speed and acceleration"]),
     ("speed: 50 Hz", ["hertz count turns"]),
 ])
 def test_a_drive_has_one_law(buckens, tmp_path, law, words):

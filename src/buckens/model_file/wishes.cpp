@@ -34,8 +34,8 @@ constexpr std::string_view kGears =
     "gears and other transmissions are not supported yet; instead drive both shafts by "
     "`prescribed-rotation` with speeds in the ratio of the transmission";
 constexpr std::string_view kControl =
-    "control is not supported yet; instead give the motion by `prescribed-rotation` or "
-    "`prescribed-translation`, or the torque as a law of time";
+    "a controller is one of the `signals` here, such as a `pid`; the loads `hinge-motor` and "
+    "`slide-motor` take their torque or force from it";
 constexpr std::string_view kUniversal =
     "a joint with a cross between two shafts is called `universal` here";
 constexpr std::string_view kMaterial =
@@ -93,7 +93,7 @@ constexpr std::array<Wish, 58> kWishes = {{
     {"translation", "joints", "a joint that lets its parts slide is called `prismatic` here"},
     {"weld", "joints", "a weld is called `fixed` here"},
     {"rigid", "joints", "a rigid connection is called `fixed` here"},
-    {"motor", "joints", "a motor is a `prescribed-rotation` here, or a load `torque`"},
+    {"motor", "joints", "a motor is a load `hinge-motor` or `slide-motor` here, or a `prescribed-rotation`"},
     {"actuator", "joints", "a drive is a `prescribed-rotation` or `prescribed-translation` here"},
     {"motion", "joints", "a drive is a `prescribed-rotation` or `prescribed-translation` here"},
     {"spring", "", "springs are the loads `spring-damper` and `torsional-spring`, or a `bushing`"},
