@@ -114,4 +114,4 @@ def test_drives_by_speed_and_acceleration_do_not_drift(sensors, buckens, tmp_pat
     kinetic = 0.5 * 0.1 * 12**2 + (2 * math.cos(6))**2 - 4 + 1
     assert out["work"][-1] == pytest.approx(kinetic, rel=1e-3)  # of the order h²
     (tmp_path / "model.yaml").write_text(DRIVES.replace("velocity: \"2*cos(3*t) m/s\"", "velocity: 1, displacement: 2"))
-    buckens("check", "model.yaml").must(2, "model.yaml:13:", "exactly one of the keys displacement, velocity and acceleration")
+    buckens("check", "model.yaml").must(2, "model.yaml:12:", "exactly one of the keys displacement, velocity and acceleration")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/base/characteristic.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -42,14 +43,29 @@ struct Characteristic::Parts {
       : expression(std::move(e)),
         scale(s),
         table(std::move(t)),
-        above([this](double x) { return value_at(expression, table, scale, x, 0.0); },
+        offset(size_near_zero()),
+        above([this](double x) { return offset + value_at(expression, table, scale, x, 0.0); },
               breaks_beyond(table.corners(), 1.0)),
-        below([this](double x) { return value_at(expression, table, scale, -x, 0.0); },
+        below([this](double x) { return offset + value_at(expression, table, scale, -x, 0.0); },
               breaks_beyond(table.corners(), -1.0)) {}
+
+  double size_near_zero() const {
+    double out = 0.0;
+    for (const double x : {0.0, 1e-3, -1e-3, 0.01, -0.01, 0.1, -0.1, 1.0, -1.0}) {
+      try {
+        out = std::max(out, std::abs(value_at(expression, table, scale, x, 0.0)));
+      } catch (const NumericalError&) {
+        // Outside of a table, or of what the formula is made for.
+      }
+    }
+    return out;
+  }
 
   std::optional<Expression> expression;
   double scale;
   TimeLaw table;
+  /// Added to what is integrated: near a zero of the force rounding would be all there is to see.
+  double offset;
   RunningIntegral above, below;
 };
 
@@ -83,7 +99,9 @@ double Characteristic::force(double x, double v) const {
 double Characteristic::energy(double x) const {
   if (!parts_) return 0.0;
   force(x, 0.0);  // says what is wrong outside of a table
-  return x >= 0.0 ? parts_->above.to(x) : -parts_->below.to(-x);
+  const double size = std::abs(x);
+  return x >= 0.0 ? parts_->above.to(size) - parts_->offset * size
+                  : parts_->offset * size - parts_->below.to(size);
 }
 
 Characteristic::Slopes Characteristic::slopes(double x, double v) const {

@@ -40,6 +40,15 @@ TEST(Characteristic, IntegratesTablesOverTheirCorners) {
   EXPECT_THROW(law.energy(-2.1), NumericalError);
 }
 
+TEST(Characteristic, IntegratesThroughAZeroThatIsADifference) {
+  // Near zero the values are rounding of two that cancel.
+  const Characteristic table =
+      Characteristic::table(TimeLaw::table({-0.1, 0.1}, {-1.0, 1.0}, Interpolation::linear));
+  EXPECT_NEAR(table.energy(0.05), 5.0 * 0.05 * 0.05, 1e-15);
+  EXPECT_NEAR(table.energy(-0.05), 5.0 * 0.05 * 0.05, 1e-15);
+  EXPECT_NEAR(formula("1000*(x + 0.3) - 300").energy(0.2), 500 * 0.04, 1e-11);
+}
+
 TEST(Characteristic, IsZeroUnlessGiven) {
   EXPECT_EQ(Characteristic().force(1.0, 2.0), 0.0);
   EXPECT_EQ(Characteristic().energy(1.0), 0.0);
