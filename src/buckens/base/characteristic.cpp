@@ -112,7 +112,10 @@ Characteristic::Slopes Characteristic::slopes(double x, double v) const {
   };
   Slopes out;
   if (!parts_->expression) {
-    out.stiffness = parts_->table.rate(x);
+    // Whoever asks for the force outside hears of it with the name of the load.
+    const auto range = parts_->table.range();
+    const bool is_inside = !range || (x >= range->first && x <= range->last);
+    if (is_inside) out.stiffness = parts_->table.rate(x);
     return out;
   }
   const Expression& f = *parts_->expression;

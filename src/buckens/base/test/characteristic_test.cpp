@@ -36,6 +36,7 @@ TEST(Characteristic, IntegratesTablesOverTheirCorners) {
   EXPECT_NEAR(law.energy(-0.3), 0.3 * 0.5 * (0.1 + 1.6), 1e-14);
   EXPECT_NEAR(law.energy(-1.3), 0.3 * 0.5 * (0.1 + 1.6) + 1.6 + 1.0, 1e-13);
   EXPECT_NEAR(law.slopes(0.05, 3.0).stiffness, 5.0, 1e-12);
+  EXPECT_EQ(law.slopes(2.1, 0.0).stiffness, 0.0);
   EXPECT_THROW(law.force(2.1, 0.0), NumericalError);
   EXPECT_THROW(law.energy(-2.1), NumericalError);
 }
