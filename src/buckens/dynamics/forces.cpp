@@ -38,6 +38,11 @@ void add_row(const BodyRow& row, double multiplier, Forces& out) {
   }
 }
 
+[[noreturn]] void fail_with_name(const model::Load& load, const NumericalError& error) {
+  const char* what = load.is_among_joints ? "joint" : "load";
+  throw NumericalError(error.where(), fmt::format("{} \"{}\": {}", what, load.name, error.text()));
+}
+
 // Of differences for tangents: far above rounding, and formulas are smooth over less.
 constexpr double kShift = 1e-6;
 
@@ -118,9 +123,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     try {
       action = action_of(model, k, t, around, first.motion, second.motion);
     } catch (const NumericalError& error) {
-      const char* what = load.is_among_joints ? "joint" : "load";
-      throw NumericalError(error.where(),
-                           fmt::format("{} \"{}\": {}", what, load.name, error.text()));
+      fail_with_name(load, error);
     }
     if (load_factor != 1.0 && load.element->is_applied()) {
       for (spatial::Wrench* wrench : {&action.on_first, &action.on_second}) {
@@ -172,7 +175,11 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     rows.clear();
     const loads::Sight sight = sight_of(model, k, t, around, first.motion, second.motion);
     load.element->append_tangent(sight, rows);
-    if (load.coordinate >= 0) out.regimes.push_back(load.element->respond(sight).regime);
+    try {
+      if (load.coordinate >= 0) out.regimes.push_back(load.element->respond(sight).regime);
+    } catch (const NumericalError& error) {
+      fail_with_name(load, error);
+    }
     if (load.coordinate >= 0 && load.element->uses_signals()) {
       add_slopes_of_signals(load, motions, around, {model, sight, out});
     }
