@@ -40,7 +40,6 @@ def refuse(buckens, tmp_path):
     ("axis: [0, 0, 1]}", "axis: [0, 0, 1], friction: 0.1}", ["model.yaml:10:", "\"friction\"", "`hinge-friction`"]),
     ("revolute:", "cardan:", ["\"cardan\"", "called `universal`"]),
     ("revolute:", "helical:", ["\"helical\"", "called `screw`"]),
-    ("revolute:", "gear:", ["not supported yet", "`prescribed-rotation`"]),
     ("revolute:", "hinge:", ["\"hinge\"", "called `revolute`"]),
     ("axis: [0, 0, 1]}", "axis: [0, 0, 1], limits: [0, 1]}", ["limits", "`hinge-stop`"]),
     ("push: {force:", "push: {contact:", ["model.yaml:12:", "contact", "not supported yet", "`spring-damper`"]),

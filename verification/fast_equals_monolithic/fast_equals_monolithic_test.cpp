@@ -299,7 +299,7 @@ model::Model geared_shaft(std::uint32_t seed) {
               m.node_marker(shaft, 0), x);
   m.add_joint(joints::JointType::revolute, test::Mechanism::ground({1, 0, 0}),
               m.rigid_marker(carrier, {0, 0, 0}), x);
-  const auto tip = m.node_marker(shaft, beam.elements);
+  const auto tip = m.node_marker(shaft, 1);
   m.add_joint(joints::JointType::revolute, m.rigid_marker(carrier, {0, 0, 0}), tip, x);
   loads::Bushing::Coefficients k;
   k.stiffness << 4e3, 3e3, 5e3;
