@@ -2,6 +2,7 @@
 """Decks of Abaqus and CalculiX as others write them: sets with numbers as names, parts without mass, omissions."""
 
 import json
+import math
 import shutil
 
 import numpy
@@ -351,3 +352,55 @@ def test_lines_in_no_group_that_hang_on_solids_need_a_section(buckens, tmp_path)
         "buckens: 1\nmaterials: {steel: {E: 2.1e11, nu: 0.3, rho: 7800}}\n"
         "bodies: {b: {mesh: {file: part.msh, material: steel}}}\n")
     buckens("check", "part.yaml").must(2, "no cross-section", "section:")
+
+
+def turned_block(angle, coupling, axes):
+    """A bar on end along z, turned about it; nodes of its upper end are coupled as `coupling` says."""
+    lines, number = block((0.02, 0.03, 0.1), divisions=(1, 1, 4), name="E")
+    c, s = math.cos(angle), math.sin(angle)
+    out = []
+    for line in lines.splitlines():
+        cells = line.split(", ")
+        if len(cells) == 4 and "." in line:
+            x, y = float(cells[1]), float(cells[2])
+            line = f"{cells[0]}, {c * x - s * y!r}, {s * x + c * y!r}, {cells[3]}"
+        out.append(line)
+    ends = [number[i, j, 4] for i in (0, 1) for j in (0, 1)]
+    place = (c * 0.03 - s * 0.05, s * 0.03 + c * 0.05, 0.12)
+    return ("\n".join(out) + f"\n*NODE\n500, {place[0]!r}, {place[1]!r}, {place[2]!r}\n"
+            + "*SURFACE, NAME=S, TYPE=NODE\n" + "".join(f"{n}\n" for n in ends)
+            + "*SOLID SECTION, ELSET=E, MATERIAL=ST\n" + STEEL + axes
+            + "*COUPLING, CONSTRAINT NAME=C, REF NODE=500, SURFACE=S" + coupling)
+
+
+def test_couplings_along_directions_of_their_own(buckens, model):
+    """What is coupled along x is coupled along a turned axis of the turned bar."""
+    plain = turned_block(0.0, "\n*KINEMATIC\n1, 1\n", "")
+    bare = frequencies(buckens, model(plain.split("*COUPLING")[0]), 6)
+    own = frequencies(buckens, model(plain), 6)
+    assert abs(own / bare - 1).max() > 1e-3
+    angle = 0.6
+    c, s = math.cos(angle), math.sin(angle)
+    axes = f"*ORIENTATION, NAME=O\n{c!r}, {s!r}, 0., {-s!r}, {c!r}, 0.\n"
+    turned = frequencies(buckens, model(turned_block(angle, ", ORIENTATION=O\n*KINEMATIC\n1, 1\n", axes)), 6)
+    # Coordinates have all their digits; modes are iterated to 1e-8 or better.
+    assert turned == pytest.approx(own, rel=1e-7)
+    # The reference node has no mass: across and about the axis it follows the body, and a note says so.
+    assert "without mass or stiffness" in buckens("check", "model.yaml").must(0).out
+    # About a far axis cylindrical directions are those of the rectangular ones.
+    far = (-1e7 * c, -1e7 * s)
+    axes = f"*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n{far[0]!r}, {far[1]!r}, 0., {far[0]!r}, {far[1]!r}, 1.\n"
+    about = frequencies(buckens, model(turned_block(angle, ", ORIENTATION=O\n*KINEMATIC\n1, 1\n", axes)), 6)
+    assert about == pytest.approx(own, rel=1e-6)
+
+
+def test_an_anisotropic_material_with_the_constants_of_an_isotropic_one(buckens, model):
+    lines, _ = block((0.02, 0.03, 0.1), divisions=(1, 1, 4))
+    E, nu = 2.1e11, 0.3
+    a, b, g = E * (1 - nu) / (1 + nu) / (1 - 2 * nu), E * nu / (1 + nu) / (1 - 2 * nu), E / 2 / (1 + nu)
+    constants = [a, b, a, b, b, a, 0, 0, 0, g, 0, 0, 0, 0, g, 0, 0, 0, 0, 0, g]
+    rows = "".join(", ".join(map(repr, constants[k:k + 8])) + "\n" for k in (0, 8, 16))
+    section = "*SOLID SECTION, ELSET=E, MATERIAL=ST\n"
+    own = frequencies(buckens, model(lines + section + STEEL.replace("*ELASTIC\n2.1e11,.3\n",
+                                                                     f"*ELASTIC, TYPE=ANISOTROPIC\n{rows}")), 6)
+    assert own == pytest.approx(frequencies(buckens, model(lines + section + STEEL), 6), rel=1e-7)

@@ -49,6 +49,16 @@ Matrix3d read_axes(AbaqusReading& in, const DeckKeyword& keyword, bool from_z) {
   return out;
 }
 
+/// The points a and b on the axis of cylindrical directions.
+void read_axis(AbaqusReading& in, AbaqusOrientation& out) {
+  DeckRow row;
+  if (!in.lines.next_row(row)) return;
+  out.a = read_vector(in.lines, row, 0, "coordinate of point a");
+  out.b = read_vector(in.lines, row, 3, "coordinate of point b");
+  if (out.a == out.b) in.lines.fail(row.place, "the points a and b are one and give no axis");
+  out.is_cylindrical = true;
+}
+
 /// The second line: one of the axes and an angle by which the others turn about it.
 void read_additional_rotation(AbaqusReading& in, AbaqusOrientation& out) {
   DeckRow row;
@@ -81,8 +91,11 @@ void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
     out.axes = read_axes(in, keyword, from_z);
     read_additional_rotation(in, out);
   } else {
-    in.note(keyword.place, fmt::format("*ORIENTATION of {}: used for isotropic materials only, "
-                                       "where it changes nothing",
+    if (out.system.starts_with('C') && definition.empty() && !is_by_distribution(in)) {
+      read_axis(in, out);
+    }
+    in.note(keyword.place, fmt::format("*ORIENTATION of {}: used for couplings, and for isotropic "
+                                       "materials, where it changes nothing",
                                        out.system));
   }
   in.scope->orientations[upper(out.name)] = out;

@@ -67,7 +67,7 @@ void read_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
       in.lines.fail(keyword.place, fmt::format("INFLUENCE RADIUS={} is not a radius", text));
     }
   }
-  link.is_turned = keyword.has("ORIENTATION");
+  link.orientation = in.optional_parameter(keyword, "ORIENTATION");
   in.coupling = &link;
 }
 

@@ -9,6 +9,7 @@
 
 #include "buckens/mesh_io/abaqus/mesh.h"
 #include "buckens/mesh_io/abaqus/ties.h"
+#include "buckens/mesh_io/abaqus/turned_coupling.h"
 #include "buckens/mesh_io/skip_list.h"
 
 namespace buckens::mesh_io {
@@ -96,17 +97,11 @@ class LinkMaker {
     return nodes;
   }
 
-  /// Some of three directions mean another thing in turned axes.
-  void check_axes(const AbaqusLink& link) {
+  /// Whether some of three directions are coupled, which mean another thing in turned axes.
+  static bool is_split(const AbaqusLink& link) {
     const auto& v = link.variables;
-    const auto is_split = [&v](std::size_t k) { return v[k] != v[k + 1] || v[k] != v[k + 2]; };
-    if (!is_split(0) && !is_split(3)) return;
-    if (link.is_turned) {
-      lines_.fail(link.place,
-                  "*COUPLING, ORIENTATION with some degrees of freedom left free is not supported; "
-                  "couple all three displacements and all or no rotations, or give ORIENTATION up");
-    }
-    note_turned(link.place);
+    const auto differ = [&v](std::size_t k) { return v[k] != v[k + 1] || v[k] != v[k + 2]; };
+    return differ(0) || differ(3);
   }
 
   void note_turned(DeckPlace place) {
@@ -154,8 +149,9 @@ class LinkMaker {
                             link.place.file == 0 ? link.place.line : 0, 1});
       return;
     }
-    check_axes(link);
     count_linked(nodes.size(), link.place);
+    if (is_split(link) && !link.orientation.empty()) return add_turned(link, reference, nodes);
+    if (is_split(link)) note_turned(link.place);
     if (link.kind == AbaqusLinkKind::distributing) {
       out_.averages.push_back({link.name,
                                reference,
@@ -168,6 +164,15 @@ class LinkMaker {
       out_.rigid_links.push_back(
           {link.name, reference, std::move(nodes), link.variables, link.place.line});
     }
+  }
+
+  void add_turned(const AbaqusLink& link, int reference, const std::vector<int>& nodes) {
+    if (link.kind == AbaqusLinkKind::distributing) {
+      lines_.fail(link.place,
+                  "*DISTRIBUTING with ORIENTATION and some rotations released is not supported; "
+                  "release all rotations or none, or give ORIENTATION up");
+    }
+    AbaqusTurnedCoupling(lines_, names_, turns_, out_).add(link, scope_, reference, nodes);
   }
 
   /// The node of the one DCOUP3D of a *DISTRIBUTING COUPLING.

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -9,6 +13,9 @@
 namespace buckens::mesh_io {
 
 namespace {
+
+/// Share of the largest constant that is rounding of turned ones.
+constexpr double kNoCoupling = 1e-6;
 
 fem::MaterialSpec& current(AbaqusReading& in, const DeckKeyword& keyword) {
   if (in.material != nullptr) return *in.material;
@@ -70,6 +77,31 @@ fem::OrthotropicSpec from_stiffness(AbaqusReading& in, const DeckKeyword& keywor
                       -S(0, 2) / S(0, 0), -S(1, 2) / S(1, 1), v[6], v[7], v[8]});
 }
 
+/// The nine constants among the 21 of an anisotropic material whose axes are those of its symmetry:
+/// what couples stretch and shear, or two shears, must be zero.
+fem::OrthotropicSpec from_all_stiffnesses(AbaqusReading& in, const DeckKeyword& keyword,
+                                          const std::vector<double>& v) {
+  // D1111, D1122, D2222, D1133, D2233, D3333, then the columns of 12, 13 and 23.
+  const std::array<std::size_t, 9> symmetric = {0, 1, 2, 3, 4, 5, 9, 14, 20};
+  double largest = 0;
+  for (const double value : v) largest = std::max(largest, std::abs(value));
+  std::vector<double> own;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (std::find(symmetric.begin(), symmetric.end(), i) != symmetric.end()) {
+      own.push_back(v[i]);
+    } else if (std::abs(v[i]) > kNoCoupling * largest) {
+      in.lines.fail(
+          keyword.place,
+          fmt::format("*ELASTIC of TYPE=ANISOTROPIC: constant {} is {:g}; materials that "
+                      "couple stretch and shear are not supported. Where it has three "
+                      "planes of symmetry, give its constants in their axes, and these as "
+                      "*ORIENTATION",
+                      i + 1, v[i]));
+    }
+  }
+  return from_stiffness(in, keyword, own);
+}
+
 /// E1, E2, ν12, G12, G13, G23 of a plane state of stress. Shells do not ask for what is across: it
 /// has the modulus of direction 2 and does not contract.
 fem::OrthotropicSpec lamina(const std::vector<double>& v) {
@@ -109,13 +141,15 @@ void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
     material.orthotropic = engineering(first_constants(in, keyword, 9));
   } else if (type == "ORTHOTROPIC" || type == "ORTHO") {
     material.orthotropic = from_stiffness(in, keyword, first_constants(in, keyword, 9));
+  } else if (type == "ANISOTROPIC" || type == "ANISO") {
+    material.orthotropic = from_all_stiffnesses(in, keyword, first_constants(in, keyword, 21));
   } else if (type == "LAMINA") {
     material.orthotropic = lamina(first_constants(in, keyword, 6));
     in.deck.laminae.insert(upper(material.name));
   } else {
     in.lines.fail(keyword.place,
                   fmt::format("*ELASTIC of TYPE={} is not supported; ISOTROPIC, ENGINEERING "
-                              "CONSTANTS, ORTHOTROPIC and LAMINA are",
+                              "CONSTANTS, ORTHOTROPIC, ANISOTROPIC and LAMINA are",
                               type));
   }
   material.orthotropic->where = in.lines.where(keyword.place);

@@ -103,6 +103,8 @@ struct AbaqusOrientation {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   /// Axis of the additional rotation, 0…2, close to the normal of shells; none: not given.
   std::optional<int> normal;
+  bool is_cylindrical = false;  ///< about the line from a to b
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::UnitZ();
   DeckPlace place;
 };
 
@@ -175,7 +177,7 @@ struct AbaqusLink {
   /// The nodes that follow: references on data lines, node sets, surfaces or element sets.
   std::vector<std::string> nodes, node_sets, surfaces, element_sets;
   std::array<bool, 6> variables = {true, true, true, true, true, true};
-  bool is_turned = false;        ///< the variables are in their own axes, ORIENTATION=
+  std::string orientation;       ///< the variables are in its axes; empty: in those of the mesh
   std::optional<double> radius;  ///< *COUPLING, INFLUENCE RADIUS=
   std::vector<double> weights;   ///< of `nodes`; empty: 1 each
   DeckPlace place;

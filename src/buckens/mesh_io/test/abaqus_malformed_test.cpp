@@ -270,7 +270,11 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n1\n"), {"needs 2 constants, here are 1"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n-1, 0.3\n"), {"E = -1"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*DENSITY\n-1\n"), {"negative"});
-  refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n1\n"), {"TYPE=ANISOTROPIC"});
+  refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n1\n"),
+          {"needs 21 constants, here are 1"});
+  refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n"
+                     "4,1,4,1,1,4,0.5,0\n0,1,0,0,0,0,1,0\n0,0,0,0,1\n"),
+          {"constant 7 is 0.5", "couple stretch and shear"});
   refuses(with_nodes(steel + steel), {"defined twice"});
   refuses(with_nodes("*ORIENTATION, NAME=O\n1,0,0,2,0,0\n"), {"on one line"});
   refuses(shell + "*SHELL GENERAL SECTION, ELSET=E\n1e5,1e4,1e5\n", {"by its stiffnesses"});
@@ -309,7 +313,12 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(with_nodes("*SURFACE, NAME=S, TYPE=NODE\n2, -1.\n"), {"deck.inp:11:1", "positive"});
   const std::string turned =
       surface + "*COUPLING, CONSTRAINT NAME=C, REF NODE=1, SURFACE=S, ORIENTATION=O\n";
-  refuses(turned + "*KINEMATIC\n1, 2\n", {"deck.inp:14:1", "give ORIENTATION up"});
+  refuses(turned + "*KINEMATIC\n1, 2\n", {"deck.inp:14:1", "no orientation \"O\""});
+  refuses(turned + "*DISTRIBUTING\n4, 4\n", {"deck.inp:14:1", "give ORIENTATION up"});
+  refuses(turned + "*KINEMATIC\n1, 2\n*ORIENTATION, NAME=O, SYSTEM=SPHERICAL\n0,0,0,0,0,1\n",
+          {"deck.inp:14:1", "expected RECTANGULAR or CYLINDRICAL"});
+  refuses(turned + "*KINEMATIC\n1, 1\n*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n1,0,0,1,0,0\n",
+          {"a and b are one"});
   refuses(turned + "*KINEMATIC\n3, 1\n", {"deck.inp:16:1", "lies before the first"});
 }
 
