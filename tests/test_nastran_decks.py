@@ -159,6 +159,11 @@ def test_nodes_that_nothing_holds_in_some_directions_follow_the_body(body, bucke
                            "GRID,40,,2.,0.,0.\nCELAS2,41,1.E6,10,1,40,1\nCELAS2,42,1.E6,10,2,40,2\n"))
     assert loose["frequencies"] == pytest.approx(bare, rel=1e-6)
     assert "move or turn in some directions without mass or stiffness" in buckens("check", "model.yaml").must(0).out
+    # Nodes on one line tell no rotation about it, but those of beams have it themselves.
+    rotor = ("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\nCBAR,1,1,1,2,0.,1.,0.\nCBAR,2,1,2,3,0.,1.,0.\n"
+             "PBAR,1,1,1.E-3,1.E-6,1.E-6,2.E-6\nMAT1,1,2.1E11,,0.3,7850.\n{}ENDDATA\n")
+    bearing = "GRID,9,,0.,0.,0.\nCELAS2,9,1.E6,1,2,9,2\nCELAS2,10,1.E6,1,3,9,3\nRBE2,11,3,123456,12\nGRID,12,,2.1,.1,.2\n"
+    assert body(rotor.format(bearing))["frequencies"] == pytest.approx(body(rotor.format(""))["frequencies"], rel=1e-6)
 
 
 def test_shells_and_solids_without_some_mid_side_nodes(body, buckens):

@@ -2,6 +2,7 @@
 #include "buckens/body/loose_motions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -148,8 +149,33 @@ class Follower {
         last_ = node;
         return rows_;
       }
-      if (taken == others.size()) refuse(node);
+      if (taken == others.size()) break;
     }
+    // All on one line: the nearest of those that have rotations leads alone.
+    for (const int other : others) {
+      const auto& own = full_.dofs.node_dofs[static_cast<std::size_t>(other)];
+      if (*std::min_element(own.begin(), own.end()) < 0) continue;
+      rows_ = rigid_rows(own, place(node) - place(other));
+      last_ = node;
+      return rows_;
+    }
+    refuse(node);
+  }
+
+  /// Motion at the arm r from a node: u + θ × r, θ.
+  static fem::PointRows rigid_rows(const std::array<int, 6>& dofs, const Eigen::Vector3d& r) {
+    fem::PointRows out;
+    out.has_rotation = true;
+    for (int row = 0; row < 3; ++row) {
+      const auto axis = static_cast<std::size_t>(row);
+      out.translation.emplace_back(row, dofs[axis], 1.0);
+      out.rotation.emplace_back(row, dofs[3 + axis], 1.0);
+      // (θ × r)_row = θ_b r_c − θ_c r_b with row, b, c in cyclic order.
+      const int b = (row + 1) % 3, c = (row + 2) % 3;
+      out.translation.emplace_back(row, dofs[static_cast<std::size_t>(3 + b)], r[c]);
+      out.translation.emplace_back(row, dofs[static_cast<std::size_t>(3 + c)], -r[b]);
+    }
+    return out;
   }
 
   [[noreturn]] void refuse(int node) const {

@@ -28,7 +28,8 @@ std::vector<LooseMotion> loose_motions(const fem::FeModel& fe);
 /// moves with the body and passes forces on. @return an equation for each
 /// @param body its name, for messages
 /// @param full before links are solved; its nodes come first among those of the motions
-/// @throws ModelError if the nodes of all elements lie on one line, or for a motion of another node
+/// @throws ModelError if the nodes of all elements lie on one line and have no rotations, or for a
+/// motion of another node
 std::vector<fem::LinearEquation> follow_nearest(const std::string& body, const fem::FeModel& full,
                                                 const std::vector<LooseMotion>& motions);
 
