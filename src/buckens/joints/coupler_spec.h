@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/base/field.h"
+#include "buckens/base/source_location.h"
 
 namespace buckens::joints {
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "buckens/base/field.h"
+#include "buckens/base/source_location.h"
 
 namespace buckens::model {
 
