@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rigid stops, ropes, friction that sticks without any motion: exact motions, energy, messages."""
 
+import json
 import math
 
 import numpy
@@ -174,6 +175,19 @@ def test_an_elastic_bar_rebounds_by_its_own_waves(sensors):
     assert out["v.x"][-1] == pytest.approx(1, rel=0.02)
 
 
+def test_two_stops_that_hold_the_same_share_the_load(sensors, tmp_path):
+    out = sensors(BALL.replace(", restitution: 0.9}", "}").replace(
+        "loads: {", "loads: {second: {slide-stop: {joint: way, from: -1 m}}, ").replace(
+        "f: {spring-force: floor}", "f: {spring-force: floor}, g: {spring-force: second}").replace("10 s", "2 s"))
+    resting = out["t"] > 0.5
+    assert numpy.abs(out["z.value"] + 1)[resting].max() < 1e-12
+    # Which carries how much is not determined; together they carry the weight.
+    assert out["f"][resting] + out["g"][resting] == pytest.approx(-2 * G, rel=1e-9)
+    assert out["lost"][-1] == pytest.approx(2 * G, rel=1e-9)
+    measures = json.loads((tmp_path / "out" / "summary.json").read_text())["measures"]
+    assert measures["impacts"] == 2 and measures["impact_loss"] == pytest.approx(2 * G, rel=1e-9)
+
+
 INCLINE = """
 buckens: 1
 gravity: ["9.81*sin(pi/6) m/s^2", 0, "-9.81*cos(pi/6) m/s^2"]
@@ -255,3 +269,8 @@ def test_a_load_falls_into_its_rope(sensors):
     assert out["tip.y"].min() == pytest.approx(-0.46997, abs=5e-5)
     assert out["load.y"].min() == pytest.approx(-0.66990, abs=5e-5)
     assert out["rope"].min() == 0  # slack, and never pushing
+
+
+def test_rigid_friction_has_no_slip(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(INCLINE.replace("static: 0.577, stick: rigid", "static: 0.577, stick: rigid, slip: 1 um"))
+    buckens("run", "model.yaml", "-o", "out").must(2, "model.yaml:13", "slip", "stick: rigid")

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/spatial/rotation.h"
+#include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
 
@@ -102,7 +105,10 @@ Vector solve_complementarity(const Matrix& D, const Vector& b) {
     if (worst < 0) return P;
     is_active[static_cast<std::size_t>(worst)] = 1;
   }
-  return P.cwiseMax(0.0);
+  throw StepFailure(fmt::format(
+      "no impulses satisfy all {} rigid stops that are struck at once; give one of them "
+      "a `stiffness`",
+      n));
 }
 
 Impacts::Impacts(const model::Model& model, const Scheme& scheme,
@@ -271,7 +277,11 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
   rows.reserve(rows_in_use.size());
   for (const int row : rows_in_use) rows.push_back(all.rows[static_cast<std::size_t>(row)]);
   joints_.emplace(static_cast<int>(bodies.size()), rows);
-  joints_->factorise(rows, rows, compliance_, {});
+  if (joints_->factorise(rows, rows, compliance_, {})) return;
+  throw StepFailure(
+      fmt::format("the joint equations have become dependent (a singular position) at an impact at "
+                  "t = {:.6g} s; look for a dead centre of the mechanism there",
+                  t));
 }
 
 void Impacts::answer(Touch& touch) {

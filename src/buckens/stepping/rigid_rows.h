@@ -36,6 +36,10 @@ class RigidRows {
   int num_moves_ = 0;
 };
 
+/// A closed rigid row gives by this share of its own compliance, so that two that hold the same
+/// leave the matrix regular.
+inline constexpr double kRigidGive = 1e-10;
+
 /// What a row gives per force along it, by what both bodies give alone [m/N], [rad/(N m)].
 double own_compliance(const dynamics::SystemRow& row,
                       const std::vector<dynamics::BodyCompliance>& compliance);

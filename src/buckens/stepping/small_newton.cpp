@@ -37,9 +37,6 @@ constexpr double kStalled = 1e-11;
 constexpr double kStalledFarAway = 1e-14;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
-// A closed rigid row gives by this share of its own compliance, so that two that hold the same
-// leave the matrix regular. Residuals are closed exactly all the same.
-constexpr double kGive = 1e-10;
 constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
@@ -205,7 +202,8 @@ void SmallNewton::set_soft_rows() {
     if (soft_.is_closed[k]) {
       condensation_->set_row(static_cast<int>(rows_in_use_.size() + k),
                              without_rates(soft_.rows[k]), soft_.rows[k]);
-      soft_compliance_.push_back(kGive * own_compliance(soft_.rows[k], compliance_));
+      // Residuals are closed exactly all the same.
+      soft_compliance_.push_back(kRigidGive * own_compliance(soft_.rows[k], compliance_));
       soft_stiffness_share_.push_back(0.0);
       continue;
     }

@@ -10,6 +10,7 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/linalg/conjugate_gradients.h"
+#include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::analysis {
 
@@ -86,7 +87,13 @@ class Accelerations {
     }
     compliance_ = metric_.full(J);
     condensation_.emplace(static_cast<int>(bodies_.size()), rows_);
-    if (!condensation_->factorise(rows_, rows_, compliance_, {})) {
+    std::vector<double> give;
+    for (std::size_t k = rows_in_use_.size(); k < rows_.size(); ++k) {
+      give.push_back(stepping::kRigidGive * stepping::own_compliance(rows_[k], compliance_));
+    }
+    // The give only where rows hold the same: it costs digits of the forces.
+    if (!condensation_->factorise(rows_, rows_, compliance_, {}) &&
+        !condensation_->factorise(rows_, rows_, compliance_, give)) {
       throw NumericalError(
           "the joint equations are dependent in the initial position (a dead centre); start "
           "elsewhere");

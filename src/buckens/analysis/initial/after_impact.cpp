@@ -3,10 +3,14 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "buckens/analysis/initial/rigid_rows_start.h"
+#include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/spatial/rotation.h"
+#include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::analysis {
 
@@ -22,7 +26,8 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
   dynamics::SoftRows soft;
   dynamics::evaluate_soft_rows(model, motions, state.t, dynamics::circumstances_of(state), soft);
   std::vector<dynamics::SystemRow> rows;
-  std::vector<double> rates;
+  std::vector<double> rates, give;
+  const auto compliance = metric.rigid();
   for (const int row : rows_in_use) {
     rows.push_back(joints.rows[static_cast<std::size_t>(row)]);
     rates.push_back(joints.g_dot[row]);
@@ -30,6 +35,7 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
   for (std::size_t k = 0; k < soft.rows.size(); ++k) {
     if (!soft.is_closed[k]) continue;
     rows.push_back(soft.rows[k]);
+    give.push_back(stepping::kRigidGive * stepping::own_compliance(soft.rows[k], compliance));
     double rate = 0;
     for (const dynamics::BodyRow* part : {&soft.rows[k].first, &soft.rows[k].second}) {
       if (part->body != model::kGround) {
@@ -39,9 +45,14 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
     rates.push_back(rate);
   }
   if (rows.empty()) return;
-  const auto compliance = metric.rigid();
   dynamics::MultiplierCondensation condensation(static_cast<int>(model.bodies.size()), rows);
-  if (!condensation.factorise(rows, rows, compliance, {})) return;
+  if (!condensation.factorise(rows, rows, compliance, {}) &&
+      !condensation.factorise(rows, rows, compliance, give)) {
+    throw NumericalError(
+        fmt::format("the joint equations have become dependent (a singular position) after an "
+                    "impact at t = {:.6g} s; look for a dead centre of the mechanism there",
+                    state.t));
+  }
   linalg::Vector X = -Eigen::Map<const linalg::Vector>(rates.data(), std::ssize(rates));
   condensation.solve_in_place(X);
   std::vector<dynamics::BodyResponse> responses(model.bodies.size());

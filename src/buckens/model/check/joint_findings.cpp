@@ -108,6 +108,11 @@ Found friction_problem(const loads::JointFrictionBase& spec) {
         "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ it "
         "says how fast the one becomes the other"};
   }
+  if (spec.stick == loads::FrictionStick::rigid && spec.slip) {
+    return Finding{"slip",
+                   "friction with `stick: rigid` does not slip before it slides; remove this key, "
+                   "or write `stick: elastic`"};
+  }
   if (spec.coefficient == 0.0 && spec.preload == 0.0 && spec.viscous == 0.0) {
     return Finding{"static",
                    "friction without `static`, `preload` or `viscous` has no effect; give "
