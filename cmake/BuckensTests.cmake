@@ -51,6 +51,7 @@ file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/verification/*/*_test
      "${PROJECT_SOURCE_DIR}/verification/*.cpp")
 if(sources)
   buckens_test(verification_test verify buckens ${sources})
+  buckens_in_pieces(verification_test "${PROJECT_SOURCE_DIR}")
 endif()
 
 file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")

@@ -18,6 +18,8 @@ buckens_packages=(
 
 # Object files are cached by the contents of the sources, not by the location of the checkout.
 export CCACHE_BASEDIR="$buckens_root"
+# Options that change the compiler's memory, not what it makes.
+export CCACHE_IGNOREOPTIONS="--param=ggc-*"
 
 say() {
   if [ -t 1 ]; then printf '\033[1m== %s\033[0m\n' "$*"; else printf '== %s\n' "$*"; fi
