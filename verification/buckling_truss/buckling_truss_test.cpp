@@ -13,7 +13,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::buckling_truss {
 namespace {
 
 constexpr double kB = 1.0, kH = 0.2, kEA = 2e5, kEI = 100.0;  // those of the example
@@ -61,4 +61,4 @@ TEST(BucklingTruss, ConvergesToTheBucklingLoadWithTheSquareOfTheNumberOfFrames) 
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::buckling_truss

@@ -13,7 +13,7 @@
 #include "buckens/stepping/test/same_state.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::continuation {
 namespace {
 
 using stepping::Method;
@@ -121,4 +121,4 @@ TEST(Continuation, BlockOfSolids) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::continuation

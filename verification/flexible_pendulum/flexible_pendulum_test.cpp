@@ -11,7 +11,7 @@
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::flexible_pendulum {
 namespace {
 
 using stepping::Method;
@@ -77,4 +77,4 @@ TEST(FlexiblePendulum, FinerStepsComeCloser) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::flexible_pendulum

@@ -17,7 +17,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::frames {
 namespace {
 
 using Eigen::Vector3d;
@@ -291,4 +291,4 @@ TEST(Frames, BendOf45DegreesUnderATipForce) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::frames

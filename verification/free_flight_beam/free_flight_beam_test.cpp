@@ -9,7 +9,7 @@
 #include "buckens/dynamics/energy.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::free_flight_beam {
 namespace {
 
 using stepping::Method;
@@ -94,4 +94,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, FreeFlightBeam,
                          });
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::free_flight_beam

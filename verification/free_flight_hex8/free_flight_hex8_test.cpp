@@ -22,7 +22,7 @@
 #include "buckens/results/table.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::free_flight_hex8 {
 namespace {
 
 using Eigen::Quaterniond;
@@ -167,4 +167,4 @@ TEST(FreeFlightHex8, FullCouplingKeepsEnergyAndMomentumToTheSquareOfTheStep) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::free_flight_hex8

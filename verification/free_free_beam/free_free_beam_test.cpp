@@ -14,7 +14,7 @@
 #include "buckens/body/rigid_modes.h"
 #include "buckens/fem/assembly/assemble.h"
 
-namespace buckens::verification {
+namespace buckens::verification::free_free_beam {
 namespace {
 
 using nlohmann::json;
@@ -124,4 +124,4 @@ TEST(FreeFreeBeam, FrequenciesConvergeWithTheFourthPowerOfTheElementLength) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::free_free_beam

@@ -12,7 +12,7 @@
 #include "buckens/model/build/build_model.h"
 #include "buckens/model_file/model_file.h"
 
-namespace buckens::verification {
+namespace buckens::verification::free_free_hex8 {
 namespace {
 
 const std::string kFolder =
@@ -43,4 +43,4 @@ TEST(FreeFreeHex8, CubeOfOneElementWithMultipleFrequencies) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::free_free_hex8

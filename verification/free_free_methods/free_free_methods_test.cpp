@@ -14,7 +14,7 @@
 #include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/mesh/box_mesh.h"
 
-namespace buckens::verification {
+namespace buckens::verification::free_free_methods {
 namespace {
 
 using body::FreeModeMethod;
@@ -129,4 +129,4 @@ TEST(FreeFreePairs, SquareColumnOfSolidsHasAllItsPairs) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::free_free_methods

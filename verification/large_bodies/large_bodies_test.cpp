@@ -12,7 +12,7 @@
 #include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/stepping/stepper.h"
 
-namespace buckens::verification {
+namespace buckens::verification::large_bodies {
 namespace {
 
 using body::CouplingLevel;
@@ -169,4 +169,4 @@ TEST(LargeBodies, StepsOfReducedBodiesAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::large_bodies

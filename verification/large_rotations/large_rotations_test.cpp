@@ -13,7 +13,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::large_rotations {
 namespace {
 
 using Eigen::Vector3d;
@@ -130,4 +130,4 @@ output: {{sensors: {{tip: {{displacement: b{1}/end}}}}}}
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::large_rotations

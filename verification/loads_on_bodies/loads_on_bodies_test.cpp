@@ -10,7 +10,7 @@
 #include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::loads_on_bodies {
 namespace {
 
 using Eigen::Vector3d;
@@ -138,4 +138,4 @@ TEST(LoadsOnBodies, ConstantLoadsGiveTheirImpulse) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::loads_on_bodies

@@ -7,7 +7,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::model_files {
 namespace {
 
 using Eigen::Vector3d;
@@ -84,4 +84,4 @@ TEST(Like, NeedsABodyAboveIt) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::model_files

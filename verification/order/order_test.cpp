@@ -10,7 +10,7 @@
 #include "buckens/results/state_interpolation.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::order {
 namespace {
 
 using linalg::Vector;
@@ -122,4 +122,4 @@ TEST(Wilson, IsStableOnTheFlexiblePendulum) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::order

@@ -15,7 +15,7 @@
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::planar_levels {
 namespace {
 
 using body::CouplingChoice;
@@ -209,4 +209,4 @@ TEST(PlanarLevels, LevelsFromALagrangianConserveTheirEnergyAndMomentum) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::planar_levels

@@ -9,7 +9,7 @@
 #include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::reduction {
 namespace {
 
 using linalg::Vector;
@@ -90,4 +90,4 @@ TEST(ReducedBody, WithAllModesMovesLikeTheFullMesh) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::reduction

@@ -12,7 +12,7 @@
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/stepping/test/simulate.h"
 
-namespace buckens::verification {
+namespace buckens::verification::rigid_double_pendulum {
 namespace {
 
 using Eigen::Vector3d;
@@ -94,4 +94,4 @@ TEST(RigidDoublePendulumMultipliers, ConvergeWithOrderTwoAtTheDefaultMethod) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::rigid_double_pendulum

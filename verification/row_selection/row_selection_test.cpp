@@ -8,7 +8,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/stepping/stepper.h"
 
-namespace buckens::verification {
+namespace buckens::verification::row_selection {
 namespace {
 
 using Eigen::Vector3d;
@@ -69,4 +69,4 @@ TEST(RowSelection, ParallelCranksHandOverFromRowToRow) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::row_selection

@@ -15,7 +15,7 @@
 #include "buckens/stepping/test/simulate.h"
 #include "buckens/stepping/time_march.h"
 
-namespace buckens::verification {
+namespace buckens::verification::step_control {
 namespace {
 
 using namespace stepping;
@@ -280,4 +280,4 @@ TEST(ChangeOfStep, RescaledAccelerationsKeepOrderTwo) {
 }
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::step_control

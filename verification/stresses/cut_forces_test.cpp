@@ -14,7 +14,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::stresses {
 namespace {
 
 using Eigen::Matrix3Xd;
@@ -192,4 +192,4 @@ INSTANTIATE_TEST_SUITE_P(Elements, CutForces, testing::Values("hex8", "hex20", "
                          [](const auto& element) { return std::string(element.param); });
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::stresses

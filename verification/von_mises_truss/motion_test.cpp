@@ -15,7 +15,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::von_mises_truss {
 namespace {
 
 constexpr std::array<int, 2> kBars = {1, 2};
@@ -133,4 +133,4 @@ INSTANTIATE_TEST_SUITE_P(Runs, TrussMotionDirectly, testing::ValuesIn(fast_runs(
                          [](const auto& run) { return name_of(run.param); });
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::von_mises_truss

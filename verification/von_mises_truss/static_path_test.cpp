@@ -13,7 +13,7 @@
 #include "buckens/model_file/model_file.h"
 #include "buckens/results/table.h"
 
-namespace buckens::verification {
+namespace buckens::verification::von_mises_truss {
 namespace {
 
 struct Path {
@@ -102,4 +102,4 @@ TEST_P(TrussPath, OfLoadControlEndsBelowTheLimitPoint) {
 INSTANTIATE_TEST_SUITE_P(Cases, TrussPath, testing::Values("A", "C"));
 
 }  // namespace
-}  // namespace buckens::verification
+}  // namespace buckens::verification::von_mises_truss

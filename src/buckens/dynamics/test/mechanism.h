@@ -57,6 +57,11 @@ class Mechanism {
     return id(body);
   }
 
+  /// Marker on a rigid body at a place of the world, parallel to the body.
+  model::MarkerId marker_at(int body, const Eigen::Vector3d& p_W) {
+    return rigid_marker(body, model_.placed[static_cast<std::size_t>(body)].inverse() * p_W);
+  }
+
   /// Marker that follows a node of a flexible body.
   model::MarkerId node_marker(int body, int node) {
     body::Body& b = at(body);
@@ -156,6 +161,7 @@ class Mechanism {
     load.element = std::move(element);
     load.first = first;
     load.second = second;
+    load.first_state = num_load_states();
     model_.loads.push_back(std::move(load));
   }
 
@@ -166,9 +172,6 @@ class Mechanism {
     model::Load& load = model_.loads.back();
     load.joint = static_cast<int>(model_.joints.size()) - 1;
     load.coordinate = static_cast<int>(model_.coordinates.size());
-    load.first_state = model_.loads.size() > 1 ? model_.loads.end()[-2].first_state +
-                                                     model_.loads.end()[-2].element->num_states()
-                                               : 0;
     if (load.element->is_rigid()) load.rigid_row = model_.num_rigid_rows();
     model_.coordinates.push_back({load.joint, joint.first, joint.second, std::move(coordinate)});
   }
@@ -184,6 +187,11 @@ class Mechanism {
   model::Model take() { return std::move(model_); }
 
  private:
+  int num_load_states() const {
+    if (model_.loads.empty()) return 0;
+    const model::Load& last = model_.loads.back();
+    return last.first_state + last.element->num_states();
+  }
   body::Body& at(int body) { return model_.bodies[static_cast<std::size_t>(body)]; }
   model::MarkerId id(int body) {
     model::MarkerId out;

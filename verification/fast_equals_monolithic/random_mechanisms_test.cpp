@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hundred mechanisms made by chance, with every joint between rigid and flexible bodies; see
+// README.md.
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "verification/fast_equals_monolithic/same_steps.h"
+
+#include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/forces.h"
+#include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/joint_friction.h"
+#include "buckens/loads/spring_damper.h"
+#include "buckens/spatial/test/marker_path.h"
+
+namespace buckens::verification::random_mechanisms {
+namespace {
+
+using Eigen::Vector3d;
+using joints::JointType;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr int kMechanisms = 100;
+constexpr JointType kTypes[] = {
+    JointType::revolute,      JointType::spherical,   JointType::prismatic,
+    JointType::fixed,         JointType::cylindrical, JointType::planar,
+    JointType::universal,     JointType::parallel,    JointType::constant_velocity,
+    JointType::point_on_line, JointType::orientation, JointType::point_in_plane,
+    JointType::distance,      JointType::screw,       JointType::slot};
+
+/// Chance that gives the same numbers on every machine, unlike the distributions of <random>.
+class Chance {
+ public:
+  explicit Chance(std::uint32_t seed) : engine_(seed) {}
+  double between(double from, double to) {
+    return from + (to - from) * static_cast<double>(engine_()) / 4294967296.0;
+  }
+  bool happens(double probability) { return between(0, 1) < probability; }
+  Vector3d point(double size) {
+    return {between(-size, size), between(-size, size), between(-size, size)};
+  }
+  Vector3d direction() {
+    Vector3d n = point(1);
+    while (n.norm() < 0.3) n = point(1);
+    return n.normalized();
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A body of the mechanism and the place where the next one hangs on it.
+struct Link {
+  int body = model::kGround;
+  bool is_flexible = false;
+  Vector3d end_W = Vector3d::Zero();
+};
+
+class MechanismByChance {
+ public:
+  explicit MechanismByChance(std::uint32_t seed) : chance_(seed) {
+    mechanism_.set_gravity({chance_.between(-3, 3), -9.81, chance_.between(-3, 3)});
+    mechanism_.set_length(1.0);
+    Link parent;
+    const int bodies = 2 + static_cast<int>(seed % 3);
+    for (int k = 0; k < bodies; ++k) {
+      // Every kind comes up equally often; what comes after it is by chance.
+      const std::size_t type =
+          k == 0 ? seed % std::size(kTypes)
+                 : static_cast<std::size_t>(chance_.between(0, 1) *
+                                            static_cast<double>(std::size(kTypes)));
+      parent = add_link(parent, kTypes[type]);
+    }
+  }
+  model::Model take() { return mechanism_.take(); }
+
+ private:
+  Link add_link(const Link& parent, JointType type) {
+    const bool is_apart = type == JointType::distance;
+    const Vector3d start =
+        parent.end_W + (is_apart ? Vector3d(0.3 * chance_.direction()) : Vector3d::Zero());
+    const spatial::Pose X{start, spatial::exp_rotation(chance_.point(1.5))};
+    Link link;
+    link.is_flexible = chance_.happens(0.5);
+    model::MarkerId near;
+    if (link.is_flexible) {
+      test::BeamConstants beam = soft_damped_beam();
+      beam.elements = 2;
+      beam.L = 0.6;
+      link.body = mechanism_.add_flexible(test::straight_beam(beam), body::CouplingLevel::full, X);
+      link.end_W = X * Vector3d(beam.L, 0, 0);
+      near = mechanism_.node_marker(link.body, 0);
+    } else {
+      const Eigen::Matrix3d J = Vector3d(chance_.between(0.02, 0.05), chance_.between(0.02, 0.05),
+                                         chance_.between(0.02, 0.05))
+                                    .asDiagonal();
+      const Vector3d com = chance_.point(0.2);
+      link.body = mechanism_.add_rigid(chance_.between(0.5, 2), J, {X * com, X.q});
+      link.end_W = X * chance_.point(0.4);
+      near = mechanism_.rigid_marker(link.body, -com, spatial::exp_rotation(chance_.point(1)));
+    }
+    join(parent, type, near);
+    // Springs keep what a joint leaves free from falling out of reach.
+    mechanism_.add_load(std::make_unique<loads::SpringDamper>(40.0, 0.5, 0.1, std::nullopt), near,
+                        test::Mechanism::ground(start + 0.3 * chance_.direction()));
+    return link;
+  }
+
+  void join(const Link& parent, JointType type, const model::MarkerId& near) {
+    const model::MarkerId far = end_of(parent);
+    const Vector3d axis = chance_.direction();
+    mechanism_.add_joint(type, far, near, axis, std::nullopt, [&](joints::Placement& p) {
+      p.pitch = chance_.between(0.02, 0.1);
+      if (type == JointType::universal) p.second_axis_F = axis.unitOrthogonal();
+      if (type == JointType::slot) {
+        const Vector3d along = chance_.direction();
+        const Vector3d across = along.unitOrthogonal();
+        p.path = {-0.6 * along, -0.3 * along + 0.05 * across, Vector3d::Zero(),
+                  0.3 * along - 0.05 * across, 0.6 * along};
+      }
+    });
+    const Eigen::Matrix3d R_FM =
+        mechanism_.world_pose(far).R().transpose() * mechanism_.world_pose(near).R();
+    if (type == JointType::revolute) {
+      mechanism_.add_law(std::make_unique<loads::CoordinateSpring>(3.0, 0.05, 0.2),
+                         joints::JointCoordinate::angle(axis, R_FM));
+    }
+    if (type == JointType::prismatic) {
+      loads::FrictionData data;
+      data.static_coefficient = data.dynamic_coefficient = 0.1;
+      data.radius = 1.0;
+      data.slip = 1e-3;
+      data.inertia = 0.8;
+      mechanism_.add_law(std::make_unique<loads::JointFriction>(data, axis),
+                         joints::JointCoordinate::displacement(axis, Vector3d::Zero()));
+    }
+  }
+
+  model::MarkerId end_of(const Link& link) {
+    if (link.body == model::kGround) return test::Mechanism::ground(link.end_W);
+    if (link.is_flexible) return mechanism_.node_marker(link.body, 2);
+    return mechanism_.marker_at(link.body, link.end_W);
+  }
+
+  Chance chance_;
+  test::Mechanism mechanism_;
+};
+
+test::Start thrown(const model::Model& model, std::uint32_t seed) {
+  Chance chance(seed + 1000);
+  return test::consistent_start(model, [&](model::State& state) {
+    for (model::BodyState& body : state.bodies) {
+      body.frame.v = chance.point(0.5);
+      body.frame.w = chance.point(1.0);
+    }
+  });
+}
+
+TEST(RandomMechanisms, StepAsTheMonolithicRoute) {
+  for (std::uint32_t seed = 0; seed < kMechanisms; ++seed) {
+    SCOPED_TRACE(seed);
+    const model::Model model = MechanismByChance(seed).take();
+    expect_same(model, thrown(model, seed), tight(kMethods[seed % 4], 1e-3), 20);
+  }
+}
+
+/// Motions a little before and after, with the rates that the mechanism has.
+std::vector<dynamics::BodyMotion> moved(const std::vector<dynamics::BodyMotion>& start, double t) {
+  std::vector<dynamics::BodyMotion> out = start;
+  for (dynamics::BodyMotion& motion : out) {
+    motion.frame.X_WB.p += t * motion.frame.v;
+    motion.frame.X_WB.q = motion.frame.X_WB.q * spatial::exp_rotation(t * motion.frame.w);
+    motion.y += t * motion.y_dot;
+  }
+  return out;
+}
+
+TEST(RandomMechanisms, RowsHaveTheDerivativesOfTheirResidualsAndDoTheirWork) {
+  for (std::uint32_t seed = 0; seed < kMechanisms; ++seed) {
+    SCOPED_TRACE(seed);
+    const model::Model model = MechanismByChance(seed).take();
+    test::Start start = thrown(model, seed);
+    auto motions = dynamics::motions_of(model, start.state);
+    // Off the joints' manifold, where nothing cancels.
+    Chance chance(seed + 2000);
+    for (dynamics::BodyMotion& motion : motions) {
+      motion.frame.v += chance.point(0.5);
+      motion.frame.w += chance.point(1.0);
+    }
+    const auto residual = [&](double t) {
+      dynamics::Constraints at;
+      dynamics::evaluate_constraints(model, moved(motions, t), 0.0, &start.state.memory, at);
+      return linalg::Vector(at.g);
+    };
+    dynamics::Constraints now;
+    dynamics::evaluate_constraints(model, motions, 0.0, &start.state.memory, now);
+    const linalg::Vector rates = test::derivative(residual, 1e-4);
+    // Rounding ε/h = 2e-12 and truncation (ω h)⁴ are far below.
+    EXPECT_LE((now.g_dot - rates).cwiseAbs().maxCoeff(), 1e-9 * (1 + rates.cwiseAbs().maxCoeff()));
+
+    linalg::Vector lambda(model.num_constraint_rows());
+    for (double& force : lambda) force = chance.between(-1, 1);
+    dynamics::Forces forces;
+    forces.reset(model);
+    dynamics::add_joint_forces(now, lambda, forces);
+    double power = 0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      Vector6 u;
+      u << motions[b].frame.w, motions[b].frame.v;
+      power +=
+          forces.frame[b].dot(u) - model.bodies[b].mass * model.gravity.dot(motions[b].frame.v);
+      if (model.bodies[b].is_flexible()) power += forces.interface[b].dot(motions[b].y_dot);
+    }
+    EXPECT_NEAR(power, lambda.dot(now.g_dot - now.g_t),
+                1e-12 * (1 + lambda.lpNorm<1>() * rates.lpNorm<1>()));
+  }
+}
+
+}  // namespace
+}  // namespace buckens::verification::random_mechanisms
