@@ -35,6 +35,9 @@ constexpr double kRounding = 1e-15;
 // A change that no longer falls is rounding if it is below these shares of the same lengths.
 constexpr double kStalled = 1e-11;
 constexpr double kStalledFarAway = 1e-14;
+// Rows whose pivots have fallen below this hold their bodies by a short lever, the root of the
+// pivot; rounding moves these bodies by its inverse more.
+constexpr double kWeaklyHeld = 1e-6;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
@@ -251,7 +254,8 @@ const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
 bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
   if (rigid_.empty() || !rigid_.move(forces_.rigid)) return false;
   if (rigid_.num_moves() > kMostMoves) {
-    fail(t, report, "rigid stops, or friction that holds rigidly, find no state that all admit");
+    fail(t, report,
+         "no combination of holding and releasing satisfies all rigid stops and rigid friction");
   }
   return true;
 }
@@ -380,13 +384,19 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
   return change;
 }
 
+double SmallNewton::rounding_of_changes() const {
+  const double rounding = kStalled * model_.length + kStalledFarAway * rounding_length_;
+  const double pivots = condensation_->pivot_ratio();
+  return pivots > 0.0 && pivots < kWeaklyHeld ? rounding / std::sqrt(pivots) : rounding;
+}
+
 bool SmallNewton::settled(const Change& change, const Change& before) const {
   // Rounding of positions bounds what any iteration can reach, or a change that no longer falls.
   const double enough = admitted(change.motion);
   if (change.size <= enough + kRounding * rounding_length_) return true;
   if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
   return before.size > 0.0 && change.size > 0.3 * before.size &&
-         change.size <= kStalled * model_.length + kStalledFarAway * rounding_length_;
+         change.size <= rounding_of_changes();
 }
 
 void SmallNewton::record_residuals(StepReport& report) const {

@@ -80,6 +80,8 @@ class SmallNewton {
   void solve_multipliers();
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
   bool settled(const Change& change, const Change& before) const;
+  /// Below this a change that no longer falls is rounding.
+  double rounding_of_changes() const;
   /// Change that ends the iteration [m].
   double admitted(double motion) const { return settings_.newton_tolerance * motion; }
   void record_residuals(StepReport& report) const;
