@@ -95,7 +95,7 @@ def test_materials_of_the_model_file_stand_above_those_of_the_deck(buckens, tmp_
 def test_mistakes_in_decks_are_named_with_file_and_line(buckens, tmp_path):
     (tmp_path / "deck.yaml").write_text(DECK_MODEL)
     write_block(tmp_path / "block.inp", extra="*ELEMENT, TYPE=C3D8\n99, 1, 2, 3\n")
-    buckens("check", "deck.yaml").must(2, "block.inp:", "C3D8 has 8 nodes, here are 3")
+    buckens("check", "deck.yaml").must(2, "block.inp:", "C3D8 has 8 nodes, found 3")
     write_block(tmp_path / "block.inp", extra="*INCLUDE, INPUT=block.inp\n")
     buckens("check", "deck.yaml").must(2, "block.inp:", "includes itself")
     (tmp_path / "block.inp").write_bytes(bytes(range(256)) * 100)

@@ -40,6 +40,8 @@ def refuse(buckens, tmp_path):
     ("axis: [0, 0, 1]}", "axis: [0, 0, 1], friction: 0.1}", ["model.yaml:10:", "\"friction\"", "`hinge-friction`"]),
     ("revolute:", "cardan:", ["\"cardan\"", "called `universal`"]),
     ("revolute:", "helical:", ["\"helical\"", "called `screw`"]),
+    ("push: {force:", "push: {pulley:", ["\"pulley\"", "`belt`"]),
+    ("revolute:", "cam:", ["\"cam\"", "`slot`"]),
     ("revolute:", "hinge:", ["\"hinge\"", "called `revolute`"]),
     ("axis: [0, 0, 1]}", "axis: [0, 0, 1], limits: [0, 1]}", ["limits", "`hinge-stop`"]),
     ("push: {force:", "push: {contact:", ["model.yaml:12:", "contact", "not supported yet", "`spring-damper`"]),

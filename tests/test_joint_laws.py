@@ -232,7 +232,7 @@ output: {sensors: {seen: {SENSOR}}}
 
 
 @pytest.mark.parametrize("law, words", [
-    ("hinge-stop: {joint: hinge, from: 20 deg, to: 10 deg, stiffness: 1}", ["before it begins", "exchange"]),
+    ("hinge-stop: {joint: hinge, from: 20 deg, to: 10 deg, stiffness: 1}", ["before it begins", "swap"]),
     ("hinge-stop: {joint: hinge, from: 20 deg, to: 30 deg, stiffness: 1}", ["outside of its stops", "0.34"]),
     ("slide-stop: {joint: slide, to: -1 mm, stiffness: 1}", ["outside of its stops", "-0.001 m"]),
     ("slide-stop: {joint: slide, stiffness: 1}", ["from and to", "without an end"]),
@@ -240,7 +240,7 @@ output: {sensors: {seen: {SENSOR}}}
     ("hinge-spring: {joint: hing, stiffness: 1}", ["unknown joint \"hing\"", "hinge"]),
     ("hinge-friction: {joint: hinge, static: 0.1}", ["without radius", "`static: 0.1` has no effect", "`radius`", "a `preload`"]),
     ("hinge-friction: {joint: hinge, static: 0.1, preload: 3 mN m}", ["without radius", "leave out `static`"]),
-    ("hinge-friction: {joint: hinge, static: 0.1, dynamic: 0.2, radius: 1 mm}", ["exchange"]),
+    ("hinge-friction: {joint: hinge, static: 0.1, dynamic: 0.2, radius: 1 mm}", ["swap"]),
     ("hinge-friction: {joint: hinge, static: 0.2, dynamic: 0.1, radius: 1 mm}", ["stribeck-velocity"]),
     ("slide-friction: {joint: slide}", ["no effect"]),
 ])

@@ -123,9 +123,9 @@ output: {every: 1 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: 
 @pytest.mark.parametrize("law, words", [
     ("hinge-motor: {joint: shaft}", ["does nothing", "`torque`"]),
     ("hinge-motor: {joint: shaft, angle: 1}", ["without `stiffness`"]),
-    ("hinge-motor: {joint: shaft, stiffness: 1}", ["needs the `angle`"]),
+    ("hinge-motor: {joint: shaft, stiffness: 1}", ["needs a target `angle`"]),
     ("hinge-motor: {joint: shaft, speed: 1}", ["without `damping`"]),
-    ("hinge-motor: {joint: shaft, torque: 1, damping: 1}", ["needs the `speed`"]),
+    ("hinge-motor: {joint: shaft, torque: 1, damping: 1}", ["needs a target `speed`"]),
     ("hinge-motor: {joint: shaft, torque: 1, torque-limit: -1}", ["be positive", "torque-limit"]),
     ("slide-motor: {joint: shaft, force: 1}", ["\"shaft\" is a revolute", "no displacement"]),
     ("hinge-spring: {joint: shaft, characteristic: \"3*x N m\"}", ["unknown name \"x\"", "characteristic"]),

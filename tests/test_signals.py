@@ -200,7 +200,7 @@ output: {every: 10 ms, sensors: {z: {position: {of: ball, along: [0, 0, 1]}}, se
     (["a: {transfer-function: {input: 1, numerator: [1, 0], denominator: [1]}}"], ["above that of the denominator"]),
     (["a: {state-space: {input: 1, A: [[1, 2]], B: [1], C: [1]}}"], ["1 states", "2 entries"]),
     (["a: {pid: {input: 1, derivative: 1}}"], ["\"filter\" is missing"]),
-    (["a: {pid: {input: 1, proportional: 1, limits: [1, -1]}}"], ["exchange"]),
+    (["a: {pid: {input: 1, proportional: 1, limits: [1, -1]}}"], ["swap"]),
 ])
 def test_signals_that_make_no_sense_are_refused(buckens, tmp_path, signals, words):
     u = "u: \"angle\"" if "motor" not in signals[0] else "u: \"f\""

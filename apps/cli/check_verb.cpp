@@ -45,7 +45,7 @@ Exit codes: 0 the model can be run, 2 bad input, 3 the mechanism cannot be built
 }  // namespace
 
 void add_check_verb(CLI::App& program, Invocation& invocation) {
-  CLI::App& verb = *program.add_subcommand("check", "Tell what a model is, without running it");
+  CLI::App& verb = *program.add_subcommand("check", "Describe a model without running it");
   const auto arguments = std::make_shared<CheckArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
   add_json_option(verb, invocation);

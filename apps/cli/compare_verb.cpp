@@ -131,7 +131,7 @@ differ by more than the tolerance. Details: docs/reference/command-line.md)";
 }  // namespace
 
 void add_compare_verb(CLI::App& program, Invocation& invocation) {
-  CLI::App& verb = *program.add_subcommand("compare", "Tell how far two runs differ");
+  CLI::App& verb = *program.add_subcommand("compare", "Compare two runs of a model");
   const auto arguments = std::make_shared<CompareArguments>();
   verb.add_option("A", arguments->first, "Run directory")->required();
   verb.add_option("B", arguments->second, "Run directory")->required();

@@ -35,7 +35,7 @@ Exit codes: 0 told, 2 bad input, 5 files. Details: docs/tutorials/meshes.md)";
 }  // namespace
 
 void add_mesh_info_verb(CLI::App& program, Invocation& invocation) {
-  CLI::App& verb = *program.add_subcommand("mesh-info", "Tell what is in a mesh or STEP file");
+  CLI::App& verb = *program.add_subcommand("mesh-info", "Describe a mesh or STEP file");
   const auto arguments = std::make_shared<MeshArguments>();
   verb.add_option("FILE", arguments->file, "Mesh of another program, or STEP file")->required();
   add_mesh_options(verb, *arguments);

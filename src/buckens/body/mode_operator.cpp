@@ -103,8 +103,8 @@ ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
   }
   if (!factor->factorise(*A)) {
     throw NumericalError(
-        "method augmented: the bordered matrix is singular to working precision; does the mesh "
-        "have parts that hang together loosely?");
+        "method augmented: the bordered matrix is singular to working precision; are parts of the "
+        "mesh only loosely connected?");
   }
   ModeOperator op;
   op.factor_entries = factor->num_factor_entries();

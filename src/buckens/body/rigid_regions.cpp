@@ -39,7 +39,7 @@ void refuse_common_nodes(const std::string& body, std::size_t num_nodes,
           });
       throw ModelError(fmt::format(
           "body \"{}\": its rigid interfaces \"{}\" ({} nodes) and \"{}\" ({} nodes) have {} nodes "
-          "in common, which cannot move with both; make one of them `average`, or join them to one",
+          "in common, which cannot move with both; make one of them `average`, or merge them",
           body, first.name, first.nodes.size(), regions[k].name, regions[k].nodes.size(), common));
     }
   }

@@ -131,7 +131,8 @@ std::string read_text_file(const std::filesystem::path& path) {
                               std::generic_category().message(errno)));
   }
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) throw IoError(fmt::format("{}: reading broke off.", path.string()));
+  if (in.bad())
+    throw IoError(fmt::format("{}: reading stopped before the end of the file.", path.string()));
   return text;
 }
 

@@ -125,12 +125,13 @@ struct JointStop : JointLaw {
               .non_negative()
               .like(turns ? "10 N m s/rad" : "100 N s/m"));
     visit(base::field("restitution", restitution,
-                      "share of the speed of approach with which a rigid stop is left again, 0 … 1")
+                      "coefficient of restitution of a rigid stop: speed of departure over speed "
+                      "of approach, 0 … 1")
               .non_negative()
               .like("0.4")
               .otherwise("0: it stays there until it is pulled off"));
     visit(base::field("threshold", threshold,
-                      "speed of approach up to which a rigid stop is not left again")
+                      "speed of approach up to which a rigid stop causes no rebound")
               .in(turns ? base::kAngularVelocity : base::kVelocity)
               .positive()
               .like(turns ? "1e-3 rad/s" : "1 mm/s")

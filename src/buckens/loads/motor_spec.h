@@ -31,33 +31,33 @@ struct MotorSpec : JointLaw {
               .in(turns ? base::kTorque : base::kForce)
               .like(turns ? "\"2*sin(20*t) N m\"" : "\"50*sin(20*t) N\"")
               .otherwise("none"));
-    visit(base::field(turns ? "angle" : "displacement", position,
-                      "aimed at by `stiffness`, counted from the position as placed; by time and "
-                      "signals")
+    visit(base::field(
+              turns ? "angle" : "displacement", position,
+              "target of `stiffness`, counted from the position as placed; by time and signals")
               .in(turns ? base::kAngle : base::kLength)
               .like(turns ? "\"0.5*sin(2*t) rad\"" : "\"50*sin(2*t) mm\"")
               .otherwise("none"));
-    visit(base::field(turns ? "speed" : "velocity", speed,
-                      "aimed at by `damping`, by time and signals")
-              .in(turns ? base::kAngularVelocity : base::kVelocity)
-              .like(turns ? "1500 rpm" : "0.2 m/s")
-              .otherwise(turns ? "the rate of a law of time for `angle`, else 0"
-                               : "the rate of a law of time for `displacement`, else 0"));
-    visit(base::field("stiffness", stiffness, "gain on what is missing of the position")
+    visit(
+        base::field(turns ? "speed" : "velocity", speed, "target of `damping`; by time and signals")
+            .in(turns ? base::kAngularVelocity : base::kVelocity)
+            .like(turns ? "1500 rpm" : "0.2 m/s")
+            .otherwise(turns ? "the rate of a law of time for `angle`, else 0"
+                             : "the rate of a law of time for `displacement`, else 0"));
+    visit(base::field("stiffness", stiffness, "gain on the error of the position")
               .in(turns ? base::kRotationalStiffness : base::kStiffness)
               .non_negative()
               .like(turns ? "200 N m/rad" : "5 kN/m"));
-    visit(base::field("damping", damping, "gain on what is missing of the speed")
+    visit(base::field("damping", damping, "gain on the error of the speed")
               .in(turns ? base::kRotationalDamping : base::kDamping)
               .non_negative()
               .like(turns ? "5 N m s/rad" : "80 N s/m"));
     visit(base::field(turns ? "torque-limit" : "force-limit", limit,
-                      "most that it gives either way; there it stalls")
+                      "largest magnitude, either way; the motor stalls there")
               .in(turns ? base::kTorque : base::kForce)
               .positive()
               .like(turns ? "12 N m" : "400 N")
               .otherwise("none"));
-    visit(base::field("power-limit", power, "most power that it gives; braking has no such limit")
+    visit(base::field("power-limit", power, "largest power delivered; braking has no such limit")
               .in(base::kPower)
               .positive()
               .like("250 W")

@@ -40,13 +40,13 @@ struct RopeSpec {
               .in(base::kDamping)
               .non_negative()
               .like("2 kN s/m"));
-    visit(base::field("restitution", restitution,
-                      "share of its speed with which the load is thrown back when a rope that does "
-                      "not stretch comes taut, 0 … 1")
+    visit(base::field(
+              "restitution", restitution,
+              "coefficient of restitution when a rope that does not stretch becomes taut, 0 … 1")
               .non_negative()
               .like("0.2")
               .otherwise("0: it stays taut until it is relieved"));
-    visit(base::field("threshold", threshold, "speed up to which nothing is thrown back")
+    visit(base::field("threshold", threshold, "speed up to which it causes no rebound")
               .in(base::kVelocity)
               .positive()
               .like("1 mm/s")

@@ -21,18 +21,18 @@ constexpr std::string_view kLosses =
     "drag is not supported yet; instead use damping: of a `bushing`, a `spring-damper` or a "
     "`torsional-spring`, or a torque or force as a law of time";
 constexpr std::string_view kFriction =
-    "friction in joints is the load `hinge-friction` (against turning) or `slide-friction` "
-    "(against "
-    "sliding) here";
+    "friction in joints is the load `hinge-friction` (against rotation) or `slide-friction` "
+    "(against sliding) here";
 constexpr std::string_view kContact =
     "contact is not supported yet; instead hold parts together by a joint, or by a `spring-damper` "
     "or `bushing` of the stiffness of the contact where it stays closed";
 constexpr std::string_view kLimits =
-    "ends of the way of a joint are the loads `hinge-stop` (of its angle) and `slide-stop` (of its "
+    "limits of a joint are the loads `hinge-stop` (of its angle) and `slide-stop` (of its "
     "displacement) here";
 constexpr std::string_view kGears =
-    "gears and other transmissions are not supported yet; instead drive both shafts by "
-    "`prescribed-rotation` with speeds in the ratio of the transmission";
+    "transmissions are the joints `gear`, `rack`, `belt` and `coupler` here";
+constexpr std::string_view kCam =
+    "a cam and its follower are the joint `slot` here, with `closed: on` for a cam all around";
 constexpr std::string_view kControl =
     "a controller is one of the `signals` here, such as a `pid`; the loads `hinge-motor` and "
     "`slide-motor` take their torque or force from it";
@@ -64,7 +64,7 @@ constexpr std::array<Wish, 58> kWishes = {{
     {"chain", "", kGears},
     {"rackpinion", "", kGears},
     {"rackandpinion", "", kGears},
-    {"cam", "", kGears},
+    {"cam", "", kCam},
     {"pulley", "", kGears},
     {"coupler", "joints", kGears},
     {"pid", "", kControl},

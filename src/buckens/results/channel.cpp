@@ -43,10 +43,10 @@ std::size_t Channel::size() const {
 std::size_t RecordLayout::add(Channel channel) {
   const std::string& path = channel.path;
   if (!is_valid_path(path)) {
-    throw ModelError(fmt::format(
-        "recorded quantity \"{}\": names joined by single '/' are expected, none of them empty, "
-        "\".\" or \"..\". Rename the body, joint or sensor.",
-        path));
+    throw ModelError(
+        fmt::format("recorded quantity \"{}\": expected names joined by single '/', none of them "
+                    "empty, \".\" or \"..\". Rename the body, joint or sensor.",
+                    path));
   }
   const std::vector<std::string> parents = parents_of(path);
   const auto taken = [this](const std::string& name) { return index_.contains(name); };

@@ -46,7 +46,8 @@ class Unpacker {
 
  private:
   std::string_view take(std::uint64_t count) {
-    if (count > rest_.size()) throw IoError("the process that reads texts has sent nonsense.");
+    if (count > rest_.size())
+      throw IoError("the process that reads texts returned an invalid answer.");
     const std::string_view out = rest_.substr(0, count);
     rest_.remove_prefix(count);
     return out;

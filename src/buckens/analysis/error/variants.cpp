@@ -79,8 +79,8 @@ class VariantList {
     if (std::holds_alternative<fem::StructureSpec>(spec->kind)) {
       return "its elements are given one by one and cannot be refined";
     }
-    return "it comes from a file and cannot be refined, and strains tell the error of solids in "
-           "one frame only; compare with a finer file";
+    return "it comes from a file and cannot be refined, and errors are estimated from strains for "
+           "solids in one frame only; compare with a finer file";
   }
 
   void add_time_step() {
@@ -173,11 +173,11 @@ class VariantList {
     for (body::BodySpec& spec : other.bodies) {
       const std::optional<double> share = recovered(spec.name);
       if (!share || !scale_moduli(spec, 1.0 - *share)) continue;
-      what += fmt::format("{}stiffness of \"{}\" less by {:.2g} %", what.empty() ? "" : ", ",
+      what += fmt::format("{}stiffness of \"{}\" lower by {:.2g} %", what.empty() ? "" : ", ",
                           spec.name, 100.0 * *share);
       if (has_shells(spec.name)) {
         leave_out(fmt::format("shells of \"{}\"", spec.name),
-                  "strains tell the error of solids only");
+                  "errors are estimated from strains for solids only");
       }
     }
     if (!what.empty()) add("mesh of files", what, 0, kSafetyOfRecovery, std::move(other));

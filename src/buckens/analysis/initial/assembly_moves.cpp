@@ -153,7 +153,7 @@ std::vector<std::string> judge_assembly(const model::BuiltModel& built,
     const std::string text =
         move.text() + "; correct the placement (`at`) of the body, its lengths, or the markers";
     if (built.description.assembly == model::AssemblyRule::strict) {
-      throw ModelError(move.where, text + " (`assembly: strict` takes no such motion)");
+      throw ModelError(move.where, text + " (`assembly: strict` accepts no such motion)");
     }
     out.push_back(move.where.empty() ? text : move.where.text() + ": " + text);
   }

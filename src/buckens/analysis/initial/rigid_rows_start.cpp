@@ -50,10 +50,10 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
     moved = move_rows(model, released, state);
     if (moved.empty()) return;
   }
-  throw NumericalError(fmt::format(
-      "at t = {:.6g} s no state suits all of the loads {} that hold rigidly; give one of "
-      "them a stiffness, or friction `stick: elastic`",
-      state.t, moved));
+  throw NumericalError(
+      fmt::format("at t = {:.6g} s no combination of holding and releasing satisfies all of the "
+                  "rigid loads {}; give one of them a stiffness, or friction `stick: elastic`",
+                  state.t, moved));
 }
 
 }  // namespace buckens::analysis

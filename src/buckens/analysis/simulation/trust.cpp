@@ -79,7 +79,7 @@ std::string EnergyTrust::doubt(double error) const {
 std::string describe_spin(const std::string& body, double ratio) {
   return fmt::format(
       "body \"{}\" spins at up to {:.2g} of its lowest elastic frequency; linear elasticity in one "
-      "frame knows no centrifugal stiffening: give the body more `frames`",
+      "frame does not include centrifugal stiffening: give the body more `frames`",
       body, ratio);
 }
 

@@ -40,9 +40,8 @@ void add_variables(AbaqusReading& in, const DeckRow& row, std::size_t first,
   const int to =
       row.cell(first + 1).empty() ? from : variable_of(in, row.cell(first + 1), row.place);
   if (to < from) {
-    in.lines.fail(
-        row.place,
-        fmt::format("the last degree of freedom, {}, lies before the first, {}", to + 1, from + 1));
+    in.lines.fail(row.place, fmt::format("the last degree of freedom, {}, precedes the first, {}",
+                                         to + 1, from + 1));
   }
   for (int k = from; k <= to; ++k) variables[static_cast<std::size_t>(k)] = true;
 }
@@ -274,8 +273,9 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
               "LINK in a deck of CalculiX");
     }
     if (row.cells.size() != 3) {
-      in.lines.fail(row.place, fmt::format("an *MPC {} has two nodes or node sets, here are {}",
-                                           type, row.cells.size() - 1));
+      in.lines.fail(row.place,
+                    fmt::format("expected two nodes or node sets for an *MPC {}, found {}", type,
+                                row.cells.size() - 1));
     }
     AbaqusLink& link = add_link(in, kind, row.place);
     link.nodes.emplace_back(row.cell(1));
@@ -339,8 +339,8 @@ void read_equation(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
     }
     while (static_cast<std::int64_t>(equation.terms.size()) < *count) {
       if (!in.lines.next_row(row)) {
-        in.lines.fail(equation.place, fmt::format("the equation has {} terms, {} are there", *count,
-                                                  equation.terms.size()));
+        in.lines.fail(equation.place, fmt::format("expected {} terms of the equation, found {}",
+                                                  *count, equation.terms.size()));
       }
       for (std::size_t i = 0; i < row.cells.size(); i += 3) {
         AbaqusEquation::Term& term = equation.terms.emplace_back();
@@ -354,7 +354,7 @@ void read_equation(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
       }
     }
     if (static_cast<std::int64_t>(equation.terms.size()) > *count) {
-      in.lines.fail(row.place, fmt::format("the equation has {} terms, here are {}", *count,
+      in.lines.fail(row.place, fmt::format("expected {} terms of the equation, found {}", *count,
                                            equation.terms.size()));
     }
     if (is_other) {

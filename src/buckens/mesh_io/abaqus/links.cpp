@@ -195,7 +195,7 @@ class LinkMaker {
     const bool is_plane = link.kind == AbaqusLinkKind::mpc_plane;
     const std::size_t num_leading = is_plane ? 3 : 2;
     if (nodes.size() <= num_leading) {
-      lines_.fail(link.place, fmt::format("*MPC, {} needs more than {} nodes, here are {}",
+      lines_.fail(link.place, fmt::format("*MPC, {}: expected more than {} nodes, found {}",
                                           link.name, num_leading, nodes.size()));
     }
     count_linked(nodes.size(), link.place);

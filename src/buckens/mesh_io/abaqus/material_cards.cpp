@@ -29,7 +29,7 @@ std::vector<double> first_constants(AbaqusReading& in, const DeckKeyword& keywor
   DeckRow row;
   while (out.size() < count) {
     if (!in.lines.next_row(row)) {
-      in.lines.fail(keyword.place, fmt::format("{} needs {} constants, here are {}",
+      in.lines.fail(keyword.place, fmt::format("{}: expected {} constants, found {}",
                                                keyword.written, count, out.size()));
     }
     for (std::size_t i = 0; i < row.cells.size() && out.size() < count; ++i) {
@@ -37,7 +37,7 @@ std::vector<double> first_constants(AbaqusReading& in, const DeckKeyword& keywor
     }
     // Eight values fill a line; anything else after them is the temperature.
     if (row.cells.size() < 8 && out.size() < count) {
-      in.lines.fail(row.place, fmt::format("{} needs {} constants, here are {}", keyword.written,
+      in.lines.fail(row.place, fmt::format("{}: expected {} constants, found {}", keyword.written,
                                            count, out.size()));
     }
   }

@@ -66,8 +66,8 @@ void check_count(AbaqusReading& in, const AbaqusElementType& type, std::size_t g
                                type.name, needed));
     return;
   }
-  in.lines.fail(place, fmt::format("an element of type {} has {} nodes, here are {}", type.name,
-                                   needed, given));
+  in.lines.fail(
+      place, fmt::format("an element of type {} has {} nodes, found {}", type.name, needed, given));
 }
 
 /// Elements that the model file wants left out keep their numbers, for the sets.
@@ -105,7 +105,7 @@ void read_set_rows(AbaqusReading& in, const DeckKeyword& keyword, const char* wh
       range.last = in.lines.label(row.cell(1), row.place, what);
       if (!row.cell(2).empty()) range.step = in.lines.label(row.cell(2), row.place, "the step");
       if (range.last < range.first) {
-        in.lines.fail(row.place, fmt::format("the last number, {}, lies before the first, {}",
+        in.lines.fail(row.place, fmt::format("the last number, {}, precedes the first, {}",
                                              range.last, range.first));
       }
       if ((range.last - range.first) / range.step + 1 > kMostGenerated) {

@@ -91,8 +91,8 @@ void refuse_beams_off_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
     const std::string text = in.optional_parameter(keyword, key);
     if (text.empty() || files::deck_number(text) == 0.0) continue;
     in.lines.fail(keyword.place,
-                  fmt::format("{}={}: beams beside their nodes are not supported; give them nodes "
-                              "of their own and join these by *MPC, BEAM",
+                  fmt::format("{}={}: beams offset from their nodes are not supported; give them "
+                              "nodes of their own and join these by *MPC, BEAM",
                               key, text.substr(0, 40)));
   }
   if (!keyword.has("NODALTHICKNESS")) return;

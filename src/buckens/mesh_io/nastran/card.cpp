@@ -34,7 +34,7 @@ bool NastranCard::is_word(int i) const {
 }
 
 std::int64_t NastranCard::integer(int i) const {
-  if (blank(i)) fail(i, "is blank; an integer is needed");
+  if (blank(i)) fail(i, "is blank; expected an integer");
   const auto value = nastran_integer(text(i));
   if (!value) fail(i, fmt::format("{} is not an integer", quoted_excerpt(text(i))));
   return *value;
@@ -57,7 +57,7 @@ std::int64_t NastranCard::id(int i, std::int64_t otherwise) const {
 }
 
 double NastranCard::real(int i) const {
-  if (blank(i)) fail(i, "is blank; a number is needed");
+  if (blank(i)) fail(i, "is blank; expected a number");
   const auto value = nastran_real(text(i));
   if (!value) {
     fail(i, fmt::format("{} is not a number; write 1.5, 1.5E-3 or 1.5-3", quoted_excerpt(text(i))));

@@ -74,7 +74,7 @@ void ConnectionBuilder::add_rbe3(const NastranCard& card) {
     if (card.is_word(field)) {
       // UM chooses other variables to eliminate, which changes nothing.
       if (card.word(field) != "UM" && card.word(field) != "ALPHA") {
-        card.fail(field, fmt::format("{} is given where a node is expected", card.word(field)));
+        card.fail(field, fmt::format("expected a node, found {}", card.word(field)));
       }
       if (card.word(field) == "ALPHA") notes_.add("RBE3: ALPHA is left out", place);
       break;

@@ -210,8 +210,7 @@ NastranControl read_nastran_control(NastranSource& source,
   }
   throw InputError(
       {source.main_file().name, 0, 0},
-      "there is executive or case control, but no BEGIN BULK after it; the deck may be "
-      "cut off");
+      "there is executive or case control, but no BEGIN BULK after it; the deck may be truncated");
 }
 
 }  // namespace buckens::mesh_io

@@ -71,7 +71,7 @@ void check_step(const std::string& text, const std::string& file) {
   if (text.find("END-ISO-10303-21;") != std::string::npos) return;
   const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
   throw InputError({file, lines, 1},
-                   "the STEP file is cut off: END-ISO-10303-21 is missing at its end");
+                   "the STEP file is truncated: END-ISO-10303-21 is missing at its end");
 }
 
 /// The output lines of the other process.
@@ -193,7 +193,7 @@ class Trials {
                         "patterns of many holes",
                         kSeconds));
       }
-      output_ = "failed Gmsh came to no end within minutes of computing";
+      output_ = "failed Gmsh did not finish within minutes of computing";
       ++timeouts_;
     } else if (!result.is_complete) {
       output_ = fmt::format(

@@ -93,7 +93,7 @@ TEST_F(AbaqusMalformed, HugeNumbersCostNoMemory) {
   refuses(with_nodes("*NSET, NSET=A, GENERATE\n1, 999999999, 1\n"),
           {"deck.inp:11:1", "999999999 numbers"});
   refuses(with_nodes("*NSET, NSET=A, GENERATE\n100, 200, 1\n"), {"no such node"});
-  refuses(with_nodes("*NSET, NSET=A, GENERATE\n8, 1\n"), {"before the first"});
+  refuses(with_nodes("*NSET, NSET=A, GENERATE\n8, 1\n"), {"precedes the first"});
   refuses(with_nodes("*NSET, NSET=A, GENERATE\n1, 8, 0\n"), {"the step"});
 }
 
@@ -131,8 +131,8 @@ TEST_F(AbaqusMalformed, ASetMayHaveANumberForItsName) {
 
 TEST_F(AbaqusMalformed, ElementsThatAreNone) {
   refuses(with_nodes("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7\n"),
-          {"deck.inp:11:1", "C3D8 has 8 nodes", "here are 7"});
-  refuses(with_nodes("*ELEMENT, TYPE=B31\n1, 1,2,3,4\n"), {"B31 has 2 nodes", "here are 4"});
+          {"deck.inp:11:1", "C3D8 has 8 nodes", "found 7"});
+  refuses(with_nodes("*ELEMENT, TYPE=B31\n1, 1,2,3,4\n"), {"B31 has 2 nodes", "found 4"});
   refuses(with_nodes("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,\n5,6,\n"), {"the data end here", "6 of"});
   refuses(with_nodes("*ELEMENT, TYPE=C3D4\n7, 1,2,3,99\n"),
           {"deck.inp:11:1", "element 7", "node 99", "not defined"});
@@ -263,15 +263,15 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1, 2\n",
           {"deck.inp:13:1", "two diameters of CIRC differ"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, OFFSET2=0.5\n1, 2\n",
-          {"deck.inp:12:1", "OFFSET2=0.5", "beside their nodes"});
+          {"deck.inp:12:1", "OFFSET2=0.5", "offset from their nodes"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, NODAL THICKNESS\n", {"NODAL THICKNESS"});
   refuses(beam + "*BEAM GENERAL SECTION, ELSET=E\n1,1,0.5,1,1\n", {"I12 must be zero"});
   refuses(with_nodes("*ELASTIC\n1,0\n"), {"belongs below a *MATERIAL"});
-  refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n1\n"), {"needs 2 constants, here are 1"});
+  refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n1\n"), {"expected 2 constants, found 1"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n-1, 0.3\n"), {"E = -1"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*DENSITY\n-1\n"), {"negative"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n1\n"),
-          {"needs 21 constants, here are 1"});
+          {"expected 21 constants, found 1"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n"
                      "4,1,4,1,1,4,0.5,0\n0,1,0,0,0,0,1,0\n0,0,0,0,1\n"),
           {"constant 7 is 0.5", "couple stretch and shear"});
@@ -291,14 +291,16 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
 }
 
 TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
-  refuses(with_nodes("*EQUATION\n3\n1,1,1.,2,1,-1.\n"), {"deck.inp:11:1", "3 terms, 2 are there"});
-  refuses(with_nodes("*EQUATION\n1\n1,1,1.,2,1,-1.\n"), {"1 terms, here are 2"});
+  refuses(with_nodes("*EQUATION\n3\n1,1,1.,2,1,-1.\n"),
+          {"deck.inp:11:1", "expected 3 terms of the equation, found 2"});
+  refuses(with_nodes("*EQUATION\n1\n1,1,1.,2,1,-1.\n"),
+          {"expected 1 terms of the equation, found 2"});
   refuses(with_nodes("*EQUATION\n1000000000\n1,1,1.\n"), {"number of terms"});
   refuses(with_nodes("*EQUATION\n2\n1,7000,1.,2,1,-1.\n"), {"\"7000\" is not a degree"});
   refuses(with_nodes("*EQUATION\n2\n1,1,0.,2,1,-1.\n"), {"first coefficient is zero"});
   refuses(with_nodes("*MPC\nSLIDER, 1, 2, 3\n"), {"type \"SLIDER\" is not supported", "LINK"});
   refuses(with_nodes("*NODE\n9,0,0,0\n*MPC\nLINK, 1, 9\n"), {"deck.inp:13:1", "at one place"});
-  refuses(with_nodes("*MPC\nBEAM, 1\n"), {"has two nodes"});
+  refuses(with_nodes("*MPC\nBEAM, 1\n"), {"expected two nodes"});
   refuses(with_nodes("*MPC\nPIN, 1, 1\n"), {"joins a node to itself"});
   refuses(with_nodes("*RIGID BODY, REF NODE=1\n"), {"needs ELSET"});
   refuses(with_nodes("*RIGID BODY, REF NODE=1, NSET=N\n"), {"no node set \"N\""});
@@ -319,7 +321,7 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
           {"deck.inp:14:1", "expected RECTANGULAR or CYLINDRICAL"});
   refuses(turned + "*KINEMATIC\n1, 1\n*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n1,0,0,1,0,0\n",
           {"a and b are one"});
-  refuses(turned + "*KINEMATIC\n3, 1\n", {"deck.inp:16:1", "lies before the first"});
+  refuses(turned + "*KINEMATIC\n3, 1\n", {"deck.inp:16:1", "precedes the first"});
 }
 
 TEST_F(AbaqusMalformed, LargeSetsInManyTermsCostNoMemory) {

@@ -109,7 +109,7 @@ TEST(NastranMalformed, what_is_refused_says_why) {
   expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,456,2,3\n,4\n"),
                {"deck.bdf:8:18", "means of rotations alone"});
   expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,123,2,THRU\n,4\n"),
-               {"THRU is given where a node is expected"});
+               {"expected a node, found THRU"});
   expect_words(refusal("CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n" + kTetra +
                        "GRID,9,,1.,1.,1.,7\nRBE3,2,,1,123,1.,1,2,3\n,9\n"),
                {"single components at GRID 9"});

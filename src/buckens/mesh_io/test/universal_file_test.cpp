@@ -112,7 +112,7 @@ TEST(UniversalFile, SaysWhatIsWrongAndWhere) {
               HasSubstr("the descriptor 999"));
   EXPECT_THAT(
       universal_message(test::replaced(kPart, "         7        10\n", "         7         4\n")),
-      HasSubstr("has 4 nodes in place of 10"));
+      HasSubstr("has 4 nodes; expected 10"));
   EXPECT_THAT(
       universal_message(test::replaced(kPart, "2.0000000000000000D+00", "                   inf")),
       HasSubstr("part.unv:12:"));

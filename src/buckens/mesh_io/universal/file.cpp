@@ -169,8 +169,8 @@ void UniversalReader::read_elements() {
                       id, descriptor));
     }
     if (static_cast<int>(count) != fem::num_nodes(shape->kind)) {
-      text_.fail(fmt::format("element {}, a {}, has {} nodes in place of {}", id, shape->name,
-                             count, fem::num_nodes(shape->kind)));
+      text_.fail(fmt::format("element {}, a {}, has {} nodes; expected {}", id, shape->name, count,
+                             fem::num_nodes(shape->kind)));
     }
     Element element{shape, id, {}, {}};
     for (std::size_t i = 0; i < count; ++i) {

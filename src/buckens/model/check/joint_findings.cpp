@@ -65,19 +65,19 @@ template <class Spec>
 Found give_problem(const Spec& spec) {
   if (spec.stiffness && (spec.restitution || spec.threshold)) {
     return Finding{spec.restitution ? "restitution" : "threshold",
-                   "what has a stiffness gives way and returns by that; leave out `stiffness` to "
-                   "have it rigid, or this key to have it elastic"};
+                   "this key belongs to rigid stops and ropes; leave out `stiffness` to make it "
+                   "rigid, or remove this key"};
   }
   if (!spec.stiffness && spec.damping > 0.0) {
-    return Finding{
-        "damping",
-        "without a stiffness it is rigid and has no damping; give a `stiffness` as well, "
-        "or `restitution` in its place"};
+    return Finding{"damping",
+                   "without `stiffness` it is rigid and has no damping; give a `stiffness` as "
+                   "well, or `restitution` instead"};
   }
   if (spec.restitution.value_or(0.0) > 1.0) {
-    return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no impact gives back "
-                                              "more speed than it takes",
-                                              *spec.restitution)};
+    return Finding{
+        "restitution",
+        fmt::format("expected 0 to 1, found {:g}: no rebound is faster than the approach",
+                    *spec.restitution)};
   }
   return std::nullopt;
 }
@@ -87,9 +87,10 @@ Found stop_problem(const loads::JointStop& spec, const char* unit) {
     return Finding{"", "at least one of the keys from and to is needed: a stop without an end"};
   }
   if (spec.from && spec.to && *spec.from >= *spec.to) {
-    return Finding{"to", fmt::format("the free way ends at {:g} {} before it begins at {:g} {}; "
-                                     "exchange from and to",
-                                     *spec.to, unit, *spec.from, unit)};
+    return Finding{
+        "to",
+        fmt::format("the free range ends at {:g} {} before it begins at {:g} {}; swap from and to",
+                    *spec.to, unit, *spec.from, unit)};
   }
   if (Found found = give_problem(spec)) return found;
   return std::nullopt;
@@ -97,10 +98,9 @@ Found stop_problem(const loads::JointStop& spec, const char* unit) {
 
 Found friction_problem(const loads::JointFrictionBase& spec) {
   if (spec.dynamic && *spec.dynamic > spec.coefficient) {
-    return Finding{"dynamic",
-                   fmt::format("friction is {:g} while it slides, more than {:g} while it sticks; "
-                               "exchange `static` and `dynamic`",
-                               *spec.dynamic, spec.coefficient)};
+    return Finding{"dynamic", fmt::format("friction is {:g} while it slides, more than {:g} while "
+                                          "it sticks; swap `static` and `dynamic`",
+                                          *spec.dynamic, spec.coefficient)};
   }
   if (spec.dynamic && *spec.dynamic < spec.coefficient && !spec.stribeck) {
     return Finding{
@@ -139,25 +139,27 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
   const char* position = turns ? "angle" : "displacement";
   const char* speed = turns ? "speed" : "velocity";
   if (spec.position && spec.stiffness == 0.0) {
-    return Finding{position,
-                   fmt::format("an {0} without `stiffness` is not aimed at; give the gain "
-                               "on what is missing of the {0}",
-                               position)};
+    return Finding{
+        position,
+        fmt::format(
+            "an {0} has no effect without `stiffness`, the gain on its error; give this gain",
+            position)};
   }
   if (spec.stiffness > 0.0 && !spec.position) {
-    return Finding{"stiffness", fmt::format("a gain on the {0} needs the `{0}` to be aimed at, for "
-                                            "example {0}: 0",
-                                            position)};
+    return Finding{
+        "stiffness",
+        fmt::format("a gain on the {0} needs a target `{0}`, for example {0}: 0", position)};
   }
   if (spec.speed && spec.damping == 0.0) {
-    return Finding{speed, fmt::format("a {0} without `damping` is not aimed at; give the gain on "
-                                      "what is missing of the {0}",
-                                      speed)};
+    return Finding{
+        speed,
+        fmt::format("a {0} has no effect without `damping`, the gain on its error; give this gain",
+                    speed)};
   }
   if (spec.damping > 0.0 && !spec.position && !spec.speed) {
-    return Finding{"damping", fmt::format("a gain on the {0} needs the `{0}` to be aimed at, for "
-                                          "example {0}: 0",
-                                          speed)};
+    return Finding{
+        "damping",
+        fmt::format("a gain on the {0} needs a target `{0}`, for example {0}: 0", speed)};
   }
   if (!spec.force && spec.stiffness == 0.0 && spec.damping == 0.0) {
     const char* force = turns ? "torque" : "force";

@@ -112,9 +112,9 @@ Found problem(const PidSpec& spec, const ModelDescription&) {
                    "of its filter, for example filter: 5 ms"};
   }
   if (spec.limits && !((*spec.limits)[0] < (*spec.limits)[1])) {
-    return Finding{"limits", fmt::format("the least value {:g} is not below the largest {:g}; "
-                                         "exchange them",
-                                         (*spec.limits)[0], (*spec.limits)[1])};
+    return Finding{"limits",
+                   fmt::format("the least value {:g} is not below the largest {:g}; swap them",
+                               (*spec.limits)[0], (*spec.limits)[1])};
   }
   if (spec.tracking && (spec.sample || !spec.limits)) {
     return Finding{"tracking-time", spec.sample

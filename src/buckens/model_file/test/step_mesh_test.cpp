@@ -148,7 +148,7 @@ TEST(StepMesh, SaysWhatIsWrong) {
   const std::string step = files::read_text_file(kRod, "part");
   EXPECT_THAT(message_of(""), HasSubstr("not a STEP file"));
   EXPECT_THAT(message_of("solid ascii\nfacet"), HasSubstr("not a STEP file"));
-  EXPECT_THAT(message_of(step.substr(0, step.size() / 2)), HasSubstr("is cut off"));
+  EXPECT_THAT(message_of(step.substr(0, step.size() / 2)), HasSubstr("is truncated"));
   EXPECT_THAT(message_of("ISO-10303-21;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"),
               HasSubstr("cannot be meshed: Could not read file 'buckens_step_test"));
   EXPECT_THAT(message_of(step, 1e-6), HasSubstr("give a larger size"));
