@@ -47,5 +47,6 @@ What to try next:
   $program run $model -o out --set bodies.rod.beam.elements=32
   $program check $model
   $program --help
+  PYTHONPATH=build/release/python python3 -c "import buckens; help(buckens)"   # after: cmake --build --preset release
   ls examples
 TEXT

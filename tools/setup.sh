@@ -14,6 +14,7 @@ buckens_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format-14 clang-14 libclang-rt-14-dev
   python3 python3-pytest python3-numpy python3-h5py python3-vtk9
+  python3-dev pybind11-dev mypy
 )
 
 # Object files are cached by the contents of the sources, not by the location of the checkout.

@@ -77,18 +77,20 @@ body::FrameMotion Simulation::frame(const std::string& body) const {
 }
 
 Eigen::Map<const Eigen::VectorXd> Simulation::values(const std::string& path) const {
-  const results::RecordLayout& layout = run_->layout();
-  const int found = layout.find(path);
+  const results::RecordLayout& known_paths = layout();
+  const int found = known_paths.find(path);
   if (found < 0) {
     std::vector<std::string> known;
-    for (const results::Channel& channel : layout.channels()) known.push_back(channel.path);
+    for (const results::Channel& channel : known_paths.channels()) known.push_back(channel.path);
     throw InputError(
         fmt::format("nothing is recorded as \"{}\".{}", path, base::suggestion(path, known)));
   }
   const auto index = static_cast<std::size_t>(found);
-  return {run_->observe().data() + layout.offset(index),
-          static_cast<Eigen::Index>(layout.channel(index).size())};
+  return {run_->observe().data() + known_paths.offset(index),
+          static_cast<Eigen::Index>(known_paths.channel(index).size())};
 }
+
+const results::RecordLayout& Simulation::layout() const { return run_->layout(); }
 
 Eigen::Map<const Eigen::VectorXd> Simulation::sensor(const std::string& name) const {
   return values("sensors/" + name);

@@ -102,6 +102,8 @@ class Simulation {
   /// @return a view with a fixed address, updated by the next call for any path
   /// @throws InputError naming the nearest path
   Eigen::Map<const Eigen::VectorXd> values(const std::string& path) const;
+  /// Everything that values() knows: paths, units, extents.
+  const results::RecordLayout& layout() const;
   /// Current values of a sensor of the model.
   Eigen::Map<const Eigen::VectorXd> sensor(const std::string& name) const;
   using NodalMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;

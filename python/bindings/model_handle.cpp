@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bindings/model_handle.h"
+
+#include <utility>
+
+#include "buckens/analysis/simulation/choose_modes.h"
+#include "buckens/base/errors.h"
+#include "buckens/base/log.h"
+#include "buckens/model_file/model_file.h"
+#include "buckens/run_store/basis_files.h"
+
+namespace buckens::python {
+
+namespace {
+
+std::shared_ptr<const model::BuiltModel> build(model::ModelDescription description) {
+  std::vector<std::string> notes;
+  analysis::choose_modes(description, notes,
+                         [](const std::string& text) { base::log(base::LogLevel::info, text); });
+  run_store::BasisFiles bases(description.directory);
+  std::unique_ptr<model::BuiltModel> out = model::build_model(std::move(description), &bases);
+  out->model.notes.insert(out->model.notes.end(), notes.begin(), notes.end());
+  return out;
+}
+
+/// Calls a function, and takes the place out of the error that it throws.
+template <class Work>
+auto without_places(Work&& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(error.text());
+  } catch (const ModelError& error) {
+    throw ModelError(error.text());
+  } catch (const IoError& error) {
+    throw IoError(error.text());
+  }
+}
+
+}  // namespace
+
+ModelHandle::ModelHandle(model::ModelDescription description)
+    : description_(std::move(description)) {}
+
+std::shared_ptr<ModelHandle> ModelHandle::read(const std::string& path,
+                                               const std::vector<std::string>& overrides) {
+  return std::make_shared<ModelHandle>(model_file::read_model_file(path, overrides));
+}
+
+std::shared_ptr<ModelHandle> ModelHandle::parse(const std::string& text, const std::string& name,
+                                                const std::vector<std::string>& overrides,
+                                                bool is_generated) {
+  const auto read_text = [&] { return model_file::read_model_text(text, name, overrides); };
+  return std::make_shared<ModelHandle>(is_generated ? without_places(read_text) : read_text());
+}
+
+std::shared_ptr<const model::BuiltModel> ModelHandle::built() const {
+  const std::lock_guard lock(mutex_);
+  if (!built_) built_ = build(description_);
+  return built_;
+}
+
+std::shared_ptr<const model::BuiltModel> ModelHandle::built_with(
+    std::vector<model::OwnForce> forces) const {
+  if (forces.empty()) return built();
+  model::ModelDescription description = description_;
+  for (model::OwnForce& force : forces) description.own_forces.push_back(std::move(force));
+  return build(std::move(description));
+}
+
+}  // namespace buckens::python

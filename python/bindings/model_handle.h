@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "buckens/model/build/build_model.h"
+
+namespace buckens::python {
+
+/// A model as read, and as built for the first simulation that needs it.
+class ModelHandle {
+ public:
+  explicit ModelHandle(model::ModelDescription description);
+
+  /// @throws InputError citing file:line:column; IoError
+  static std::shared_ptr<ModelHandle> read(const std::string& path,
+                                           const std::vector<std::string>& overrides);
+  /// The same from a text.
+  /// @param name denotes the text in messages, and tables are looked up in its directory
+  /// @param is_generated nobody has seen the text: messages do not cite its lines
+  static std::shared_ptr<ModelHandle> parse(const std::string& text, const std::string& name,
+                                            const std::vector<std::string>& overrides,
+                                            bool is_generated);
+
+  const model::ModelDescription& description() const { return description_; }
+  /// @throws InputError, ModelError with the names of bodies, joints and markers
+  std::shared_ptr<const model::BuiltModel> built() const;
+  /// The same with forces written in code, which no other simulation gets.
+  std::shared_ptr<const model::BuiltModel> built_with(std::vector<model::OwnForce> forces) const;
+
+ private:
+  model::ModelDescription description_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const model::BuiltModel> built_;
+};
+
+}  // namespace buckens::python

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// buckens._core: what the Python package takes from the library. Documented and typed in
+// python/buckens/_core.pyi; users see the package around it.
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "bindings/exceptions.h"
+#include "bindings/messages.h"
+#include "bindings/simulation_handle.h"
+
+#include "buckens/base/version.h"
+#include "buckens/linalg/blas_kernels.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace buckens::python {
+
+namespace {
+
+using Unlocked = py::call_guard<py::gil_scoped_release>;
+
+template <class Spec>
+std::vector<std::string> names(const std::vector<Spec>& specs) {
+  std::vector<std::string> out;
+  for (const Spec& spec : specs) out.push_back(spec.name);
+  return out;
+}
+
+void define_model(py::module_& core) {
+  using Model = ModelHandle;
+  py::class_<Model, std::shared_ptr<Model>>(core, "Model")
+      .def_static("read", &Model::read, "path"_a, "overrides"_a, Unlocked())
+      .def_static("parse", &Model::parse, "text"_a, "name"_a, "overrides"_a, "is_generated"_a,
+                  Unlocked())
+      .def_property_readonly("title", [](const Model& m) { return m.description().title; })
+      .def_property_readonly("source", [](const Model& m) { return m.description().source; })
+      .def_property_readonly("directory", [](const Model& m) { return m.description().directory; })
+      .def_property_readonly("warnings", [](const Model& m) { return m.description().warnings; })
+      .def_property_readonly("bodies", [](const Model& m) { return names(m.description().bodies); })
+      .def_property_readonly("joints", [](const Model& m) { return names(m.description().joints); })
+      .def_property_readonly("loads", [](const Model& m) { return names(m.description().loads); })
+      .def_property_readonly("sensors",
+                             [](const Model& m) { return names(m.description().output.sensors); })
+      .def_property_readonly("duration", [](const Model& m) -> std::optional<double> {
+        const auto& simulation = m.description().simulation;
+        return simulation ? std::optional<double>(simulation->duration) : std::nullopt;
+      });
+}
+
+std::shared_ptr<SimulationHandle> make_simulation(
+    const std::shared_ptr<ModelHandle>& model,
+    const std::vector<std::tuple<std::string, std::string, py::function>>& forces, int threads,
+    const std::string& out, bool keep_records, const std::string& start_from) {
+  SimulationSettings settings;
+  for (const auto& [name, marker, function] : forces) {
+    settings.forces.push_back({name, marker, function});
+  }
+  settings.threads = threads;
+  settings.out = out;
+  settings.keep_records = keep_records;
+  settings.start_from = start_from;
+  return std::make_shared<SimulationHandle>(model, settings);
+}
+
+void define_simulation(py::module_& core) {
+  using Simulation = SimulationHandle;
+  py::class_<Simulation, std::shared_ptr<Simulation>>(core, "Simulation")
+      .def(py::init(&make_simulation), "model"_a, "forces"_a, "threads"_a, "out"_a,
+           "keep_records"_a, "start_from"_a)
+      .def("step", &Simulation::step)
+      .def("advance", &Simulation::advance, "t"_a)
+      .def("run", &Simulation::run, "progress"_a)
+      .def("finish", &Simulation::finish)
+      .def("stop", &Simulation::stop)
+      .def("on_step", &Simulation::on_step, "callback"_a)
+      .def_property_readonly("time", &Simulation::time)
+      .def_property_readonly("end_time", &Simulation::end_time)
+      .def_property_readonly("num_steps", &Simulation::num_steps)
+      .def_property_readonly("is_done", &Simulation::is_done)
+      .def("frame", &Simulation::frame, "body"_a)
+      .def("displacements", &Simulation::displacements, "body"_a)
+      .def("velocities", &Simulation::velocities, "body"_a)
+      .def("multipliers", &Simulation::multipliers)
+      .def("value", &Simulation::value, "path"_a)
+      .def("quantities", &Simulation::quantities)
+      .def("curves", &Simulation::curves)
+      .def("set_load", &Simulation::set_load, "load"_a, "value"_a)
+      .def("release_load", &Simulation::release_load, "load"_a)
+      .def("save", &Simulation::save, "path"_a);
+}
+
+py::list messages() {
+  py::list out;
+  for (const auto& [level, text] : take_messages()) {
+    out.append(py::make_tuple(static_cast<int>(level), text));
+  }
+  return out;
+}
+
+}  // namespace
+
+}  // namespace buckens::python
+
+PYBIND11_MODULE(_core, core) {
+  using namespace buckens;
+  // As the program does, so that both compute the same to the last bit.
+  linalg::choose_blas_kernels();
+  python::collect_messages();
+  python::translate_exceptions();
+  core.attr("version") = kVersion;
+  core.def("take_messages", &python::messages);
+  python::define_model(core);
+  python::define_simulation(core);
+}

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Models: read from a file, or made from a dictionary or objects with the same keys."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Union
+
+from . import _core
+from .messages import tell_messages
+from .yaml_text import _flow, to_yaml
+
+#: f(t, x, v): time [s], position [m] and velocity [m/s] of the marker; returns a force [N].
+ForceFunction = Callable[..., Sequence[float]]
+Overrides = Union[Mapping[str, Any], Sequence[str], None]
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+def overrides_of(changes: Overrides) -> List[str]:
+    """Changes as the program takes them after `--set`: "bodies.rod.beam.elements=32"."""
+    if changes is None:
+        return []
+    if isinstance(changes, str):
+        return [changes]
+    if isinstance(changes, Mapping):
+        return [f"{path}={_flow(value, path)}" for path, value in changes.items()]
+    return [str(change) for change in changes]
+
+
+class Model:
+    """A model: what a model file says. It never changes.
+
+    Parameters
+    ----------
+    **keys
+        Those of a model file: ``bodies``, ``joints``, ``loads``, ``simulation``, ... (a hyphen becomes
+        an underscore nowhere: give such keys with :meth:`from_dict`). Values are numbers in SI units,
+        texts with units ("10 mm"), expressions, arrays, lists, dictionaries, or objects such as
+        :class:`buckens.Beam`.
+
+    Examples
+    --------
+    >>> rod = {"beam": {"to": ["500 mm", 0, 0], "elements": 8, "material": "steel",
+    ...                 "section": {"circle": {"diameter": "10 mm"}}}}
+    >>> steel = {"E": "200 GPa", "nu": 0.3, "rho": 7850}
+    >>> model = Model(gravity=[0, -9.81, 0], materials={"steel": steel}, bodies={"rod": rod},
+    ...               joints={"clamp": {"fixed": {"between": ["ground", "rod/start"]}}},
+    ...               simulation={"duration": "1 s", "step": "1 ms"})
+    """
+
+    def __init__(self, **keys: Any) -> None:
+        self._take(_parse(keys, "."))
+
+    def _take(self, core: _core.Model, forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> None:
+        self._core = core
+        self._forces = list(forces)
+
+    @classmethod
+    def _of(cls, core: _core.Model, forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> Model:
+        out = cls.__new__(cls)
+        out._take(core, forces)
+        return out
+
+    @classmethod
+    def from_dict(cls, tree: Mapping[str, Any], directory: PathLike = ".") -> Model:
+        """A model from a dictionary with the keys of a model file.
+
+        Parameters
+        ----------
+        tree
+            As a model file in YAML would be read; the key ``buckens`` may be missing.
+        directory
+            Where the files lie that the model names.
+
+        Raises
+        ------
+        InputError
+            Naming the path of the key, the value and a remedy.
+        """
+        return cls._of(_parse(tree, directory))
+
+    @classmethod
+    def from_yaml(cls, text: str, directory: PathLike = ".") -> Model:
+        """A model from the text of a model file."""
+        name = os.path.join(os.fspath(directory), "model.yaml")
+        return cls._of(_core.Model.parse(text, name, [], False))
+
+    def with_changes(self, changes: Overrides) -> Model:
+        """The same model with other values.
+
+        Parameters
+        ----------
+        changes
+            ``{"bodies.rod.beam.elements": 32}``, as `--set` of the program.
+        """
+        name = os.path.join(self._core.directory, "model.yaml")
+        core = _core.Model.parse(self._core.source, name, overrides_of(changes), False)
+        return Model._of(core, self._forces)
+
+    def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
+        """Decorator: a force on a marker by a function, evaluated within the steps.
+
+        The function is called as ``f(t, x, v)`` with the time [s] and the position [m] and velocity
+        [m/s] of the marker (world axes, arrays of 3), several times per step, and returns three
+        numbers [N], world axes. It must give the same for the same arguments. Its derivatives by
+        position and velocity are formed by differences.
+
+        Parameters
+        ----------
+        marker
+            "rod/end", or "rod" for the origin of its frame.
+        name
+            Of the load in results; without it that of the function.
+        """
+
+        def add(function: ForceFunction) -> ForceFunction:
+            load = name or str(getattr(function, "__name__", "force"))
+            self._forces.append((load, marker, function))
+            return function
+
+        return add
+
+    def to_yaml(self) -> str:
+        """The text of a model file with this model. Forces by functions are not part of it."""
+        return self._core.source
+
+    def save(self, path: PathLike) -> None:
+        """Writes :meth:`to_yaml` to a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.to_yaml())
+
+    @property
+    def title(self) -> str:
+        """One line about the model."""
+        return self._core.title
+
+    @property
+    def bodies(self) -> List[str]:
+        """Names of the bodies."""
+        return self._core.bodies
+
+    @property
+    def joints(self) -> List[str]:
+        """Names of the joints."""
+        return self._core.joints
+
+    @property
+    def loads(self) -> List[str]:
+        """Names of loads and force laws, without forces by functions."""
+        return self._core.loads
+
+    @property
+    def sensors(self) -> List[str]:
+        """Names of the sensors."""
+        return self._core.sensors
+
+    @property
+    def warnings(self) -> List[str]:
+        """Doubts about implausible values."""
+        return self._core.warnings
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{len(names)} {kind if len(names) != 1 else singular}"
+                           for names, kind, singular in ((self.bodies, "bodies", "body"),
+                                                         (self.joints, "joints", "joint"),
+                                                         (self.loads, "loads", "load")))
+        return f"<buckens.Model {self.title!r}: {counts}>"
+
+
+def _parse(tree: Mapping[str, Any], directory: PathLike) -> _core.Model:
+    text = to_yaml(tree if "buckens" in tree else {"buckens": 1, **tree})
+    return _core.Model.parse(text, os.path.join(os.fspath(directory), "model.yaml"), [], True)
+
+
+def load(path: PathLike, set: Overrides = None) -> Model:  # noqa: A002 (the program's word)
+    """Reads a model file.
+
+    Parameters
+    ----------
+    path
+        A model file in YAML or JSON.
+    set
+        Values to replace, ``{"bodies.rod.beam.elements": 32, "parameters.L": "280 mm"}``, as `--set`
+        of the program.
+
+    Raises
+    ------
+    InputError
+        Citing file:line:column, the path of the key, the value and a remedy.
+    IoError
+        If a file cannot be read.
+    """
+    model = Model._of(_core.Model.read(os.fspath(path), overrides_of(set)))
+    tell_messages()
+    return model

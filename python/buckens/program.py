@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Calls of the program `buckens` that belongs to this module."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+from contextlib import contextmanager
+from typing import Any, Dict, Iterator, List, Sequence, Union
+
+from . import errors
+from .model import Model, PathLike
+
+ModelLike = Union[Model, PathLike]
+
+_KINDS = {"usage": errors.InputError, "input": errors.InputError, "model": errors.ModelError,
+          "numerical": errors.NumericalError, "io": errors.IoError, "memory": MemoryError}
+_INTERRUPTED, _DIFFERENT = 130, 6
+
+
+def find_program() -> str:
+    """The program of the same build or installation; the variable BUCKENS_PROGRAM names another.
+
+    Raises
+    ------
+    IoError
+        If there is none.
+    """
+    named = os.environ.get("BUCKENS_PROGRAM")
+    if named:
+        return named
+    here = pathlib.Path(__file__).absolute().parent
+    for folder in here.parents[:4]:
+        candidate = folder / "bin" / "buckens"
+        if os.access(candidate, os.X_OK):
+            return str(candidate)
+    found = shutil.which("buckens")
+    if found:
+        return found
+    raise errors.IoError(f"the program `buckens` was found neither near {here} nor on PATH; set "
+                         "BUCKENS_PROGRAM to it")
+
+
+@contextmanager
+def file_of(model: ModelLike) -> Iterator[str]:
+    """A model file with the model, which is removed afterwards if it was made for this."""
+    if not isinstance(model, Model):
+        yield os.fspath(model)
+        return
+    if model._forces:
+        raise errors.InputError(f"the model has the function {model._forces[0][0]!r} as a force, which "
+                                "the program cannot call; simulate it with buckens.Simulation")
+    with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
+        path = os.path.join(folder, "model.yaml")
+        directory = os.path.abspath(model._core.directory or ".")
+        text = model.to_yaml()
+        if "\nbase:" not in "\n" + text:
+            text += f"\nbase: {json.dumps(directory)}\n"
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        yield path
+
+
+def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
+    """Calls a verb with `--json` and returns what it prints.
+
+    Raises
+    ------
+    Error
+        As the library would: InputError, ModelError, NumericalError, IoError.
+    KeyboardInterrupt
+        After Ctrl-C, once the program has completed its files.
+    """
+    command: List[str] = [find_program(), verb, *arguments, "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          stdin=subprocess.DEVNULL, text=True) as process:
+        try:
+            out, err = process.communicate()
+        except KeyboardInterrupt:
+            process.communicate()
+            raise
+    return _answer(process.returncode, out, err)
+
+
+def _answer(code: int, out: str, err: str) -> Dict[str, Any]:
+    try:
+        answer = json.loads(out)
+    except ValueError:
+        raise errors.Error(f"the program ended with code {code}: {err.strip()}") from None
+    if isinstance(answer, dict) and "error" in answer and "message" in answer["error"]:
+        failure = answer["error"]
+        error = _KINDS.get(failure["kind"], errors.Error)(failure["message"])
+        if isinstance(error, errors.Error):
+            error.file, error.line = failure["file"], failure["line"]
+            error.column = failure["column"]
+        raise error
+    if code == _INTERRUPTED:
+        raise KeyboardInterrupt
+    if code == _DIFFERENT:
+        raise errors.DifferenceError(f"the runs differ by {answer['largest_relative_difference']:.3g} of "
+                                     "the largest value, more than the tolerance; see "
+                                     "buckens.compare without one")
+    return dict(answer)

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run directories (docs/reference/run-directory.md) as arrays."""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import html
+import json
+import os
+import pathlib
+import tempfile
+from typing import Any, Dict, Iterator, List, Optional
+
+import numpy as np
+
+from .curve import Curve
+from .errors import InputError, IoError
+from .model import PathLike
+from .verbs import view as write_page
+
+
+class Results:
+    """A run, finished or going on. ``r["tip"]`` is a sensor, ``r["energies/total"]`` any quantity.
+
+    Values are read when they are asked for; of a run that goes on there are more every time.
+    """
+
+    def __init__(self, directory: PathLike) -> None:
+        self.directory = pathlib.Path(directory)
+        if not (self.directory / "results.h5").is_file():
+            raise IoError(f"{self.directory}: there is no results.h5 in it; expected a directory that "
+                          "`buckens run` or buckens.Simulation(model, out=...) has written")
+        with self._file() as file:
+            self.title = str(_text(file.attrs.get("title", "")))
+
+    @contextlib.contextmanager
+    def _file(self) -> Iterator[Any]:
+        import h5py
+
+        path = self.directory / "results.h5"
+        try:
+            file = h5py.File(path, "r", swmr=True)
+        except OSError as error:
+            raise IoError(f"{path}: cannot be read: {error}") from None
+        with file:
+            yield file
+
+    @property
+    def summary(self) -> Dict[str, Any]:
+        """The contents of summary.json."""
+        try:
+            with open_text(self.directory / "summary.json") as file:
+                return dict(json.load(file))
+        except (OSError, ValueError) as error:
+            raise IoError(f"{self.directory / 'summary.json'}: cannot be read: {error}") from None
+
+    @property
+    def status(self) -> str:
+        """"starting", "running", "finished" or "interrupted"."""
+        return str(self.summary["status"])
+
+    @property
+    def time(self) -> Curve:
+        """Instants of the records [s]."""
+        with self._file() as file:
+            return Curve(file["time"][:], name="time", unit="s")
+
+    @property
+    def sensors(self) -> List[str]:
+        """Names of the sensors."""
+        with self._file() as file:
+            return sorted(file["sensors"]) if "sensors" in file else []
+
+    @property
+    def quantities(self) -> List[str]:
+        """Paths of everything recorded at each instant."""
+        with self._file() as file:
+            return [path for path in _datasets(file) if _is_recorded(path)]
+
+    def __getitem__(self, name: str) -> Curve:
+        """A sensor by name ("tip", "tip.x"), or any quantity by path ("energies/total").
+
+        Returns
+        -------
+        Curve
+            (records, ...) with ``unit`` and ``components``.
+
+        Raises
+        ------
+        InputError
+            Naming what is most alike.
+        """
+        with self._file() as file:
+            rows = len(file["time"])
+            path, component = _find(file, name)
+            data = file[path]
+            components = [_text(text) for text in data.attrs.get("components", [])]
+            values = data[:rows]
+            if component:
+                if component not in components:
+                    raise InputError(f"{path.split('/')[-1]!r} has no component {component!r}; it has "
+                                     f"{', '.join(components) or 'none'}")
+                values, components = values[..., components.index(component)], []
+            return Curve(values, name=name, unit=_text(data.attrs.get("unit", "1")),
+                         components=components)
+
+    # ---- fields over meshes
+    @property
+    def fields(self) -> List[str]:
+        """Paths of fields over meshes, below ``fields/bodies``."""
+        with self._file() as file:
+            return [path for path in _datasets(file) if path.startswith("fields/bodies/")]
+
+    @property
+    def field_times(self) -> Curve:
+        """Instants of the fields [s]."""
+        with self._file() as file:
+            return Curve(file["fields/time"][:] if "fields/time" in file else np.empty(0),
+                         name="fields/time", unit="s")
+
+    def field(self, quantity: str, body: str, t: Optional[float] = None, on: str = "nodes") -> Curve:
+        """A field over the mesh of a body.
+
+        Parameters
+        ----------
+        quantity
+            "von_mises", "stress", "displacement", ...
+        t
+            The instant nearest to t [s]; None: the last one.
+        on
+            "nodes", "elements", "shells", "interfaces" or "loads".
+        """
+        path = f"fields/bodies/{body}/{on}/{quantity}"
+        times = self.field_times
+        with self._file() as file:
+            if path not in file:
+                known = [p for p in _datasets(file) if p.startswith("fields/bodies/")]
+                raise InputError(f"there is no field {path!r}; " + (
+                    f"the run has {', '.join(known)}" if known else
+                    "the run has none: ask for them in `output: {fields: ...}` of the model"))
+            data = file[path]
+            row = len(times) - 1 if t is None else int(np.argmin(np.abs(np.asarray(times) - t)))
+            return Curve(data[row], name=quantity, unit=_text(data.attrs.get("unit", "1")),
+                         components=[_text(c) for c in data.attrs.get("components", [])])
+
+    # ---- to other packages
+    def to_pandas(self, *names: str) -> Any:
+        """A pandas.DataFrame of sensors (all without names) over time."""
+        import pandas
+
+        columns = {}
+        for name in names or self.sensors:
+            curve = self[name]
+            table = np.asarray(curve).reshape(len(curve), -1)
+            labels = [f"{name}.{c}" for c in curve.components] if curve.components else (
+                [name] if table.shape[1] == 1 else [f"{name}.{i}" for i in range(table.shape[1])])
+            columns.update({label: table[:, i] for i, label in enumerate(labels)})
+        return pandas.DataFrame(columns, index=pandas.Index(np.asarray(self.time), name="t"))
+
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset of the sensors over time, with units."""
+        import xarray
+
+        out = xarray.Dataset(coords={"t": ("t", np.asarray(self.time), {"units": "s"})})
+        for name in self.sensors:
+            curve = self[name]
+            extents = ["t"] + [f"{name}_{i}" for i in range(curve.ndim - 1)]
+            out[name] = (extents, np.asarray(curve), {"units": curve.unit})
+        return out
+
+    def plot(self, *names: str, axes: Any = None) -> Any:
+        """Draws sensors over time with matplotlib and returns the axes."""
+        if axes is None:
+            import matplotlib.pyplot
+
+            axes = matplotlib.pyplot.subplots()[1]
+        time = np.asarray(self.time)
+        units = []
+        for name in names or self.sensors:
+            curve = self[name]
+            units.append(curve.unit)
+            table = np.asarray(curve).reshape(len(time), -1)
+            for i in range(table.shape[1]):
+                part = curve.components[i] if i < len(curve.components) else str(i)
+                axes.plot(time, table[:, i], label=name if table.shape[1] == 1 else f"{name}.{part}")
+        axes.set_xlabel("t [s]")
+        axes.set_ylabel(", ".join(f"[{unit}]" for unit in dict.fromkeys(units)))
+        axes.legend()
+        axes.set_title(self.title)
+        return axes
+
+    def view(self) -> str:
+        """Writes the page that shows the run and returns its place."""
+        return str(write_page(self.directory)["page"])
+
+    def _repr_html_(self) -> str:
+        """The page inside a notebook."""
+        with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
+            page = os.path.join(folder, "view.html")
+            write_page(self.directory, page)
+            with open_text(pathlib.Path(page)) as file:
+                text = file.read()
+        return (f'<iframe srcdoc="{html.escape(text)}" width="100%" height="640" '
+                'style="border:0"></iframe>')
+
+    def __repr__(self) -> str:
+        return f"<buckens.Results {str(self.directory)!r}: {self.title!r}, {self.status}>"
+
+
+def open(directory: PathLike) -> Results:  # noqa: A001 (the name says what it does)
+    """Opens a run directory for reading.
+
+    Raises
+    ------
+    IoError
+        If there are no results in it.
+    """
+    return Results(directory)
+
+
+def open_text(path: pathlib.Path) -> Any:
+    """The file as text."""
+    return path.open(encoding="utf-8")
+
+
+def _text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _is_recorded(path: str) -> bool:
+    return path != "time" and path.split("/")[0] not in ("fields", "extremes", "geometry")
+
+
+def _is_dataset(item: Any) -> bool:
+    return hasattr(item, "dtype")
+
+
+def _datasets(file: Any) -> List[str]:
+    out: List[str] = []
+    file.visititems(lambda path, item: out.append(path) if _is_dataset(item) else None)
+    return out
+
+
+def _find(file: Any, name: str) -> "tuple[str, str]":
+    """The path of a data set, and the component asked for or nothing."""
+    for path in (f"sensors/{name}", name):
+        if path in file and _is_dataset(file[path]):
+            return path, ""
+    stem, dot, component = name.rpartition(".")
+    if dot:
+        for path in (f"sensors/{stem}", stem):
+            if path in file and _is_dataset(file[path]):
+                return path, component
+    known = [path[len("sensors/"):] if path.startswith("sensors/") else path
+             for path in _datasets(file) if _is_recorded(path)]
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}"
+    raise InputError(f"nothing is recorded as {name!r}; {hint}")

@@ -1,0 +1,388 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Simulations: advanced step by step, to an instant or to the end."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import weakref
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .curve import Curve
+from .errors import InputError
+from .messages import tell_messages
+from .model import ForceFunction, Model, PathLike
+
+Array = npt.NDArray[np.float64]
+Progress = Union[bool, Callable[[float, float, int], object]]
+
+
+class Frame:
+    """Motion of a body's frame: arrays that follow the simulation, read-only.
+
+    Attributes
+    ----------
+    position : (3,) array
+        Origin, the mass centre of the body, in world axes [m].
+    rotation : (3, 3) array
+        From body axes to world axes.
+    velocity : (3,) array
+        Of the origin, world axes [m/s].
+    angular_velocity : (3,) array
+        In body axes [rad/s].
+    """
+
+    def __init__(self, numbers: Array) -> None:
+        self.position = numbers[0:3]
+        self.rotation = numbers[3:12].reshape(3, 3)
+        self.velocity = numbers[12:15]
+        self.angular_velocity = numbers[15:18]
+
+    def __repr__(self) -> str:
+        return f"<buckens.Frame at {self.position} m, velocity {self.velocity} m/s>"
+
+
+class Body:
+    """A body of a simulation."""
+
+    def __init__(self, core: _core.Simulation, name: str) -> None:
+        self._core = core
+        self.name = name
+
+    @property
+    def frame(self) -> Frame:
+        """Motion of its frame."""
+        return Frame(self._core.frame(self.name))
+
+    @property
+    def displacements(self) -> Array:
+        """Nodal displacements [m] and rotations [rad] in body axes, (nodes, 6).
+
+        A read-only array without copy: it follows the simulation and keeps it alive.
+        """
+        return self._core.displacements(self.name)
+
+    @property
+    def velocities(self) -> Array:
+        """Rates of :attr:`displacements`, (nodes, 6) [m/s, rad/s]."""
+        return self._core.velocities(self.name)
+
+    def __repr__(self) -> str:
+        return f"<buckens.Body {self.name!r}>"
+
+
+class Bodies(Mapping[str, Body]):
+    """Bodies by name."""
+
+    def __init__(self, core: _core.Simulation, names: List[str]) -> None:
+        self._bodies = {name: Body(core, name) for name in names}
+
+    def __getitem__(self, name: str) -> Body:
+        if name not in self._bodies:
+            known = ", ".join(self._bodies)
+            raise InputError(f"there is no body {name!r}; the model has {known}")
+        return self._bodies[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._bodies)
+
+    def __len__(self) -> int:
+        return len(self._bodies)
+
+
+class Values(Mapping[str, Any]):
+    """Present values of a kind of quantity by name: sensors, energies."""
+
+    def __init__(self, core: _core.Simulation, prefix: str) -> None:
+        self._core, self._prefix = core, prefix
+
+    def __getitem__(self, name: str) -> Any:
+        value = self._core.value(self._prefix + name)
+        return float(value) if value.ndim == 0 else value
+
+    def __iter__(self) -> Iterator[str]:
+        for path, _, _ in self._core.quantities():
+            if path.startswith(self._prefix):
+                yield path[len(self._prefix):]
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
+
+
+class Simulation:
+    """A simulation of a model, set up at once: assembly, one factor per flexible body, a consistent
+    start.
+
+    Parameters
+    ----------
+    model
+        What to simulate; it needs a ``simulation``.
+    out
+        Directory for results (see :func:`buckens.open`); None: no files are written.
+    threads
+        That advance bodies at the same time. Results do not depend on it.
+    record
+        Whether sensors are kept in memory at the instants of records, see :attr:`curves`.
+
+    Examples
+    --------
+    >>> sim = Simulation(load("slider_crank.yaml"))                   # doctest: +SKIP
+    >>> while sim.step():                                             # doctest: +SKIP
+    ...     print(sim.time, sim.sensors["mid"])
+    """
+
+    def __init__(self, model: Model, out: Optional[PathLike] = None, threads: int = 1,
+                 record: bool = True, *, _start_from: str = "") -> None:
+        if not isinstance(model, Model):
+            raise InputError(f"expected a buckens.Model, found {model!r}; buckens.load reads one")
+        self._model = model
+        self._forces: List[Tuple[str, str, ForceFunction]] = list(model._forces)
+        self._callbacks: List[Callable[[], object]] = []
+        self._options = ("" if out is None else os.fspath(out), threads, record, _start_from)
+        self._was_seen = False
+        self._is_over = False
+        self._prepare()
+
+    @classmethod
+    def resume(cls, path: PathLike, model: Model, out: Optional[PathLike] = None, threads: int = 1,
+               record: bool = True) -> Simulation:
+        """Continues bit for bit from a state that :meth:`save` wrote.
+
+        Raises
+        ------
+        InputError
+            If the model is another one, saying what differs.
+        IoError
+            If the file cannot be read or is damaged.
+        """
+        return cls(model, out, threads, record, _start_from=os.fspath(path))
+
+    def _prepare(self) -> None:
+        out, threads, record, start_from = self._options
+        self._core_now: Optional[_core.Simulation] = None
+        self._is_preparing = True
+        try:
+            self._core_now = _core.Simulation(self._model._core, self._forces, threads, out, record,
+                                              start_from)
+        finally:
+            self._is_preparing = False
+        for callback in self._callbacks:
+            self._core_now.on_step(callback)
+        tell_messages()
+
+    @property
+    def _core(self) -> _core.Simulation:
+        """The simulation of the library; set up again if forces were added."""
+        if self._core_now is None:
+            if self._is_preparing:
+                raise InputError("the simulation is being set up, which is within a step; a force "
+                                 "function has to make do with its arguments")
+            self._prepare()
+            assert self._core_now is not None
+        return self._core_now
+
+    # ---- advance
+    def step(self) -> bool:
+        """Takes one step. Returns False if the end was already reached, then raises.
+
+        Raises
+        ------
+        NumericalError
+            If the step fails, naming the joint or body that resists; the state is as before.
+        """
+        if self._is_over:
+            raise InputError(f"the run ended at t = {self.time:.6g} s; raise `duration`, or begin "
+                             "another Simulation")
+        self._is_over = not self._core.step()
+        return not self._is_over
+
+    def advance(self, t: float) -> bool:
+        """Takes steps until one ends at or beyond t [s]; returns False if the end came first."""
+        return self._core.advance(t)
+
+    def run(self, progress: Progress = False) -> Dict[str, Any]:
+        """Takes steps until the end and completes the results. Ctrl-C ends it after a step.
+
+        Parameters
+        ----------
+        progress
+            True shows a line on the standard error stream; a function is called with time, end and
+            number of steps, ten times a second.
+
+        Returns
+        -------
+        dict
+            The summary, as summary.json of a run directory.
+        """
+        show: Optional[Callable[[float, float, int], object]] = None
+        if callable(progress):
+            show = progress
+        elif progress:
+            show = _show_progress
+        try:
+            text = self._core.run(show)
+        finally:
+            tell_messages()
+            if show is _show_progress:
+                print(file=sys.stderr)
+        self._is_over = True
+        return dict(json.loads(text))
+
+    def finish(self) -> Dict[str, Any]:
+        """Ends the run here, completes the results and returns the summary."""
+        text = self._core.finish()
+        tell_messages()
+        return dict(json.loads(text))
+
+    def stop(self) -> None:
+        """Ends the run after the present step; for functions given to :meth:`on_step`."""
+        self._core.stop()
+
+    def on_step(self, function: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
+        """Decorator: calls the function with the simulation after each step.
+
+        What it raises ends the run after this step and comes out of the call that advances.
+        """
+        myself = weakref.ref(self)
+
+        def call() -> None:
+            sim = myself()
+            if sim is not None:
+                function(sim)
+
+        self._callbacks.append(call)
+        if self._core_now is not None:
+            self._core_now.on_step(call)
+        return function
+
+    # ---- act
+    def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
+        """Decorator: a force on a marker by a function, as :meth:`buckens.Model.force`, of this
+        simulation only.
+
+        To be given before anything else is asked of the simulation, which is then set up again; for
+        large models :meth:`buckens.Model.force` saves the time.
+        """
+
+        def add(function: ForceFunction) -> ForceFunction:
+            if self._was_seen or self._core.num_steps > 0:
+                raise InputError(f"the force on {marker!r} comes too late: arrays of this simulation "
+                                 "are in use or steps were taken; add forces first, or to the model")
+            load = name or str(getattr(function, "__name__", "force"))
+            self._forces.append((load, marker, function))
+            self._core_now = None
+            return function
+
+        return add
+
+    def set_load(self, load: str, value: Sequence[float]) -> None:
+        """Gives a force [N] or torque [N m] of the model a value instead of its law, from now on.
+
+        Parameters
+        ----------
+        value : (3,)
+            In the axes of the load.
+        """
+        given = np.asarray(value, dtype=object)
+        try:
+            numbers = given.astype(np.float64)
+        except (TypeError, ValueError):
+            numbers = np.empty(0)
+        if numbers.shape != (3,):
+            raise InputError(f"load {load!r}: expected three numbers, found {value!r}")
+        self._core.set_load(load, numbers)
+
+    def release_load(self, load: str) -> None:
+        """Returns a load to its law."""
+        self._core.release_load(load)
+
+    def save(self, path: PathLike) -> None:
+        """Writes everything that :meth:`resume` needs to continue bit for bit."""
+        self._core.save(os.fspath(path))
+
+    # ---- look
+    @property
+    def model(self) -> Model:
+        """What is simulated."""
+        return self._model
+
+    @property
+    def directory(self) -> Optional[str]:
+        """Where results go, or None."""
+        return self._options[0] or None
+
+    @property
+    def time(self) -> float:
+        """Present instant [s]."""
+        return self._core.time
+
+    @property
+    def end_time(self) -> float:
+        """End of the run [s]."""
+        return self._core.end_time
+
+    @property
+    def num_steps(self) -> int:
+        """Steps taken since t = 0."""
+        return self._core.num_steps
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the end is reached."""
+        return self._core.is_done
+
+    @property
+    def bodies(self) -> Bodies:
+        """Bodies by name."""
+        core = self._core
+        self._was_seen = True
+        return Bodies(core, self._model.bodies)
+
+    @property
+    def sensors(self) -> Values:
+        """Present values of the sensors by name: numbers, or arrays of components."""
+        return Values(self._core, "sensors/")
+
+    @property
+    def energies(self) -> Values:
+        """Present energies by name [J]."""
+        return Values(self._core, "energies/")
+
+    @property
+    def multipliers(self) -> Array:
+        """Forces [N] and torques [N m] of the joint equations; follows the simulation, read-only."""
+        core = self._core
+        self._was_seen = True
+        return core.multipliers()
+
+    def value(self, path: str) -> Any:
+        """Present value of anything that is recorded, "joints/hinge/force"; a copy."""
+        return Values(self._core, "")[path]
+
+    @property
+    def quantities(self) -> Dict[str, str]:
+        """Paths that :meth:`value` knows, with their units."""
+        return {path: unit for path, unit, _ in self._core.quantities()}
+
+    @property
+    def curves(self) -> Dict[str, Curve]:
+        """Sensors at the instants of records so far, "tip.x"; the instants are "t"."""
+        return {name: Curve(values, name=name, unit=unit)
+                for name, unit, values in self._core.curves()}
+
+    def __repr__(self) -> str:
+        return (f"<buckens.Simulation {self._model.title!r}: t = {self.time:.6g} of "
+                f"{self.end_time:.6g} s, {self.num_steps} steps>")
+
+
+def _show_progress(t: float, end: float, steps: int) -> None:
+    share = t / end if end > 0 else 1.0
+    print(f"\r{share:6.1%}  t = {t:.6g} s  {steps} steps", end="", file=sys.stderr, flush=True)

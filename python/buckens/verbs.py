@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The program's verbs as functions, with its options and what `--json` prints.
+
+The dictionaries are described in docs/reference/command-line.md. A model is a :class:`buckens.Model`
+or the name of a model file.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
+
+from .model import Overrides, PathLike, overrides_of
+from .program import ModelLike, call, file_of
+from .yaml_text import _flow
+
+Quantity = Union[str, float]
+
+
+def _changes(set: Overrides) -> List[str]:  # noqa: A002
+    return [word for change in overrides_of(set) for word in ("--set", change)]
+
+
+def _options(**options: Any) -> List[str]:
+    """Options of the program: underscores become hyphens, None and False are left out."""
+    out: List[str] = []
+    for key, value in options.items():
+        if value is None or value is False:
+            continue
+        out.append("--" + key.replace("_", "-"))
+        if value is not True:
+            out.append(os.fspath(value) if isinstance(value, os.PathLike) else str(value))
+    return out
+
+
+def check(model: ModelLike, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
+    """What is known of a model without running it: masses, frequencies, joints, degrees of freedom."""
+    with file_of(model) as path:
+        return call("check", [path, *_changes(set)])
+
+
+def modes(model: ModelLike, body: Optional[str] = None, system: bool = False,
+          count: Optional[int] = None, about: Optional[str] = None, method: Optional[str] = None,
+          tolerance: Optional[float] = None, condition: bool = False,
+          out: Optional[PathLike] = None, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
+    """Undamped vibrations of free bodies, or with ``system`` of the joined ones.
+
+    Returns
+    -------
+    dict
+        ``["analyses"][0]["modes"][0]["frequency"]`` is the lowest frequency [Hz].
+    """
+    with file_of(model) as path:
+        return call("modes", [path, *_options(body=body, system=system, count=count, about=about,
+                                              method=method, tolerance=tolerance,
+                                              condition=condition, out=out), *_changes(set)])
+
+
+def static(model: ModelLike, out: PathLike, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
+    """Equilibria over a load factor; results go to a run directory, see :func:`buckens.open`."""
+    with file_of(model) as path:
+        return call("static", [path, *_options(out=out), *_changes(set)])
+
+
+def sweep(model: ModelLike, table: Union[PathLike, Mapping[str, Sequence[Any]]], out: PathLike,
+          together: Optional[int] = None, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
+    """Runs variants of a model, each into a directory below ``out``.
+
+    Parameters
+    ----------
+    table
+        A CSV file with a row per variant, or values by path, of which all combinations are run:
+        ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
+    together
+        Variants that advance side by side.
+    """
+    if isinstance(table, Mapping):
+        variants = [word for key, values in table.items()
+                    for word in ("--vary", f"{key}={_flow(list(values), key)}")]
+    else:
+        variants = [os.fspath(table)]
+    with file_of(model) as path:
+        return call("sweep", [path, *variants, *_options(out=out, together=together),
+                              *_changes(set)])
+
+
+def compare(first: PathLike, second: PathLike, tolerance: Optional[float] = None,
+            sensors: bool = False) -> Dict[str, Any]:
+    """How far two runs differ.
+
+    Raises
+    ------
+    DifferenceError
+        If a relative difference is larger than ``tolerance``.
+    """
+    return call("compare", [os.fspath(first), os.fspath(second),
+                            *_options(tolerance=tolerance, sensors=sensors)])
+
+
+def _mesh_options(length_unit: Optional[str], mass_unit: Optional[str], only: Sequence[str],
+                  skip: Sequence[str], size: Optional[Quantity], order: Optional[int],
+                  solid: Optional[str]) -> List[str]:
+    return _options(length_unit=length_unit, mass_unit=mass_unit, only=",".join(only) or None,
+                    skip=",".join(skip) or None, size=size, order=order, solid=solid)
+
+
+def mesh_info(file: PathLike, length_unit: Optional[str] = None, mass_unit: Optional[str] = None,
+              only: Sequence[str] = (), skip: Sequence[str] = (), size: Optional[Quantity] = None,
+              order: Optional[int] = None, solid: Optional[str] = None) -> Dict[str, Any]:
+    """What a mesh file contains, in SI units."""
+    return call("mesh-info", [os.fspath(file), *_mesh_options(length_unit, mass_unit, only, skip,
+                                                              size, order, solid)])
+
+
+def convert(file: PathLike, out: PathLike, length_unit: Optional[str] = None,
+            mass_unit: Optional[str] = None, only: Sequence[str] = (), skip: Sequence[str] = (),
+            size: Optional[Quantity] = None, order: Optional[int] = None, solid: Optional[str] = None,
+            msh_version: Optional[str] = None, binary: bool = False) -> Dict[str, Any]:
+    """Writes a mesh as .msh with a model file, or as .vtu."""
+    return call("convert", [os.fspath(file), os.fspath(out),
+                            *_mesh_options(length_unit, mass_unit, only, skip, size, order, solid),
+                            *_options(msh_version=msh_version, binary=binary)])
+
+
+def view(run: PathLike, page: Optional[PathLike] = None, frames: Optional[int] = None) -> Dict[str, Any]:
+    """Writes a page for the browser that shows a run; ``["page"]`` says where."""
+    arguments = [os.fspath(run)] + ([] if page is None else ["-o", os.fspath(page)])
+    return call("view", arguments + _options(frames=frames))

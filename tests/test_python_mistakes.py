@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What users of the Python module do wrong, and what it tells them."""
+
+import copy
+import pathlib
+import sys
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
+from python_module import buckens, source  # noqa: E402 (found after the path is set)
+
+TREE = {
+    "title": "Cart",
+    "bodies": {"cart": {"rigid": {"mass": "2 kg", "inertia": [1, 1, 1]},
+                        "markers": {"top": {"position": [0, 0, "1 m"]}}}},
+    "joints": {"guide": {"prismatic": {"between": ["ground", "cart"], "axis": [1, 0, 0]}}},
+    "loads": {"drive": {"force": {"on": "cart", "value": [1, 0, 0]}}},
+    "simulation": {"duration": "10 ms", "step": "1 ms"},
+    "output": {"sensors": {"place": {"position": "cart"}}},
+}
+
+
+def tree(path, value):
+    """The model with another value."""
+    out = copy.deepcopy(TREE)
+    inner = out
+    keys = path.split(".")
+    for key in keys[:-1]:
+        inner = inner[key]
+    inner[keys[-1]] = value
+    return out
+
+
+@pytest.fixture
+def sim():
+    return buckens.Simulation(buckens.Model.from_dict(TREE))
+
+
+@pytest.mark.parametrize("path, value, words", [
+    ("bodies.cart.rigid.mas", 3, ["bodies.cart.rigid", "mas", "mass"]),             # wrong key
+    ("bodies.cart.rigid.mass", "2 m", ["bodies.cart.rigid.mass", "2 m", "kg"]),     # wrong unit
+    ("bodies.cart.rigid.inertia", np.ones((3, 2)), ["bodies.cart.rigid.inertia"]),  # wrong shape
+    ("bodies.cart.rigid.inertia", np.array(["1", "1", "x"]),                        # wrong dtype
+     ["bodies.cart.rigid.inertia", "array of numbers", "dtype <U1"]),
+    ("bodies.cart.rigid.mass", 1 + 2j, ["bodies.cart.rigid.mass", "(1+2j)", "complex"]),
+    ("bodies.cart.rigid.mass", float("nan"), ["bodies.cart.rigid.mass", "nan"]),
+    ("bodies.cart.markers", {3: {"position": [0, 0, 0]}}, ["bodies.cart.markers.3", "text as key"]),
+    ("bodies.cart.rigid", lambda: 3, ["bodies.cart.rigid", "function"]),
+])
+def test_models(path, value, words):
+    with pytest.raises(buckens.InputError) as caught:
+        buckens.Model.from_dict(tree(path, value))
+    for word in words:
+        assert word in str(caught.value)
+    # The text that was made of the dictionary is nobody's file.
+    assert "model.yaml" not in str(caught.value) and caught.value.file is None
+
+
+def test_names_of_markers():
+    with pytest.raises(buckens.InputError, match='drive.force.on.*"cart" has no marker "tip".*"top"'):
+        buckens.Model.from_dict(tree("loads.drive.force.on", "cart/tip"))
+    model = buckens.Model.from_dict(TREE)
+
+    @model.force("cart/tpo")
+    def push(t, x, v):
+        return 0, 0, 0
+
+    with pytest.raises(buckens.Error, match="tpo.*top"):
+        buckens.Simulation(model)
+    with pytest.raises(buckens.InputError, match="function 'push' as a force"):
+        buckens.check(model)
+
+
+def test_files(tmp_path):
+    with pytest.raises(buckens.IoError, match="nothing.yaml"):
+        buckens.load(tmp_path / "nothing.yaml")
+    (tmp_path / "wrong.yaml").write_text("buckens: 1\nbodies:\n  rod: {rigid: {mass: -1 kg}}\n")
+    with pytest.raises(buckens.InputError) as caught:
+        buckens.load(tmp_path / "wrong.yaml")
+    error = caught.value
+    assert (error.file, error.line) == (str(tmp_path / "wrong.yaml"), 3) and error.column > 1
+    assert f"{error.file}:3:{error.column}: bodies.rod.rigid.mass" in str(error)
+    with pytest.raises(buckens.InputError, match="simulation.stp.*step"):
+        buckens.load(source("examples/slider_crank/slider_crank.yaml"), set={"simulation.stp": 1})
+    with pytest.raises(buckens.IoError, match="no results.h5.*buckens run"):
+        buckens.open(tmp_path)
+    with pytest.raises(buckens.InputError, match="buckens.load reads one"):
+        buckens.Simulation(str(tmp_path / "wrong.yaml"))
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "thesis.tex").write_text("years of work")
+    with pytest.raises(buckens.IoError, match="mine"):
+        buckens.Simulation(buckens.Model.from_dict(TREE), out=tmp_path / "mine")
+    assert (tmp_path / "mine" / "thesis.tex").read_text() == "years of work"
+
+
+def test_time_and_its_end(sim):
+    sim.advance(5e-3)
+    with pytest.raises(buckens.InputError, match="t = 0.001 s is over.*0.005"):
+        sim.advance(1e-3)
+    with pytest.raises(buckens.InputError, match="expected an instant.*nan"):
+        sim.advance(float("nan"))
+    with pytest.raises(TypeError):
+        sim.advance("5 ms")
+    sim.run()
+    with pytest.raises(buckens.InputError, match="ended at t = 0.01 s"):
+        sim.step()
+    with pytest.raises(buckens.InputError, match="finished at t = 0.01 s"):
+        sim.advance(1)
+    no_end = {key: value for key, value in TREE.items() if key != "simulation"}
+    with pytest.raises(buckens.InputError, match="no `simulation:`.*duration"):
+        buckens.Simulation(buckens.Model.from_dict(no_end))
+
+
+def test_names_of_what_is_looked_at(sim):
+    with pytest.raises(buckens.InputError, match="no body 'crat'.*cart"):
+        sim.bodies["crat"]
+    with pytest.raises(buckens.InputError, match="sensors/plac.*place"):
+        sim.sensors["plac"]
+    with pytest.raises(buckens.InputError, match="rigid.*frame"):
+        sim.bodies["cart"].displacements
+    with pytest.raises(ValueError, match="read-only"):
+        sim.bodies["cart"].frame.position[0] = 1
+
+
+def test_values_of_loads(sim):
+    for wrong in ([1, 2], "far", [1, "x", 3], [[1, 2, 3]]):
+        with pytest.raises(buckens.InputError, match="'drive': expected three numbers, found"):
+            sim.set_load("drive", wrong)
+    with pytest.raises(buckens.InputError, match="drvie.*drive"):
+        sim.set_load("drvie", [1, 2, 3])
+    with pytest.raises(buckens.Error, match="finite|number"):
+        sim.set_load("drive", [float("inf"), 0, 0])
+
+
+def test_forces_of_the_wrong_kind(sim):
+    model = buckens.Model.from_dict(TREE)
+    results = [None, (1, 2), "far", np.ones((3, 1))]
+
+    @model.force("cart")
+    def push(t, x, v):
+        return results[0]
+
+    while results:
+        with pytest.raises(TypeError, match='force on "cart" must be three numbers .N., found'):
+            buckens.Simulation(model).run()
+        results.pop(0)
+        if not results:
+            break
+    results.append((float("nan"), 0, 0))
+    with pytest.raises(buckens.NumericalError, match="not finite"):
+        buckens.Simulation(model).run()
+    with pytest.raises(buckens.InputError, match="comes too late"):
+        sim.step()
+        sim.force("cart")(push)
+
+
+def test_use_from_within_a_step(sim):
+    wrong = []
+
+    @sim.force("cart")
+    def curious(t, x, v):
+        for use in (lambda: sim.step(), lambda: sim.sensors["place"], lambda: sim.save("x.h5")):
+            try:
+                use()
+            except buckens.InputError as error:
+                wrong.append(str(error))
+        return 0, 0, 0
+
+    @sim.on_step
+    def nested(now):
+        with pytest.raises(buckens.InputError, match="step: .*already advancing"):
+            now.step()
+        assert now.sensors["place"].shape == (3,)
+
+    sim.step()
+    assert any("already advancing" in text for text in wrong)
+    assert any("within a step" in text for text in wrong)

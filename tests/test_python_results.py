@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results and verbs of the program from Python, and the module's types."""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
+from python_module import PACKAGES, SOURCE, buckens, source  # noqa: E402 (found after the path is set)
+
+TREE = {
+    "title": "Swinging bar", "gravity": [0, 0, "-9.81 m/s^2"],
+    "materials": {"steel": {"E": "200 GPa", "nu": 0.3, "rho": 7850}},
+    "bodies": {"bar": {"mesh": {"box": {"size": ["200 mm", "20 mm", "10 mm"], "elements": [4, 1, 1]},
+                                "material": "steel"}}},
+    "joints": {"hinge": {"revolute": {"between": ["ground", "bar"], "axis": [0, 1, 0]}}},
+    "simulation": {"duration": "20 ms", "step": "1 ms"},
+    "output": {"every": "2 ms", "sensors": {"place": {"position": "bar"}, "total": {"energy": "total"}},
+               "fields": {"every": "10 ms", "quantities": ["von_mises"]}},
+}
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """A run of a beam with a sensor of three components and a scalar one."""
+    out = tmp_path_factory.mktemp("results") / "out"
+    sim = buckens.Simulation(buckens.load(source("examples/slider_crank/slider_crank.yaml"),
+                                          set={"simulation.duration": "5 ms"}), out=out)
+    sim.run()
+    return buckens.open(out)
+
+
+def test_results_are_arrays_with_units(run):
+    assert repr(run) == f"<buckens.Results {str(run.directory)!r}: 'Flexible slider-crank', finished>"
+    slider = run["slider"]
+    assert slider.shape == (len(run.time), 3) and slider.unit == "m"
+    assert slider.components == ("x", "y", "z")
+    assert np.array_equal(slider[:, 0], run["slider.x"]) and run["slider.x"].unit == "m"
+    assert run.time.unit == "s" and run.time[-1] == pytest.approx(5e-3)
+    # Columns of sensors.csv are the same numbers.
+    table = np.genfromtxt(run.directory / "sensors.csv", delimiter=",", skip_header=1)
+    assert np.array_equal(table[:, 0], run.time)
+    heads = (run.directory / "sensors.csv").read_text().splitlines()[0].split(",")
+    assert np.array_equal(table[:, heads.index("slider.x [m]")], run["slider.x"])
+    assert run["energies/total"].unit == "J" and "energies/total" in run.quantities
+    assert run["bodies/rod/pose"].shape == (len(run.time), 7)
+    # Results of calculations are plain: nobody knows their unit.
+    assert type(slider * 2) is np.ndarray and type(slider[3:]) is buckens.Curve
+    assert isinstance(np.max(run["slider.x"]), float)
+    assert set(run.sensors) >= {"mid", "slider", "guide", "balance"}
+    with pytest.raises(buckens.InputError, match="nothing is recorded as 'silder'.*'slider'"):
+        run["silder"]
+    with pytest.raises(buckens.InputError, match="'slider' has no component 'w'; it has x, y, z"):
+        run["slider.w"]
+    with pytest.raises(buckens.InputError, match="no field .* ask for them in `output"):
+        run.field("von_mises", body="rod")
+    assert run.summary["title"] == run.title == "Flexible slider-crank"
+
+
+def test_plots_have_names_and_units(run):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    axes = run.plot("slider.x", "mid")
+    assert axes.get_xlabel() == "t [s]" and axes.get_ylabel() == "[m]"
+    labels = [line.get_label() for line in axes.get_lines()]
+    assert labels[0] == "slider.x" and labels[1] == "mid.x"
+    assert np.array_equal(axes.get_lines()[0].get_ydata(), run["slider.x"])
+
+
+def test_tables_of_pandas_hold_the_sensors(run):
+    pandas = pytest.importorskip("pandas")
+    table = run.to_pandas("slider", "balance")
+    assert isinstance(table, pandas.DataFrame)
+    assert list(table.columns) == ["slider.x", "slider.y", "slider.z", "balance"]
+    assert np.array_equal(table["slider.x"], run["slider.x"]) and table.index.name == "t"
+
+
+def test_a_run_is_shown_in_a_notebook(run):
+    page = run._repr_html_()
+    assert page.startswith("<iframe srcdoc=") and "Flexible slider-crank" in page
+    assert pathlib.Path(run.view()).name == "view.html"
+
+
+def test_verbs_take_files_and_models(run, tmp_path):
+    crank = source("examples/slider_crank/slider_crank.yaml")
+    by_file = buckens.check(crank, set={"bodies.rod.beam.elements": 4})
+    model = buckens.load(crank, set={"bodies.rod.beam.elements": 4})
+    assert by_file == buckens.check(model) and by_file["bodies"]["rod"]["elements"] == 4
+    lowest = buckens.modes(model, body="rod", count=2)["analyses"][0]["modes"][0]["frequency"]
+    # Free-free bending of a round steel rod, diameter d: 4.730^2/(2 pi L^2) sqrt(E d^2/16/rho); four
+    # elements leave 0.1 %.
+    exact = 4.7300407**2 / (2 * np.pi * 0.3**2) * np.sqrt(200e9 * 0.006**2 / 16 / 7870)
+    assert lowest == pytest.approx(exact, rel=3e-3)
+    table = buckens.sweep(crank, {"bodies.rod.beam.elements": [2, 4]}, tmp_path / "sweep",
+                          set={"simulation.duration": "1 ms"})
+    assert [v["status"] for v in table["variants"]] == ["done", "done"]
+    names = [pathlib.Path(v["directory"]).name for v in table["variants"]]
+    first, second = (tmp_path / "sweep" / name for name in names)
+    assert buckens.compare(first, second)["largest_relative_difference"] > 1e-6
+    with pytest.raises(buckens.DifferenceError, match="more than the tolerance"):
+        buckens.compare(first, second, tolerance=1e-9)
+    static = buckens.static(source("examples/large_bend/large_bend.yaml"), tmp_path / "static")
+    assert static["status"] == "finished"
+    assert "load-factor" in buckens.open(tmp_path / "static").sensors
+
+
+def test_meshes_are_read_and_converted(tmp_path):
+    deck = source("examples/bracket_inp/bracket.inp")
+    info = buckens.mesh_info(deck, length_unit="mm")
+    assert info["nodes"] > 8 and info["volume"] > 0
+    out = buckens.convert(deck, tmp_path / "bracket.msh", length_unit="mm")
+    assert (tmp_path / "bracket.msh").is_file() and out["nodes"] == info["nodes"]
+    with pytest.raises(buckens.IoError, match="nothing.inp"):
+        buckens.mesh_info(tmp_path / "nothing.inp")
+
+
+def test_types_are_right():
+    """mypy over the package, and over a program that uses it rightly and wrongly."""
+    mypy = pathlib.Path("/usr/bin/mypy")
+    if not mypy.exists():
+        pytest.skip("mypy is not installed")
+    uses = ("import buckens\n"
+            "sim = buckens.Simulation(buckens.load('x.yaml'))\n"
+            "t: float = sim.time\n"
+            "x: str = sim.time\n"
+            "sim.advance('far')\n")
+    call = subprocess.run(
+        [mypy, "--strict", "--no-incremental", "--cache-dir=/dev/null", "--ignore-missing-imports",
+         "-p", "buckens"], cwd=PACKAGES, capture_output=True, text=True, timeout=300)
+    assert call.returncode == 0, call.stdout + call.stderr
+    call = subprocess.run(
+        [mypy, "--no-incremental", "--cache-dir=/dev/null", "--ignore-missing-imports", "-c", uses],
+        cwd=PACKAGES, capture_output=True, text=True, timeout=300)
+    assert "<string>:4: error" in call.stdout and "<string>:5: error" in call.stdout
+    assert "<string>:3: error" not in call.stdout and "<string>:2: error" not in call.stdout
+
+
+def test_the_stub_of_the_core_names_what_is_there():
+    """Each function of the compiled part is in its stub, and nothing else."""
+    import ast
+    import importlib
+
+    core = importlib.import_module("buckens._core")
+    stub = ast.parse((SOURCE / "python" / "buckens" / "_core.pyi").read_text())
+    for node in stub.body:
+        if isinstance(node, ast.ClassDef):
+            named = {part.name for part in node.body if isinstance(part, ast.FunctionDef)}
+            there = {name for name in vars(getattr(core, node.name)) if not name.startswith("_")}
+            assert named - {"__init__"} == there
+    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+    assert functions == {name for name in vars(core) if name == "take_messages"}
+    assert (PACKAGES / "buckens" / "py.typed").exists()
+
+
+def test_models_of_objects_are_those_of_dictionaries():
+    """The classes come from the schema; objects, dictionary and file say the same."""
+    steel = buckens.Material(E="200 GPa", nu=0.3, rho=7850)
+    beam = buckens.Beam(to=["500 mm", 0, 0], elements=4, material="steel", up=np.array([0, 1, 0]),
+                        section=buckens.CircleSection(diameter="10 mm"), rotary_inertia="on",
+                        at={"position": [0, 0, 1]})
+    model = buckens.Model(
+        title="Cantilever", materials={"steel": steel}, bodies={"beam": beam},
+        joints={"clamp": buckens.Fixed(between=["ground", "beam/start"])},
+        loads={"push": buckens.Force(on="beam/end", value=[0, 0, "-10 N"])},
+        simulation={"duration": "1 ms", "step": "0.1 ms"},
+        output={"sensors": {"tip": buckens.PositionSensor(of="beam/end")}})
+    tree = {"buckens": 1, "title": "Cantilever",
+            "materials": {"steel": {"E": "200 GPa", "nu": 0.3, "rho": 7850}},
+            "bodies": {"beam": {"beam": {"to": ["500 mm", 0, 0], "elements": 4,
+                                         "section": {"circle": {"diameter": "10 mm"}},
+                                         "material": "steel", "up": [0, 1, 0],
+                                         "rotary-inertia": "on"},
+                                "at": {"position": [0, 0, 1]}}},
+            "joints": {"clamp": {"fixed": {"between": ["ground", "beam/start"]}}},
+            "loads": {"push": {"force": {"on": "beam/end", "value": [0, 0, "-10 N"]}}},
+            "simulation": {"duration": "1 ms", "step": "0.1 ms"},
+            "output": {"sensors": {"tip": {"position": {"of": "beam/end"}}}}}
+    assert model.to_yaml() == buckens.Model.from_dict(tree).to_yaml()
+    assert buckens.check(model)["degrees_of_freedom"] == 0
+    assert repr(buckens.Fixed(between=["ground", "a"])) == "Fixed(between=['ground', 'a'])"
+    with pytest.raises(TypeError, match="lenght"):
+        buckens.Beam(lenght=3, to=[1, 0, 0], section="s", material="m")
+    # Every kind of body, joint and load of the format has its class.
+    schema = json.loads(pathlib.Path(source("schema/model.schema.json")).read_text())["properties"]
+    kinds = [kind["required"][0] for part in ("bodies", "joints", "loads")
+             for kind in schema[part]["additionalProperties"]["oneOf"] if kind["required"] != ["like"]]
+    assert len(kinds) > 40
+    for kind in kinds:
+        assert hasattr(buckens, "".join(word.capitalize() for word in kind.split("-"))), kind
