@@ -20,6 +20,8 @@ namespace {
 // Below this size orderings differ too little to try several.
 constexpr Eigen::Index kLarge = 3000;
 
+// The constants of both are functions. NOLINTBEGIN(readability-identifier-naming)
+
 /// CHOLMOD with 32-bit indices.
 struct Narrow {
   using Index = int;
@@ -45,6 +47,8 @@ struct Wide {
   static constexpr auto free_dense = cholmod_l_free_dense;
   static constexpr auto free_factor = cholmod_l_free_factor;
 };
+
+// NOLINTEND(readability-identifier-naming)
 
 /// Thrown if indices are too narrow.
 struct TooLarge {};

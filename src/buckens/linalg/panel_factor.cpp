@@ -153,8 +153,8 @@ class PanelFactor::Layout {
     L.triangularView<Eigen::Lower>().solveInPlace(inverse_);
     for (int b = 0; b < panel.triangle_blocks(); ++b) {
       const int rows = std::min(kPanelRows, panel.columns - kPanelRows * b);
-      values = copy_block(inverse_.data() + kPanelRows * b, inverse_.rows(), rows,
-                          panel.triangle_columns(b), values);
+      values = copy_block(inverse_.data() + static_cast<std::ptrdiff_t>(kPanelRows) * b,
+                          inverse_.rows(), rows, panel.triangle_columns(b), values);
     }
   }
 
@@ -172,7 +172,8 @@ class PanelFactor::Layout {
         factor_.rows_.push_back(i < present ? place(rows[kPanelRows * b + i], g)
                                             : missing_place(g));
       }
-      values = copy_block(below + kPanelRows * b, ld, present, panel.columns, values);
+      values = copy_block(below + static_cast<std::ptrdiff_t>(kPanelRows) * b, ld, present,
+                          panel.columns, values);
     }
   }
 

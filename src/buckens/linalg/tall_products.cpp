@@ -40,8 +40,9 @@ Matrix inner_products(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const 
   return out;
 }
 
+// B is written to through the copy.
 void subtract_combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S,
-                           Eigen::Ref<Matrix> B) {
+                           Eigen::Ref<Matrix> B) {  // NOLINT(performance-unnecessary-value-param)
   multiply_by_blas(CblasNoTrans, -1.0, A, S, 1.0, B);
 }
 
