@@ -22,6 +22,8 @@ set(package "${PROJECT_BINARY_DIR}/python/buckens")
 file(GLOB binding_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/python/bindings/*.cpp")
 # Without extras: no link-time optimisation, which takes long; nothing here is computed.
 pybind11_add_module(buckens_python MODULE NO_EXTRAS ${binding_sources})
+# pybind11 costs each source more than its own lines.
+buckens_in_pieces(buckens_python "${PROJECT_SOURCE_DIR}/python")
 set_target_properties(buckens_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY
                                                                   "${package}")
 target_include_directories(buckens_python PRIVATE "${PROJECT_SOURCE_DIR}/python")

@@ -191,3 +191,29 @@ def test_models_of_objects_are_those_of_dictionaries():
     assert len(kinds) > 40
     for kind in kinds:
         assert hasattr(buckens, "".join(word.capitalize() for word in kind.split("-"))), kind
+
+
+def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
+    """docs/tutorials/python.md: from a file to a plot, a model of objects, and a study."""
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    (tmp_path / "examples").symlink_to(SOURCE / "examples")
+    monkeypatch.chdir(tmp_path)
+    text = (SOURCE / "docs" / "tutorials" / "python.md").read_text()
+    blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
+    first, objects, controller, force, study = blocks
+    names = {}
+    exec(first, names)
+    assert (tmp_path / "mid.png").stat().st_size > 1000 and names["summary"]["steps"] == 2000
+    exec(objects.replace('"1 s"', '"10 ms"'), names)
+    exec(study, names)
+    shown = capsys.readouterr().out.splitlines()
+    # Two lines of the first block, and a height per variant: 10 ms of fall about the hinge.
+    assert len(shown) == 2 + 3
+    for line in shown[2:]:
+        assert float(line.split()[-1]) == pytest.approx(-0.75 * 9.81 * 0.01**2, rel=0.3)
+    names["sim"] = buckens.Simulation(names["model"])
+    exec(force, names)
+    exec(controller, names)
+    with pytest.raises(buckens.InputError, match="sensors/angle.value"):
+        names["sim"].run()

@@ -91,7 +91,7 @@ void define_simulation(py::module_& core) {
       .def("save", &Simulation::save, "path"_a);
 }
 
-py::list messages() {
+py::list messages_as_list() {
   py::list out;
   for (const auto& [level, text] : take_messages()) {
     out.append(py::make_tuple(static_cast<int>(level), text));
@@ -110,7 +110,7 @@ PYBIND11_MODULE(_core, core) {
   python::collect_messages();
   python::translate_exceptions();
   core.attr("version") = kVersion;
-  core.def("take_messages", &python::messages);
+  core.def("take_messages", &python::messages_as_list);
   python::define_model(core);
   python::define_simulation(core);
 }
