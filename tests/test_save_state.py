@@ -113,7 +113,27 @@ loads:
       "  sensors:", "  sensors:\n    i: {signal: i}\n    u: {signal: u}", 1)
 
 
+# A slider that passes nodes of a flexible rail, on a spring along it.
+SLIDER = """buckens: 1
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}
+bodies:
+  rail: {beam: {to: [1, 0.2, -0.1], elements: 10, section: {circle: {diameter: 20 mm}}, material: steel}ROD}
+  bead: {rigid: {mass: 0.3 kg, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0.1, 0.02, -0.01]}}
+  disc: {rigid: {mass: 0.2 kg, inertia: [1e-3, 1e-3, 2e-3]}, at: {position: [0, 0, "0.1*sin(80*pi/180)"], orientation: {euler: [80 deg, 0, 0]}}}
+joints:
+  root: {fixed: {between: [ground, rail/start]}}
+  hole: {slider-on-beam: {between: [rail, bead]}}
+  floor: {rolling: {between: [ground, disc], normal: [0, 0, 1], axle: [0, 0, 1], radius: 0.1}}
+loads: {spring: {slide-spring: {joint: hole, stiffness: 30 N/m, displacement: 0.4 m}}}
+initial: {bodies: {bead: {velocity: [1, 0.2, -0.1]}, disc: {velocity: [0.5, 0, 0], angular-velocity: [0, 1, -5]}}}
+simulation: {duration: 0.4 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {way: {joint-coordinate: hole}, hole: {joint-force: hole}, disc: {position: disc}}}
+"""
+
 CASES = {
+    "a slider and a wheel": (model(SLIDER), 0.2),
+    "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
     "rigid rows": (model(RIGID), 0.0301),
     "rigid rows, step control": (model(ELBOW), 1.31),
     "laws of joint coordinates": (model(LAWS), 0.0301),

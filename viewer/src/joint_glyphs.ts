@@ -190,6 +190,29 @@ function coupler(material: THREE.Material): THREE.Object3D {
   return new THREE.Group().add(first, second);
 }
 
+/** A carriage with two wheels on a rail along z. */
+function sliderOnBeam(material: THREE.Material): THREE.Object3D {
+  const group = new THREE.Group();
+  const rail = new THREE.CylinderGeometry(0.18, 0.18, 5, 14).rotateX(Math.PI / 2);
+  const sleeve = new THREE.CylinderGeometry(0.6, 0.6, 1.2, 24, 1, true).rotateX(Math.PI / 2);
+  group.add(new THREE.Mesh(rail, solid(kDark)), new THREE.Mesh(sleeve, material));
+  for (const z of [-0.9, 0.9]) {
+    const wheel = new THREE.Mesh(new THREE.TorusGeometry(0.5, 0.2, 10, 28), material);
+    wheel.position.z = z;
+    group.add(wheel);
+  }
+  return group;
+}
+
+/** A wheel on its edge over a plate. */
+function rolling(material: THREE.Material): THREE.Object3D {
+  const wheel = new THREE.Mesh(new THREE.TorusGeometry(1.2, 0.3, 12, 36), material);
+  const axle = new THREE.CylinderGeometry(0.2, 0.2, 1.4, 14).rotateX(Math.PI / 2);
+  const plate = new THREE.Mesh(new THREE.BoxGeometry(4, 0.15, 3), solid(kDark));
+  plate.position.y = -1.6;
+  return new THREE.Group().add(wheel, new THREE.Mesh(axle, solid(kDark)), plate);
+}
+
 /** Glyph of a joint by its type, its axis along z; unknown types get an octahedron. */
 export function jointGlyph(type: string, color: THREE.ColorRepresentation): THREE.Object3D {
   const material = solid(color);
@@ -233,6 +256,10 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
       return belt(material);
     case 'coupler':
       return coupler(material);
+    case 'slider-on-beam':
+      return sliderOnBeam(material);
+    case 'rolling':
+      return rolling(material);
     case 'prescribed-rotation':
       return drivenRotation();
     case 'prescribed-translation':

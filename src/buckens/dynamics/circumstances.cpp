@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
 
@@ -94,14 +95,18 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
 
 loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const spatial::MarkerMotion& first,
-                      const spatial::MarkerMotion& second) {
+                      const spatial::MarkerMotion& second, const Travel* travel) {
   const model::Load& own = model.loads[load];
   loads::Sight sight{t, first, second, {}, {}, nullptr, {}};
-  if (own.coordinate >= 0) {
+  const bool has_reaction = around.lambda != nullptr && around.lambda->size() > 0;
+  if (travel != nullptr) {
+    sight.coordinate = travel->coordinate(static_cast<std::size_t>(own.coordinate), around.memory);
+    if (has_reaction) sight.reaction = travel->reaction(t, *around.lambda);
+  } else if (own.coordinate >= 0) {
     sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate),
                                          around.memory, first, second);
   }
-  if (own.joint >= 0 && around.lambda != nullptr && around.lambda->size() > 0) {
+  if (own.joint >= 0 && travel == nullptr && has_reaction) {
     sight.reaction = wrenches_of(model, model.joints[static_cast<std::size_t>(own.joint)], t,
                                  around.memory, *around.lambda, first, second)
                          .on_second;
@@ -120,7 +125,7 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
 
 loads::Action action_of(const model::Model& model, std::size_t load, double t,
                         const Circumstances& around, const spatial::MarkerMotion& first,
-                        const spatial::MarkerMotion& second) {
+                        const spatial::MarkerMotion& second, const Travel* travel) {
   const loads::ForceElement& element = *model.loads[load].element;
   if (around.inputs != nullptr && !around.inputs->empty() && (*around.inputs)[load]) {
     return element.act(*(*around.inputs)[load], first);
@@ -128,7 +133,7 @@ loads::Action action_of(const model::Model& model, std::size_t load, double t,
   if (model.loads[load].coordinate < 0 && element.num_states() == 0 && !element.uses_signals()) {
     return element.evaluate(t, first, second);
   }
-  return element.respond(sight_of(model, load, t, around, first, second));
+  return element.respond(sight_of(model, load, t, around, first, second, travel));
 }
 
 }  // namespace buckens::dynamics

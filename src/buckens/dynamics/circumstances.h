@@ -53,16 +53,18 @@ JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, 
                           const spatial::MarkerMotion& first, const spatial::MarkerMotion& second,
                           std::size_t coupled = 0);
 
+class Travel;
+
 /// All that a load may see.
-/// @param load index into Model::loads
+/// @param load index into Model::loads, @param travel of a law on a slider's coordinate
 loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const spatial::MarkerMotion& first,
-                      const spatial::MarkerMotion& second);
+                      const spatial::MarkerMotion& second, const Travel* travel = nullptr);
 
 /// The effect of one load: by its law, or by the values given for it.
-/// @param load index into Model::loads
+/// @param load index into Model::loads, @param travel of a law on a slider's coordinate
 loads::Action action_of(const model::Model& model, std::size_t load, double t,
                         const Circumstances& around, const spatial::MarkerMotion& first,
-                        const spatial::MarkerMotion& second);
+                        const spatial::MarkerMotion& second, const Travel* travel = nullptr);
 
 }  // namespace buckens::dynamics

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
 
@@ -53,6 +54,21 @@ void evaluate_coupler(const model::Model& model, const model::Joint& joint,
   out.rows[static_cast<std::size_t>(joint.first_row)] = std::move(row);
 }
 
+/// The rows of a slider on a beam.
+void evaluate_slider(const model::Model& model, const model::Joint& joint,
+                     const std::vector<BodyMotion>& motions, double t,
+                     const model::RowMemory* memory, Constraints& out) {
+  const Travel travel(model, joint, motions, memory);
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    const Travel::Row value = travel.row(joint.rows[k], t);
+    const int row = joint.first_row + static_cast<int>(k);
+    out.g[row] = value.g;
+    out.g_dot[row] = travel.rate_of(value);
+    out.g_t[row] = value.g_t;
+    travel.derive(value, joint.first_row, out.rows[static_cast<std::size_t>(row)]);
+  }
+}
+
 double coupler_bias(const model::Model& model, const model::Joint& joint,
                     const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
   double out = 0.0;
@@ -91,6 +107,10 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
       evaluate_coupler(model, joint, motions, memory, out);
       continue;
     }
+    if (joint.track) {
+      evaluate_slider(model, joint, motions, t, memory, out);
+      continue;
+    }
     const auto first = evaluate_marker(model, joint.first, motions);
     const auto second = evaluate_marker(model, joint.second, motions);
     const Twists V = twists(first.motion, second.motion);
@@ -109,12 +129,29 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
   }
 }
 
+std::vector<char> rate_only_rows(const model::Model& model) {
+  std::vector<char> out;
+  for (const model::Joint& joint : model.joints) {
+    for (const joints::ConstraintRow& row : joint.rows) {
+      out.push_back(row.holds_rates_only() ? 1 : 0);
+    }
+  }
+  return out;
+}
+
 linalg::Vector constraint_bias(const model::Model& model, const std::vector<BodyMotion>& motions,
                                double t, const model::RowMemory* memory) {
   linalg::Vector bias(model.num_constraint_rows());
   for (const model::Joint& joint : model.joints) {
     if (!joint.coupled.empty()) {
       bias[joint.first_row] = coupler_bias(model, joint, motions, memory);
+      continue;
+    }
+    if (joint.track) {
+      const Travel travel(model, joint, motions, memory);
+      for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+        bias[joint.first_row + static_cast<int>(k)] = travel.bias(joint.rows[k], t);
+      }
       continue;
     }
     const auto first = evaluate_marker(model, joint.first, motions);

@@ -24,6 +24,9 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
 void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
                           double t, Constraints& out);
 
+/// For each row of λ whether it holds its rate only, as rolling does. Its residual is zero.
+std::vector<char> rate_only_rows(const model::Model& model);
+
 /// The part of g̈ without coordinate accelerations, for the initial accelerations.
 linalg::Vector constraint_bias(const model::Model& model, const std::vector<BodyMotion>& motions,
                                double t, const model::RowMemory* memory = nullptr);

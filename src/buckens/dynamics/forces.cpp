@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
 
@@ -117,11 +118,11 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
-    const auto first = evaluate_marker(model, load.first, motions);
-    const auto second = evaluate_marker(model, load.second, motions);
+    const LoadEnds ends = ends_of(model, load, motions, around.memory);
     loads::Action action;
     try {
-      action = action_of(model, k, t, around, first.motion, second.motion);
+      action =
+          action_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels());
     } catch (const NumericalError& error) {
       fail_with_name(load, error);
     }
@@ -133,8 +134,12 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
       action.active_power *= load_factor;
       action.along_pattern *= load_factor;
     }
-    add_wrench(model, load.first, first, action.on_first, out);
-    add_wrench(model, load.second, second, action.on_second, out);
+    if (ends.travel) {
+      ends.travel->add_force(action.on_second.force, out);
+    } else {
+      add_wrench(model, load.first, ends.first, action.on_first, out);
+      add_wrench(model, load.second, ends.second, action.on_second, out);
+    }
     if (load.pattern_row >= 0) add_pattern(load, motions, action, out);
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
@@ -151,6 +156,20 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
     for (const BodyRow* part : constraints.rows[k].parts()) add_row(*part, multiplier, out);
   }
 }
+
+namespace {
+
+SystemRow tangent_row(const model::Model& model, const model::Load& load, const LoadEnds& ends,
+                      const spatial::PairRow& J) {
+  if (!ends.travel) return system_row(model, load.first, ends.first, load.second, ends.second, J);
+  SystemRow out;
+  // Numbers behind those of joints: it is where the forces are, its joint where the step ends.
+  const int number = model.num_constraint_rows() + load.coordinate;
+  ends.travel->derive({0.0, 0.0, J.segment<3>(9).transpose()}, number, out);
+  return out;
+}
+
+}  // namespace
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out) {
@@ -170,10 +189,10 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_soft_rows() == 0) continue;
-    const auto first = evaluate_marker(model, load.first, motions);
-    const auto second = evaluate_marker(model, load.second, motions);
+    const LoadEnds ends = ends_of(model, load, motions, around.memory);
     rows.clear();
-    const loads::Sight sight = sight_of(model, k, t, around, first.motion, second.motion);
+    const loads::Sight sight =
+        sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels());
     load.element->append_tangent(sight, rows);
     try {
       if (load.coordinate >= 0) out.regimes.push_back(load.element->respond(sight).regime);
@@ -184,7 +203,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
       add_slopes_of_signals(load, motions, around, {model, sight, out});
     }
     for (const loads::SoftRow& row : rows) {
-      out.rows.push_back(system_row(model, load.first, first, load.second, second, row.J));
+      out.rows.push_back(tangent_row(model, load, ends, row.J));
       out.stiffness.push_back(row.stiffness);
       out.damping.push_back(row.damping);
       out.rigid.push_back(load.rigid_row);

@@ -3,6 +3,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/travel.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::dynamics {
@@ -57,9 +58,10 @@ JointSet::JointSet(const model::Model& model)
     if (joint.rows.size() > kMostRows) {
       throw ModelError("joint \"" + joint.name + "\" has more than six equations");
     }
-    const Joint& own = joints_.emplace_back(Joint{
-        end_of(joint.first), end_of(joint.second), joint.first_row,
-        static_cast<int>(joint.rows.size()), rows_.size(), coupled_.size(), joint.coupled.size()});
+    const Joint& own = joints_.emplace_back(
+        Joint{end_of(joint.first), end_of(joint.second), joint.first_row,
+              static_cast<int>(joint.rows.size()), rows_.size(), coupled_.size(),
+              joint.coupled.size(), joint.track ? &joint : nullptr});
     for (const model::CoupledCoordinate& coupled : joint.coupled) {
       const auto index = static_cast<std::size_t>(coupled.coordinate);
       const model::Joint& owner =
@@ -147,7 +149,8 @@ void JointSet::derive(const End& end, const Motion& motion, const Wrench& wrench
 
 void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
                                 const model::RowMemory* memory, JointResiduals& out,
-                                double multiplier, Forces* forces) const {
+                                const linalg::Vector* lambda, Forces* forces) const {
+  const double multiplier = lambda != nullptr ? (*lambda)[joint.first_row] : 0.0;
   joints::CouplerSum sum;
   double rate = 0.0;
   for (std::size_t k = 0; k < joint.num_coupled; ++k) {
@@ -171,6 +174,21 @@ void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion
   out.g[joint.first_row] = sum.value();
   out.g_dot[joint.first_row] = rate;
   out.g_t[joint.first_row] = 0.0;
+}
+
+void JointSet::evaluate_slider(const model::Joint& joint, const std::vector<BodyMotion>& motions,
+                               double t, const model::RowMemory* memory, JointResiduals& out,
+                               const linalg::Vector* lambda, Forces* forces) const {
+  const Travel travel(model_, joint, motions, memory);
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    const Travel::Row value = travel.row(joint.rows[k], t);
+    const int row = joint.first_row + static_cast<int>(k);
+    out.g[row] = value.g;
+    out.g_dot[row] = travel.rate_of(value);
+    out.g_t[row] = value.g_t;
+    if (forces == nullptr) continue;
+    travel.add_force((*lambda)[row] * value.e, *forces);
+  }
 }
 
 void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
@@ -200,8 +218,11 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
   for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
   for (const Joint& joint : joints_) {
     if (joint.num_coupled > 0) {
-      evaluate_coupler(joint, motions, memory, out,
-                       lambda != nullptr ? (*lambda)[joint.first_row] : 0.0, forces);
+      evaluate_coupler(joint, motions, memory, out, lambda, forces);
+      continue;
+    }
+    if (joint.slider != nullptr) {
+      evaluate_slider(*joint.slider, motions, t, memory, out, lambda, forces);
       continue;
     }
     const Motion F = motion_of(joint.first, motions);
@@ -254,7 +275,17 @@ void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& mot
                            const model::RowMemory* memory,
                            std::array<SystemRow, kMostRows>& out) const {
   const Joint& own = joints_[joint];
-  if (own.num_coupled > 0) return derive_coupler(own, motions, memory, out[0]);
+  if (own.num_coupled > 0) {
+    out[0].travelling = -1;
+    return derive_coupler(own, motions, memory, out[0]);
+  }
+  if (own.slider != nullptr) {
+    const Travel travel(model_, *own.slider, motions, memory);
+    for (std::size_t k = 0; k < own.slider->rows.size(); ++k) {
+      travel.derive(travel.row(own.slider->rows[k], t), own.first_row, out[k]);
+    }
+    return;
+  }
   const double* const states =
       memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() : nullptr;
   const Motion F = motion_of(own.first, motions);
@@ -278,6 +309,7 @@ void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& mot
     }
     SystemRow& values = out[static_cast<std::size_t>(k)];
     values.more.clear();  // of a coupler before
+    values.travelling = -1;
     derive(own.first, F, on_first, values.first);
     derive(own.second, M, on_second, values.second);
   }

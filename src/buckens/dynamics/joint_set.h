@@ -72,6 +72,7 @@ class JointSet {
     int first_row, num_rows;
     std::size_t rows;                  // first of them in rows_
     std::size_t coupled, num_coupled;  // of a coupler in coupled_
+    const model::Joint* slider;        // on a beam, null: another
   };
   struct Motion;
 
@@ -82,8 +83,11 @@ class JointSet {
                      BodyRow& out);
 
   void evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
-                        const model::RowMemory* memory, JointResiduals& out, double multiplier,
-                        Forces* forces) const;
+                        const model::RowMemory* memory, JointResiduals& out,
+                        const linalg::Vector* lambda, Forces* forces) const;
+  void evaluate_slider(const model::Joint& joint, const std::vector<BodyMotion>& motions, double t,
+                       const model::RowMemory* memory, JointResiduals& out,
+                       const linalg::Vector* lambda, Forces* forces) const;
   void derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
                       const model::RowMemory* memory, SystemRow& out) const;
 

@@ -101,9 +101,10 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
   const Eigen::Matrix3d rotation = compliance.frame.topLeftCorner<3, 3>();
   const Eigen::Matrix3d translation = compliance.frame.bottomRightCorner<3, 3>();
   const RowBlocks& test = test_rows();
-  const auto side_of = [&](const BlockOnBody& k) -> const RowBlock::Side& {
-    return force_.sides(
-        force_.blocks()[static_cast<std::size_t>(k.block)])[static_cast<std::size_t>(k.side)];
+  // Both have the same layout, but a row that travels may act elsewhere than it is closed.
+  const auto side_of = [](const RowBlocks& rows, const BlockOnBody& k) -> const RowBlock::Side& {
+    return rows.sides(
+        rows.blocks()[static_cast<std::size_t>(k.block)])[static_cast<std::size_t>(k.side)];
   };
   const auto count_of = [&](const BlockOnBody& k) {
     return force_.blocks()[static_cast<std::size_t>(k.block)].count;
@@ -111,7 +112,7 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
   const int* place = places_[b].data();
   Images images;
   for (const BlockOnBody& j : list) {
-    const RowBlock::Side& acting = side_of(j);
+    const RowBlock::Side& acting = side_of(force_, j);
     const int columns = count_of(j);
     for (int m = 0; m < columns; ++m) {
       Vector6& image = images[static_cast<std::size_t>(m)];
@@ -120,7 +121,7 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
     }
     const bool on_interface = compliance.interface != nullptr && acting.follows_mesh();
     for (const BlockOnBody& i : list) {
-      const RowBlock::Side& closing = side_of(i);
+      const RowBlock::Side& closing = side_of(test, i);
       const int rows = count_of(i);
       double* const S = block_lu_.block(*place);
       const int stride = block_lu_.stride(*place);

@@ -26,12 +26,14 @@ RowBlocks::RowBlocks(const std::vector<SystemRow>& pattern) {
   for (std::size_t r = 0; r < pattern.size(); ++r) {
     const SystemRow& row = pattern[r];
     const bool fits = !blocks_.empty() && blocks_.back().count < kMostRows &&
+                      row.travelling == blocks_.back().travelling &&
                       touch_the_same(row, sides(blocks_.back()));
     if (!fits) {
       RowBlock& block = blocks_.emplace_back();
       block.first_row = static_cast<int>(r);
       block.first_side = sides_.size();
       block.num_sides = row.num_parts();
+      block.travelling = row.travelling;
       for (const BodyRow* part : row.parts()) {
         RowBlock::Side& side = sides_.emplace_back();
         side.body = part->body;
@@ -62,10 +64,16 @@ void RowBlocks::set(int row, const SystemRow& values) {
   const RowBlock& block =
       blocks_[static_cast<std::size_t>(block_of_row_[static_cast<std::size_t>(row)])];
   const auto offset = static_cast<std::size_t>(6 * (row - block.first_row));
+  static const BodyRow nothing;
   for (std::size_t s = 0; s < block.num_sides; ++s) {
-    const RowBlock::Side& side = sides_[block.first_side + s];
+    RowBlock::Side& side = sides_[block.first_side + s];
     if (side.body == model::kGround) continue;
-    const BodyRow& part = values.part(s);
+    // A law that is switched off gives an empty row.
+    const BodyRow& part = s < values.num_parts() ? values.part(s) : nothing;
+    if (block.travelling >= 0 && values.travelling >= 0) {
+      side.translation_row = part.translation_row;
+      side.rotation_row = part.rotation_row;
+    }
     std::copy_n(part.frame.data(), 6, &values_[side.frame + offset]);
     if (side.follows_mesh())
       std::copy_n(part.interface.data(), 6, &values_[side.interface + offset]);

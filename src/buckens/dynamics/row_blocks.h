@@ -36,6 +36,7 @@ struct RowBlock {
   int count = 0;
   std::size_t first_side = 0;
   std::size_t num_sides = 0;
+  int travelling = -1;  ///< as in SystemRow
 };
 
 /// Derivatives of many rows, stored compactly in the order of the rows.
@@ -56,7 +57,8 @@ class RowBlocks {
   }
   int num_rows() const { return static_cast<int>(block_of_row_.size()); }
 
-  /// Stores the numbers of a row. Its bodies are those of the pattern.
+  /// Stores the numbers of a row. Its bodies are those of the pattern, and its marker rows unless
+  /// it travels; an empty row is zero.
   void set(int row, const SystemRow& values);
 
   /// Derivatives of row `k` of a block on one side: six of the frame, six of the interface.

@@ -5,35 +5,73 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/signals.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
 
 namespace {
 
+// How far beyond an end of a beam counts as rounding, of its length.
+constexpr double kBeyondEnd = 1e-9;
+
 double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
-                   const std::vector<BodyMotion>& motions) {
+                   const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
+  const auto& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
+  if (joint.track) return Travel(model, joint, motions, memory).displacement();
   return coordinate.law.fraction(evaluate_marker(model, coordinate.first, motions).motion,
                                  evaluate_marker(model, coordinate.second, motions).motion);
 }
 
+/// Where a slider is on its beam.
+void follow_slider(const model::Model& model, const model::Joint& joint,
+                   const std::vector<BodyMotion>& motions, const double* before, double* after) {
+  const double s = Travel(model, joint, motions, before).point().s;
+  const double length = joint.track->shape.length();
+  if (s < -kBeyondEnd * length || s > (1.0 + kBeyondEnd) * length) {
+    throw NumericalError(
+        fmt::format("the slider has left its beam of {:.6g} m beyond the {} ({}); hold it back by "
+                    "a `slide-stop`, end the simulation earlier, or lengthen the beam",
+                    length, s < 0.0 ? "start" : "end",
+                    s < 0.0 ? joint.track->nodes.front().text : joint.track->nodes.back().text));
+  }
+  after[0] = 1.0;
+  after[1] = s;
+}
+
+/// Puts joint and time before what ends the motion.
+template <class Work>
+void citing(const model::Joint& joint, double t, Work&& work) {
+  try {
+    work();
+  } catch (const NumericalError& error) {
+    throw NumericalError(
+        joint.where, fmt::format("joint \"{}\" at t = {:.6g} s: {}", joint.name, t, error.text()));
+  }
+}
+
 /// @param lambda may be null: joints carry nothing
-void follow_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
+void follow_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                  const linalg::Vector* lambda, const double* before, linalg::Vector& after) {
   for (const model::Joint& joint : model.joints) {
+    if (joint.track) {
+      citing(joint, t, [&] {
+        follow_slider(model, joint, motions,
+                      before == nullptr ? nullptr : before + joint.first_state,
+                      after.data() + joint.first_state);
+      });
+      continue;
+    }
     int state = joint.first_state;
     for (std::size_t k = 0; k < joint.rows.size(); ++k) {
       const joints::RowLaw* const law = joint.rows[k].law();
       if (law == nullptr) continue;
       const int row = joint.first_row + static_cast<int>(k);
-      try {
+      citing(joint, t, [&] {
         law->follow(evaluate_marker(model, joint.first, motions).motion,
                     evaluate_marker(model, joint.second, motions).motion,
                     lambda != nullptr && lambda->size() > 0 ? (*lambda)[row] : 0.0,
                     before == nullptr ? nullptr : before + state, after.data() + state);
-      } catch (const NumericalError& error) {
-        throw NumericalError(joint.where,
-                             fmt::format("joint \"{}\": {}", joint.name, error.text()));
-      }
+      });
       state += law->num_states();
     }
   }
@@ -45,7 +83,7 @@ bool follow_reactions(const model::Model& model, const std::vector<BodyMotion>& 
                       const linalg::Vector& lambda, model::RowMemory& memory) {
   if (memory.rows.size() == 0) return false;
   const linalg::Vector before = memory.rows;
-  follow_rows(model, motions, &lambda, before.data(), memory.rows);
+  follow_rows(model, motions, 0.0, &lambda, before.data(), memory.rows);
   return memory.rows != before;
 }
 
@@ -60,19 +98,18 @@ model::RowMemory memory_at_rest(const model::Model& model, const std::vector<Bod
 model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions) {
   model::RowMemory out;
   for (const model::Coordinate& coordinate : model.coordinates) {
-    out.coordinates.push_back({0, fraction_of(model, coordinate, motions)});
+    out.coordinates.push_back({0, fraction_of(model, coordinate, motions, nullptr)});
   }
   out.laws = linalg::Vector::Zero(model.num_law_states());
   out.rows = linalg::Vector::Zero(model.num_row_states());
-  if (out.rows.size() > 0) follow_rows(model, motions, nullptr, nullptr, out.rows);
+  if (out.rows.size() > 0) follow_rows(model, motions, 0.0, nullptr, nullptr, out.rows);
   for (std::size_t k = 0; k < model.loads.size() && out.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
-    const auto first = evaluate_marker(model, load.first, motions);
-    const auto second = evaluate_marker(model, load.second, motions);
-    load.element->start_states(
-        sight_of(model, k, 0.0, {nullptr, &out, nullptr, nullptr}, first.motion, second.motion),
-        out.laws.data() + load.first_state);
+    const LoadEnds ends = ends_of(model, load, motions, &out);
+    load.element->start_states(sight_of(model, k, 0.0, {nullptr, &out, nullptr, nullptr},
+                                        ends.first.motion, ends.second.motion, ends.travels()),
+                               out.laws.data() + load.first_state);
   }
   start_signals(model, motions, 0.0, out);
   return out;
@@ -84,21 +121,21 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   out.coordinates.resize(before.coordinates.size());
   for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
     const model::Coordinate& coordinate = model.coordinates[k];
-    out.coordinates[k] =
-        coordinate.law.follow(before.coordinates[k], fraction_of(model, coordinate, motions));
+    out.coordinates[k] = coordinate.law.follow(before.coordinates[k],
+                                               fraction_of(model, coordinate, motions, &before));
   }
   out.rows.resize(before.rows.size());
   if (before.rows.size() > 0) {
-    follow_rows(model, motions, around.lambda, before.rows.data(), out.rows);
+    follow_rows(model, motions, t, around.lambda, before.rows.data(), out.rows);
   }
   out.laws.resize(before.laws.size());
   for (std::size_t k = 0; k < model.loads.size() && before.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
-    const auto first = evaluate_marker(model, load.first, motions);
-    const auto second = evaluate_marker(model, load.second, motions);
-    load.element->find_states(sight_of(model, k, t, around, first.motion, second.motion),
-                              out.laws.data() + load.first_state);
+    const LoadEnds ends = ends_of(model, load, motions, &before);
+    load.element->find_states(
+        sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels()),
+        out.laws.data() + load.first_state);
   }
   advance_signals(model, motions, t, around, out);
 }

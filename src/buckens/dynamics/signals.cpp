@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
 
@@ -90,10 +91,8 @@ class Evaluation {
       return signal.along.dot(marker(signal.marker).p + model_.origin);
     }
     if (signal.kind == Signal::Kind::velocity) return signal.along.dot(marker(signal.marker).v);
-    const auto index = static_cast<std::size_t>(signal.coordinate);
-    const model::Coordinate& own = model_.coordinates[index];
-    const loads::CoordinateMotion motion =
-        coordinate_motion(model_, index, around_.memory, marker(own.first), marker(own.second));
+    const loads::CoordinateMotion motion = coordinate_motion(
+        model_, static_cast<std::size_t>(signal.coordinate), around_.memory, motions_);
     const bool is_shifted = signal.coordinate == shift_.coordinate;
     return signal.kind == Signal::Kind::coordinate
                ? motion.value + (is_shifted ? shift_.value : 0.0)
@@ -105,7 +104,9 @@ class Evaluation {
     if (signal.kind == Signal::Kind::force) {
       const auto index = static_cast<std::size_t>(signal.load);
       const model::Load& load = model_.loads[index];
-      return action_of(model_, index, t_, around_, marker(load.first), marker(load.second))
+      const LoadEnds ends = ends_of(model_, load, motions_, around_.memory);
+      return action_of(model_, index, t_, around_, ends.first.motion, ends.second.motion,
+                       ends.travels())
           .along_coordinate;
     }
     const model::ControlBlock& block = *signal.block;

@@ -34,6 +34,9 @@ struct BodyRow {
 struct SystemRow {
   BodyRow first, second;
   std::vector<BodyRow> more;  ///< empty of nearly all rows
+  /// Of a row whose marker rows change as it travels along a beam: the number of its joint. Bodies
+  /// stay the same. −1 of all others.
+  int travelling = -1;
 
   std::size_t num_parts() const { return 2 + more.size(); }
   const BodyRow& part(std::size_t k) const {

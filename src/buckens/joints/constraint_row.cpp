@@ -95,6 +95,14 @@ ConstraintRow ConstraintRow::coupled(bool is_length) {
   return row;
 }
 
+ConstraintRow ConstraintRow::travelling(int number, std::optional<base::TimeLaw> displacement) {
+  ConstraintRow row;
+  row.kind_ = Kind::travelling;
+  row.number_ = number;
+  row.law_ = std::move(displacement);
+  return row;
+}
+
 ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, bool with_acceleration) const {
   TurningVector b{e_, Vector3d::Zero(), Vector3d::Zero()};
   if (!law_) return b;

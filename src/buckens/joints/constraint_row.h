@@ -21,7 +21,9 @@ namespace buckens::joints {
 ///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F;
 ///   - `law`:         what a RowLaw says, which remembers something from step to step;
 ///   - `coupled`:     a sum over coordinates of other joints. It lies between more than two markers
-///                    and is evaluated from model::Joint::coupled; here stands only its unit.
+///                    and is evaluated from model::Joint::coupled; here stands only its unit;
+///   - `travelling`:  between a marker and the point of a beam where it is now, evaluated from
+///                    model::Joint::track; here stand only its number and its law of time.
 class ConstraintRow {
  public:
   enum class Kind {
@@ -32,7 +34,8 @@ class ConstraintRow {
     homokinetic,
     screw,
     law,
-    coupled
+    coupled,
+    travelling
   };
 
   static ConstraintRow point_world(const Eigen::Vector3d& e);
@@ -60,6 +63,10 @@ class ConstraintRow {
   static ConstraintRow by_law(std::shared_ptr<const RowLaw> law);
   /// @param is_length whether the sum is a length or an angle
   static ConstraintRow coupled(bool is_length);
+  /// @param number 0 and 1 across the beam, 2 along it
+  /// @param displacement along the beam from s = 0 [m], of the row along it
+  static ConstraintRow travelling(int number,
+                                  std::optional<base::TimeLaw> displacement = std::nullopt);
 
   /// @param states what a row of kind `law` remembers; null: nothing is known yet
   RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
@@ -77,13 +84,23 @@ class ConstraintRow {
   }
   /// Whether the row takes a moment of the first marker, and of the second.
   bool turns_first() const {
-    return kind_ != Kind::point_world && kind_ != Kind::distance && kind_ != Kind::coupled;
+    return kind_ != Kind::point_world && kind_ != Kind::distance && kind_ != Kind::coupled &&
+           kind_ != Kind::travelling;
   }
   bool turns_second() const {
     return turns_first() && kind_ != Kind::point_along && (!own_ || own_->turns_second());
   }
   bool depends_on_time() const { return law_.has_value(); }
-  int num_states() const { return own_ ? own_->num_states() : 0; }
+  /// A slider remembers with its first row whether it is known where it is, and where.
+  int num_states() const {
+    if (kind_ == Kind::travelling) return number_ == 0 ? 2 : 0;
+    return own_ ? own_->num_states() : 0;
+  }
+  /// Whether it holds rates only, so that its residual is always zero: rolling.
+  bool holds_rates_only() const { return own_ && own_->holds_rates_only(); }
+  /// Of a travelling row.
+  int number() const { return number_; }
+  const std::optional<base::TimeLaw>& displacement() const { return law_; }
   /// Of rows of kind `law`, else null.
   const RowLaw* law() const { return own_.get(); }
   /// e of a point row; b of a direction row, at angle zero where it turns.
@@ -114,6 +131,7 @@ class ConstraintRow {
   double offset_ = 0;
   double pitch_ = 0;
   bool is_angle_ = false;  // of a coupled row
+  int number_ = 0;         // of a travelling row
   std::optional<base::TimeLaw> law_;
   std::shared_ptr<const RowLaw> own_;
 };

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/joints/gear_mesh.h"
 #include "buckens/joints/path_row.h"
+#include "buckens/joints/rolling_row.h"
 
 namespace buckens::joints {
 
@@ -46,6 +47,7 @@ Triad triad_about(const Vector3d& z, const Placement& placement) {
 // largest bend of a constant-velocity joint as placed.
 constexpr double kRightAngle = 1e-4;
 constexpr double kLargestBend = 0.08715574274765817;  // of 85 degrees
+constexpr double kFlatWheel = 1e-3;                   // sine of the angle between wheel and plane
 
 class RowCollector {
  public:
@@ -224,6 +226,34 @@ void add_slot(const Placement& placement, RowCollector& rows) {
   for (auto& law : make_path_rows(curve, normal)) rows.push(ConstraintRow::by_law(std::move(law)));
 }
 
+/// In a planar model nothing moves aside, and the axis is the plane's normal.
+void add_rolling(const Vector3d& normal, const Placement& placement, RowCollector& rows) {
+  RollingRow::Data data;
+  data.normal_F = normal;
+  data.radius = placement.sizes[0];
+  data.edge = placement.edge;
+  if (placement.planar) {
+    data.axis_M = placement.R_WM.transpose() * spatial::normal(*placement.planar);
+  } else {
+    const Vector3d axis = placement.second_axis_F.value_or(Vector3d::Zero());
+    if (!(axis.norm() > 0.0)) {
+      throw ModelError("`axle` has no direction; give three numbers, not all zero");
+    }
+    data.axis_M = placement.R_WM.transpose() * (placement.R_WF * axis.normalized());
+  }
+  const double lean = (placement.R_WM * data.axis_M).cross(placement.R_WF * normal).norm();
+  if (lean < kFlatWheel) {
+    throw ModelError(
+        "the wheel lies flat on its plane as placed; turn the body, `axle` or `normal` so that it "
+        "stands on its edge");
+  }
+  using Direction = RollingRow::Direction;
+  for (const Direction d : {Direction::normal, Direction::ahead, Direction::aside}) {
+    if (placement.planar && d == Direction::aside) continue;
+    rows.push(ConstraintRow::by_law(std::make_shared<RollingRow>(data, d)));
+  }
+}
+
 void add_guide_or_coupling(JointType type, const Triad& f, const Placement& placement,
                            RowCollector& rows) {
   const auto parallel = [&] {
@@ -272,6 +302,8 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
       return add_slot(placement, rows);
     case JointType::rack:
       return add_rack(f.z, placement, rows);
+    case JointType::rolling:
+      return add_rolling(f.z, placement, rows);
     default:
       break;
   }
@@ -280,7 +312,7 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
 }  // namespace
 
 std::string to_string(JointType type) {
-  static const std::array<const char*, 21> names = {"revolute",
+  static const std::array<const char*, 23> names = {"revolute",
                                                     "spherical",
                                                     "prismatic",
                                                     "fixed",
@@ -300,7 +332,9 @@ std::string to_string(JointType type) {
                                                     "rack",
                                                     "belt",
                                                     "slot",
-                                                    "coupler"};
+                                                    "coupler",
+                                                    "slider-on-beam",
+                                                    "rolling"};
   return names[static_cast<std::size_t>(type)];
 }
 

@@ -33,7 +33,9 @@ enum class JointType {
   rack,
   belt,
   slot,
-  coupler
+  coupler,
+  slider_on_beam,
+  rolling
 };
 
 /// Name of the kind as spelled in the model file.
@@ -61,6 +63,7 @@ struct Placement {
   std::vector<Eigen::Vector3d> path;             ///< of a slot, in F [m]
   bool is_closed = false;                        ///< whether the path is
   std::optional<Eigen::Vector3d> path_normal_F;  ///< of a plane path; planar models need none
+  double edge = 0;                               ///< of a wheel: radius of its rounded edge [m]
 };
 
 /// Rows of a joint of the given kind between two marker frames.
@@ -68,7 +71,7 @@ struct Placement {
 /// Rows per kind (planar in brackets): revolute 5 (2), spherical 3 (2), prismatic 5 (2), fixed 6
 /// (3), prescribed rotation 1 (1), prescribed translation 1 (1), point on line 2 (1), point in
 /// plane 1 (1), orientation 3 (1), distance 1 (1), gear, rack and belt 1 (1), slot 2 or,
-/// with a normal, 1 (1); in space only:
+/// with a normal, 1 (1), rolling 3 (2); in space only:
 /// cylindrical 4, planar 3, universal 4, constant velocity 4, parallel 2, screw 5. Cost O(1).
 /// @throws ModelError if the axis is zero or, in a planar model, neither normal to the plane
 ///         (revolute, prescribed rotation) nor in it (prismatic, prescribed translation, point on

@@ -15,6 +15,7 @@
 #include "buckens/joints/joint_ends.h"
 #include "buckens/joints/meshing_specs.h"
 #include "buckens/joints/slot_spec.h"
+#include "buckens/joints/travel_specs.h"
 
 namespace buckens::joints {
 
@@ -188,7 +189,7 @@ struct JointSpec {
                PrescribedRotationSpec, PrescribedTranslationSpec, CylindricalSpec, PlanarJointSpec,
                UniversalSpec, ConstantVelocitySpec, PointOnLineSpec, PointInPlaneSpec, ParallelSpec,
                OrientationSpec, DistanceSpec, ScrewSpec, GearSpec, RackSpec, BeltSpec, SlotSpec,
-               CouplerSpec>
+               CouplerSpec, SliderOnBeamSpec, RollingSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -30,6 +30,8 @@ class RowLaw {
   virtual int num_states() const = 0;
   /// Whether it takes a moment of the second marker; of the first it always does.
   virtual bool turns_second() const { return true; }
+  /// Whether it holds rates that are those of no position, so that its residual is always zero.
+  virtual bool holds_rates_only() const { return false; }
   virtual RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                             const double* states) const = 0;
   /// Part of g̈ that does not come from the accelerations of the bodies' coordinates.

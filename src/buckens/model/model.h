@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/body/body.h"
+#include "buckens/joints/beam_track.h"
 #include "buckens/joints/coordinate_term.h"
 #include "buckens/joints/joint.h"
 #include "buckens/joints/joint_coordinate.h"
@@ -24,6 +25,14 @@ struct CoupledCoordinate {
   joints::CoordinateTerm term;
 };
 
+/// The beam on which a joint slides, node by node.
+struct Track {
+  joints::BeamTrack shape;
+  std::vector<MarkerId> nodes;   ///< one per node of `shape`, on one body or on its parts
+  std::vector<MarkerId> bodies;  ///< one of these for every body that has some
+  double placed = 0;             ///< s of the slider as placed [m]
+};
+
 /// Joint between two markers with its place in λ.
 struct Joint {
   std::string name;
@@ -36,6 +45,9 @@ struct Joint {
   /// Of a coupler, which has one row between the markers of all these coordinates; those of the
   /// first are the joint's own. Empty of all other joints.
   std::vector<CoupledCoordinate> coupled;
+  /// Of a slider on a beam: its first body is where the second marker is at the time. Null of all
+  /// other joints.
+  std::shared_ptr<const Track> track;
   SourceLocation where;  ///< in the model file; that of the body for ties
   /// Holds the parts of a divided body together; stands in no model file.
   bool is_tie = false;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::results {
 
@@ -18,12 +18,8 @@ class CoordinateSensor final : public Sensor {
 
   std::vector<Channel> channels() const override { return channels_; }
   void append(const Observation& now, std::vector<double>& values) override {
-    const auto index = static_cast<std::size_t>(now.model.coordinates[coordinate_].joint);
-    const model::Joint& joint = now.model.joints[index];
-    const loads::CoordinateMotion motion = dynamics::coordinate_motion(
-        now.model, coordinate_, &now.state.memory,
-        dynamics::evaluate_marker(now.model, joint.first, now.motions).motion,
-        dynamics::evaluate_marker(now.model, joint.second, now.motions).motion);
+    const loads::CoordinateMotion motion =
+        dynamics::coordinate_motion(now.model, coordinate_, &now.state.memory, now.motions);
     values.insert(values.end(), {motion.value, motion.rate});
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::results {
 
@@ -37,7 +38,8 @@ InterfaceLoads::InterfaceLoads(const model::Model& model, const model::FieldPlac
     if (joint.is_tie) continue;
     for (std::size_t c = 0; c < std::max<std::size_t>(joint.coupled.size(), 1); ++c) {
       const model::Joint& owner = markers_of(joint, c);
-      add_side(owner.first, {k, true, Side::first, c});
+      // The beam under a slider has no place with a name.
+      if (!joint.track) add_side(owner.first, {k, true, Side::first, c});
       add_side(owner.second, {k, true, Side::second, c});
     }
   }
@@ -102,6 +104,9 @@ Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
   const bool is_first = share.side == Side::first;
   if (share.is_joint) {
     const model::Joint& joint = model_.joints[share.index];
+    if (joint.track) {
+      return dynamics::Travel(model_, joint, motions, &state.memory).reaction(state.t, lambda);
+    }
     const model::Joint& owner = markers_of(joint, share.coupled);
     const dynamics::JointWrenches both =
         dynamics::wrenches_of(model_, joint, state.t, &state.memory, lambda, motion(owner.first),
@@ -109,9 +114,10 @@ Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
     return is_first ? both.on_first : both.on_second;
   }
   const model::Load& load = model_.loads[share.index];
+  const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state.memory);
   const loads::Action action =
       dynamics::action_of(model_, share.index, state.t, dynamics::circumstances_of(state),
-                          motion(load.first), motion(load.second));
+                          ends.first.motion, ends.second.motion, ends.travels());
   Wrench out = is_first ? action.on_first : action.on_second;
   if (load.element->is_applied()) {
     out.force *= load_factor;

@@ -258,10 +258,13 @@ Geometry model_geometry(const model::Model& model) {
   }
   for (const model::Joint& joint : model.joints) {
     if (joint.is_tie) continue;
+    // Sliders and wheels are drawn where they are, with an axis of their own.
+    const bool moves_on = joint.track || joint.type == joints::JointType::rolling;
+    const model::MarkerId& drawn_at = moves_on ? joint.second : joint.first;
     out.joints.push_back({joint.name,
                           joints::to_string(joint.type),
-                          {side_of(model, joint.first), side_of(model, joint.second)},
-                          to_body(model, joint.first, joint.axis_F)});
+                          {side_of(model, drawn_at), side_of(model, joint.second)},
+                          to_body(model, drawn_at, joint.axis_F)});
   }
   for (const model::Load& load : model.loads) {
     // What acts on a joint's coordinate is where the joint is drawn.

@@ -2,6 +2,7 @@
 #include "buckens/results/observation.h"
 
 #include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::results {
 
@@ -14,6 +15,10 @@ std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
   std::vector<spatial::Wrench> out;
   out.reserve(model.joints.size());
   for (const model::Joint& joint : model.joints) {
+    if (joint.track) {
+      out.push_back(dynamics::Travel(model, joint, motions, &memory).reaction(t, lambda));
+      continue;
+    }
     const auto first = dynamics::evaluate_marker(model, joint.first, motions).motion;
     const auto second = dynamics::evaluate_marker(model, joint.second, motions).motion;
     out.push_back(dynamics::wrenches_of(model, joint, t, &memory, lambda, first, second).on_second);

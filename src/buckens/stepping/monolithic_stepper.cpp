@@ -113,6 +113,7 @@ MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettin
       settings_(settings),
       scheme_(settings.method, settings.step, settings.method_parameter()),
       rows_in_use_(std::move(rows_in_use)),
+      rates_only_(dynamics::rate_only_rows(model)),
       rigid_(model) {
   const auto take = [this](Eigen::Index count) {
     const int first = size_;
@@ -317,8 +318,11 @@ void MonolithicStepper::fixed_corrections() {
       fixed_.emplace_back(column, column, 1.0);
       continue;
     }
-    for (const Entry& e : entries(predicted_rows_[static_cast<std::size_t>(rows_in_use_[k])])) {
+    const auto row = static_cast<std::size_t>(rows_in_use_[k]);
+    for (const Entry& e : entries(predicted_rows_[row])) {
       fixed_.emplace_back(e.correction_column, column, -e.value);
+      // A correction of positions rolls as well.
+      if (rates_only_[row]) fixed_.emplace_back(column, e.correction_column, e.value);
     }
   }
   for (std::size_t k = 0; k < correcting_.rows.size(); ++k) {
@@ -362,7 +366,7 @@ void MonolithicStepper::tangent(std::vector<Triplet>& out) const {
     }
     for (const Entry& e : entries(end_.rows[row])) {
       out.emplace_back(velocity, e.column, e.value);
-      if (!corrects_positions()) continue;
+      if (!corrects_positions() || rates_only_[row]) continue;
       out.emplace_back(position, e.column, e.value);
       out.emplace_back(position, e.correction_column, e.value);
     }
@@ -410,7 +414,9 @@ Vector MonolithicStepper::residual() const {
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     const int row = rows_in_use_[k];
     r[first_lambda_ + static_cast<int>(k)] = end_.g_dot[row] / scheme_.end_rate;
-    if (corrects_positions()) r[first_correction_ + static_cast<int>(k)] = end_.g[row];
+    if (corrects_positions() && !rates_only_[static_cast<std::size_t>(row)]) {
+      r[first_correction_ + static_cast<int>(k)] = end_.g[row];
+    }
   }
   rigid_residual(r);
   return r;

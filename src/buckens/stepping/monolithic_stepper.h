@@ -84,6 +84,7 @@ class MonolithicStepper {
   StepSettings settings_;
   Scheme scheme_;
   std::vector<int> rows_in_use_;
+  std::vector<char> rates_only_;  // of each row of λ
   std::vector<std::unique_ptr<Part>> parts_;
   int first_lambda_ = 0, first_correction_ = 0, size_ = 0;
   int first_rigid_ = 0, first_rigid_correction_ = 0;

@@ -68,7 +68,8 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       watch_(model),
       rigid_(model),
       rounding_length_(model.length),
-      joints_(model) {
+      joints_(model),
+      rates_only_(dynamics::rate_only_rows(model)) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
   const std::size_t count = model.bodies.size();
@@ -319,6 +320,8 @@ void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
   if (corrects_positions()) {
     for (Eigen::Index k = 0; k < in_use; ++k) {
       const int row = rows_in_use_[static_cast<std::size_t>(k)];
+      // A correction of positions rolls as well: of rows without a position it changes nothing.
+      if (rates_only_[static_cast<std::size_t>(row)]) continue;
       E_[k] = residuals_.g_dot[row] / scheme_.end_rate - residuals_.g[row];
     }
     for (std::size_t k = 0; k < soft_.rows.size(); ++k) {

@@ -140,6 +140,7 @@ class SmallNewton {
 
   double rounding_length_;  // at the predicted configuration [m]
   dynamics::JointSet joints_;
+  std::vector<char> rates_only_;   // of each row of λ
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
   std::vector<dynamics::BodyMotion> end_, evaluation_, uncorrected_;
   dynamics::JointResiduals residuals_;        // at the end of the step

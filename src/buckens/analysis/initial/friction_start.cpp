@@ -6,6 +6,7 @@
 
 #include "buckens/analysis/initial/quasi_static_start.h"
 #include "buckens/dynamics/row_memory.h"
+#include "buckens/dynamics/travel.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -89,10 +90,8 @@ class FrictionStart {
     }
     const model::Load& load = model_.loads[law.load];
     const auto motions = dynamics::motions_of(model_, moved);
-    return dynamics::coordinate_motion(
-               model_, static_cast<std::size_t>(load.coordinate), &state_.memory,
-               dynamics::evaluate_marker(model_, load.first, motions).motion,
-               dynamics::evaluate_marker(model_, load.second, motions).motion)
+    return dynamics::coordinate_motion(model_, static_cast<std::size_t>(load.coordinate),
+                                       &state_.memory, motions)
         .rate;
   }
 

@@ -47,6 +47,11 @@ DriveLaws::DriveLaws(const model::ModelDescription& description) {
       if (!push->law().is_constant()) {
         drives_.push_back({joint.name, joint.where, push->law(), "m"});
       }
+    } else if (const auto* slide = std::get_if<joints::SliderOnBeamSpec>(&joint.kind)) {
+      const base::TimeLaw law = slide->way();
+      if (slide->is_driven() && !law.is_constant()) {
+        drives_.push_back({joint.name, joint.where, law, "m"});
+      }
     }
   }
 }

@@ -154,6 +154,38 @@ class Mechanism {
     model_.joints.push_back(std::move(joint));
   }
 
+  /// Slider on the nodes of a beam. @param way a law of time along it, from as placed
+  void add_slider(const std::vector<model::MarkerId>& nodes, const model::MarkerId& slider,
+                  std::optional<base::TimeLaw> way = std::nullopt) {
+    auto track = std::make_shared<model::Track>();
+    std::vector<spatial::MarkerMotion> motions;
+    for (const model::MarkerId& id : nodes) {
+      const spatial::Pose X = world_pose(id);
+      motions.push_back({X.p, X.R(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+      if (track->bodies.empty() || track->bodies.back().body != id.body) {
+        track->bodies.push_back(id);
+      }
+    }
+    track->shape = joints::BeamTrack(motions, model_.planar);
+    track->nodes = nodes;
+    track->placed =
+        track->shape
+            .nearest(world_pose(slider).p, std::nullopt, [&](std::size_t k) { return motions[k]; })
+            .s;
+    model::Joint joint;
+    joint.name = "j" + std::to_string(model_.joints.size());
+    joint.type = joints::JointType::slider_on_beam;
+    joint.first = nodes.front();
+    joint.second = slider;
+    joint.track = std::move(track);
+    joint.rows.push_back(joints::ConstraintRow::travelling(0));
+    if (!model_.planar) joint.rows.push_back(joints::ConstraintRow::travelling(1));
+    if (way) joint.rows.push_back(joints::ConstraintRow::travelling(2, std::move(way)));
+    joint.first_row = model_.num_constraint_rows();
+    joint.first_state = model_.num_row_states();
+    model_.joints.push_back(std::move(joint));
+  }
+
   void add_load(std::unique_ptr<loads::ForceElement> element, const model::MarkerId& first,
                 const model::MarkerId& second) {
     model::Load load;

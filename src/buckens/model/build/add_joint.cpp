@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/loads/bushing.h"
 #include "buckens/model/build/add_coupler.h"
+#include "buckens/model/build/add_slider.h"
 
 namespace buckens::model {
 
@@ -57,6 +58,8 @@ class JointBuilder {
       void operator()(const joints::RackSpec& k) { b.add_rows(JointType::rack, k, spec); }
       void operator()(const joints::BeltSpec& k) { b.add_rows(JointType::belt, k, spec); }
       void operator()(const joints::SlotSpec& k) { b.add_rows(JointType::slot, k, spec); }
+      void operator()(const joints::SliderOnBeamSpec&) { add_slider(spec, b.find_); }
+      void operator()(const joints::RollingSpec& k) { b.add_rows(JointType::rolling, k, spec); }
       void operator()(const joints::CouplerSpec&) { add_coupler(spec, b.find_); }
     };
     std::visit(Adder{*this, spec}, spec.kind);
@@ -84,6 +87,7 @@ class JointBuilder {
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
+      if (type == joints::JointType::rolling) joint.axis_F = axle_M(placement);
     } catch (const ModelError& error) {
       throw ModelError(spec.where, fmt::format("{}: {}", what, error.what()));
     }
@@ -96,7 +100,14 @@ class JointBuilder {
     find_.model().joints.push_back(std::move(joint));
   }
 
-  /// What gears, racks, belts and slots say beside markers and axis.
+  /// Axis of a wheel in its own marker.
+  static Eigen::Vector3d axle_M(const joints::Placement& p) {
+    const Eigen::Vector3d in_W =
+        p.planar ? spatial::normal(*p.planar) : Eigen::Vector3d(p.R_WF * *p.second_axis_F);
+    return (p.R_WM.transpose() * in_W).normalized();
+  }
+
+  /// What gears, racks, belts, slots and wheels say beside markers and axis.
   template <class Spec>
   static void place_teeth(const Spec& kind, joints::Placement& placement) {
     if constexpr (requires { kind.pressure_angle; }) {
@@ -115,6 +126,14 @@ class JointBuilder {
     if constexpr (requires { kind.radii; }) {
       placement.sizes = kind.radii;
       placement.same_sense = !kind.crossed;
+    }
+    if constexpr (requires { kind.wheel_radius; }) {
+      placement.axis_F = kind.normal;
+      placement.sizes = {kind.wheel_radius, kind.wheel_radius};
+      placement.edge = kind.edge;
+      if (kind.axle) {
+        placement.second_axis_F = placement.R_WF.transpose() * (placement.R_WM * *kind.axle);
+      }
     }
     if constexpr (requires { kind.radius; }) {
       placement.sizes = {kind.radius, kind.radius};

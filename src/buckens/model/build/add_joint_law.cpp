@@ -40,8 +40,14 @@ double moved_inertia(const Model& model, const Coordinate& coordinate, MarkerFin
     out.R = X.R();
     return out;
   };
-  const spatial::MarkerMotion first = motion(joint.first);
+  spatial::MarkerMotion first = motion(joint.first);
   const spatial::MarkerMotion second = motion(joint.second);
+  if (joint.track) {
+    const auto node = [&](std::size_t k) { return motion(joint.track->nodes[k]); };
+    const joints::TrackPoint at = joint.track->shape.at(joint.track->placed, node);
+    first.p = at.p;
+    first.R << at.tangent.normalized(), at.across(0), at.across(1);
+  }
   const spatial::PairRow J = coordinate.law.derivatives(first, second);
   double inverse = 0.0;
   const auto add = [&](const MarkerId& id, const Vector3d& place, const Vector3d& torque,
@@ -92,6 +98,13 @@ class JointLawBuilder {
     load.coordinate = index;
     load.joint = coordinate.joint;
     load.element = make(kind, coordinate);
+    if (joint.track && load.element->is_rigid()) {
+      throw ModelError(
+          spec_.where,
+          fmt::format("{}: what acts along a beam cannot be rigid; give a `stiffness` to a stop, "
+                      "and leave out `stick: rigid` of friction",
+                      what));
+    }
     model.loads.push_back(std::move(load));
   }
 
@@ -184,6 +197,13 @@ int find_coordinate(const std::string& joint, Kind kind, MarkerFinder& find) {
   for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
     const Coordinate& known = model.coordinates[k];
     if (known.joint == index && known.law.kind() == kind) return static_cast<int>(k);
+  }
+  if (owner->track) {
+    // In axes of the point of the beam, whose x axis is its tangent.
+    model.coordinates.push_back(
+        {index, owner->first, owner->second,
+         joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero())});
+    return static_cast<int>(model.coordinates.size()) - 1;
   }
   const joints::Placement placed = find.placement(owner->first, owner->second);
   model.coordinates.push_back(

@@ -291,6 +291,14 @@ class Builder {
       if (coordinate < 0) {
         throw InputError(spec.where, fmt::format("initial: there is no joint \"{}\"", spec.name));
       }
+      const auto owner =
+          static_cast<std::size_t>(model_.coordinates[static_cast<std::size_t>(coordinate)].joint);
+      if (model_.joints[owner].track) {
+        throw InputError(
+            spec.where, fmt::format("initial: joint \"{}\" is a slider-on-beam; place its body, or "
+                                    "give the body a velocity",
+                                    spec.name));
+      }
       out_->starts.push_back({coordinate, value, rate, spec.where});
     };
     add(joints::JointCoordinate::Kind::angle, spec.angle, spec.speed);

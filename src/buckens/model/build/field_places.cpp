@@ -106,7 +106,7 @@ std::vector<std::string> loaded_places(const Model& model, int whole) {
   };
   for (const Joint& joint : model.joints) {
     if (joint.is_tie) continue;
-    add(joint.first);
+    if (!joint.track) add(joint.first);
     add(joint.second);
   }
   for (const Load& load : model.loads) {

@@ -72,6 +72,11 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
                                    base::suggestion(term.name, names_of(model.joints)))};
   }
   const auto* joint = base::find_named(model.joints, term.name);
+  if (std::holds_alternative<joints::SliderOnBeamSpec>(joint->kind)) {
+    return Finding{"", fmt::format("joint \"{}\" is a slider-on-beam, whose way no coupler can "
+                                   "take; couple what moves the slider",
+                                   term.name)};
+  }
   const bool turns = term.which ? *term.which == joints::CoordinateChoice::angle : joint->turns();
   if (Found found = coordinate_problem(term.name, turns, model, "")) return found;
   return std::nullopt;
@@ -107,6 +112,35 @@ Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription&
   }
   for (const joints::CouplerTermSpec& term : spec.of) {
     if (Found found = function_problem(term)) return under("of." + term.name, found);
+  }
+  return std::nullopt;
+}
+
+Found own_joint_problem(const joints::SliderOnBeamSpec& spec, const ModelDescription&) {
+  const int given = int{spec.displacement.has_value()} + int{spec.velocity.has_value()} +
+                    int{spec.acceleration.has_value()};
+  if (given > 1) {
+    return Finding{"", "only one of the keys displacement, velocity and acceleration can be given"};
+  }
+  return std::nullopt;
+}
+
+Found own_joint_problem(const joints::RollingSpec& spec, const ModelDescription& model) {
+  if (!(spec.normal.norm() > 0.0)) {
+    return Finding{"normal", "[0, 0, 0] is not a direction; give for example [0, 0, 1]"};
+  }
+  if (!spec.axle && !model.planar) {
+    return Finding{"axle",
+                   "the key \"axle\" is missing; a model in space needs it, for example "
+                   "[0, 1, 0]"};
+  }
+  if (spec.axle && !(spec.axle->norm() > 0.0)) {
+    return Finding{"axle", "[0, 0, 0] is not a direction; give for example [0, 1, 0]"};
+  }
+  if (spec.edge > spec.wheel_radius) {
+    return Finding{"edge-radius", fmt::format("expected at most the radius of the wheel, {:g} m, "
+                                              "found {:g} m",
+                                              spec.wheel_radius, spec.edge)};
   }
   return std::nullopt;
 }

@@ -36,6 +36,8 @@ Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& m
 Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::SliderOnBeamSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::RollingSpec& spec, const ModelDescription& model);
 /// Whether a coupler names joints that do not exist, or have no such coordinate.
 Found coupled_joints_problem(const ModelDescription& model);
 

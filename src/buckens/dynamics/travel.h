@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/system_kinematics.h"
+#include "buckens/joints/constraint_row.h"
+
+namespace buckens::dynamics {
+
+/// A slider and the point of its beam where it is at one instant.
+///
+///     g = e·(p_M − c(s)),   (p_M − c(s))·c′(s) = 0 (R16)
+///
+/// s is sought in every evaluation from where the slider was at the start of the step. At the
+/// nearest point changes of s do not change g, so a row acts as the force e on the slider and −e on
+/// the point of the beam: through Hermite's shapes on the two nodes beside it. Their responses are
+/// columns of the body's interface, so nothing is factorised when the slider passes a node.
+class Travel {
+ public:
+  /// @param joint one with a track; both outlive the object
+  /// @param memory null: the slider is sought along the whole beam
+  Travel(const model::Model& model, const model::Joint& joint,
+         const std::vector<BodyMotion>& motions, const model::RowMemory* memory)
+      : Travel(model, joint, motions, states_of(joint, memory)) {}
+  /// @param states of the joint as at the start of the step, null: not known
+  Travel(const model::Model& model, const model::Joint& joint,
+         const std::vector<BodyMotion>& motions, const double* states);
+
+  const joints::TrackPoint& point() const { return at_; }
+  /// Displacement along the undeformed beam from the place as placed [m], and its rate.
+  double displacement() const { return at_.s - joint_.track->placed; }
+  double rate() const;
+  /// The same for a law on this coordinate. @param coordinate index into Model::coordinates
+  loads::CoordinateMotion coordinate(std::size_t coordinate, const model::RowMemory* memory) const;
+  /// What the multipliers do to the slider.
+  spatial::Wrench reaction(double t, const linalg::Vector& lambda) const;
+  const body::MarkerKinematics& slider() const { return slider_; }
+  /// Motion of the point of the beam, its x axis along the tangent.
+  spatial::MarkerMotion beam_motion() const;
+
+  /// Of the joint's rows: residual, its partial derivative and e, the force of a unit multiplier on
+  /// the slider.
+  struct Row {
+    double g, g_t;
+    Eigen::Vector3d e;
+  };
+  Row row(const joints::ConstraintRow& row, double t) const;
+  /// ġ of such a row.
+  double rate_of(const Row& row) const;
+  /// Its shares. Their bodies are always the same, their marker rows are those of the nodes beside
+  /// the slider; of other parts of a divided beam the shares are zero.
+  /// @param number of the row among those that travel, the same in every evaluation
+  void derive(const Row& row, int number, SystemRow& out) const;
+  /// Adds a force on the slider, and the opposite one on the beam.
+  void add_force(const Eigen::Vector3d& force, Forces& out) const;
+  /// Part of g̈ without accelerations of coordinates.
+  double bias(const joints::ConstraintRow& constraint, double t) const;
+
+ private:
+  const model::MarkerId& node(std::size_t k) const { return joint_.track->nodes[k]; }
+  /// Derivative of s by a displacement of the slider against the beam.
+  Eigen::Vector3d along() const { return at_.tangent / at_.tangent.squaredNorm(); }
+
+  const model::Model& model_;
+  const model::Joint& joint_;
+  const std::vector<BodyMotion>& motions_;
+  body::MarkerKinematics slider_;
+  joints::TrackPoint at_;
+};
+
+/// Both ends of a load. The first end of a law on a slider's coordinate is a point of the beam.
+struct LoadEnds {
+  std::optional<Travel> travel;  ///< of a law on a slider's coordinate
+  body::MarkerKinematics first, second;
+  const Travel* travels() const { return travel ? &*travel : nullptr; }
+};
+LoadEnds ends_of(const model::Model& model, const model::Load& load,
+                 const std::vector<BodyMotion>& motions, const model::RowMemory* memory);
+
+/// Motion of a joint coordinate of any joint.
+loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
+                                          const model::RowMemory* memory,
+                                          const std::vector<BodyMotion>& motions);
+
+}  // namespace buckens::dynamics
