@@ -16,8 +16,9 @@ constexpr double kBeyondEnd = 1e-9;
 
 double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
                    const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
-  const auto& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
-  if (joint.track) return Travel(model, joint, motions, memory).displacement();
+  if (const model::Joint* slider = slider_of(model, coordinate)) {
+    return Travel(model, *slider, motions, memory).displacement();
+  }
   return coordinate.law.fraction(evaluate_marker(model, coordinate.first, motions).motion,
                                  evaluate_marker(model, coordinate.second, motions).motion);
 }

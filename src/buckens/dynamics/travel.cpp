@@ -125,6 +125,12 @@ double Travel::bias(const joints::ConstraintRow& constraint, double t) const {
   return constraint.number() == 2 ? out - constraint.displacement()->acceleration(t) : out;
 }
 
+const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate) {
+  if (coordinate.joint < 0) return nullptr;
+  const model::Joint& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
+  return joint.track ? &joint : nullptr;
+}
+
 LoadEnds ends_of(const model::Model& model, const model::Load& load,
                  const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
   LoadEnds out;
@@ -145,8 +151,9 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
                                           const model::RowMemory* memory,
                                           const std::vector<BodyMotion>& motions) {
   const model::Coordinate& own = model.coordinates[coordinate];
-  const auto& joint = model.joints[static_cast<std::size_t>(own.joint)];
-  if (joint.track) return Travel(model, joint, motions, memory).coordinate(coordinate, memory);
+  if (const model::Joint* slider = slider_of(model, own)) {
+    return Travel(model, *slider, motions, memory).coordinate(coordinate, memory);
+  }
   return coordinate_motion(model, coordinate, memory,
                            evaluate_marker(model, own.first, motions).motion,
                            evaluate_marker(model, own.second, motions).motion);

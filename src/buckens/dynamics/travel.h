@@ -71,6 +71,9 @@ class Travel {
   joints::TrackPoint at_;
 };
 
+/// The joint of a coordinate if it is a slider on a beam, else null. Ropes have no joint.
+const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate);
+
 /// Both ends of a load. The first end of a law on a slider's coordinate is a point of the beam.
 struct LoadEnds {
   std::optional<Travel> travel;  ///< of a law on a slider's coordinate
