@@ -87,6 +87,12 @@ joints:
 """, 1)
 
 
+# A pin with clearance: the strain of friction, the speed of approach and where the bodies stood are states.
+CLEARANCE = SLIDER_CRANK.replace("joints:", """  idler: {rigid: {mass: 50 g, inertia: [0, 0, 1e-6]}, at: {position: ["r + L", 0, 0]}}
+joints:""", 1).replace("simulation:", """  worn: {contact: {between: [slider, idler], shapes: [{socket: 11 mm}, {sphere: 10 mm}], stiffness: 1e7, exponent: 1.5, restitution: 0.7, static: 0.2}}
+simulation:""", 1).replace("  sensors:", "  sensors:\n    hit: {contact: worn}", 1)
+
+
 # A double pendulum whose elbow strikes its stop.
 ELBOW = """buckens: 1
 gravity: [0, -9.81, 0]
@@ -137,6 +143,7 @@ CASES = {
     "rigid rows": (model(RIGID), 0.0301),
     "rigid rows, step control": (model(ELBOW), 1.31),
     "laws of joint coordinates": (model(LAWS), 0.0301),
+    "contact": (model(CLEARANCE), 0.0301),
     "blocks": (model(CONTROL), 0.03),
     "blocks, newmark": (model(CONTROL, step="method: newmark"), 0.03),
     "laws, newmark": (model(LAWS, step="method: newmark"), 0.0301),

@@ -47,6 +47,11 @@ void add_row(const BodyRow& row, double multiplier, Forces& out) {
 // Of differences for tangents: far above rounding, and formulas are smooth over less.
 constexpr double kShift = 1e-6;
 
+/// Whether a load has more than one tangent.
+bool has_regimes(const model::Load& load) {
+  return load.coordinate >= 0 || load.element->num_states() > 0;
+}
+
 /// With the values of signals, unless these are known.
 Circumstances with_signals(const model::Model& model, const std::vector<BodyMotion>& motions,
                            double t, const Circumstances& given, SignalValues& values) {
@@ -144,7 +149,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
     out.dissipation += action.dissipation;
-    if (load.coordinate >= 0) out.regimes.push_back(action.regime);
+    if (has_regimes(load)) out.regimes.push_back(action.regime);
     if (load.rigid_row >= 0) out.rigid.push_back(action.row);
   }
 }
@@ -195,7 +200,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
         sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels());
     load.element->append_tangent(sight, rows);
     try {
-      if (load.coordinate >= 0) out.regimes.push_back(load.element->respond(sight).regime);
+      if (has_regimes(load)) out.regimes.push_back(load.element->respond(sight).regime);
     } catch (const NumericalError& error) {
       fail_with_name(load, error);
     }

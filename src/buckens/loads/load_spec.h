@@ -11,6 +11,7 @@
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
+#include "buckens/loads/contact_spec.h"
 #include "buckens/loads/distributed_load_spec.h"
 #include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/load_axes.h"
@@ -127,7 +128,7 @@ struct LoadSpec {
   std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec, PressureSpec,
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
-               RopeSpec, HingeMotorSpec, SlideMotorSpec>
+               RopeSpec, HingeMotorSpec, SlideMotorSpec, ContactSpec>
       kind;
 
   /// Key of the kind in the model file.

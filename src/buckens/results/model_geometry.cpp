@@ -269,7 +269,10 @@ Geometry model_geometry(const model::Model& model) {
   for (const model::Load& load : model.loads) {
     // What acts on a joint's coordinate is where the joint is drawn.
     const bool is_rope = load.kind == loads::RopeSpec::kKey;
-    if (load.element->num_soft_rows() == 0 || (load.coordinate >= 0 && !is_rope)) continue;
+    const bool is_contact = load.kind == loads::ContactSpec::kKey;  // nothing between the bodies
+    if (load.element->num_soft_rows() == 0 || is_contact || (load.coordinate >= 0 && !is_rope)) {
+      continue;
+    }
     out.joints.push_back({load.name,
                           load.is_among_joints ? load.kind
                           : is_rope            ? joints::to_string(joints::JointType::distance)

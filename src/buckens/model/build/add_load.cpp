@@ -13,6 +13,7 @@
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/loads/spring_damper.h"
+#include "buckens/model/build/add_contact.h"
 
 namespace buckens::model {
 
@@ -46,6 +47,8 @@ class LoadBuilder {
       add_rope(*rope, load, spec.where);
     } else if (const auto* torsional = std::get_if<loads::TorsionalSpringSpec>(&spec.kind)) {
       add_torsional(*torsional, load, spec.where);
+    } else if (const auto* contact = std::get_if<loads::ContactSpec>(&spec.kind)) {
+      set_contact(*contact, find_, load, spec.where);
     }
     find_.model().loads.push_back(std::move(load));
   }

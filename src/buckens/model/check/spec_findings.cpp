@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/model/check/contact_findings.h"
 #include "buckens/model/check/joint_findings.h"
 #include "buckens/model/check/marker_names.h"
 

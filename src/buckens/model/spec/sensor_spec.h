@@ -320,6 +320,24 @@ struct EnergySensor {
   }
 };
 
+/// Forces and gap of a contact.
+struct ContactSensor {
+  static constexpr const char* kKey = "contact";
+  static constexpr const char* kDoc =
+      "of a contact: the sum of its forces across the surface (`normal`), the size of their "
+      "resultant along it (`friction`) and the least distance of both shapes, negative where they "
+      "overlap (`gap`)";
+  std::string contact;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("contact", contact, "name of the contact")
+              .required()
+              .shorthand()
+              .like("bounce"));
+  }
+};
+
 /// A signal of the model.
 struct SignalSensor {
   static constexpr const char* kKey = "signal";
@@ -340,7 +358,7 @@ struct SensorSpec {
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
                SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
-               EnergySensor, JointCoordinateSensor, SignalSensor>
+               EnergySensor, JointCoordinateSensor, SignalSensor, ContactSensor>
       kind;
 
   template <class Visitor>

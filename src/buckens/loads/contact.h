@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "buckens/loads/contact_law.h"
+#include "buckens/loads/contact_pair.h"
+#include "buckens/loads/force_element.h"
+
+namespace buckens::loads {
+
+/// What a contact does at one instant, summed over the points where it touches.
+struct ContactReading {
+  double normal = 0;    ///< sum of the forces across the surface [N]
+  double friction = 0;  ///< size of the resultant along it [N]
+  double gap = 0;       ///< least distance, negative: overlap [m]
+};
+
+/// Elastic contact between two shapes, with friction.
+///
+/// Its states are, per point where shapes can touch, the speed at which it closed; with friction
+/// also the strain that it holds, and how both markers stood to each other at the end of the last
+/// step, since slip within a step is that of positions, not of rates: nothing creeps.
+/// Theory: docs/theory/25-contact.md.
+class Contact final : public ForceElement {
+ public:
+  Contact(const ContactPair& pair, const ContactData& data) : pair_(pair), data_(data) {}
+
+  /// Nothing: it needs its states, see respond().
+  Action evaluate(double t, const spatial::MarkerMotion& first,
+                  const spatial::MarkerMotion& second) const override;
+  Action respond(const Sight& sight) const override;
+  int num_soft_rows() const override;
+  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  int num_states() const override;
+  void start_states(const Sight& sight, double* states) const override;
+  void find_states(const Sight& sight, double* states) const override;
+
+  ContactReading read(const Sight& sight) const;
+  const ContactData& data() const { return data_; }
+  const ContactPair& pair() const { return pair_; }
+
+ private:
+  /// One point at one instant, world axes.
+  struct Point {
+    Eigen::Vector3d place, normal;
+    double gap = 0, gap_rate = 0;
+    Eigen::Vector3d slip;  ///< speed of the second body along the surface [m/s]
+    double moved = 0;      ///< along the surface since the start of the step [m]
+    NormalForce across;
+    FrictionForce along;
+  };
+  /// How the second marker stands to the first, in its axes.
+  struct Stand {
+    Eigen::Vector3d r;
+    Eigen::Quaterniond q;
+  };
+
+  /// Memory for them; nothing is allocated in a step.
+  using Points = std::array<Point, ContactPair::kMostSpots>;
+
+  bool has_friction() const { return data_.static_coefficient > 0.0; }
+  static Stand stand_of(const Sight& sight);
+  std::span<const Point> look(const Sight& sight, Points& memory) const;
+  /// Energy in the strains that friction holds [J].
+  double strain_energy(std::span<const Point> points) const;
+  /// Rate of that energy: over the step so far, or over the last one where none has begun [W].
+  double strain_power(const Sight& sight, double energy) const;
+  /// Share of the tangent along the slip that iterations need where sliding may end.
+  double braking_share(const Sight& sight, const Point& point) const;
+  int regime_of(const Sight& sight, std::span<const Point> points) const;
+
+  ContactPair pair_;
+  ContactData data_;
+};
+
+}  // namespace buckens::loads

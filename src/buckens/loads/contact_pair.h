@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <Eigen/Dense>
+
+namespace buckens::loads {
+
+/// A shape about the origin of its marker, in the marker's axes.
+struct ContactShape {
+  enum class Kind { plane, sphere, socket, bore, capsule, cylinder, box };
+
+  Kind kind = Kind::sphere;
+  double radius = 0;                                ///< [m]
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector; of a plane: its normal
+  double half_length = 0;                           ///< of capsules and cylinders [m]
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();   ///< half the edges of a box [m]
+  int flat = -1;  ///< axis of a box that points out of the plane of a planar model, −1: none
+};
+
+/// Where two shapes touch, or are next to each other: halfway between both surfaces.
+struct ContactSpot {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit vector from the first to the second
+  double gap = 0;                                     ///< negative: overlap [m]
+};
+
+/// Two shapes that can touch. The first is a surface, given by the distance from it; the second is
+/// made of spheres, or of points where their radius is zero. So all pairs have exact distances:
+/// anything with a sphere; a plane with capsule, cylinder and box; a bore with a cylinder; two
+/// capsules. Theory: docs/theory/25-contact.md §1.
+class ContactPair {
+ public:
+  static constexpr int kMostSpots = 8;
+  using Spots = std::array<ContactSpot, kMostSpots>;
+
+  /// Whether the second can be made of spheres against the first.
+  static bool knows(ContactShape::Kind first, ContactShape::Kind second);
+
+  /// @pre knows(first.kind, second.kind)
+  ContactPair(const ContactShape& first, const ContactShape& second);
+
+  /// Number of places at which they can touch at once; constant.
+  int num_spots() const { return num_spots_; }
+  /// Finds them. Their numbers stay with them as the bodies move.
+  /// @param r origin of the second marker in axes of the first [m]
+  /// @param R orientation of the second marker in the first
+  /// @param spots the first num_spots() of them are written
+  void find(const Eigen::Vector3d& r, const Eigen::Matrix3d& R, Spots& spots) const;
+
+  const ContactShape& first() const { return first_; }
+  const ContactShape& second() const { return second_; }
+
+ private:
+  /// Centres of the spheres that the second is made of, in axes of the first.
+  void centres(const Eigen::Vector3d& r, const Eigen::Matrix3d& R,
+               std::span<ContactSpot> spots) const;
+  void rim_points(const Eigen::Vector3d& r, const Eigen::Matrix3d& R,
+                  std::span<ContactSpot> spots) const;
+  /// Distance from the surface of the first and its gradient.
+  double distance(const Eigen::Vector3d& point, Eigen::Vector3d& normal) const;
+
+  ContactShape first_, second_;
+  double radius_ = 0;  // of the spheres
+  int num_spots_ = 1;
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "buckens/base/field.h"
+
+namespace buckens::loads {
+
+// Shapes that bodies touch each other with. All of them are placed by a marker: its origin is their
+// centre (of a plane: a point on it), its axes are those that directions and sizes refer to.
+
+struct PlaneShape {
+  static constexpr const char* kKey = "plane";
+  static constexpr const char* kDoc =
+      "unbounded plane through the marker; the other body is on the side of the normal";
+  std::optional<Eigen::Vector3d> normal;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("normal", normal, "direction out of the solid, in the marker's axes")
+              .shorthand()
+              .like("[0, 0, 1]")
+              .otherwise("z of the marker; needed in planar models"));
+  }
+};
+
+template <class Visitor>
+void visit_radius(Visitor& visit, double& radius) {
+  visit(base::field("radius", radius, "radius")
+            .in(base::kLength)
+            .required()
+            .positive()
+            .shorthand()
+            .like("50 mm"));
+}
+
+template <class Visitor>
+void visit_axis(Visitor& visit, std::optional<Eigen::Vector3d>& axis) {
+  visit(base::field("axis", axis, "its axis, in the marker's axes")
+            .like("[0, 0, 1]")
+            .otherwise("z of the marker"));
+}
+
+struct SphereShape {
+  static constexpr const char* kKey = "sphere";
+  static constexpr const char* kDoc = "sphere about the marker; in planar models a circle";
+  double radius = 0;  ///< [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit_radius(visit, radius);
+  }
+};
+
+struct SocketShape {
+  static constexpr const char* kKey = "socket";
+  static constexpr const char* kDoc =
+      "hollow sphere about the marker; the other body is inside; in planar models a hole";
+  double radius = 0;  ///< [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit_radius(visit, radius);
+  }
+};
+
+struct BoreShape {
+  static constexpr const char* kKey = "bore";
+  static constexpr const char* kDoc =
+      "hole of a bearing along an axis through the marker, as long as the pin in it";
+  double radius = 0;  ///< [m]
+  std::optional<Eigen::Vector3d> axis;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit_radius(visit, radius);
+    visit_axis(visit, axis);
+  }
+};
+
+/// What capsule and cylinder have in common.
+struct LongShape {
+  double radius = 0;  ///< [m]
+  double length = 0;  ///< [m]
+  std::optional<Eigen::Vector3d> axis;
+
+  template <class Visitor>
+  void long_fields(Visitor& visit, std::string doc_of_length) {
+    visit(base::field("radius", radius, "radius")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("20 mm"));
+    visit(base::field("length", length, std::move(doc_of_length))
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("100 mm"));
+    visit_axis(visit, axis);
+  }
+};
+
+struct CapsuleShape : LongShape {
+  static constexpr const char* kKey = "capsule";
+  static constexpr const char* kDoc = "cylinder with round ends, its middle at the marker";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    long_fields(visit, "distance between the centres of its round ends");
+  }
+};
+
+struct CylinderShape : LongShape {
+  static constexpr const char* kKey = "cylinder";
+  static constexpr const char* kDoc = "cylinder with flat ends, its middle at the marker";
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    long_fields(visit, "distance between its ends");
+  }
+};
+
+struct BoxShape {
+  static constexpr const char* kKey = "box";
+  static constexpr const char* kDoc = "box along the marker's axes, its middle at the marker";
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< whole edges [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("size", size, "lengths of its edges along x, y and z")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .shorthand()
+              .like("[100 mm, 50 mm, 20 mm]"));
+  }
+};
+
+/// One of the shapes.
+struct ShapeSpec {
+  std::variant<PlaneShape, SphereShape, SocketShape, BoreShape, CapsuleShape, CylinderShape,
+               BoxShape>
+      kind;
+
+  /// Key of the shape in the model file.
+  const char* kind_name() const {
+    return std::visit([]<class T>(const T&) { return T::kKey; }, kind);
+  }
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::inlined(kind, "shape").required());
+  }
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "buckens/base/field.h"
+#include "buckens/base/marker_ref.h"
+#include "buckens/loads/contact_shape_spec.h"
+
+namespace buckens::loads {
+
+/// Two bodies that touch: elastic with a stiffness or moduli, rigid without.
+struct ContactSpec {
+  static constexpr const char* kKey = "contact";
+  static constexpr const char* kDoc =
+      "contact between two shapes on markers: elastic with friction, or rigid with impacts";
+  std::array<base::MarkerRef, 2> between;
+  std::array<ShapeSpec, 2> shapes;
+  std::optional<double> stiffness;               ///< K [N/m^n]
+  std::optional<double> exponent;                ///< n
+  std::optional<std::array<double, 2>> modulus;  ///< [Pa]
+  std::optional<std::array<double, 2>> poisson;
+  std::optional<double> restitution;  ///< 0 … 1
+  std::optional<double> threshold;    ///< [m/s]
+  double damping = 0;                 ///< [N s/m]
+  double coefficient = 0;             ///< of sticking, μ_s
+  std::optional<double> dynamic;      ///< of sliding, μ_d; default: the same
+  std::optional<double> stribeck;     ///< [m/s]
+  std::optional<double> tangential;   ///< stiffness of sticking [N/m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers that carry the shapes")
+              .required()
+              .like("[ground, ball]"));
+    visit(base::field("shapes", shapes, "the shape on the first marker and that on the second")
+              .required()
+              .like("[{plane: [0, 0, 1]}, {sphere: 50 mm}]"));
+    normal_fields(visit);
+    friction_fields(visit);
+  }
+
+ private:
+  template <class Visitor>
+  void normal_fields(Visitor& visit) {
+    visit(base::field("stiffness", stiffness,
+                      "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
+                      "of N/m^n; of each point of a box, capsule or cylinder that touches")
+              .in(base::kStiffness)
+              .positive()
+              .like("1e7 N/m")
+              .otherwise("by `modulus`; without either the contact is rigid"));
+    visit(base::field("exponent", exponent, "n of the force, stiffness times overlap to the n")
+              .positive()
+              .like("1.5")
+              .otherwise("1; with `modulus` 1.5"));
+    visit(base::field("modulus", modulus,
+                      "Young's moduli of both bodies, for the force by Hertz; for spheres on "
+                      "planes, spheres and in sockets")
+              .in(base::kStress)
+              .positive()
+              .like("[210 GPa, 70 GPa]")
+              .otherwise("none"));
+    visit(base::field("poisson-ratio", poisson, "Poisson's ratios that belong to `modulus`")
+              .within(base::Range::poisson)
+              .like("[0.3, 0.33]")
+              .otherwise("0.3 for both"));
+    visit(base::field("restitution", restitution,
+                      "share of the speed of approach with which the bodies part, 0 … 1; of an "
+                      "elastic contact at least 0.01")
+              .non_negative()
+              .like("0.8")
+              .otherwise("elastic: 1; rigid: 0"));
+    visit(base::field("threshold", threshold,
+                      "speed of approach: below it a rigid contact stays closed, and losses of an "
+                      "elastic one do not rise further")
+              .in(base::kVelocity)
+              .positive()
+              .like("1 mm/s")
+              .otherwise("a thousandth of the smaller shape's size per second"));
+    visit(base::field("damping", damping,
+                      "of an elastic contact, in addition; its force is at most that of the "
+                      "stiffness")
+              .in(base::kDamping)
+              .non_negative()
+              .like("100 N s/m"));
+  }
+
+  template <class Visitor>
+  void friction_fields(Visitor& visit) {
+    visit(base::field("static", coefficient, "coefficient of friction while it sticks")
+              .non_negative()
+              .like("0.3"));
+    visit(base::field("dynamic", dynamic, "coefficient of friction while it slides")
+              .non_negative()
+              .like("0.25")
+              .otherwise("the same as `static`"));
+    visit(base::field("stribeck-velocity", stribeck,
+                      "speed of sliding at which the coefficient has dropped from `static` "
+                      "towards `dynamic` by 63 %; needed if they differ")
+              .in(base::kVelocity)
+              .positive()
+              .like("10 mm/s")
+              .otherwise("none"));
+    visit(base::field("tangential-stiffness", tangential,
+                      "of the elastic displacement while friction sticks, of each point")
+              .in(base::kStiffness)
+              .positive()
+              .like("1e7 N/m")
+              .otherwise("0.8 of the stiffness normal to the surface under the weight of the "
+                         "lighter body"));
+  }
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/add_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/contact.h"
+#include "buckens/loads/rigid_law.h"
+#include "buckens/model/build/contact_shapes.h"
+
+namespace buckens::model {
+
+using Eigen::Vector3d;
+using loads::ContactShape;
+using ShapeKind = ContactShape::Kind;
+
+namespace {
+
+constexpr double kHertzExponent = 1.5;
+constexpr double kUsualPoisson = 0.3;
+// Of spheres that stick to each other (Mindlin): 2 (1 − ν)/(2 − ν), 0.82 with ν = 0.3.
+constexpr double kTangentialShare = 0.8;
+// Overlap at which the default is taken where nothing has a weight: a share of the shape's size.
+constexpr double kLightOverlap = 1e-4;
+// Share of m L² below which a body has no rotary inertia.
+constexpr double kNoRotaryInertia = 1e-12;
+// Rounding of places, as a share of the smaller shape.
+constexpr double kTouchingPlace = 1e-9;
+
+class ContactBuilder {
+ public:
+  ContactBuilder(const loads::ContactSpec& spec, MarkerFinder& find, Load& load,
+                 const SourceLocation& where)
+      : spec_(spec),
+        find_(find),
+        load_(load),
+        where_(where),
+        what_(fmt::format("load \"{}\"", load.name)) {}
+
+  void build() {
+    std::array<MarkerId, 2> markers = {find_.marker(spec_.between[0], true),
+                                       find_.marker(spec_.between[1], true)};
+    find_.require_two_bodies(markers[0], markers[1], what_, where_);
+    std::array<ContactShape, 2> shapes;
+    for (std::size_t k = 0; k < 2; ++k) {
+      shapes[k] = contact_shape(spec_.shapes[k], find_, markers[k], what_, where_);
+    }
+    if (!loads::ContactPair::knows(shapes[0].kind, shapes[1].kind)) {
+      std::swap(shapes[0], shapes[1]);
+      std::swap(markers[0], markers[1]);
+    }
+    load_.first = markers[0];
+    load_.second = markers[1];
+    const loads::ContactPair pair(shapes[0], shapes[1]);
+    require_place(pair);
+    require_moments(pair);
+    if (spec_.stiffness || spec_.modulus) {
+      set_elastic(pair);
+    } else {
+      set_rigid(pair);
+    }
+  }
+
+ private:
+  /// Forces that do not point at the marker turn it.
+  void require_moments(const loads::ContactPair& pair) {
+    const auto is_centred = [&](const ContactShape& shape) {
+      return (shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::socket) &&
+             spec_.coefficient == 0.0;
+    };
+    if (!is_centred(pair.first())) find_.require_moment(load_.first, what_, where_);
+    if (!is_centred(pair.second())) find_.require_moment(load_.second, what_, where_);
+    if (spec_.coefficient == 0.0) return;
+    for (const MarkerId* id : {&load_.first, &load_.second}) require_inertia(*id);
+  }
+
+  void require_inertia(const MarkerId& id) {
+    if (id.body == kGround) return;
+    const auto b = static_cast<std::size_t>(id.body);
+    const body::Body& body = find_.model().bodies[b];
+    if (body.is_flexible()) return;
+    double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.J0).eigenvalues()[0];
+    if (find_.model().planar) {
+      const Vector3d normal =
+          find_.model().placed[b].R().transpose() * spatial::normal(*find_.model().planar);
+      least = normal.dot(body.J0 * normal);
+    }
+    if (least > kNoRotaryInertia * body.mass * size_ * size_) return;
+    throw ModelError(where_, fmt::format("{}: friction turns body \"{}\", which has no rotary "
+                                         "inertia; give it an `inertia`, or leave out `static`",
+                                         what_, body.name));
+  }
+
+  /// As placed, the shapes are beside each other and in the same plane.
+  void require_place(const loads::ContactPair& pair) {
+    size_ = std::min(size_of(pair.first()), size_of(pair.second()));
+    const joints::Placement placed = find_.placement(load_.first, load_.second);
+    if (find_.model().planar && pair.first().kind != ShapeKind::plane &&
+        pair.first().kind != ShapeKind::bore) {
+      const double apart =
+          std::abs(spatial::normal(*find_.model().planar).dot(placed.R_WF * placed.r_F));
+      if (apart > kTouchingPlace * size_) {
+        throw InputError(where_,
+                         fmt::format("{}: its shapes are {:.4g} m apart across the plane of "
+                                     "the model and would never meet; place their markers "
+                                     "in one plane",
+                                     what_, apart));
+      }
+    }
+    loads::ContactPair::Spots spots;
+    pair.find(placed.r_F, placed.R_WF.transpose() * placed.R_WM, spots);
+    double gap = HUGE_VAL;
+    for (int k = 0; k < pair.num_spots(); ++k) {
+      gap = std::min(gap, spots[static_cast<std::size_t>(k)].gap);
+    }
+    const bool is_elastic = spec_.stiffness || spec_.modulus;
+    const double admitted = is_elastic ? size_ : kTouchingPlace * size_;
+    if (gap >= -admitted) return;
+    throw InputError(
+        where_,
+        fmt::format("{}: the shapes overlap by {:.4g} m as placed{}; place them apart{}", what_,
+                    -gap, is_elastic ? ", more than their size" : "",
+                    pair.first().kind == ShapeKind::plane ? ", or turn the plane's normal" : ""));
+  }
+
+  double reduced_mass() const {
+    double inverse = 0.0;
+    for (const MarkerId* id : {&load_.first, &load_.second}) {
+      if (id->body == kGround) continue;
+      inverse += 1.0 / find_.model().bodies[static_cast<std::size_t>(id->body)].mass;
+    }
+    return 1.0 / inverse;
+  }
+
+  /// Across the surface, under the weight of the lighter body [N/m].
+  double usual_stiffness(const loads::ContactData& data) const {
+    const double weight = data.inertia * find_.model().gravity.norm();
+    const double overlap = weight > 0.0 ? std::pow(weight / data.stiffness, 1.0 / data.exponent)
+                                        : kLightOverlap * size_;
+    return data.exponent * data.stiffness * std::pow(overlap, data.exponent - 1.0);
+  }
+
+  double rigid_threshold() const { return loads::RigidStop::kAtRest * size_; }
+
+  /// What comes slower than g √(m/k) is kept there by its weight, and would rest ever more slowly
+  /// if its losses rose further.
+  double elastic_threshold(const loads::ContactData& data) const {
+    const double held =
+        find_.model().gravity.norm() * std::sqrt(data.inertia / usual_stiffness(data));
+    return std::max(held, rigid_threshold());
+  }
+
+  void set_elastic(const loads::ContactPair& pair) {
+    loads::ContactData data;
+    if (spec_.modulus) {
+      const double radius = pair.second().radius;
+      double curvature = 1.0 / radius;
+      if (pair.first().kind == ShapeKind::sphere) curvature += 1.0 / pair.first().radius;
+      if (pair.first().kind == ShapeKind::socket) curvature -= 1.0 / pair.first().radius;
+      data.stiffness = loads::hertz_stiffness(
+          *spec_.modulus, spec_.poisson.value_or(std::array{kUsualPoisson, kUsualPoisson}),
+          curvature);
+      data.exponent = kHertzExponent;
+    } else {
+      data.stiffness = *spec_.stiffness;
+      data.exponent = spec_.exponent.value_or(1.0);
+    }
+    data.loss = loads::loss_factor(spec_.restitution.value_or(1.0));
+    data.damping = spec_.damping;
+    data.static_coefficient = spec_.coefficient;
+    data.dynamic_coefficient = spec_.dynamic.value_or(spec_.coefficient);
+    data.stribeck_speed = spec_.stribeck.value_or(0.0);
+    data.inertia = reduced_mass();
+    data.threshold = spec_.threshold.value_or(elastic_threshold(data));
+    data.tangential_stiffness = spec_.tangential.value_or(kTangentialShare * usual_stiffness(data));
+    load_.element = std::make_shared<loads::Contact>(pair, data);
+  }
+
+  /// One-sided row: along the normal of a plane, or between two centres.
+  void set_rigid(const loads::ContactPair& pair) {
+    const double radius = pair.second().radius;
+    const double other = pair.first().radius;
+    const bool is_plane = pair.first().kind == ShapeKind::plane;
+    const bool is_inside =
+        pair.first().kind == ShapeKind::socket || pair.first().kind == ShapeKind::bore;
+    load_.coordinate = static_cast<int>(find_.model().coordinates.size());
+    find_.model().coordinates.push_back(
+        {-1, load_.first, load_.second,
+         is_plane ? joints::JointCoordinate::displacement(pair.first().axis, Vector3d::Zero())
+                  : joints::JointCoordinate::length()});
+    const double from = is_plane ? radius : is_inside ? -HUGE_VAL : radius + other;
+    const double to = is_inside ? other - radius : HUGE_VAL;
+    load_.element = std::make_shared<loads::RigidStop>(from, to, spec_.restitution.value_or(0.0),
+                                                       spec_.threshold.value_or(rigid_threshold()));
+  }
+
+  const loads::ContactSpec& spec_;
+  MarkerFinder& find_;
+  Load& load_;
+  const SourceLocation& where_;
+  std::string what_;
+  double size_ = 0;  // of the smaller shape [m]
+};
+
+}  // namespace
+
+void set_contact(const loads::ContactSpec& spec, MarkerFinder& find, Load& load,
+                 const SourceLocation& where) {
+  ContactBuilder(spec, find, load, where).build();
+}
+
+}  // namespace buckens::model

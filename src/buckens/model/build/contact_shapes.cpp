@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/contact_shapes.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::model {
+
+using Eigen::Vector3d;
+using loads::ContactShape;
+
+namespace {
+
+// Sine of the angle by which a direction may leave the plane of a planar model, as of loads.
+constexpr double kOutOfShapePlane = 1e-6;
+
+class ShapeBuilder {
+ public:
+  ShapeBuilder(MarkerFinder& find, const MarkerId& marker, const std::string& what,
+               const SourceLocation& where)
+      : what_(what), where_(where) {
+    if (!find.model().planar) return;
+    is_planar_ = true;
+    normal_ = find.placed(marker).R().transpose() * spatial::normal(*find.model().planar);
+  }
+
+  ContactShape operator()(const loads::PlaneShape& spec) const {
+    ContactShape out;
+    out.kind = ContactShape::Kind::plane;
+    out.axis = in_plane(spec.normal, "normal", "plane");
+    return out;
+  }
+  ContactShape operator()(const loads::SphereShape& spec) const {
+    return round(ContactShape::Kind::sphere, spec.radius);
+  }
+  ContactShape operator()(const loads::SocketShape& spec) const {
+    return round(ContactShape::Kind::socket, spec.radius);
+  }
+  ContactShape operator()(const loads::BoreShape& spec) const {
+    ContactShape out = round(ContactShape::Kind::bore, spec.radius);
+    out.axis = spec.axis.value_or(is_planar_ ? normal_ : Vector3d(Vector3d::UnitZ())).normalized();
+    if (is_planar_ && out.axis.cross(normal_).norm() > kOutOfShapePlane) {
+      refuse("the axis of a bore is normal to the plane; leave `axis` out");
+    }
+    return out;
+  }
+  ContactShape operator()(const loads::CapsuleShape& spec) const {
+    ContactShape out = round(ContactShape::Kind::capsule, spec.radius);
+    out.half_length = 0.5 * spec.length;
+    out.axis = in_plane(spec.axis, "axis", "capsule");
+    return out;
+  }
+  ContactShape operator()(const loads::CylinderShape& spec) const {
+    if (is_planar_) {
+      refuse(
+          "a cylinder has no section of its own; use a `sphere`, which is a circle there, or a "
+          "`box`");
+    }
+    ContactShape out = round(ContactShape::Kind::cylinder, spec.radius);
+    out.half_length = 0.5 * spec.length;
+    out.axis = spec.axis.value_or(Vector3d::UnitZ()).normalized();
+    return out;
+  }
+  ContactShape operator()(const loads::BoxShape& spec) const {
+    ContactShape out;
+    out.kind = ContactShape::Kind::box;
+    out.half = 0.5 * spec.size;
+    if (!is_planar_) return out;
+    const double along = normal_.cwiseAbs().maxCoeff(&out.flat);
+    if (along < 1.0 - kOutOfShapePlane) {
+      refuse("one of the axes of a box is normal to the plane; turn its marker");
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& text) const {
+    throw InputError(where_, fmt::format("{}: in a planar model {}", what_, text));
+  }
+
+  static ContactShape round(ContactShape::Kind kind, double radius) {
+    ContactShape out;
+    out.kind = kind;
+    out.radius = radius;
+    return out;
+  }
+
+  Vector3d in_plane(const std::optional<Vector3d>& given, const char* key,
+                    const char* shape) const {
+    const Vector3d out = given.value_or(Vector3d::UnitZ()).normalized();
+    if (!is_planar_ || std::abs(out.dot(normal_)) <= kOutOfShapePlane) return out;
+    refuse(fmt::format("the {0} of a {1} lies in the plane; {2} `{0}`", key, shape,
+                       given ? "turn the" : "give the"));
+  }
+
+  const std::string& what_;
+  const SourceLocation& where_;
+  bool is_planar_ = false;
+  Vector3d normal_ = Vector3d::UnitZ();  // of the plane, in axes of the marker
+};
+
+}  // namespace
+
+ContactShape contact_shape(const loads::ShapeSpec& spec, MarkerFinder& find, const MarkerId& marker,
+                           const std::string& what, const SourceLocation& where) {
+  return std::visit(ShapeBuilder(find, marker, what, where), spec.kind);
+}
+
+double size_of(const ContactShape& shape) {
+  switch (shape.kind) {
+    case ContactShape::Kind::plane:
+      return HUGE_VAL;
+    case ContactShape::Kind::box: {
+      Vector3d half = shape.half;
+      if (shape.flat >= 0) half[shape.flat] = HUGE_VAL;
+      return half.minCoeff();
+    }
+    default:
+      return shape.radius;
+  }
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/check/contact_findings.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "buckens/base/nearest.h"
+#include "buckens/model/check/marker_names.h"
+
+namespace buckens::model {
+
+namespace {
+
+using loads::ShapeSpec;
+
+// Below it the loss would have to act within the first thousandth of the overlap.
+constexpr double kLeastElasticRestitution = 0.01;
+
+template <class Shape>
+const Shape* get(const ShapeSpec& shape) {
+  return std::get_if<Shape>(&shape.kind);
+}
+
+template <class Shape>
+const Shape* either(const loads::ContactSpec& spec) {
+  const Shape* first = get<Shape>(spec.shapes[0]);
+  return first != nullptr ? first : get<Shape>(spec.shapes[1]);
+}
+
+Found direction_problem(const ShapeSpec& shape) {
+  return std::visit(
+      [&]<class T>(const T& own) -> Found {
+        if constexpr (requires { own.normal; }) {
+          if (!own.normal || own.normal->norm() > 0.0) return std::nullopt;
+          return Finding{"shapes", "a normal cannot be [0, 0, 0]; give its direction"};
+        } else if constexpr (requires { own.axis; }) {
+          if (!own.axis || own.axis->norm() > 0.0) return std::nullopt;
+          return Finding{"shapes", "an axis cannot be [0, 0, 0]; give its direction"};
+        } else {
+          return std::nullopt;
+        }
+      },
+      shape.kind);
+}
+
+bool is_pair(const loads::ContactSpec& spec, const std::string& a, const std::string& b) {
+  const std::string first = spec.shapes[0].kind_name(), second = spec.shapes[1].kind_name();
+  return (first == a && second == b) || (first == b && second == a);
+}
+
+Found pair_problem(const loads::ContactSpec& spec) {
+  static constexpr const char* kPairs[][2] = {
+      {"sphere", "plane"},   {"sphere", "sphere"},   {"sphere", "socket"}, {"sphere", "bore"},
+      {"sphere", "capsule"}, {"sphere", "cylinder"}, {"sphere", "box"},    {"plane", "capsule"},
+      {"plane", "cylinder"}, {"plane", "box"},       {"bore", "cylinder"}, {"capsule", "capsule"}};
+  const auto known = std::any_of(std::begin(kPairs), std::end(kPairs),
+                                 [&](const auto& pair) { return is_pair(spec, pair[0], pair[1]); });
+  if (!known) {
+    std::vector<std::string> pairs;
+    for (const auto& pair : kPairs) pairs.push_back(fmt::format("{}–{}", pair[0], pair[1]));
+    return Finding{"shapes", fmt::format("a {} and a {} cannot touch; the pairs are {}",
+                                         spec.shapes[0].kind_name(), spec.shapes[1].kind_name(),
+                                         fmt::join(pairs, ", "))};
+  }
+  const auto does_not_fit = [&](const char* what, double hole, double inside) -> Found {
+    if (inside < hole) return std::nullopt;
+    return Finding{"shapes", fmt::format("a radius of {:g} m does not fit into the {} of {:g} m; "
+                                         "exchange them, or make the {} wider",
+                                         inside, what, hole, what)};
+  };
+  const auto* sphere = either<loads::SphereShape>(spec);
+  const auto* cylinder = either<loads::CylinderShape>(spec);
+  const auto* socket = either<loads::SocketShape>(spec);
+  const auto* bore = either<loads::BoreShape>(spec);
+  if (socket != nullptr) return does_not_fit("socket", socket->radius, sphere->radius);
+  if (bore == nullptr) return std::nullopt;
+  return does_not_fit("bore", bore->radius, sphere != nullptr ? sphere->radius : cylinder->radius);
+}
+
+/// Keys that only elastic contacts have.
+Found rigid_problem(const loads::ContactSpec& spec, const ModelDescription& model) {
+  const auto needs_stiffness = [](const char* key) {
+    return Finding{key,
+                   "without `stiffness` or `modulus` the contact is rigid, and this has no "
+                   "effect; give one of them"};
+  };
+  if (spec.coefficient > 0.0) {
+    return Finding{"static",
+                   "rigid contacts have no friction yet; give a `stiffness`, or leave "
+                   "out `static`"};
+  }
+  if (spec.damping > 0.0) return needs_stiffness("damping");
+  if (spec.exponent) return needs_stiffness("exponent");
+  if (spec.tangential) return needs_stiffness("tangential-stiffness");
+  const bool is_known = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
+                        is_pair(spec, "sphere", "socket") ||
+                        (model.planar && is_pair(spec, "sphere", "bore"));
+  if (is_known) return std::nullopt;
+  return Finding{"shapes", fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
+                                       "of a sphere with a plane, a sphere or a socket",
+                                       spec.shapes[0].kind_name(), spec.shapes[1].kind_name())};
+}
+
+Found elastic_problem(const loads::ContactSpec& spec) {
+  if (spec.stiffness && spec.modulus) {
+    return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
+  }
+  if (spec.poisson && !spec.modulus) {
+    return Finding{"poisson-ratio",
+                   "it belongs to `modulus`, which is missing; add it, or remove "
+                   "`poisson-ratio`"};
+  }
+  if (spec.modulus && spec.exponent) {
+    return Finding{"exponent",
+                   "by `modulus` the exponent is 1.5; remove `exponent`, or give a "
+                   "`stiffness` in place of `modulus`"};
+  }
+  const bool is_hertz = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
+                        is_pair(spec, "sphere", "socket");
+  if (spec.modulus && !is_hertz) {
+    return Finding{"modulus", fmt::format("Hertz has no force for a {} and a {}; give a "
+                                          "`stiffness`",
+                                          spec.shapes[0].kind_name(), spec.shapes[1].kind_name())};
+  }
+  if (spec.restitution && *spec.restitution < kLeastElasticRestitution) {
+    return Finding{"restitution",
+                   fmt::format("expected {:g} to 1 for an elastic contact, found {:g}; leave out "
+                               "`stiffness` and `modulus` for a rigid one, which may have 0",
+                               kLeastElasticRestitution, *spec.restitution)};
+  }
+  return std::nullopt;
+}
+
+Found contact_friction_problem(const loads::ContactSpec& spec) {
+  if (spec.dynamic && *spec.dynamic > spec.coefficient) {
+    return Finding{"dynamic",
+                   fmt::format("friction is {:g} while it slides, more than {:g} while it sticks; "
+                               "exchange `static` and `dynamic`",
+                               *spec.dynamic, spec.coefficient)};
+  }
+  if (spec.dynamic && *spec.dynamic < spec.coefficient && !spec.stribeck) {
+    return Finding{"stribeck-velocity",
+                   "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ "
+                   "it says how fast the one becomes the other"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& model) {
+  for (const ShapeSpec& shape : spec.shapes) {
+    if (Found found = direction_problem(shape)) return found;
+  }
+  if (Found found = pair_problem(spec)) return found;
+  if (spec.restitution.value_or(0.0) > 1.0) {
+    return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no impact gives back "
+                                              "more speed than it takes",
+                                              *spec.restitution)};
+  }
+  if (!spec.stiffness && !spec.modulus) {
+    if (Found found = rigid_problem(spec, model)) return found;
+  }
+  if (spec.stiffness || spec.modulus || spec.poisson) {
+    if (Found found = elastic_problem(spec)) return found;
+  }
+  return contact_friction_problem(spec);
+}
+
+Found own_joint_problem(const ContactSensor& spec, const ModelDescription& model) {
+  std::vector<std::string> known;
+  for (const loads::LoadSpec& load : model.loads) {
+    if (std::holds_alternative<loads::ContactSpec>(load.kind)) known.push_back(load.name);
+  }
+  if (std::find(known.begin(), known.end(), spec.contact) != known.end()) return std::nullopt;
+  return Finding{"contact", fmt::format("there is no contact \"{}\".{}", spec.contact,
+                                        known.empty() ? " The model has none."
+                                                      : base::suggestion(spec.contact, known))};
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/model/check/finding.h"
+#include "buckens/model/spec/model_description.h"
+
+namespace buckens::model {
+
+/// What is wrong with a contact beyond its markers.
+Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& model);
+/// Whether the contact that a sensor names exists.
+Found own_joint_problem(const ContactSensor& spec, const ModelDescription& model);
+
+}  // namespace buckens::model
