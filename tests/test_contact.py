@@ -6,6 +6,8 @@ import math
 import numpy
 import pytest
 
+from conftest import SOURCE
+
 G = 9.81
 
 
@@ -290,6 +292,40 @@ output:
     assert out["p3.z"][-1] == pytest.approx(-1e-3 - 5e-5, rel=1e-6)
     assert out["p4.z"][-1] == pytest.approx(-5e-3 - 1e-4, rel=1e-6)
     assert out["p5.z"][-1] == pytest.approx(0.2 - 1e-4, rel=1e-6)
+
+
+def test_the_dumbbell_comes_to_rest(sensors):
+    text = (SOURCE / "examples" / "bouncing_dumbbell/bouncing_dumbbell").with_suffix(".yaml").read_text()
+    out = sensors(text)
+    # Free fall until the left ball strikes: its share of the rod's bending is nothing then.
+    falling = out["t"] < 0.305
+    assert out["left.y"][falling] == pytest.approx(0.5 - G / 2 * out["t"][falling] ** 2, abs=1e-9)
+    # At rest: each ball carries half of the weight, friction holds both against each other.
+    rod = 7850 * math.pi * 0.004**2 * 0.4
+    for side in ("left", "right"):
+        assert out[f"hit_{side}.normal"][-1] == pytest.approx((1 + rod) / 2 * G, rel=1e-3)
+    assert out["hit_left.friction"][-1] == pytest.approx(out["hit_right.friction"][-1], rel=1e-3)
+    # All of the energy of the fall is lost, but for the deflection at rest.
+    fall = (1 + rod) * G * (0.5 + 0.2 * math.sin(math.radians(25)) - 0.04)
+    assert out["lost"][-1] == pytest.approx(fall, rel=2e-3)
+    assert numpy.abs(out["balance"]).max() < 2e-3 * fall
+
+
+def test_a_worn_bearing_strikes(sensors):
+    text = (SOURCE / "examples" / "clearance_slider_crank/clearance_slider_crank").with_suffix(".yaml").read_text()
+    out = sensors(text.replace("duration: 24 ms", "duration: 3 ms"))
+    away = numpy.hypot(out["path.x"], out["path.y"])
+    # The pin flies within its clearance of 0.2 mm and presses into the bore where it touches.
+    assert out["hit.gap"] == pytest.approx(0.2e-3 - away, abs=1e-9)
+    touching = out["hit.gap"] < 0
+    assert (out["hit.normal"][touching] >= 0).all() and (out["hit.normal"][~touching] == 0).all()
+    assert 0.3 < touching.mean() < 0.95
+    assert out["hit.normal"].max() == pytest.approx(14.8e3, rel=0.02)  # the first strike, see the README
+    # The slider follows the ideal mechanism within clearance and overlap over the obliquity of the rod.
+    angle = 5000 * 2 * math.pi / 60 * out["t"]
+    ideal = 0.05 * numpy.cos(angle) + numpy.sqrt(0.12**2 - (0.05 * numpy.sin(angle)) ** 2)
+    assert numpy.abs(out["slider.x"] - ideal).max() < 0.4e-3
+    assert numpy.abs(out["balance"]).max() < 5e-3
 
 
 CONTACT = """
