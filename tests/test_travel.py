@@ -275,3 +275,12 @@ def test_a_coin_spins_on_its_edge_with_its_centre_at_rest(sensors):
     for axis, place in (("x", 0.0), ("y", 0.0), ("z", R * math.sin(theta))):
         assert out[f"p.{axis}"] == pytest.approx(place, abs=1e-4 * R)
     assert out["turn.z"] == pytest.approx(turn * math.sin(theta) ** 2, rel=1e-4)
+
+
+def test_the_wheel_of_the_example_runs_on_its_circle(sensors):
+    out = sensors((SOURCE / "examples" / "wheel/wheel").with_suffix(".yaml").read_text())
+    # To the left of a centre that starts at the origin along x, after one turn of 3.14 s.
+    radius = 0.9189676901
+    assert numpy.hypot(out["centre.x"], out["centre.y"] - radius) == pytest.approx(radius, abs=1e-4)
+    assert out["centre.z"] == pytest.approx(0.3 * math.sin(math.pi / 3), abs=1e-5)
+    assert numpy.abs(out["balance"]).max() < 1e-4  # of 4 J, order two in the step
