@@ -294,6 +294,28 @@ output:
     assert out["p5.z"][-1] == pytest.approx(0.2 - 1e-4, rel=1e-6)
 
 
+def test_a_beam_starts_on_its_prop(sensors):
+    # Statics know contact: 3/8 of the weight on a prop of stiffness K, and nothing moves afterwards.
+    out = sensors("""
+buckens: 1
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies:
+  beam: {beam: {to: [1, 0, 0], elements: 8, section: {rectangle: {width: 20 mm, height: 5 mm}}, material: steel}}
+joints: {root: {fixed: {between: [ground, beam/start]}}}
+loads: {prop: {contact: {between: [{ground: [1, 0, -0.001]}, beam/end], shapes: [{plane: {}}, {sphere: 1 mm}], stiffness: 1e6, static: 0.3}}}
+initial: {start: static}
+simulation: {duration: 10 ms, step: 0.1 ms}
+output: {every: 1 ms, sensors: {c: {contact: prop}, balance: {energy: balance}}}
+""")
+    bending = 210e9 * 0.02 * 0.005**3 / 12
+    reaction = 3 / 8 * 7850 * 1e-4 * 9.81 / (1 + 3 * bending / 1e6)
+    # Shear takes part by (h/L)^2, 2.5e-5.
+    assert out["c.normal"] == pytest.approx(numpy.full(11, reaction), rel=5e-5)
+    assert out["c.gap"] == pytest.approx(numpy.full(11, -reaction / 1e6), rel=5e-5)
+    assert out["c.friction"].max() < 1e-7 and numpy.abs(out["balance"]).max() < 1e-12
+
+
 def test_the_dumbbell_comes_to_rest(sensors):
     text = (SOURCE / "examples" / "bouncing_dumbbell/bouncing_dumbbell").with_suffix(".yaml").read_text()
     out = sensors(text)
