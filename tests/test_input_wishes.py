@@ -44,7 +44,7 @@ def refuse(buckens, tmp_path):
     ("revolute:", "cam:", ["\"cam\"", "`slot`"]),
     ("revolute:", "hinge:", ["\"hinge\"", "called `revolute`"]),
     ("axis: [0, 0, 1]}", "axis: [0, 0, 1], limits: [0, 1]}", ["limits", "`hinge-stop`"]),
-    ("push: {force:", "push: {contact:", ["model.yaml:12:", "contact", "not supported yet", "`spring-damper`"]),
+    ("push: {force:", "push: {collision:", ["model.yaml:12:", "\"collision\"", "the load `contact`"]),
     ("push: {force:", "push: {PID:", ["\"PID\"", "controller", "`pid`", "`hinge-motor`"]),
     ("simulation:", "controllers: {a: 1}\nsimulation:", ["controller", "`signals`"]),
     ("velocity: [0, 0, 0]", "position: [0, 0, 1]", ["model.yaml:13:", "initial.bodies.rod", "its key `at`"]),

@@ -24,8 +24,7 @@ constexpr std::string_view kFriction =
     "friction in joints is the load `hinge-friction` (against rotation) or `slide-friction` "
     "(against sliding) here";
 constexpr std::string_view kContact =
-    "contact is not supported yet; instead hold parts together by a joint, or by a `spring-damper` "
-    "or `bushing` of the stiffness of the contact where it stays closed";
+    "contact between bodies is the load `contact` here, between shapes at two markers";
 constexpr std::string_view kLimits =
     "limits of a joint are the loads `hinge-stop` (of its angle) and `slide-stop` (of its "
     "displacement) here";
