@@ -93,7 +93,7 @@ Recovery::Recovery(const FeModel& fe) {
       at_ends_.push_back({index, sections_.size() - 1});
     }
   }
-  rows_.resize(12 * num_elements(), fe.dofs.num_dofs);
+  rows_.resize(Eigen::Index{12} * num_elements(), fe.dofs.num_dofs);
   rows_.setFromTriplets(triplets.begin(), triplets.end());
 }
 

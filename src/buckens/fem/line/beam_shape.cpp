@@ -163,7 +163,7 @@ BeamMatrix beam_stiffness_local(BeamTheory theory, const Material& material,
 
 BeamMatrix beam_rotation(const Eigen::Matrix3d& axes) {
   BeamMatrix T = BeamMatrix::Zero();
-  for (int k = 0; k < 4; ++k) T.block<3, 3>(3 * k, 3 * k) = axes;
+  for (Eigen::Index k = 0; k < 4; ++k) T.block<3, 3>(3 * k, 3 * k) = axes;
   return T;
 }
 
