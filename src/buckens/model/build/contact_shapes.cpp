@@ -90,7 +90,7 @@ class ShapeBuilder {
 
   Vector3d in_plane(const std::optional<Vector3d>& given, const char* key,
                     const char* shape) const {
-    const Vector3d out = given.value_or(Vector3d::UnitZ()).normalized();
+    Vector3d out = given.value_or(Vector3d::UnitZ()).normalized();
     if (!is_planar_ || std::abs(out.dot(normal_)) <= kOutOfShapePlane) return out;
     refuse(fmt::format("the {0} of a {1} lies in the plane; {2} `{0}`", key, shape,
                        given ? "turn the" : "give the"));
