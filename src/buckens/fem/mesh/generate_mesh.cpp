@@ -59,7 +59,8 @@ double num_cells(const std::array<int, 3>& divisions) {
 double cells_in(const BoxMeshSpec& spec) { return num_cells(spec.divisions); }
 template <class Round>
 double cells_in(const Round& spec) {
-  const double across = spec.divisions[1] / 4;  // of the square core
+  const int quarter = spec.divisions[1] / 4;
+  const double across = quarter;  // of the square core
   const bool bore = spec.shape().inner_radius > 0.0;
   return num_cells(spec.divisions) + (bore ? 0.0 : across * across * spec.divisions[2]);
 }

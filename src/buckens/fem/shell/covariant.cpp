@@ -35,7 +35,8 @@ Six six_weights(double x, double y) {
 
 /// Where six_weights() is one.
 std::array<double, 2> six_place(std::size_t k) {
-  return {k % 2 == 0 ? -kHalf : kHalf, (static_cast<double>(k / 2) - 1) * kThird};
+  const std::size_t pair = k / 2;
+  return {k % 2 == 0 ? -kHalf : kHalf, (static_cast<double>(pair) - 1) * kThird};
 }
 
 /// Linear between the Gauss points of a side and the point kHalf away from it.

@@ -108,9 +108,8 @@ std::vector<Vector2d> starts_of(FaceShape shape) {
 }
 
 /// The nearest point along one straight side of the parameters, or of a line, by Gauss-Newton.
-Vector2d search(FaceShape shape, const Matrix3Xd& nodes, const Vector3d& x, Vector2d from,
+Vector2d search(FaceShape shape, const Matrix3Xd& nodes, const Vector3d& x, const Vector2d& start,
                 const Vector2d& along, double length) {
-  const Vector2d start = from;
   double t = 0.5 * length;
   for (int step = 0; step < 30; ++step) {
     const Weights w = weights_at(shape, nodes.cols(), start + t * along);

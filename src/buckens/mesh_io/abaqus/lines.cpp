@@ -209,13 +209,13 @@ bool AbaqusLines::next_keyword(DeckKeyword& out) {
       has_line_ = false;
       if (line.size() > kLongestKeyword) fail(place, "the keyword line is too long");
     }
-    out = parse_keyword(std::move(line), place);
+    out = parse_keyword(line, place);
     return true;
   }
   return false;
 }
 
-DeckKeyword AbaqusLines::parse_keyword(std::string line, DeckPlace place) const {
+DeckKeyword AbaqusLines::parse_keyword(const std::string& line, DeckPlace place) const {
   DeckKeyword out;
   out.place = place;
   const auto parts = split_keyword(line);

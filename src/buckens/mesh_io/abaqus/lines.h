@@ -85,7 +85,7 @@ class AbaqusLines {
   bool peek();
   bool physical_line(std::string_view& line, DeckPlace& place);
   void open(const std::filesystem::path& path, const DeckPlace* from);
-  DeckKeyword parse_keyword(std::string line, DeckPlace place) const;
+  DeckKeyword parse_keyword(const std::string& line, DeckPlace place) const;
 
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<int> stack_;  ///< open files, the innermost last

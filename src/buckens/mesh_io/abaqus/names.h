@@ -49,7 +49,7 @@ struct AbaqusElementAt {
   int scope = 0;
   int element = 0;
 
-  auto operator<=>(const AbaqusElementAt&) const = default;
+  auto operator<=>(const AbaqusElementAt&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Looks up the meaning of names and numbers of a deck in the scope in which they occur.

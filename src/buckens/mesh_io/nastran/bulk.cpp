@@ -163,9 +163,8 @@ NastranBulk read_nastran_bulk(NastranCardReader& reader, SkipList& skip, Nastran
       if (!skip.takes("SUPER", card.line)) refuse_further_section(card);
       is_left_out = true;
     }
-    if (is_left_out || skip.takes(card.name, card.line)) {
-      continue;
-    } else if (card.name == "GRID") {
+    if (is_left_out || skip.takes(card.name, card.line)) continue;
+    if (card.name == "GRID") {
       bulk.grids.push_back(read_grid(card, notes));
     } else if (read_element_card(card, bulk, notes)) {
       continue;

@@ -144,7 +144,7 @@ std::optional<NastranLine> NastranCardReader::continuation_of(const NastranCard&
 
 /// Cards are repeated without their continuations.
 NastranRow NastranCardReader::first_row(const NastranLine& line) {
-  const NastranRow row = split_nastran_line(line);
+  NastranRow row = split_nastran_line(line);
   if (!row.repeats()) {
     replication_.remember(row);
     return row;

@@ -287,7 +287,8 @@ void ElementBuilder::add_line(const NastranElement& element) {
   const std::array<double, 2>& neutral = properties_.neutral_axis(property);
   const auto shift = [&](std::size_t end) -> Vector3d {
     const std::array<double, 3>& offset = end == 0 ? line.offset_a : line.offset_b;
-    const Vector3d local(offset[0], offset[1], offset[2]), across(0.0, neutral[0], neutral[1]);
+    Vector3d local(offset[0], offset[1], offset[2]);
+    const Vector3d across(0.0, neutral[0], neutral[1]);
     if (local.isZero(0.0) && across.isZero(0.0)) return local;
     Matrix3d axes;
     axes.col(0) = between.normalized();

@@ -70,7 +70,7 @@ class Trial {
       out += sew();
       out += time_line("mending", watch_.lap());
     }
-    const std::string open = gap();
+    std::string open = gap();
     if (gmsh_.entities(3).empty()) return open;
     measure();
     if (trial_.tolerance == 0) out += told(shapes);
