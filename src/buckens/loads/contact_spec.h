@@ -72,13 +72,15 @@ struct ContactSpec {
               .non_negative()
               .like("0.8")
               .otherwise("elastic: 1; rigid: 0"));
-    visit(base::field("threshold", threshold,
-                      "speed of approach: below it a rigid contact stays closed, and losses of an "
-                      "elastic one do not rise further")
-              .in(base::kVelocity)
-              .positive()
-              .like("1 mm/s")
-              .otherwise("a thousandth of the smaller shape's size per second"));
+    visit(
+        base::field("threshold", threshold,
+                    "speed of approach: below it a rigid contact stays closed, and losses of an "
+                    "elastic one do not rise further")
+            .in(base::kVelocity)
+            .positive()
+            .like("1 mm/s")
+            .otherwise("a thousandth of the smaller shape's size per second; elastic: at least the "
+                       "speed below which its weight keeps the lighter body there"));
     visit(base::field("damping", damping,
                       "of an elastic contact, in addition; its force is at most that of the "
                       "stiffness")
