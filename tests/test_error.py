@@ -391,3 +391,21 @@ def test_ctrl_c_keeps_the_run(tmp_path):
     assert process.wait(timeout=60) == 130
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert summary["finished"] and not summary["errors"]["complete"]
+
+
+def test_a_jump_has_no_peak_beyond_it(buckens, tmp_path):
+    """Two equal balls exchange their speeds: a parabola through the records would reach 56."""
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+bodies:
+  a: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [-0.5, 0, 0]}}
+  b: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}
+loads: {hit: {contact: {between: [a, b], shapes: [{sphere: 10 mm}, {sphere: 10 mm}], restitution: 1}}}
+initial: {bodies: {a: {velocity: [50, 0, 0]}}}
+simulation: {duration: 0.1 s, step: 1 ms}
+output: {sensors: {b: {velocity: b}}}
+""")
+    result = buckens("run", "model.yaml", "-o", "out", "--error").must(0)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    peak = summary["errors"]["sensors"]["b.x"]["peak"]
+    assert peak["value"] == pytest.approx(50, rel=1e-9), result.out

@@ -38,6 +38,30 @@ def sim():
     return buckens.Simulation(buckens.Model.from_dict(TREE))
 
 
+def test_callbacks_may_add_others(sim):
+    calls = []
+
+    @sim.on_step
+    def first(now):
+        if not calls:
+            for _ in range(20):
+                now.on_step(lambda _: calls.append("later"))
+        calls.append("first")
+
+    sim.run()
+    # Those added in the first of ten steps begin with the second.
+    assert calls.count("first") == 10 and calls.count("later") == 20 * 9
+
+
+def test_arguments_of_simulations(sim):
+    with pytest.raises(buckens.InputError, match="on_step: expected a function, found 3"):
+        sim.on_step(3)
+    with pytest.raises(buckens.InputError, match="time to advance to: expected a number, found '0.03'"):
+        sim.advance("0.03")
+    with pytest.raises(buckens.InputError, match="threads: expected a whole number from 1 to 256, found -1"):
+        buckens.Simulation(buckens.Model.from_dict(TREE), threads=-1)
+
+
 @pytest.mark.parametrize("path, value, words", [
     ("bodies.cart.rigid.mas", 3, ["bodies.cart.rigid", "mas", "mass"]),             # wrong key
     ("bodies.cart.rigid.mass", "2 m", ["bodies.cart.rigid.mass", "2 m", "kg"]),     # wrong unit
@@ -101,7 +125,7 @@ def test_time_and_its_end(sim):
         sim.advance(1e-3)
     with pytest.raises(buckens.InputError, match="expected an instant.*nan"):
         sim.advance(float("nan"))
-    with pytest.raises(TypeError):
+    with pytest.raises(buckens.InputError, match="expected a number, found '5 ms'"):
         sim.advance("5 ms")
     sim.run()
     with pytest.raises(buckens.InputError, match="ended at t = 0.01 s"):

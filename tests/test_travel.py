@@ -284,3 +284,21 @@ def test_the_wheel_of_the_example_runs_on_its_circle(sensors):
     assert numpy.hypot(out["centre.x"], out["centre.y"] - radius) == pytest.approx(radius, abs=1e-4)
     assert out["centre.z"] == pytest.approx(0.3 * math.sin(math.pi / 3), abs=1e-5)
     assert numpy.abs(out["balance"]).max() < 1e-4  # of 4 J, order two in the step
+
+
+def test_wheels_that_cannot_roll(buckens, tmp_path):
+    planar = INCLINE.replace("I1", "1").replace("I2", "1").replace(", METHOD", "").replace("PLANAR", "planar: zx")
+    (tmp_path / "model.yaml").write_text(planar.replace("AXLE", "axle: [1, 0, 0],"))
+    buckens("check", "model.yaml").must(2, "axle", "turn about the normal of its plane")
+    (tmp_path / "model.yaml").write_text(planar.replace("AXLE", "").replace("normal: [0, 0, 1]", "normal: [0, 1, 0]"))
+    buckens("check", "model.yaml").must(3, "model.yaml:6:", "the normal of a rolling joint", "turn `normal` into it")
+    # A disc that falls over: which one, and when.
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+gravity: [0, 0, -10 m/s^2]
+bodies: {disc: {rigid: {mass: 2 kg, inertia: [0.01, 0.02, 0.01]}, at: {position: [0, 0, 0.1]}}}
+joints: {edge: {rolling: {between: [ground, disc], normal: [0, 0, 1], axle: [0, 1, 0], radius: 0.1}}}
+initial: {bodies: {disc: {velocity: [0, -0.1, 0], angular-velocity: [1, 0, 0]}}}
+simulation: {duration: 0.6 s, step: 1 ms}
+""")
+    buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:5:", "joint \"edge\" at t = 0.40", "lies flat")

@@ -110,7 +110,9 @@ void SimulationHandle::after_step() {
   phase_ = Phase::between_steps;
   try {
     if (!callbacks_.empty()) refresh();
-    for (const py::function& callback : callbacks_) callback();
+    // Callbacks may add others; those begin with the next step.
+    const std::vector<py::function> callbacks = callbacks_;
+    for (const py::function& callback : callbacks) callback();
     if (is_due) {
       next_look_ = now + kLookInterval;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();

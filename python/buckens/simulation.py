@@ -146,6 +146,8 @@ class Simulation:
         self._model = model
         self._forces: List[Tuple[str, str, ForceFunction]] = list(model._forces)
         self._callbacks: List[Callable[[], object]] = []
+        if not isinstance(threads, int) or not 1 <= threads <= 256:
+            raise InputError(f"threads: expected a whole number from 1 to 256, found {threads!r}")
         self._options = ("" if out is None else os.fspath(out), threads, record, _start_from)
         self._was_seen = False
         self._is_over = False
@@ -206,7 +208,7 @@ class Simulation:
 
     def advance(self, t: float) -> bool:
         """Takes steps until one ends at or beyond t [s]; returns False if the end came first."""
-        return self._core.advance(t)
+        return self._core.advance(_number("the time to advance to", t))
 
     def run(self, progress: Progress = False) -> Dict[str, Any]:
         """Takes steps until the end and completes the results. Ctrl-C ends it after a step.
@@ -251,6 +253,8 @@ class Simulation:
 
         What it raises ends the run after this step and comes out of the call that advances.
         """
+        if not callable(function):
+            raise InputError(f"on_step: expected a function, found {function!r}")
         myself = weakref.ref(self)
 
         def call() -> None:
@@ -381,6 +385,16 @@ class Simulation:
     def __repr__(self) -> str:
         return (f"<buckens.Simulation {self._model.title!r}: t = {self.time:.6g} of "
                 f"{self.end_time:.6g} s, {self.num_steps} steps>")
+
+
+def _number(what: str, value: float) -> float:
+    """A finite number, or an error that says what it was meant for."""
+    if isinstance(value, (str, bytes)):
+        raise InputError(f"{what}: expected a number, found {value!r}")
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{what}: expected a number, found {value!r}") from None
 
 
 def _show_progress(t: float, end: float, steps: int) -> None:

@@ -3,6 +3,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/citing.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/spatial/rotation.h"
 
@@ -17,6 +18,13 @@ namespace {
 /// Rᵀ v, written out: there are many of these.
 inline Vector3d against(const Matrix3d& R, const Vector3d& v) {
   return {R.col(0).dot(v), R.col(1).dot(v), R.col(2).dot(v)};
+}
+
+/// A row's value; what ends the motion there names the joint.
+joints::RowValue value_of(const model::Joint& joint, const joints::ConstraintRow& row,
+                          const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
+                          const double* states) {
+  return citing(joint, t, [&] { return row.evaluate(F, M, t, states); });
 }
 
 /// The interface values of a marker's translation or rotation.
@@ -227,9 +235,7 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
     }
     const Motion F = motion_of(joint.first, motions);
     const Motion M = motion_of(joint.second, motions);
-    const Vector3d r = M.p - F.p;
-    const Vector3d r_dot = M.v - F.v;
-    const Vector3d w = F.w - M.w;
+    const Vector3d r = M.p - F.p, r_dot = M.v - F.v, w = F.w - M.w;
     Wrench on_first, on_second;
     for (int k = 0; k < joint.num_rows; ++k) {
       const Row& row = rows_[joint.rows + static_cast<std::size_t>(k)];
@@ -252,8 +258,9 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
         on_second.torque -= multiplier * b_x_c;
       } else {
         const joints::RowValue value =
-            row.row->evaluate(F.marker(joint.first), M.marker(joint.second), t,
-                              states != nullptr ? states + row.state : nullptr);
+            value_of(model_.joints[static_cast<std::size_t>(&joint - joints_.data())], *row.row,
+                     F.marker(joint.first), M.marker(joint.second), t,
+                     states != nullptr ? states + row.state : nullptr);
         const auto& J = value.J;
         out.g[at] = value.g;
         out.g_t[at] = value.g_t;
@@ -300,10 +307,10 @@ void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& mot
       on_first.torque = (F.axes * row.b).cross(M.axes * row.c);
       on_second.torque = -on_first.torque;
     } else {
-      const spatial::PairRow J = row.row
-                                     ->evaluate(F.marker(own.first), M.marker(own.second), t,
-                                                states != nullptr ? states + row.state : nullptr)
-                                     .J;
+      const spatial::PairRow J =
+          value_of(model_.joints[joint], *row.row, F.marker(own.first), M.marker(own.second), t,
+                   states != nullptr ? states + row.state : nullptr)
+              .J;
       on_first = {J.segment<3>(0).transpose(), J.segment<3>(3).transpose()};
       on_second = {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()};
     }

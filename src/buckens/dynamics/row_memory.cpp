@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/citing.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
 
@@ -37,17 +38,6 @@ void follow_slider(const model::Model& model, const model::Joint& joint,
   }
   after[0] = 1.0;
   after[1] = s;
-}
-
-/// Puts joint and time before what ends the motion.
-template <class Work>
-void citing(const model::Joint& joint, double t, Work&& work) {
-  try {
-    work();
-  } catch (const NumericalError& error) {
-    throw NumericalError(
-        joint.where, fmt::format("joint \"{}\" at t = {:.6g} s: {}", joint.name, t, error.text()));
-  }
 }
 
 /// @param lambda may be null: joints carry nothing

@@ -131,8 +131,10 @@ void check_axis(JointType type, const Placement& placement, const Vector3d& axis
                      "leave `axis` out or turn it");
   }
   if (!turns && along_normal > kAlignment) {
-    throw ModelError("the axis of a " + to_string(type) +
-                     " joint of a planar model must lie in the plane; turn `axis` into it");
+    const bool rolls = type == JointType::rolling;
+    throw ModelError(std::string(rolls ? "the normal" : "the axis") + " of a " + to_string(type) +
+                     " joint of a planar model must lie in the plane; turn `" +
+                     (rolls ? "normal" : "axis") + "` into it");
   }
 }
 

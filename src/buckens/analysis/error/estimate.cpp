@@ -31,6 +31,14 @@ struct Extremum {
   double value = 0, at = 0;
 };
 
+/// Whether a curve bends the same way at a record and at its neighbours. At a jump or a kink it
+/// does not, and a parabola would overshoot.
+bool is_smooth(const std::vector<double>& x, std::size_t k, std::size_t stride) {
+  const auto bend = [&](std::size_t i) { return x[i + stride] - 2.0 * x[i] + x[i - stride]; };
+  if (k < 2 * stride || k + 2 * stride >= x.size()) return true;  // nothing to compare with
+  return bend(k) * bend(k - stride) > 0.0 && bend(k) * bend(k + stride) > 0.0;
+}
+
 /// Vertex of the parabola through a record and those `stride` before and after it; the record
 /// itself if there are none, or they are not evenly spaced (ends of runs).
 Extremum vertex(const std::vector<double>& t, const std::vector<double>& x, std::size_t k,
@@ -41,7 +49,7 @@ Extremum vertex(const std::vector<double>& t, const std::vector<double>& x, std:
   if (std::abs(t[k + stride] - t[k] - h) > 1e-6 * h) return out;
   const double slope = 0.5 * (x[k + stride] - x[k - stride]);
   const double curvature = x[k + stride] - 2.0 * x[k] + x[k - stride];
-  if (curvature == 0.0) return out;
+  if (curvature == 0.0 || !is_smooth(x, k, stride)) return out;
   const double shift = -slope / curvature;
   if (std::abs(shift) > 1.0) return out;
   return {x[k] + 0.5 * slope * shift, t[k] + shift * h};
@@ -59,9 +67,13 @@ Extremum extremum(const std::vector<double>& t, const std::vector<double>& x, do
 
 /// Error of an extremum due to the distance of records, from the parabola through records twice as
 /// far apart. Parabolas err by the fourth power of the distance, but the extremum is at a different
-/// position between the records of each: the whole difference is used, not a fifteenth.
+/// position between the records of each: the whole difference is used, not a fifteenth. At a kink
+/// the extremum lies beyond the record by at most what the flatter side changes within a record.
 double sampling_error(const std::vector<double>& t, const std::vector<double>& x, double sign) {
   const std::size_t k = extreme_record(x, sign);
+  if (!is_smooth(x, k, 1)) {
+    return std::min(std::abs(x[k] - x[k - 1]), std::abs(x[k + 1] - x[k]));
+  }
   return std::abs(vertex(t, x, k).value - vertex(t, x, k, 2).value);
 }
 

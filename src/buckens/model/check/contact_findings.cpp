@@ -138,8 +138,13 @@ Found contact_friction_problem(const loads::ContactSpec& spec) {
   if (spec.dynamic && *spec.dynamic > spec.coefficient) {
     return Finding{"dynamic",
                    fmt::format("friction is {:g} while it slides, more than {:g} while it sticks; "
-                               "exchange `static` and `dynamic`",
+                               "swap `static` and `dynamic`",
                                *spec.dynamic, spec.coefficient)};
+  }
+  if (spec.coefficient == 0.0 && (spec.stribeck || spec.tangential)) {
+    return Finding{
+        spec.stribeck ? "stribeck-velocity" : "tangential-stiffness",
+        "it belongs to friction, which has no `static` here; add it, or remove this key"};
   }
   if (spec.dynamic && *spec.dynamic < spec.coefficient && !spec.stribeck) {
     return Finding{"stribeck-velocity",
@@ -157,8 +162,8 @@ Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& 
   }
   if (Found found = pair_problem(spec)) return found;
   if (spec.restitution.value_or(0.0) > 1.0) {
-    return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no impact gives back "
-                                              "more speed than it takes",
+    return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no rebound is "
+                                              "faster than the approach",
                                               *spec.restitution)};
   }
   if (!spec.stiffness && !spec.modulus) {

@@ -134,6 +134,10 @@ Found own_joint_problem(const joints::RollingSpec& spec, const ModelDescription&
                    "the key \"axle\" is missing; a model in space needs it, for example "
                    "[0, 1, 0]"};
   }
+  if (spec.axle && model.planar) {
+    return Finding{"axle",
+                   "wheels of a planar model turn about the normal of its plane; remove this key"};
+  }
   if (spec.axle && !(spec.axle->norm() > 0.0)) {
     return Finding{"axle", "[0, 0, 0] is not a direction; give for example [0, 1, 0]"};
   }
