@@ -15,8 +15,7 @@ namespace buckens::model_file {
 
 namespace {
 
-std::vector<std::string> split_row(const std::string& line) {
-  std::string text = line;
+std::vector<std::string> split_row(const std::string& text) {
   const bool has_commas = text.find(',') != std::string::npos;
   const bool has_semicolons = text.find(';') != std::string::npos;
   const std::string separators = has_semicolons ? ";" : has_commas ? "," : " \t";
