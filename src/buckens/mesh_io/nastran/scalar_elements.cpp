@@ -31,7 +31,7 @@ struct Terminal {
 
   bool is_ground() const { return node < 0 && point == 0; }
   bool is_point() const { return node < 0 && point != 0; }
-  auto operator<=>(const Terminal&) const = default;
+  auto operator<=>(const Terminal&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 [[noreturn]] void refuse(const NastranCard& card, const std::string& text) {
