@@ -77,19 +77,24 @@ double nearest_on_second(const Vector3d& r, const Vector3d& a, const Vector3d& b
 
 }  // namespace
 
+const char* to_string(ShapeKind kind) {
+  static constexpr const char* kNames[] = {"plane",   "sphere",   "socket", "bore",
+                                           "capsule", "cylinder", "box"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::span<const ContactPair::Kinds> ContactPair::all() {
+  using enum ContactShape::Kind;
+  static constexpr Kinds kAll[] = {{plane, sphere}, {sphere, sphere},  {socket, sphere},
+                                   {bore, sphere},  {capsule, sphere}, {cylinder, sphere},
+                                   {box, sphere},   {plane, capsule},  {plane, cylinder},
+                                   {plane, box},    {bore, cylinder},  {capsule, capsule}};
+  return kAll;
+}
+
 bool ContactPair::knows(ShapeKind first, ShapeKind second) {
-  switch (second) {
-    case ShapeKind::sphere:
-      return true;
-    case ShapeKind::capsule:
-      return first == ShapeKind::plane || first == ShapeKind::capsule;
-    case ShapeKind::cylinder:
-      return first == ShapeKind::plane || first == ShapeKind::bore;
-    case ShapeKind::box:
-      return first == ShapeKind::plane;
-    default:
-      return false;
-  }
+  const std::span<const Kinds> known = all();
+  return std::find(known.begin(), known.end(), Kinds{first, second}) != known.end();
 }
 
 ContactPair::ContactPair(const ContactShape& first, const ContactShape& second)

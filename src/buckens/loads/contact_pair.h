@@ -20,6 +20,9 @@ struct ContactShape {
   int flat = -1;  ///< axis of a box that points out of the plane of a planar model, −1: none
 };
 
+/// Name of the kind as spelled in the model file.
+const char* to_string(ContactShape::Kind kind);
+
 /// Where two shapes touch, or are next to each other: halfway between both surfaces.
 struct ContactSpot {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< [m]
@@ -36,7 +39,10 @@ class ContactPair {
   static constexpr int kMostSpots = 8;
   using Spots = std::array<ContactSpot, kMostSpots>;
 
-  /// Whether the second can be made of spheres against the first.
+  /// All that can touch: a surface, and what is made of spheres against it.
+  using Kinds = std::array<ContactShape::Kind, 2>;
+  static std::span<const Kinds> all();
+  /// Whether these are among them, in this order.
   static bool knows(ContactShape::Kind first, ContactShape::Kind second);
 
   /// @pre knows(first.kind, second.kind)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/loads/contact_pair.h"
 #include "buckens/model/check/marker_names.h"
 
 namespace buckens::model {
@@ -52,15 +53,16 @@ bool is_pair(const loads::ContactSpec& spec, const std::string& a, const std::st
 }
 
 Found pair_problem(const loads::ContactSpec& spec) {
-  static constexpr const char* kPairs[][2] = {
-      {"sphere", "plane"},   {"sphere", "sphere"},   {"sphere", "socket"}, {"sphere", "bore"},
-      {"sphere", "capsule"}, {"sphere", "cylinder"}, {"sphere", "box"},    {"plane", "capsule"},
-      {"plane", "cylinder"}, {"plane", "box"},       {"bore", "cylinder"}, {"capsule", "capsule"}};
-  const auto known = std::any_of(std::begin(kPairs), std::end(kPairs),
-                                 [&](const auto& pair) { return is_pair(spec, pair[0], pair[1]); });
+  using loads::to_string;
+  const auto all = loads::ContactPair::all();
+  const auto known = std::any_of(all.begin(), all.end(), [&](const auto& kinds) {
+    return is_pair(spec, to_string(kinds[0]), to_string(kinds[1]));
+  });
   if (!known) {
     std::vector<std::string> pairs;
-    for (const auto& pair : kPairs) pairs.push_back(fmt::format("{}–{}", pair[0], pair[1]));
+    for (const auto& kinds : all) {
+      pairs.push_back(fmt::format("{}–{}", to_string(kinds[0]), to_string(kinds[1])));
+    }
     return Finding{"shapes", fmt::format("a {} and a {} cannot touch; the pairs are {}",
                                          spec.shapes[0].kind_name(), spec.shapes[1].kind_name(),
                                          fmt::join(pairs, ", "))};
@@ -68,7 +70,7 @@ Found pair_problem(const loads::ContactSpec& spec) {
   const auto does_not_fit = [&](const char* what, double hole, double inside) -> Found {
     if (inside < hole) return std::nullopt;
     return Finding{"shapes", fmt::format("a radius of {:g} m does not fit into the {} of {:g} m; "
-                                         "exchange them, or make the {} wider",
+                                         "swap them, or make the {} wider",
                                          inside, what, hole, what)};
   };
   const auto* sphere = either<loads::SphereShape>(spec);
