@@ -13,10 +13,15 @@ out="$(realpath -m "${1:-$here/build/demo}")"
 cd "$here"
 . tools/setup.sh
 
+# Only what the demonstration needs, unless this is already configured for more.
+buckens_packages=("${buckens_build_packages[@]}")
+buckens_needs_browser=no
 buckens_setup
-configure_release
+only=()
+[ -f build/release/CMakeCache.txt ] || only=(-DBUCKENS_TESTS=OFF -DBUCKENS_BENCH=OFF -DBUCKENS_PYTHON_MODULE=OFF)
+configure_release "${only[@]}"
 say "Building the program and the viewer page"
-cmake --build --preset release --target buckens_program buckens_viewer
+build_release buckens_program buckens_viewer
 
 program=build/release/bin/buckens
 model=examples/slider_crank/slider_crank.yaml
@@ -47,6 +52,6 @@ What to try next:
   $program run $model -o out --set bodies.rod.beam.elements=32
   $program check $model
   $program --help
-  PYTHONPATH=build/release/python python3 -c "import buckens; help(buckens)"   # after: cmake --build --preset release
+  PYTHONPATH=build/release/python python3 -c "import buckens; help(buckens)"   # after ./test.sh, which builds the rest
   ls examples
 TEXT

@@ -17,9 +17,9 @@ cd "$here"
 buckens_packages+=(python3-sphinx python3-myst-parser furo doxygen)
 buckens_setup
 if [ ! -e build/release/python/buckens/objects.py ] || ! compgen -G "build/release/python/buckens/_core*.so" >/dev/null; then
-  configure_release
+  configure_release -DBUCKENS_PYTHON_MODULE=ON
   say "Building the Python module for its pages"
-  cmake --build --preset release --target buckens_python
+  build_release buckens_python buckens_python_objects
 fi
 
 pages="$(mktemp -d)"

@@ -6,11 +6,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 . tools/setup.sh
 
 buckens_setup
-configure_release
+# All of it, whatever ./demo.sh left out.
+configure_release -DBUCKENS_TESTS=ON -DBUCKENS_BENCH=ON -DBUCKENS_PYTHON_MODULE=ON
 if [ "$(werror_setting)" = OFF ]; then
   warn "this is not g++ 12; compiler warnings are shown but do not fail the build."
 fi
 say "Building (preset release)"
-cmake --build --preset release --target all buckens_headers
+build_release all buckens_headers
 say "Testing"
 exec ctest --preset release --parallel "$(nproc)" "$@"

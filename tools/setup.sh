@@ -1,21 +1,27 @@
 # shellcheck shell=bash
-# Set-up shared by demo.sh and test.sh: Debian packages, npm packages, configuring.
+# Set-up shared by demo.sh, test.sh, docs.sh and packages.sh: Debian packages, npm packages, configuring, building.
 # Meant to be sourced; run by itself (`bash tools/setup.sh`) it installs what is missing.
 # Nothing is compiled or written as root: only apt-get runs under sudo.
 
 buckens_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
-# Debian packages for the build and the tests; keep consistent with cmake/BuckensDependencies.cmake.
-buckens_packages=(
-  g++ cmake ninja-build ccache git ca-certificates
+# Debian packages that program and page are built with; keep consistent with cmake/BuckensDependencies.cmake.
+buckens_build_packages=(
+  g++ cmake ninja-build ccache ca-certificates
   libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libmuparser-dev libhdf5-dev libgmsh-dev zlib1g-dev libsuitesparse-dev libmetis-dev
   libopenblas-openmp-dev libspectra-dev libcairo2-dev
+)
+# All packages: also those of tests, benchmarks, checks and the Python module.
+buckens_packages=(
+  "${buckens_build_packages[@]}" git
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format-14 clang-14 libclang-rt-14-dev
   python3 python3-pytest python3-numpy python3-h5py python3-vtk9
   python3-dev pybind11-dev mypy
 )
+# Whether a browser belongs to them: pages are tested with it.
+buckens_needs_browser=yes
 
 # Object files are cached by the contents of the sources, not by the location of the checkout.
 export CCACHE_BASEDIR="$buckens_root"
@@ -47,7 +53,7 @@ missing_packages() {
   done
   has_command node || echo nodejs
   has_command npm || echo npm
-  find_chromium >/dev/null || printf 'chromium\nfonts-liberation\n'
+  [ "$buckens_needs_browser" = no ] || find_chromium >/dev/null || printf 'chromium\nfonts-liberation\n'
 }
 
 find_chromium() {
@@ -123,13 +129,57 @@ werror_setting() {
   if [ "$major" = 12 ]; then echo ON; else echo OFF; fi
 }
 
+# configure_release [OPTION...], such as -DBUCKENS_TESTS=ON
 configure_release() {
   say "Configuring (preset release)"
-  (cd "$buckens_root" && cmake --preset release -DBUCKENS_WERROR="$(werror_setting)" \
+  (cd "$buckens_root" && cmake --preset release -DBUCKENS_WERROR="$(werror_setting)" "$@" \
     --log-level=WARNING >/dev/null) || {
     fail "configuring failed; see the lines above."
     return 1
   }
+}
+
+# duration SECONDS, in words
+duration() {
+  if [ "$1" -lt 100 ]; then echo "$1 s"; else echo "$((($1 + 30) / 60)) min"; fi
+}
+
+# progress_text DONE TOTAL SECONDS
+progress_text() {
+  local text="  $1 of $2 steps, $(duration "$3")"
+  if [ "$1" -lt "$2" ] && [ "$1" -gt 0 ] && [ "$3" -ge 5 ]; then
+    text+=", about $(duration $(($3 * ($2 - $1) / $1))) to go"
+  fi
+  echo "$text"
+}
+
+# Turns lines "@DONE TOTAL ..." of ninja into progress: one line that is overwritten in a terminal, a line
+# now and then elsewhere. Other lines, such as errors, are passed on.
+show_progress() {
+  local line done total last=-100 start=$SECONDS is_shown=""
+  while IFS= read -r line; do
+    if [[ ! "$line" =~ ^@([0-9]+)\ ([0-9]+) ]]; then
+      [ -z "$is_shown" ] || echo
+      is_shown=""
+      echo "$line"
+      continue
+    fi
+    done="${BASH_REMATCH[1]}" total="${BASH_REMATCH[2]}"
+    if [ -t 1 ]; then
+      printf '\r%-60s' "$(progress_text "$done" "$total" $((SECONDS - start)))"
+      is_shown=1
+    elif [ "$done" -eq "$total" ] || [ $((SECONDS - last)) -ge 15 ]; then
+      progress_text "$done" "$total" $((SECONDS - start))
+      last=$SECONDS
+    fi
+  done
+  [ -z "$is_shown" ] || echo
+}
+
+# build_release TARGET...
+build_release() {
+  (cd "$buckens_root" && set -o pipefail &&
+    NINJA_STATUS='@%f %t ' cmake --build --preset release --target "$@" 2>&1 | show_progress)
 }
 
 buckens_setup() {

@@ -34,6 +34,13 @@ has_command() { [ "$1" != npm ] && [ "$1" != node ]; }
 find_chromium() { return 1; }
 expect "programs count by their command" "nodejs npm chromium fonts-liberation " "$(missing_packages | tr '\n' ' ')"
 
+buckens_needs_browser=no
+expect "a browser only where one is needed" "nodejs npm " "$(missing_packages | tr '\n' ' ')"
+buckens_needs_browser=yes
+for package in "${buckens_build_packages[@]}"; do
+  expect_words "packages of the build are among all" "$package" "$all"
+done
+
 # Neither root nor sudo.
 has_command() { [ "$1" != sudo ]; }
 find_chromium() { echo chromium; }
@@ -65,6 +72,14 @@ eval "$real_installed"
 dpkg-query() { printf 'ii cmake\nrc ninja-build\nun ccache\n'; return 1; }
 expect "states of dpkg" "cmake" "$(installed_packages cmake ninja-build ccache)"
 rm -f "$log"
+
+# How far ninja is; errors are passed on.
+progress() { printf '@1 40 Building a\n@2 40 Building b\nb.cpp:3: error: no\n@40 40 Linking c\n' | show_progress; }
+SECONDS=0
+expect "progress, now and then" "  1 of 40 steps, 0 s
+b.cpp:3: error: no
+  40 of 40 steps, 0 s" "$(progress)"
+expect "an estimate" "  10 of 40 steps, 50 s, about 3 min to go" "$(progress_text 10 40 50)"
 
 if [ "$failures" -gt 0 ]; then
   echo "setup: $failures failure(s)"
