@@ -59,8 +59,15 @@ def class_name(kind, suffix=""):
     return "".join(word.capitalize() for word in kind.split("-")) + suffix
 
 
-def type_of(schema):
+# Fields that name a file, and may be arrays instead (buckens.ArrayMesh, sparse matrices).
+ARRAYS = {("mesh", "file"), ("matrices", "mass"), ("matrices", "stiffness"), ("matrices", "damping"),
+          ("matrices", "nodes")}
+
+
+def type_of(schema, kind="", key=""):
     """The Python type of values that a schema allows, as wide as needed."""
+    if (kind, key) in ARRAYS:
+        return "Any"
     kinds = schema.get("anyOf", [schema])
     simple = {"number", "string", "integer"}
     if all(set(_listed(k.get("type", ""))) <= simple and "type" in k for k in kinds):
@@ -110,12 +117,12 @@ def write_class(name, kind, schema, others):
     lines += ['    """', "", "    def __init__(", "        self,"]
     if own or beside:
         lines.append("        *,")
-    for parameter, (_, value, is_required) in own.items():
+    for parameter, (key, value, is_required) in own.items():
         if is_required:
-            lines.append(f"        {parameter}: {type_of(value)},")
-    for parameter, (_, value, is_required) in own.items():
+            lines.append(f"        {parameter}: {type_of(value, kind, key)},")
+    for parameter, (key, value, is_required) in own.items():
         if not is_required:
-            lines.append(f"        {parameter}: Optional[{type_of(value)}] = None,")
+            lines.append(f"        {parameter}: Optional[{type_of(value, kind, key)}] = None,")
     for parameter, (_, value) in beside.items():
         lines.append(f"        {parameter}: Optional[{type_of(value)}] = None,")
     lines += ["    ) -> None:", f"        super().__init__(", f"            {kind!r},", "            {"]

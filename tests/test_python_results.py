@@ -201,12 +201,14 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     text = (SOURCE / "docs" / "tutorials" / "python.md").read_text()
     blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
-    first, objects, controller, force, study = blocks
+    first, objects, arrays, controller, force, study = blocks
     names = {}
     exec(first, names)
     assert (tmp_path / "mid.png").stat().st_size > 1000 and names["summary"]["steps"] == 2000
     exec(objects.replace('"1 s"', '"10 ms"'), names)
     exec(study, names)
+    exec(arrays, names)
+    assert buckens.check(names["cantilever"])["bodies"]["bar"]["elements"] == 2
     shown = capsys.readouterr().out.splitlines()
     # Two lines of the first block, and a height per variant: 10 ms of fall about the hinge.
     assert len(shown) == 2 + 3

@@ -11,17 +11,19 @@ All numbers are in SI units; messages of the library go to the logger "buckens".
 """
 
 from . import _core
+from .array_mesh import ArrayMesh
 from .curve import Curve
 from .errors import DifferenceError, Error, InputError, IoError, ModelError, NumericalError
 from .model import Model, load
 from .objects import *  # noqa: F403
 from .objects import __all__ as _parts
-from .results import Results, open  # noqa: A004 (the name says what it does)
+from .result_mesh import ResultMesh
+from .results import Results, RunPage, open  # noqa: A004 (the name says what it does)
 from .simulation import Body, Frame, Simulation
 from .verbs import check, compare, convert, mesh_info, modes, static, sweep, view
 from .yaml_text import to_yaml
 
 __version__: str = _core.version
-__all__ = ["Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "Model",
-           "ModelError", "NumericalError", "Results", "Simulation", "check", "compare", "convert",
+__all__ = ["ArrayMesh", "Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "Model",
+           "ModelError", "NumericalError", "ResultMesh", "Results", "RunPage", "Simulation", "check", "compare", "convert",
            "load", "mesh_info", "modes", "open", "static", "sweep", "to_yaml", "view"] + _parts

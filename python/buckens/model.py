@@ -8,6 +8,7 @@ from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Unio
 
 from . import _core
 from .messages import tell_messages
+from .model_files import ModelFiles
 from .yaml_text import _flow, to_yaml
 
 #: f(t, x, v): time [s], position [m] and velocity [m/s] of the marker; returns a force [N].
@@ -36,7 +37,8 @@ class Model:
         Those of a model file: ``bodies``, ``joints``, ``loads``, ``simulation``, ... (a hyphen becomes
         an underscore nowhere: give such keys with :meth:`from_dict`). Values are numbers in SI units,
         texts with units ("10 mm"), expressions, arrays, lists, dictionaries, or objects such as
-        :class:`buckens.Beam`.
+        :class:`buckens.Beam`; the ``file`` of a mesh may be a :class:`buckens.ArrayMesh`, the matrices of
+        a body arrays or sparse matrices of SciPy.
 
     Examples
     --------
@@ -49,16 +51,20 @@ class Model:
     """
 
     def __init__(self, **keys: Any) -> None:
-        self._take(_parse(keys, "."))
+        files = ModelFiles()
+        self._take(_parse(keys, ".", files), files)
 
-    def _take(self, core: _core.Model, forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> None:
+    def _take(self, core: _core.Model, files: ModelFiles,
+              forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> None:
         self._core = core
+        self._files = files
         self._forces = list(forces)
 
     @classmethod
-    def _of(cls, core: _core.Model, forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> Model:
+    def _of(cls, core: _core.Model, files: ModelFiles,
+            forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> Model:
         out = cls.__new__(cls)
-        out._take(core, forces)
+        out._take(core, files, forces)
         return out
 
     @classmethod
@@ -77,13 +83,14 @@ class Model:
         InputError
             Naming the path of the key, the value and a remedy.
         """
-        return cls._of(_parse(tree, directory))
+        files = ModelFiles()
+        return cls._of(_parse(tree, directory, files), files)
 
     @classmethod
     def from_yaml(cls, text: str, directory: PathLike = ".") -> Model:
         """A model from the text of a model file."""
         name = os.path.join(os.fspath(directory), "model.yaml")
-        return cls._of(_core.Model.parse(text, name, [], False))
+        return cls._of(_core.Model.parse(text, name, [], False), ModelFiles())
 
     def with_changes(self, changes: Overrides) -> Model:
         """The same model with other values.
@@ -95,7 +102,7 @@ class Model:
         """
         name = os.path.join(self._core.directory, "model.yaml")
         core = _core.Model.parse(self._core.source, name, overrides_of(changes), False)
-        return Model._of(core, self._forces)
+        return Model._of(core, self._files, self._forces)
 
     def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
         """Decorator: a force on a marker by a function, evaluated within the steps.
@@ -121,13 +128,18 @@ class Model:
         return add
 
     def to_yaml(self) -> str:
-        """The text of a model file with this model. Forces by functions are not part of it."""
+        """The text of a model file with this model. Forces by functions are not part of it.
+
+        Meshes and matrices given as arrays are named in it as files that go with this model;
+        :meth:`save` writes them, too.
+        """
         return self._core.source
 
     def save(self, path: PathLike) -> None:
-        """Writes :meth:`to_yaml` to a file."""
+        """Writes :meth:`to_yaml` to a file, and beside it meshes and matrices that were given as arrays."""
+        text = self._files.write_beside(os.path.dirname(os.fspath(path)) or ".", self.to_yaml())
         with open(path, "w", encoding="utf-8") as file:
-            file.write(self.to_yaml())
+            file.write(text)
 
     @property
     def title(self) -> str:
@@ -167,9 +179,10 @@ class Model:
         return f"<buckens.Model {self.title!r}: {counts}>"
 
 
-def _parse(tree: Mapping[str, Any], directory: PathLike) -> _core.Model:
-    text = to_yaml(tree if "buckens" in tree else {"buckens": 1, **tree})
-    return _core.Model.parse(text, os.path.join(os.fspath(directory), "model.yaml"), [], True)
+def _parse(tree: Mapping[str, Any], directory: PathLike, files: ModelFiles) -> _core.Model:
+    text = to_yaml(tree if "buckens" in tree else {"buckens": 1, **tree}, files)
+    text, place = files.with_places(text, tree, os.fspath(directory))
+    return _core.Model.parse(text, os.path.join(place, "model.yaml"), [], True)
 
 
 def load(path: PathLike, set: Overrides = None) -> Model:  # noqa: A002 (the program's word)
@@ -190,6 +203,6 @@ def load(path: PathLike, set: Overrides = None) -> Model:  # noqa: A002 (the pro
     IoError
         If a file cannot be read.
     """
-    model = Model._of(_core.Model.read(os.fspath(path), overrides_of(set)))
+    model = Model._of(_core.Model.read(os.fspath(path), overrides_of(set)), ModelFiles())
     tell_messages()
     return model

@@ -17,7 +17,18 @@ import numpy as np
 from .curve import Curve
 from .errors import InputError, IoError
 from .model import PathLike
+from .result_mesh import ResultMesh, placed, read_mesh
 from .verbs import view as write_page
+
+
+class RunPage(str):
+    """The place of a page that shows a run. In a notebook it is the page."""
+
+    def _repr_html_(self) -> str:
+        with open_text(pathlib.Path(self)) as file:
+            text = file.read()
+        return (f'<iframe srcdoc="{html.escape(text)}" width="100%" height="640" '
+                'style="border:0"></iframe>')
 
 
 class Results:
@@ -144,6 +155,29 @@ class Results:
             return Curve(data[row], name=quantity, unit=_text(data.attrs.get("unit", "1")),
                          components=[_text(c) for c in data.attrs.get("components", [])])
 
+    def mesh(self, body: str, t: Optional[float] = None) -> ResultMesh:
+        """The mesh of a body.
+
+        Parameters
+        ----------
+        t
+            Deformed and in world axes, at the record nearest to t [s]; None: undeformed, in axes of the frame of
+            the body.
+        """
+        with self._file() as file:
+            if f"geometry/bodies/{body}" not in file:
+                raise InputError(f"there is no body {body!r}; the run has {', '.join(file['geometry/bodies'])}")
+            mesh = read_mesh(file, body)
+            if t is None:
+                return mesh
+            times = file["time"][:]
+            if not len(times):
+                raise InputError(f"{self.directory}: nothing is recorded yet")
+            row = int(np.argmin(np.abs(times - t)))
+            path = f"bodies/{body}/displacement"
+            displacement = file[path][row][:, :3] if path in file else np.zeros_like(mesh.points)
+            return placed(mesh, file[f"bodies/{body}/pose"][row], displacement)
+
     # ---- to other packages
     def to_pandas(self, *names: str) -> Any:
         """A pandas.DataFrame of sensors (all without names) over time."""
@@ -190,19 +224,19 @@ class Results:
         axes.set_title(self.title)
         return axes
 
-    def view(self) -> str:
-        """Writes the page that shows the run and returns its place."""
-        return str(write_page(self.directory)["page"])
+    def view(self) -> RunPage:
+        """Writes the page that shows the run, so far if it goes on, and returns its place.
+
+        In a notebook the page shows itself below the cell.
+        """
+        return RunPage(write_page(self.directory)["page"])
 
     def _repr_html_(self) -> str:
         """The page inside a notebook."""
         with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
             page = os.path.join(folder, "view.html")
             write_page(self.directory, page)
-            with open_text(pathlib.Path(page)) as file:
-                text = file.read()
-        return (f'<iframe srcdoc="{html.escape(text)}" width="100%" height="640" '
-                'style="border:0"></iframe>')
+            return RunPage(page)._repr_html_()
 
     def __repr__(self) -> str:
         return f"<buckens.Results {str(self.directory)!r}: {self.title!r}, {self.status}>"

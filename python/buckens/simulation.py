@@ -178,6 +178,8 @@ class Simulation:
             self._is_preparing = False
         for callback in self._callbacks:
             self._core_now.on_step(callback)
+        if out and self._model._files:
+            _keep_files(self._model, out)
         tell_messages()
 
     @property
@@ -385,6 +387,15 @@ class Simulation:
     def __repr__(self) -> str:
         return (f"<buckens.Simulation {self._model.title!r}: t = {self.time:.6g} of "
                 f"{self.end_time:.6g} s, {self.num_steps} steps>")
+
+
+def _keep_files(model: Model, out: str) -> None:
+    """Meshes and matrices given as arrays go into the run directory, whose model.yaml names them."""
+    path = os.path.join(out, "model.yaml")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(model._files.write_beside(out, text, is_absolute=True))
 
 
 def _number(what: str, value: float) -> float:

@@ -11,13 +11,14 @@ from typing import Any, List, Mapping, Optional
 import numpy as np
 
 from .errors import InputError
+from .model_files import ModelFiles
 
 # Written without quotation marks: names, and quantities such as `10 mm` or `7850 kg/m^3`.
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_./-]*|[0-9.]+(e-?[0-9]+)? [A-Za-z][A-Za-z0-9/^ ]*")
 _WORDS = {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}
 
 
-def to_yaml(tree: Mapping[str, Any]) -> str:
+def to_yaml(tree: Mapping[str, Any], files: Optional[ModelFiles] = None) -> str:
     """The text of a model file with the contents of a dictionary.
 
     Parameters
@@ -25,6 +26,8 @@ def to_yaml(tree: Mapping[str, Any]) -> str:
     tree
         Keys as in a model file. Values: numbers (SI), texts with units, arrays, lists, dictionaries,
         and paths of files. Entries that are None are left out.
+    files
+        Takes what has to be a file, such as a :class:`buckens.ArrayMesh`; its name stands in the text.
 
     Raises
     ------
@@ -32,29 +35,34 @@ def to_yaml(tree: Mapping[str, Any]) -> str:
         For values of other types, naming the path of the key.
     """
     lines: List[str] = []
-    _write_map(tree, "", "", lines)
+    _write_map(tree, "", "", lines, files)
     return "".join(line + "\n" for line in lines)
 
 
-def _write_map(tree: Mapping[str, Any], indent: str, path: str, lines: List[str]) -> None:
+def _write_map(tree: Mapping[str, Any], indent: str, path: str, lines: List[str],
+               files: Optional[ModelFiles]) -> None:
     for key, value in tree.items():
         place = f"{path}.{key}" if path else str(key)
         if not isinstance(key, str):
             raise InputError(f"{place}: expected a text as key, found {key!r}")
         if value is None:
             continue
-        value = _plain(value, place)
+        value = _plain(value, place, files)
         name = _scalar_text(key)
-        flow = _flow(value, place)
+        flow = _flow(value, place, files)
         if not isinstance(value, Mapping) or not value or len(indent + name + flow) < 96 and indent:
             lines.append(f"{indent}{name}: {flow}")
         else:
             lines.append(f"{indent}{name}:")
-            _write_map(value, indent + "  ", place, lines)
+            _write_map(value, indent + "  ", place, lines, files)
 
 
-def _plain(value: Any, place: str) -> Any:
+def _plain(value: Any, place: str, files: Optional[ModelFiles]) -> Any:
     """A value as text, number, list or dictionary."""
+    if files is not None:
+        name = files.name_of(value, place)
+        if name is not None:
+            return name
     as_tree = getattr(value, "to_tree", None)
     if as_tree is not None:
         return as_tree()
@@ -71,19 +79,19 @@ def _plain(value: Any, place: str) -> Any:
     return value
 
 
-def _flow(value: Any, place: str) -> str:
+def _flow(value: Any, place: str, files: Optional[ModelFiles] = None) -> str:
     """A value in one line."""
-    value = _plain(value, place)
+    value = _plain(value, place, files)
     if isinstance(value, Mapping):
         parts = []
         for key, part in value.items():
             if not isinstance(key, str):
                 raise InputError(f"{place}.{key}: expected a text as key, found {key!r}")
             if part is not None:
-                parts.append(f"{_scalar_text(key)}: {_flow(part, f'{place}.{key}')}")
+                parts.append(f"{_scalar_text(key)}: {_flow(part, f'{place}.{key}', files)}")
         return "{" + ", ".join(parts) + "}"
     if isinstance(value, list):
-        return "[" + ", ".join(_flow(part, f"{place}.{i}") for i, part in enumerate(value)) + "]"
+        return "[" + ", ".join(_flow(part, f"{place}.{i}", files) for i, part in enumerate(value)) + "]"
     text = _number_text(value)
     if text is not None:
         return text
