@@ -1,3 +1,4 @@
+import { canRecord } from './capture';
 import { el } from './dom';
 
 export interface CameraActions {
@@ -5,6 +6,10 @@ export interface CameraActions {
   lookAlong(axis: number): void;
   fit(): void;
   project(): void;
+  /** Saves what is seen as a picture. */
+  picture(): void;
+  /** Begins or ends the recording of a video. */
+  video(): void;
   theme(): void;
   help(): void;
 }
@@ -13,12 +18,16 @@ export interface CameraActions {
 export class CameraBar {
   readonly root: HTMLElement;
   private readonly projection: HTMLButtonElement;
+  private readonly video: HTMLButtonElement;
   private readonly theme: HTMLButtonElement;
 
   constructor(actions: CameraActions) {
     const button = (text: string, title: string, click: () => void, extra = {}) =>
       el('button', { type: 'button', title, click, ...extra }, text);
     this.projection = button('', 'Change the projection (o)', () => actions.project());
+    const video = { 'data-video': '', 'aria-pressed': 'false' };
+    this.video = button('WebM', '', () => actions.video(), video);
+    this.video.hidden = !canRecord();
     this.theme = button('', '', () => actions.theme(), { 'data-theme-choice': '' });
     this.root = el(
       'div',
@@ -29,6 +38,8 @@ export class CameraBar {
       button('3D', 'Seen from the corner (0)', () => actions.lookAlong(-1)),
       button('Fit', 'The whole run in view (f)', () => actions.fit(), { 'data-fit': '' }),
       this.projection,
+      button('PNG', 'Save the picture (p)', () => actions.picture(), { 'data-picture': '' }),
+      this.video,
       this.theme,
       button('?', 'Keys and mouse (?)', () => actions.help(), {
         'aria-label': 'Keys and mouse',
@@ -37,7 +48,11 @@ export class CameraBar {
     );
   }
 
-  update(orthographic: boolean, theme: string): void {
+  update(orthographic: boolean, theme: string, recording: boolean): void {
+    this.video.setAttribute('aria-pressed', String(recording));
+    this.video.title = recording
+      ? 'End the video and save it (m)'
+      : 'Record the run once as a video, at the speed set (m)';
     this.projection.textContent = orthographic ? 'Parallel' : 'Perspective';
     this.theme.textContent = { auto: '◐', light: '☀', dark: '☾' }[theme] ?? '';
     const text = { auto: 'as the system', light: 'light', dark: 'dark' }[theme] ?? '';

@@ -85,13 +85,18 @@ export class Chart {
   private readonly values: HTMLElement[];
   private readonly host = el('div', { class: 'plot' });
   private readonly prefix: Prefix;
+  private readonly reading = el('span', { class: 'reading' });
   private plot: uPlot | null = null;
+  private time = 0;
+  /** Time under the pointer; null without one. */
+  private hovered: number | null = null;
 
   /** @param least values below it are drawn and written as zero */
   constructor(
     readonly content: ChartContent,
     private readonly seek: (t: number) => void,
     private readonly least = 0,
+    private readonly zoom: (factor: number, at: number) => void = () => undefined,
   ) {
     const { name, curves } = content;
     this.prefix = prefixFor(orZero(largest(curves), least), content.unit);
@@ -102,7 +107,7 @@ export class Chart {
       const swatch = el('i', { class: dashed ? 'swatch dashed' : 'swatch', 'data-curve': c });
       legend.append(el('span', {}, swatch, label, ' ', this.values[c]!));
     });
-    const head = el('div', { class: 'chart-head' }, el('h3', {}, name), unit, legend);
+    const head = el('div', { class: 'chart-head' }, el('h3', {}, name), unit, this.reading, legend);
     this.host.setAttribute('role', 'img');
     this.host.setAttribute('aria-label', `Curves of ${name} over time`);
     this.root = el('section', { class: 'chart', 'data-name': name }, head, this.host);
@@ -112,8 +117,16 @@ export class Chart {
     return (this.root.firstElementChild as HTMLElement).offsetHeight;
   }
 
-  draw(theme: Theme, width: number, height: number, format: TimeFormat): void {
+  /** @param window times shown; null: all */
+  draw(
+    theme: Theme,
+    width: number,
+    height: number,
+    format: TimeFormat,
+    window: [number, number] | null = null,
+  ): void {
     this.plot?.destroy();
+    this.hovered = null;
     const { curves } = this.content;
     const times = allTimes(curves);
     const columns = curves.map((curve) => aligned(curve, times, this.prefix.factor, this.least));
@@ -139,7 +152,7 @@ export class Chart {
         sync: { key: 'time' },
       },
       scales: {
-        x: { time: false, range: timeRange(times) },
+        x: { time: false, range: () => window ?? timeRange(times) },
         y: { range: (_u, low, high) => airy(low, high) },
       },
       axes: [
@@ -151,6 +164,10 @@ export class Chart {
         },
         { ...axis, size: 54, gap: 4, space: 20, values: (_u, ticks) => tickTexts(ticks) },
       ],
+      hooks: {
+        ready: [() => this.setTime(this.time)], // only now are there scales
+        setCursor: [(u) => this.hover(u, format)],
+      },
       series: [
         {},
         ...curves.map(({ dashed, times: own }, c) => ({
@@ -178,6 +195,26 @@ export class Chart {
     plot.over.addEventListener('pointermove', (event) => {
       if (plot.over.hasPointerCapture(event.pointerId)) this.seek(time(event));
     });
+    plot.over.addEventListener('wheel', (event) => {
+      // Without a key the wheel moves the column.
+      if (!event.ctrlKey && !event.shiftKey) return;
+      event.preventDefault();
+      const way = event.deltaY || event.deltaX;
+      const left = event.clientX - plot.over.getBoundingClientRect().left;
+      this.zoom(2 ** (way / 300), plot.posToVal(left, 'x'));
+    });
+    plot.over.addEventListener('dblclick', () => this.zoom(Infinity, 0));
+  }
+
+  /** The legend tells the values under the pointer instead of the present ones. */
+  private hover(plot: uPlot, format: TimeFormat): void {
+    const { left } = plot.cursor;
+    const t = left !== undefined && left >= 0 ? plot.posToVal(left, 'x') : null;
+    if (t === this.hovered) return;
+    this.hovered = t;
+    this.root.classList.toggle('hovered', t !== null);
+    this.reading.textContent = t === null ? '' : `at ${format.number(t)} ${format.unit}`;
+    this.tell();
   }
 
   setSize(width: number, height: number): void {
@@ -185,9 +222,16 @@ export class Chart {
   }
 
   setTime(t: number): void {
+    this.time = t;
     if (!this.plot) return;
     const x = this.plot.valToPos(t, 'x');
     if (Number.isFinite(x)) this.cursor.style.transform = `translateX(${x.toFixed(2)}px)`;
+    this.cursor.hidden = x < -1 || x > this.plot.over.clientWidth + 1;
+    this.tell();
+  }
+
+  private tell(): void {
+    const t = this.hovered ?? this.time;
     this.content.curves.forEach((curve, c) => {
       this.values[c]!.textContent = figure(orZero(valueAt(curve, t), this.least) / this.prefix.factor);
     });

@@ -1,4 +1,4 @@
-import { Chart, type ChartContent, type Curve } from './chart';
+import { Chart, valueAt, type ChartContent, type Curve } from './chart';
 import { el } from './dom';
 import { TimeFormat } from './quantity';
 import type { Run, Series } from './run';
@@ -48,19 +48,47 @@ export function chartContents(runs: Run[]): ChartContent[] {
   return [...panels.values()];
 }
 
+/**
+ * The curve of the second run minus that of the first, at the first one's times that both have; null
+ * where they have none in common.
+ */
+function difference(one: Curve, other: Curve, label: string): Curve | null {
+  const [from, to] = [other.times[0]!, other.times.at(-1)!];
+  const times = one.times.filter((t) => t >= from && t <= to);
+  if (times.length === 0) return null;
+  const values = Float32Array.from(times, (t) => valueAt(other, t) - valueAt(one, t));
+  return { ...one, label, times, values, stride: 1, offset: 0 };
+}
+
+/** The panels of two runs with what the second has more than the first. */
+export function differenceContents(runs: Run[]): ChartContent[] {
+  return chartContents(runs).map(({ name, unit, curves }) => {
+    const [ones, others] = [curves.filter((c) => !c.dashed), curves.filter((c) => c.dashed)];
+    const found = ones.map((one) => {
+      const component = one.label.slice(0, -kRunNames[0].length);
+      const other = others.find((c) => c.label === `${component}${kRunNames[1]}`);
+      return other ? difference(one, other, `${component}B − A`) : null;
+    });
+    return { name, unit, curves: found.filter((curve) => curve !== null) };
+  });
+}
+
 /** The column of curves beside the view. */
 export class Charts {
   readonly root = el('div', { class: 'charts' });
-  private readonly charts: Chart[];
+  private charts: Chart[];
   private readonly shown = new Set<number>();
   private readonly format: TimeFormat;
   /** The curves at picked nodes; comes first. */
   private extra: Chart | null = null;
   private time = 0;
+  /** Times shown; null: all. */
+  private window: [number, number] | null = null;
+  private readonly whole: [number, number];
 
   /** @param least threshold below which values of a unit are shown as zero */
   constructor(
-    runs: Run[],
+    private readonly runs: Run[],
     times: Float64Array,
     private theme: Theme,
     private readonly seek: (t: number) => void,
@@ -68,13 +96,44 @@ export class Charts {
   ) {
     const duration = (times.at(-1) ?? 0) - (times[0] ?? 0);
     this.format = new TimeFormat(duration, runs[0]?.clock ?? 's');
-    this.charts = chartContents(runs).map((content) => new Chart(content, seek, least(content.unit)));
+    this.whole = [times[0] ?? 0, times.at(-1) ?? 0];
+    this.charts = chartContents(runs).map((content) => this.chart(content));
     // Sensors come first and energies last: show the first three of the former and the latter.
     const isEnergy = (chart: Chart) => chart.content.name.startsWith('Energies');
     let sensors = 0;
     this.charts.forEach((chart, i) => {
       if (isEnergy(chart) || sensors++ < 3) this.shown.add(i);
     });
+  }
+
+  private chart(content: ChartContent): Chart {
+    const zoom = (factor: number, at: number) => this.zoom(factor, at);
+    return new Chart(content, this.seek, this.least(content.unit), zoom);
+  }
+
+  /** Whether there are two runs to compare. */
+  get canDiffer(): boolean {
+    return this.runs.length === 2;
+  }
+
+  /** Shows the second run minus the first instead of both. */
+  setDifference(on: boolean): void {
+    for (const chart of this.charts) chart.destroy();
+    const contents = on ? differenceContents(this.runs) : chartContents(this.runs);
+    this.charts = contents.map((content) => this.chart(content));
+    this.layOut();
+  }
+
+  /** Shows `factor` times as much of the time axes, `at` staying in place; infinity: all of it. */
+  zoom(factor: number, at: number): void {
+    const [first, last] = this.whole;
+    const [from, to] = this.window ?? this.whole;
+    const low = Math.max(first, at - factor * (at - from));
+    const high = Math.min(last, at + factor * (to - at));
+    // Single precision of the values does not tell more apart.
+    if (high - low < 1e-6 * (last - first)) return;
+    this.window = Number.isFinite(factor) && high - low < last - first ? [low, high] : null;
+    this.layOut();
   }
 
   get names(): string[] {
@@ -98,7 +157,7 @@ export class Charts {
   /** Puts curves of its own before the panels of the run; null takes them away. */
   setExtra(content: ChartContent | null): void {
     this.extra?.destroy();
-    this.extra = content ? new Chart(content, this.seek, this.least(content.unit)) : null;
+    this.extra = content ? this.chart(content) : null;
     this.layOut();
   }
 
@@ -108,7 +167,7 @@ export class Charts {
   }
 
   private get chosen(): Chart[] {
-    const own = this.charts.filter((_, i) => this.shown.has(i));
+    const own = this.charts.filter((chart, i) => this.shown.has(i) && chart.content.curves.length > 0);
     return this.extra ? [this.extra, ...own] : own;
   }
 
@@ -123,7 +182,7 @@ export class Charts {
       this.root.append(el('p', { class: 'nothing' }, none));
     }
     for (const chart of chosen) {
-      chart.draw(this.theme, this.width, this.height, this.format);
+      chart.draw(this.theme, this.width, this.height, this.format, this.window);
     }
     this.setTime(this.time);
   }

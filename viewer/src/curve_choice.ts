@@ -22,6 +22,15 @@ export function curveChoice(charts: Charts): HTMLElement {
   document.addEventListener('pointerdown', (event) => {
     if (!list.contains(event.target as Node)) list.open = false;
   });
+  if (charts.canDiffer) {
+    const box = el('input', {
+      type: 'checkbox',
+      'data-difference': '',
+      change: () => charts.setDifference(box.checked),
+    });
+    const title = 'What the second run has more than the first';
+    head.append(el('label', { class: 'differ', title }, box, 'B − A'));
+  }
   head.append(el('span', { class: 'unit' }, `${charts.timeUnit === 'steps' ? 'path' : 'time'} in ${charts.timeUnit}`), list);
   return head;
 }

@@ -19,9 +19,10 @@ const kKeys: [string, string][] = [
   ['j a r b l u s', 'joints, loads, joint forces, frames, names, undeformed shape, colours'],
   ['e · x', 'edges of elements · section'],
   ['t', 'light, dark, as the system has it'],
+  ['p · m', 'save the picture · record a video, or end it'],
   ['click on a body', 'follow the nearest node, or no longer'],
   ['drag', 'turn; right button or ctrl: move; wheel: zoom'],
-  ['click or drag in a curve', 'go to that time'],
+  ['click or drag in a curve', 'go to that time; wheel with shift or ctrl: zoom, double click: all'],
   ['?', 'this list'],
 ];
 

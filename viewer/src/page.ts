@@ -1,4 +1,5 @@
 import { CameraBar } from './camera_bar';
+import { Capture } from './capture';
 import { Captions, notice } from './captions';
 import { allTimes, valueAt } from './chart';
 import { Charts } from './charts';
@@ -19,7 +20,8 @@ import { pageState } from './page_state';
 import { PickPanel } from './pick_panel';
 import { historyAt } from './picks';
 import { Playback } from './playback';
-import { namesOfRuns } from './run_names';
+import { TimeFormat } from './quantity';
+import { namesOfRuns, titleOf } from './run_names';
 import { Section } from './section';
 import { startOptions } from './start_options';
 import { currentTheme, nextTheme, onThemeChange, themeChoice, type Theme } from './theme';
@@ -57,6 +59,7 @@ export class Page {
   private last = 0;
   private drawn = 0;
   private itemShown = '';
+  private readonly capture: Capture;
 
   /** @param shapes one per run on pages with vibrations */
   constructor(
@@ -81,6 +84,8 @@ export class Page {
       lookAlong: (axis) => this.views.lookAlong(axis),
       fit: () => this.leader?.fit(),
       project: () => this.views.project(),
+      picture: () => this.capture.picture(),
+      video: () => this.flipVideo(),
       theme: nextTheme,
       help: () => this.keyboard.help.showModal(),
     });
@@ -113,6 +118,14 @@ export class Page {
         this.changed();
       },
     );
+    const format = new TimeFormat(this.playback.duration, runs[0]!.clock);
+    this.capture = new Capture(this.views, {
+      title: titleOf(runs),
+      time: () => (shapes.length ? '' : `${format.number(this.playback.time)} ${format.unit}`),
+      background: () => this.theme.background,
+      ink: () => (this.theme.dark ? '#e5eaf1' : '#1b2430'),
+      redraw: () => this.draw(),
+    });
     // The amplitude of a mode replaces the deformation scale.
     const bodies = runs.flatMap((run) => run.bodies);
     const deformable = !shapes.length && bodies.some((body) => body.displacement);
@@ -188,9 +201,23 @@ export class Page {
     if (key === 'e') this.display.nextEdges();
     else if (key === 'x') this.display.nextAxis();
     else if (key === 't') nextTheme();
+    else if (key === 'p') this.capture.picture();
+    else if (key === 'm') this.flipVideo();
     else if (key === 'Escape') return this.display.close();
     else return this.toolbar.key(key);
     return true;
+  }
+
+  /** Records the run once from its begin, unless a recording is to end. */
+  private flipVideo(): void {
+    if (this.capture.isRecording) {
+      this.capture.end();
+    } else {
+      this.playback.setTime(this.playback.start);
+      this.playback.playing = this.playback.canPlay;
+      this.capture.begin();
+    }
+    this.changed();
   }
 
   private watch(): void {
@@ -236,7 +263,15 @@ export class Page {
 
   private tick(now: number): void {
     // A suspended tab must not jump: at most a tenth of a second passes between two pictures.
+    const before = this.playback.time;
     this.playback.advance(Math.min(0.1, Math.max(0, (now - this.last) / 1000)));
+    if (this.capture.isRecording && this.playback.time < before) {
+      // Once through: the end is its last picture.
+      this.playback.playing = false;
+      this.playback.setTime(this.playback.end);
+      this.capture.endSoon();
+      this.changed();
+    }
     this.last = now;
     if (this.dirty || this.playback.playing) this.draw();
     requestAnimationFrame((next) => this.tick(next));
@@ -252,7 +287,7 @@ export class Page {
     this.display.update();
     this.charts.setTime(playback.time);
     if (!leader) return;
-    this.camera.update(leader.rig.orthographic, themeChoice());
+    this.camera.update(leader.rig.orthographic, themeChoice(), this.capture.isRecording);
     for (const { stage } of this.views.panes) stage?.update(playback.time, options);
     const hidden = this.field.root.hidden;
     this.field.update(this.views.present());
@@ -268,6 +303,7 @@ export class Page {
     this.picks.update((curve) => valueAt(curve, playback.time), this.theme.curves, size);
     const shown = options.colors ? this.field.itemShown?.label : '';
     this.captions.update(this.views.panes, options, playback, shown ?? '');
+    this.capture.take();
   }
 
   /** Another field is shown: the curves at nodes change to its quantity. */

@@ -4,6 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { launch } from '../scripts/chromium.mjs';
+import { captureSpecs } from './capture_specs.mjs';
 import { fieldSpecs } from './field_specs.mjs';
 import { kVariants, pageWith } from './fixture.mjs';
 import { pageSpecs } from './page_specs.mjs';
@@ -43,6 +44,7 @@ const queue = kGiven
   ? [(tools) => pageSpecs({ ...tools, page: kGiven, synthetic: false })]
   : [
       fieldSpecs,
+      captureSpecs,
       (tools) => pageSpecs({ ...tools, page: variant('slider-crank'), synthetic: true }),
       pickSpecs,
       variantSpecs,
