@@ -108,6 +108,34 @@ def test_walls_without_thickness_are_told(buckens, bad):
     assert told["volume"] == pytest.approx(BOX, rel=1e-9)
 
 
+def test_edges_of_more_than_two_faces(buckens, bad):
+    """Towers that touch along an edge are one solid where a plate joins them; three sheets enclose nothing."""
+    told = info(buckens, bad["pinched"])
+    assert told["pieces"] == 1 and told["inverted"] == [] and told["notes"] == []
+    assert told["volume"] == pytest.approx((2 * 40 * 40 * 30 + 80 * 80 * 10) * 1e-9, rel=1e-9)
+    buckens("mesh-info", bad["three_sheets"]).must(2, "three_sheets.step", "only 3 faces", "edges belong to one face only")
+
+
+def test_files_that_were_cut_off_are_refused(buckens, tmp_path, bad):
+    """By what is missing at their end; where an end was put back, by what they no longer hold."""
+    text = bad["pinched"].read_text()
+    for share in (0.001, 0.1, 0.5, 0.9, 0.9999):
+        rest = text[:int(share * len(text))]
+        (tmp_path / "part.step").write_text(rest)
+        lines = rest.count("\n") + 1
+        buckens("mesh-info", "part.step").must(2, f"part.step:{lines}:1: the STEP file is truncated", "END-ISO-10303-21")
+    for share in (0.1, 0.5, 0.9):
+        (tmp_path / "part.step").write_text(text[:int(share * len(text))] + "\nENDSEC;\nEND-ISO-10303-21;\n")
+        buckens("mesh-info", "part.step").must(2, "part.step: cannot be meshed")
+
+
+def test_a_foil_is_told_by_its_elements(buckens, bad):
+    """A tenth of a micrometre thick: far thinner than any size at which it could be meshed."""
+    told = buckens("mesh-info", bad["foil"]).must(0)
+    assert "is a sliver" in told.out + told.err
+    assert info(buckens, bad["foil"])["volume"] == pytest.approx(0.1 * 0.06 * 1e-7, rel=1e-6)
+
+
 def test_doubtful_sizes_are_told(buckens, tmp_path, bad):
     (tmp_path / "part.yaml").write_text(MODEL.format(bad["in_metres"], ""))
     assert "a body of 140 m, more than 100 m" in buckens("check", "part.yaml").must(0).out

@@ -40,6 +40,16 @@ class Kernel:
         loop = self.call("gmshModelOccAddCurveLoop", array(*lines), ctypes.c_size_t(len(lines)), -1)
         return self.call("gmshModelOccAddPlaneSurface", (ctypes.c_int * 1)(loop), ctypes.c_size_t(1), -1)
 
+    def join(self, operation, objects, tools):
+        """A Boolean operation between lists of dimensions and tags."""
+        size = ctypes.c_size_t
+        out, table = ctypes.POINTER(ctypes.c_int)(), ctypes.POINTER(ctypes.POINTER(ctypes.c_int))()
+        lengths, counts = ctypes.POINTER(size)(), [size(0), size(0)]
+        first, second = ((ctypes.c_int * len(tags))(*tags) for tags in (objects, tools))
+        self.call(operation, first, size(len(objects)), second, size(len(tools)), ctypes.byref(out),
+                  ctypes.byref(counts[0]), ctypes.byref(table), ctypes.byref(lengths), ctypes.byref(counts[1]),
+                  -1, 1, 1)
+
     def part(self, path, build):
         self.call("gmshModelAdd", path.stem.encode())
         build(self)
@@ -71,18 +81,41 @@ def solid_with_fin(kernel):
     kernel.face([(20, 30, 40), (80, 30, 40), (80, 30, 70), (20, 30, 70)])
 
 
+def three_sheets(kernel):
+    """Three faces leave one edge: they enclose nothing."""
+    for far in ((100, 0, 0), (-100, 0, 0), (0, 0, 100)):
+        x, y, z = far
+        kernel.face([(0, 0, 0), (x, y, z), (x, y + 60, z), (0, 60, 0)])
+
+
+def two_chambers(kernel):
+    """Eleven separate faces: a box of twice BOX with a wall of no thickness in its middle."""
+    x, y, z = BOX
+    for begin in (0, x):
+        low = [(begin, 0, 0), (begin + x, 0, 0), (begin + x, y, 0), (begin, y, 0)]
+        high = [(a, b, z) for a, b, _ in low]
+        kernel.face(low)
+        kernel.face(high)
+        for k in range(4):
+            n = (k + 1) % 4
+            if begin == 0 or k != 3:
+                kernel.face([low[k], low[n], high[n], high[k]])
+
+
+def pinched(kernel):
+    """One solid whose two towers touch along an edge, where four faces meet; a plate joins them below."""
+    boxes = [kernel.box(corner, size) for corner, size in (
+        ((0, 0, 0), (40, 40, 30)), ((40, 40, 0), (40, 40, 30)), ((0, 0, -10), (80, 80, 10)))]
+    kernel.join("gmshModelOccFuse", [3, boxes[0]], [3, boxes[1], 3, boxes[2]])
+
+
 def tube(wall):
     """A wall around a bore of 20: elements that are larger than the wall reach through it."""
     def build(kernel):
         outer, bore = (kernel.call("gmshModelOccAddCylinder",
                                    *map(ctypes.c_double, (0, 0, 0, 0, 0, 60, radius)), -1,
                                    ctypes.c_double(2 * math.pi)) for radius in (10 + wall, 10))
-        pair, size = ctypes.c_int * 2, ctypes.c_size_t
-        out, table = ctypes.POINTER(ctypes.c_int)(), ctypes.POINTER(ctypes.POINTER(ctypes.c_int))()
-        lengths, counts = ctypes.POINTER(size)(), [size(0), size(0)]
-        kernel.call("gmshModelOccCut", pair(3, outer), size(2), pair(3, bore), size(2),
-                    ctypes.byref(out), ctypes.byref(counts[0]), ctypes.byref(table), ctypes.byref(lengths),
-                    ctypes.byref(counts[1]), -1, 1, 1)
+        kernel.join("gmshModelOccCut", [3, outer], [3, bore])
     return build
 
 
@@ -116,6 +149,10 @@ PARTS = {
     "along_an_edge": boxes(((0, 0, 0), BOX), ((100, 60, 0), BOX)),
     "in_metres": boxes(((0, 0, 0), (140e3, 60e3, 40e3))),
     "fin": solid_with_fin,
+    "foil": boxes(((0, 0, 0), (100, 60, 1e-4))),
+    "three_sheets": three_sheets,
+    "two_chambers": two_chambers,
+    "pinched": pinched,
 }
 
 
