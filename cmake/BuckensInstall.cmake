@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/buckens")
 
-install(TARGETS buckens EXPORT buckensTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS buckens EXPORT buckensTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+        COMPONENT development)
 
 # Public headers: include/buckens/buckens.h, and all that it includes, directly or through others.
 set(pending buckens/buckens.h)
@@ -18,7 +19,8 @@ while(pending)
       continue()
     endif()
     cmake_path(GET header PARENT_PATH folder)
-    install(FILES "${root}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
+    install(FILES "${root}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}"
+            COMPONENT development)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${root}/${header}")
     file(STRINGS "${root}/${header}" includes REGEX "^#include \"buckens/")
     foreach(line IN LISTS includes)
@@ -29,7 +31,8 @@ while(pending)
     endforeach()
   endforeach()
 endwhile()
-install(EXPORT buckensTargets NAMESPACE buckens:: DESTINATION "${package_dir}")
+install(EXPORT buckensTargets NAMESPACE buckens:: DESTINATION "${package_dir}"
+        COMPONENT development)
 configure_package_config_file(cmake/buckensConfig.cmake.in
                               "${PROJECT_BINARY_DIR}/buckensConfig.cmake"
                               INSTALL_DESTINATION "${package_dir}")
@@ -39,20 +42,21 @@ install(
   FILES "${PROJECT_BINARY_DIR}/buckensConfig.cmake" "${PROJECT_BINARY_DIR}/buckensConfigVersion.cmake"
         cmake/FindSuiteSparse.cmake cmake/FindOpenBLAS.cmake cmake/FindMETIS.cmake
         cmake/FindHDF5Serial.cmake cmake/FindGmsh.cmake
-  DESTINATION "${package_dir}")
-install(FILES LICENSE NOTICE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+  DESTINATION "${package_dir}" COMPONENT development)
+install(FILES LICENSE NOTICE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+install(FILES docs/man/buckens.1 DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
 
 if(TARGET buckens_program)
-  install(TARGETS buckens_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(TARGETS buckens_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 endif()
 if(TARGET buckens_viewer)
-  install(FILES "${BUCKENS_VIEWER_PAGE}" DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens")
+  install(FILES "${BUCKENS_VIEWER_PAGE}" DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens" COMPONENT program)
 endif()
 if(EXISTS "${PROJECT_SOURCE_DIR}/schema")
-  install(DIRECTORY schema DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens")
+  install(DIRECTORY schema DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens" COMPONENT program)
 endif()
 if(EXISTS "${PROJECT_SOURCE_DIR}/examples")
-  install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens")
+  install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DATADIR}/buckens" COMPONENT program)
 endif()
 
 if(BUCKENS_TESTS)
