@@ -113,7 +113,16 @@ def test_edges_of_more_than_two_faces(buckens, bad):
     told = info(buckens, bad["pinched"])
     assert told["pieces"] == 1 and told["inverted"] == [] and told["notes"] == []
     assert told["volume"] == pytest.approx((2 * 40 * 40 * 30 + 80 * 80 * 10) * 1e-9, rel=1e-9)
-    buckens("mesh-info", bad["three_sheets"]).must(2, "three_sheets.step", "only 3 faces", "edges belong to one face only")
+    buckens("mesh-info", bad["three_sheets"]).must(2, "three_sheets.step", "only 3 faces", "9 edges belong to one face only",
+                                                   "1 edges belong to three faces or more, the first near (0, 0.03, 0) m")
+
+
+def test_walls_without_thickness_inside_a_part_are_left_out(buckens, bad):
+    """Two rooms side by side, as separate faces: the wall between them has neither mass nor stiffness."""
+    told = info(buckens, bad["two_chambers"])
+    assert "11 faces became 10" in notes(told) and told["pieces"] == 1
+    assert "were left out (1 faces, the first near (0.1, 0.03, 0.02) m)" in notes(told)
+    assert told["volume"] == pytest.approx(2 * BOX, rel=1e-9)
 
 
 def test_files_that_were_cut_off_are_refused(buckens, tmp_path, bad):
@@ -126,14 +135,26 @@ def test_files_that_were_cut_off_are_refused(buckens, tmp_path, bad):
         buckens("mesh-info", "part.step").must(2, f"part.step:{lines}:1: the STEP file is truncated", "END-ISO-10303-21")
     for share in (0.1, 0.5, 0.9):
         (tmp_path / "part.step").write_text(text[:int(share * len(text))] + "\nENDSEC;\nEND-ISO-10303-21;\n")
-        buckens("mesh-info", "part.step").must(2, "part.step: cannot be meshed")
+        buckens("mesh-info", "part.step").must(2, "part.step: cannot be meshed", "entities are missing in the file",
+                                               "in line 22", "export it again")
+
+
+def test_entities_that_nothing_defines_are_told(buckens, tmp_path, bad):
+    """A part may well be whole without them: a note, with what stands in strings and comments left out."""
+    text = bad["touching"].read_text()
+    (tmp_path / "part.step").write_text(text.replace("DATA;", "DATA;\n/* #98 */ #9001=COLOUR('#97',#9002);", 1))
+    told = info(buckens, "part.step")
+    line = text[:text.index("DATA;")].count("\n") + 2
+    assert f"(1 references to such, the first to #9002 in line {line})" in notes(told)
+    assert told["volume"] == pytest.approx(2 * BOX, rel=1e-9)
 
 
 def test_a_foil_is_told_by_its_elements(buckens, bad):
     """A tenth of a micrometre thick: far thinner than any size at which it could be meshed."""
-    told = buckens("mesh-info", bad["foil"]).must(0)
-    assert "is a sliver" in told.out + told.err
-    assert info(buckens, bad["foil"])["volume"] == pytest.approx(0.1 * 0.06 * 1e-7, rel=1e-6)
+    told = info(buckens, bad["foil"])
+    assert "walls are about 0.0001 mm thick" in notes(told) and "mesh the part with shells" in notes(told)
+    assert told["volume"] == pytest.approx(0.1 * 0.06 * 1e-7, rel=1e-6)
+    assert "walls are about" not in notes(info(buckens, bad["pinched"]))
 
 
 def test_doubtful_sizes_are_told(buckens, tmp_path, bad):

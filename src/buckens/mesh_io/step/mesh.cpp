@@ -136,8 +136,9 @@ class Told {
 /// The trials of one part.
 class Trials {
  public:
-  Trials(const StepTask& task, std::string file, MeshingProgress& progress)
-      : task_(task), file_(std::move(file)), progress_(progress) {}
+  /// @param doubt on the file itself, for messages
+  Trials(const StepTask& task, std::string file, std::string doubt, MeshingProgress& progress)
+      : task_(task), file_(std::move(file)), doubt_(std::move(doubt)), progress_(progress) {}
 
   /// Seconds of the trials that came to no mesh.
   double in_vain() const { return in_vain_; }
@@ -174,6 +175,7 @@ class Trials {
     if (at != std::string::npos) {
       reason.replace(at, task_.step.size(), fs::path(file_).filename().string());
     }
+    if (!doubt_.empty()) reason += ". Also, " + doubt_;
     throw InputError({file_, 0, 0}, "cannot be meshed: " + reason);
   }
 
@@ -212,7 +214,7 @@ class Trials {
   }
 
   const StepTask& task_;
-  std::string file_, output_, first_;
+  std::string file_, doubt_, output_, first_;
   MeshingProgress& progress_;
   int count_ = 0, timeouts_ = 0;
   double in_vain_ = 0;  // seconds
@@ -277,7 +279,8 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequ
     write_quick_settings(directory.path());
     task.settings = directory.path().string();
   }
-  Trials trials(task, file, progress);
+  const std::string doubt = missing_entities(text);
+  Trials trials(task, file, doubt, progress);
   const std::string lines = trials.run();
   progress.stage("straightening");
   const base::Stopwatch watch;
@@ -285,6 +288,7 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequ
   out.mesh.file = file;
   out.mesh.format = "STEP, meshed by Gmsh";
   const Told told(lines, copy.names, out);
+  if (!doubt.empty()) out.mesh.notes.push_back({doubt});
   add_face_names(out.mesh, out.faces);
   if (request.order == 2) straighten(out.mesh);
   compare_volumes(out.mesh, told.volume(), request.order);

@@ -156,4 +156,37 @@ std::vector<SharedEdge> edges_without_faces(const GmshLibrary& gmsh) {
   return out;
 }
 
+SurfaceFaults surface_faults(const GmshLibrary& gmsh) {
+  const auto faces = gmsh.entities(2);
+  std::vector<std::vector<GmshEntity>> curves;
+  std::map<GmshEntity, int> num_faces;
+  for (const GmshEntity& face : faces) {
+    curves.push_back(gmsh.boundary({face}));  // without seams
+    for (GmshEntity& curve : curves.back()) {
+      curve.second = std::abs(curve.second);
+      ++num_faces[curve];
+    }
+  }
+  SurfaceFaults out;
+  for (const auto& [curve, count] : num_faces) {
+    if (count == 1) out.free.push_back(curve);
+    if (count > 2) out.crowded.push_back(curve);
+  }
+  std::map<GmshEntity, int> without_walls;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const bool is_wall = std::all_of(curves[k].begin(), curves[k].end(),
+                                     [&](const auto& curve) { return num_faces.at(curve) != 2; });
+    if (is_wall && !curves[k].empty()) {
+      out.walls.push_back(faces[k]);
+    } else {
+      for (const GmshEntity& curve : curves[k]) ++without_walls[curve];
+    }
+  }
+  const bool is_closed =
+      !without_walls.empty() && std::all_of(without_walls.begin(), without_walls.end(),
+                                            [](const auto& entry) { return entry.second == 2; });
+  if (!is_closed) out.walls.clear();
+  return out;
+}
+
 }  // namespace buckens::mesh_io

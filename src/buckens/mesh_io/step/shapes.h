@@ -42,4 +42,15 @@ struct SharedEdge {
 
 std::vector<SharedEdge> edges_without_faces(const GmshLibrary& gmsh);
 
+/// Curves where a surface is no single closed skin.
+struct SurfaceFaults {
+  std::vector<GmshEntity> free;     ///< curves of one face
+  std::vector<GmshEntity> crowded;  ///< curves of three faces or more
+  /// Walls without thickness between closed rooms: faces that share no curve with exactly one
+  /// other, if the rest is closed without them.
+  std::vector<GmshEntity> walls;
+};
+
+SurfaceFaults surface_faults(const GmshLibrary& gmsh);
+
 }  // namespace buckens::mesh_io

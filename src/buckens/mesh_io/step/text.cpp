@@ -5,11 +5,13 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -243,6 +245,43 @@ ColoredStep color_named_faces(const std::string& step) {
                   next, items, context);
   out.text += step.substr(end);
   return out;
+}
+
+std::string missing_entities(const std::string& step) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> used;  // number and place
+  std::vector<std::uint64_t> defined;
+  bool in_string = false;
+  for (std::size_t at = 0; at < step.size(); ++at) {
+    if (step[at] == '\'') in_string = !in_string;  // a doubled quote switches twice
+    if (!in_string && step.compare(at, 2, "/*") == 0) {
+      at = step.find("*/", at + 2);
+      if (at == std::string::npos) break;
+    }
+    if (in_string || step[at] != '#') continue;
+    std::uint64_t number = 0;
+    const auto [end, error] =
+        std::from_chars(step.data() + at + 1, step.data() + step.size(), number);
+    if (error != std::errc()) continue;
+    const std::size_t next = skip_blanks(step, static_cast<std::size_t>(end - step.data()));
+    if (next < step.size() && step[next] == '=') {
+      defined.push_back(number);
+    } else {
+      used.emplace_back(number, at);
+    }
+  }
+  std::sort(defined.begin(), defined.end());
+  std::erase_if(used, [&](const auto& entry) {
+    return std::binary_search(defined.begin(), defined.end(), entry.first);
+  });
+  if (used.empty()) return {};
+  const auto [number, place] = used.front();
+  const auto lines =
+      std::count(step.begin(), step.begin() + static_cast<std::ptrdiff_t>(place), '\n');
+  return fmt::format(
+      "entities are missing in the file ({} references to such, the first to #{} in line {}): it "
+      "was "
+      "cut off or damaged; export it again",
+      used.size(), number, lines + 1);
 }
 
 }  // namespace buckens::mesh_io

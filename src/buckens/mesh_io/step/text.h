@@ -23,6 +23,10 @@ ColoredStep color_named_faces(const std::string& step);
 /// OpenCASCADE; −1: none.
 int name_of_color(const std::array<int, 3>& linear, std::size_t num_names);
 
+/// What to say of a file that refers to entities that it does not contain, with number and place;
+/// empty if there are none.
+std::string missing_entities(const std::string& step);
+
 /// Converts a display value 0 … 255 to linear.
 double linear_color(double value);
 /// The inverse, rounded.

@@ -88,7 +88,7 @@ class Trial {
     say_outlook(outlook, gmsh_.entities(2).size());
     const double seconds = kMeshSeconds + outlook.elements * kSecondsPerElement;
     files::limit_time_from_now(seconds);
-    out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume);
+    out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume) + thin_walls(used);
     set_options(used * metre_);
     add_groups();
     gmsh_.mesh(3);
@@ -137,11 +137,33 @@ class Trial {
     const std::size_t before = gmsh_.entities(2).size();
     const double tolerance = trial_.tolerance * diagonal();
     gmsh_.heal(tolerance);
+    const std::string walls =
+        gmsh_.entities(3).empty() ? leave_out_walls(tolerance) : std::string();
     return fmt::format(
-        "note {}: {} faces became {}, gaps of up to {:.2g} mm were closed; faces are numbered anew "
-        "and have neither names nor colours\n",
-        was_open ? "the surface was not closed and was sewn together" : "the surface was mended",
-        before, gmsh_.entities(2).size(), tolerance / metre_ * 1e3);
+               "note {}: {} faces became {}, gaps of up to {:.2g} mm were closed; faces are "
+               "numbered anew and have neither names nor colours\n",
+               was_open ? "the surface was not closed and was sewn together"
+                        : "the surface was mended",
+               before, gmsh_.entities(2).size(), tolerance / metre_ * 1e3) +
+           walls;
+  }
+
+  /// Rooms with a common wall are no solid: makes one of what encloses them.
+  std::string leave_out_walls(double tolerance) {
+    constexpr std::size_t kMostFaces = 300;  // which are cut with each other
+    const auto faces = gmsh_.entities(2);
+    if (faces.size() < 3 || faces.size() > kMostFaces) return {};
+    // Sewing joins edges in pairs only: the third face at an edge keeps one of its own.
+    gmsh_.fragment(faces);
+    const std::vector<GmshEntity> walls = surface_faults(gmsh_).walls;
+    if (walls.empty()) return {};
+    const std::string first = place(gmsh_.box(walls.front()));
+    gmsh_.remove(walls);
+    gmsh_.heal(tolerance);
+    return fmt::format(
+        "note walls without thickness inside the part were left out ({} faces, the first near {}), "
+        "since the others enclose it\n",
+        walls.size(), first);
   }
 
   /// Why elements may have nothing that bounds them; empty if they have. Seams and edges of more
@@ -151,21 +173,26 @@ class Trial {
     const auto faces = gmsh_.entities(2);
     if (faces.empty())
       return "error the file has no solid and no faces; export the part as a solid";
+    const auto told = [this](const char* sign, const std::vector<GmshEntity>& edges,
+                             const char* number) -> std::string {
+      if (edges.empty()) return {};
+      return fmt::format("{} {} edges belong to {}, the first near {}", sign, edges.size(), number,
+                         place(gmsh_.box(edges.front())));
+    };
+    if (solids.empty()) {
+      const SurfaceFaults faults = surface_faults(gmsh_);
+      return fmt::format(
+          "open there is no solid, only {} faces{}{}", faces.size(),
+          told(":", faults.free, "one face only"),
+          told(faults.free.empty() ? ":" : ";", faults.crowded, "three faces or more"));
+    }
     std::vector<GmshEntity> free;
     for (const GmshEntity& solid : solids) {
       const auto edges = gmsh_.boundary(gmsh_.boundary({solid}));
       free.insert(free.end(), edges.begin(), edges.end());
     }
-    if (solids.empty()) free = gmsh_.boundary(faces);
-    std::string where;
-    if (!free.empty()) {
-      where = fmt::format(": {} edges belong to one face only, the first near {}", free.size(),
-                          place(gmsh_.box(free.front())));
-    }
-    if (solids.empty()) {
-      return fmt::format("open there is no solid, only {} faces{}", faces.size(), where);
-    }
-    return free.empty() ? "" : "open the surface of the part is not closed" + where;
+    if (free.empty()) return {};
+    return "open the surface of the part is not closed" + told(":", free, "one face only");
   }
 
   /// Walls without thickness and the like.
@@ -191,6 +218,20 @@ class Trial {
         "let them share a face or overlap{}\n",
         found.front().first, found.front().second, place(gmsh_.box({1, found.front().curve})),
         found.size() > 1 ? fmt::format(" ({} such edges)", found.size()) : "");
+  }
+
+  /// Of plates of 0.1 m × 0.06 m with elements of 4 mm, second order: the four lowest frequencies
+  /// are up to 2 % too high with a wall of an eighth of the size, 3 % with a twentieth, 6 % with a
+  /// fortieth, 17 % with a hundredth.
+  std::string thin_walls(double size) const {
+    constexpr double kThin = 30;
+    const double wall = 2 * part_.volume / part_.area;
+    if (kThin * wall > size) return {};
+    return fmt::format(
+        "note walls are about {:.2g} mm thick, a {:.0f}th of the size of the elements: these are "
+        "flat, vibrations come out several per cent too high and stresses are rough; give a "
+        "smaller size, or mesh the part with shells\n",
+        wall * 1e3, size / wall);
   }
 
   void measure() {
