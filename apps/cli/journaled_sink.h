@@ -32,6 +32,7 @@ class JournaledSink : public results::RecordSink {
 
   /// The run ended before its first record, and an earlier one in the directory was restored.
   bool has_earlier_run_back() const { return directory_.has_earlier_run_back(); }
+  run_store::RunDirectory& directory() { return directory_; }
   long num_records() const { return num_records_; }
   double last_time() const { return last_time_; }  ///< of a record [s]
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/build.h"
+#include "cli/continuation.h"
 #include "cli/error_statement.h"
 #include "cli/failure.h"
 #include "cli/interruption.h"
@@ -21,6 +22,7 @@
 #include "cli/verbs.h"
 
 #include "buckens/analysis/error/variants.h"
+#include "buckens/analysis/simulation/checkpoints.h"
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
@@ -45,6 +47,7 @@ struct RunArguments {
   bool error = false;
   int threads = 1;
   StateArguments state;
+  ContinuationArguments continuation;
 
   fs::path directory() const {
     return out.empty() ? fs::path(model).stem() += ".out" : fs::path(out);
@@ -94,6 +97,45 @@ class Watch {
   double next_record_ = 0;
 };
 
+/// With an option that --continue excludes. @throws InputError
+void check_continuation(const RunArguments& arguments) {
+  if (arguments.continuation.directory.empty()) {
+    if (arguments.continuation.until) {
+      throw InputError(
+          "--until goes with --continue OUT; elsewhere use --set simulation.duration=T");
+    }
+    if (arguments.model.empty()) {
+      throw InputError("MODEL is required, unless --continue OUT says which run goes on");
+    }
+    return;
+  }
+  const auto refuse = [](const char* option, const char* why) {
+    throw InputError(fmt::format("--continue and {}: {}; leave out one of them", option, why));
+  };
+  if (!arguments.out.empty()) refuse("-o", "the results go on in the directory of the run");
+  if (arguments.error) refuse("--error", "an error statement needs the whole run");
+  if (!arguments.state.start_from.empty()) {
+    refuse("--start-from", "a run goes on from its own checkpoint");
+  }
+}
+
+/// The run that a continuation comes to: model, directory and state to start from.
+RunArguments completed(RunArguments arguments, const Continuation& from) {
+  arguments.out = arguments.continuation.directory;
+  if (arguments.model.empty()) arguments.model = from.model().string();
+  if (arguments.continuation.until) {
+    const auto description = model_file::read_model_file(arguments.model, arguments.overrides);
+    if (description.simulation) {
+      for (std::string& change : from.changes_until(description, *arguments.continuation.until)) {
+        arguments.overrides.push_back(std::move(change));
+      }
+    }
+  }
+  arguments.state.start_from = from.checkpoint().string();
+  arguments.state.leeway = analysis::Leeway::steps;
+  return arguments;
+}
+
 /// Runs the model; where an error statement follows, the directory is not completed yet.
 /// @param curves gets the sensors on their way to the directory; null: no error statement
 results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink,
@@ -110,12 +152,22 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
   try {
     analysis::Simulation simulation(built, options);
     StateKeeper states(simulation, arguments.state, journal);
+    std::optional<analysis::Checkpoints> checkpoints;
+    const double interval = built.description.simulation->checkpoint;
+    if (interval > 0.0 && curves == nullptr) {
+      run_store::RunDirectory& directory = sink.directory();
+      checkpoints.emplace(simulation, interval, [&directory](const base::SavedValues& state) {
+        directory.write_checkpoint(state);
+      });
+      directory.checkpoint_at_end([&simulation] { return simulation.save(); });
+    }
     simulation.record_into(records);
     results::RunSummary summary = simulation.run();
     display.clear();
     states.save_end();
     return summary;
   } catch (...) {
+    sink.directory().checkpoint_at_end({});
     display.clear();
     if (curves != nullptr && curves->summary()) sink.finish(*curves->summary());
     sink.abandon(describe_failure(std::current_exception()).message);
@@ -154,10 +206,14 @@ void check_error_statement(const RunArguments& arguments,
   if (arguments.state.start_from.empty()) return;
   throw InputError(
       "an error statement repeats the whole run and cannot begin at a saved state; "
-      "leave out --start-from, or --error (`error: off`)");
+      "leave out --start-from or --continue, or --error (`error: off`)");
 }
 
-ExitCode run(const RunArguments& arguments, bool json) {
+ExitCode run(const RunArguments& given, bool json) {
+  check_continuation(given);
+  std::optional<Continuation> from;
+  if (!given.continuation.directory.empty()) from.emplace(given.continuation.directory);
+  const RunArguments arguments = from ? completed(given, *from) : given;
   const bool silent = json || arguments.quiet;
   if (silent) base::set_work_sink({});
   ProgressDisplay display(stderr, silent ? ProgressDisplay::Style::none : style_for(stderr));
@@ -174,8 +230,9 @@ ExitCode run(const RunArguments& arguments, bool json) {
   const bool has_errors = arguments.error || built->description.simulation->error;
   if (has_errors) check_error_statement(arguments, built->description);
 
-  run_store::RunDirectory directory(path,
-                                    {built->description.title, built->description.source, {}});
+  run_store::RunDirectoryOptions options{built->description.title, built->description.source, {}};
+  if (from) options.continues = from->kept();
+  run_store::RunDirectory directory(path, std::move(options));
   journal.open(directory);
   journal.say(LogLevel::info, fmt::format("results go to {}", path.string()));
   JournaledSink sink(directory, journal);
@@ -200,6 +257,7 @@ constexpr char kRunFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out --set bodies.rod.beam.elements=32
   buckens view out
+  buckens run --continue out --until 0.2
   buckens run slider_crank.yaml --save-state half.h5 --save-state-at 0.05
   buckens run slider_crank.yaml -o rest --start-from half.h5
 
@@ -214,7 +272,9 @@ every sensor an uncertainty. It takes several times as long as the run. See
 docs/tutorials/error-statement.md.
 
 Ctrl-C (or SIGTERM) finishes the current step and completes the files; a second one ends the program
-at once, and then at most the last second of results is missing.
+at once, and then at most the last second of results is missing. `buckens run --continue OUT` goes on
+from the checkpoint in OUT, written at the end and every 30 s (simulation.checkpoint), to the same
+results bit for bit as without an interruption.
 
 Exit codes: 0 done, 2 bad input, 3 the model cannot be solved, 4 numerical failure (results up to it
 are kept), 5 files, 130 interrupted. Details: docs/reference/command-line.md)";
@@ -240,6 +300,8 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
                   "body; 1 if not given. Results are the same to the last bit")
       ->check(CLI::Range(1, kMostThreads));
   add_state_options(verb, arguments->state);
+  verb.get_option("MODEL")->required(false);
+  add_continuation_options(verb, arguments->continuation);
   add_json_option(verb, invocation);
   verb.footer(kRunFooter);
   verb.callback([arguments, &invocation] {

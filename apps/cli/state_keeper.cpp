@@ -63,14 +63,15 @@ void StateKeeper::start() {
   const std::string& file = arguments_.start_from;
   const base::SavedValues state = run_store::read_state(file);
   try {
-    simulation_.restore(state);
+    simulation_.restore(state, arguments_.leeway);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
   }
   if (simulation_.is_done()) {
     throw InputError(
         fmt::format("{}: the state is that at the end of the run, t = {:g} s; give "
-                    "the model a longer simulation.duration, for example with --set",
+                    "the model a longer simulation.duration, with --set, or with --until "
+                    "where the run itself goes on",
                     file, simulation_.time()));
   }
   journal_.say(base::LogLevel::info,

@@ -14,8 +14,9 @@ namespace buckens::cli {
 
 /// The user's options for saved states.
 struct StateArguments {
-  std::string save, start_from;   ///< files; empty: none
-  std::optional<double> save_at;  ///< [s]; none: at the end
+  std::string save, start_from;                      ///< files; empty: none
+  std::optional<double> save_at;                     ///< [s]; none: at the end
+  analysis::Leeway leeway = analysis::Leeway::none;  ///< of the model that goes on
 
   /// @throws InputError if the time is outside the run, or has no file
   void check(double duration) const;

@@ -136,7 +136,17 @@ std::string read_text_file(const std::filesystem::path& path) {
   return text;
 }
 
-void replace_text_file(const std::filesystem::path& path, std::string_view text) {
+void sync_to_disk(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (is_done) return;
+  throw IoError(fmt::format("{}: cannot bring the file to the disk: {}", path.string(),
+                            system_reason(error)));
+}
+
+void replace_text_file(const std::filesystem::path& path, std::string_view text, Lasting lasting) {
   std::filesystem::path part = path;
   part += ".part";
   std::error_code error;
@@ -144,11 +154,13 @@ void replace_text_file(const std::filesystem::path& path, std::string_view text)
     OutputFile file(part, OutputFile::Start::anew);
     file.write(text);
     file.close();
+    if (lasting == Lasting::power) sync_to_disk(part);
     std::filesystem::rename(part, path, error);
     if (error) {
       throw IoError(
           fmt::format("{}: cannot replace the file: {}.", path.string(), error.message()));
     }
+    if (lasting == Lasting::power) sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(part, ignored);

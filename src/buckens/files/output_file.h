@@ -59,9 +59,20 @@ std::string system_reason(int error);
 /// The whole contents of a file. @throws IoError
 std::string read_text_file(const std::filesystem::path& path);
 
+/// What the new contents of a file outlive, once they are written.
+enum class Lasting {
+  process,  ///< the end of this program, however it comes
+  power     ///< a loss of power, too; costs some milliseconds
+};
+
 /// Writes a file atomically: readers see the old contents or the new, never a part.
 /// @throws IoError; the old contents are then kept
-void replace_text_file(const std::filesystem::path& path, std::string_view text);
+void replace_text_file(const std::filesystem::path& path, std::string_view text,
+                       Lasting lasting = Lasting::process);
+
+/// Returns when what the system holds of a file or directory is on the disk. File systems that know
+/// no such thing do without. @throws IoError
+void sync_to_disk(const std::filesystem::path& path);
 
 /// Date and time to the second, "2026-01-31T12:00:00Z".
 std::string utc_now();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/files/output_file.h"
 #include "buckens/run_store/hdf5_geometry.h"
 #include "buckens/run_store/hdf5_values.h"
 
@@ -23,7 +24,8 @@ std::filesystem::path unfinished(std::filesystem::path path) {
 Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProcess& writer,
                            const results::RecordLayout& layout, const results::Geometry& geometry,
                            const results::FieldLayout* fields, const std::string& title,
-                           const std::string& version, const FlushRule& rule)
+                           const std::string& version, const FlushRule& rule,
+                           const EarlierRows* earlier)
     : rule_(rule), file_(Hdf5File::create(unfinished(path), writer)) {
   try {
     write_attribute(file_, "/", "program", std::string("buckens"));
@@ -36,8 +38,10 @@ Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProces
       fields_ = Hdf5Table(file_, fields->fields, "fields/time", H5T_IEEE_F32LE);
       extremes_ = Hdf5Extremes(file_, fields->extremes);
     }
+    if (earlier != nullptr) take_earlier(*earlier, fields != nullptr);
     file_.flush();  // SWMR starts from a file that is complete so far
     file_.start_swmr();
+    if (earlier != nullptr) files::sync_to_disk(file_.path());
     file_.rename(path);
   } catch (...) {
     file_.abandon();
@@ -54,6 +58,16 @@ Hdf5Recorder::~Hdf5Recorder() {
     close();
   } catch (...) {  // close() reports it to its caller
   }
+}
+
+void Hdf5Recorder::take_earlier(const EarlierRows& earlier, bool has_fields) {
+  earlier.records([this](std::span<const double> times, std::span<const double> values) {
+    table_.append(file_, times, values);
+  });
+  if (!has_fields) return;
+  earlier.fields([this](std::span<const double> times, std::span<const double> values) {
+    fields_.append(file_, times, values);
+  });
 }
 
 void Hdf5Recorder::write(const results::Record& record) {
@@ -84,6 +98,13 @@ void Hdf5Recorder::write_extremes(const std::vector<double>& values) {
   const std::lock_guard lock(mutex_);
   rethrow_failure();
   guarded([&] { extremes_.write(file_, values); });
+  rethrow_failure();
+}
+
+void Hdf5Recorder::flush() {
+  const std::lock_guard lock(mutex_);
+  rethrow_failure();
+  flush_waiting();
   rethrow_failure();
 }
 

@@ -15,6 +15,7 @@
 #include "buckens/run_store/hdf5_extremes.h"
 #include "buckens/run_store/hdf5_file.h"
 #include "buckens/run_store/hdf5_table.h"
+#include "buckens/run_store/kept_records.h"
 
 namespace buckens::run_store {
 
@@ -27,6 +28,11 @@ struct FlushRule {
   std::size_t bytes = 16U << 20U;
 };
 
+/// Rows that stand in results.h5 before those of the run: each function passes them on.
+struct EarlierRows {
+  std::function<void(const AppendRows&)> records, fields;
+};
+
 /// Writes results.h5 during a run.
 ///
 /// Records are collected in memory and written to the file by the flush rule: the count is checked
@@ -36,12 +42,14 @@ class Hdf5Recorder {
  public:
   /// @param writer  carries out the writes; must outlive this
   /// @param title, version  attributes of the file
+  /// @param earlier  null: none; with them the file is on the disk before it replaces another one
   /// @param fields  null: the run has none
   /// @throws IoError
   Hdf5Recorder(const std::filesystem::path& path, files::WriteProcess& writer,
                const results::RecordLayout& layout, const results::Geometry& geometry,
                const results::FieldLayout* fields, const std::string& title,
-               const std::string& version, const FlushRule& rule);
+               const std::string& version, const FlushRule& rule,
+               const EarlierRows* earlier = nullptr);
   /// Writes what is waiting, as far as possible.
   ~Hdf5Recorder();
   Hdf5Recorder(const Hdf5Recorder&) = delete;
@@ -54,10 +62,13 @@ class Hdf5Recorder {
   void write_fields(const results::Record& fields);
   /// Replaces the largest values so far. @throws IoError as write()
   void write_extremes(const std::vector<double>& values);
+  /// Passes what is waiting to the system. @throws IoError as write()
+  void flush();
   /// Writes what is waiting and completes the file. @throws IoError
   void close();
 
  private:
+  void take_earlier(const EarlierRows& earlier, bool has_fields);
   void note_age();
   void flush_waiting();
   void guarded(const std::function<void()>& work);

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/log.h"
 #include "buckens/base/version.h"
+#include "buckens/run_store/state_file.h"
 #include "buckens/run_store/summary_json.h"
 
 namespace buckens::run_store {
@@ -70,19 +72,29 @@ void create_or_accept(const fs::path& path) {
 
 RunDirectory::RunDirectory(fs::path path, RunDirectoryOptions options)
     : path_(std::move(path)), options_(std::move(options)), started_(files::utc_now()) {
-  take_directory();
+  options_.continues ? take_up() : take_directory();
+}
+
+/// @pre the directory holds a run
+void RunDirectory::take_up() {
+  log_ = files::OutputFile(path_ / kLogName, files::OutputFile::Start::as_it_is);
+  lock();
+  kept_ = std::make_unique<KeptRecords>(path_, *options_.continues);
+}
+
+void RunDirectory::lock() {
+  if (log_.try_lock()) return;
+  throw IoError(
+      fmt::format("{}: another run is writing into this directory. Wait for its end, "
+                  "or choose another directory (-o).",
+                  path_.string()));
 }
 
 void RunDirectory::take_directory() {
   create_or_accept(path_);
   // Opening the log shows, before anything is removed, that files can be created here.
   log_ = files::OutputFile(path_ / kLogName, files::OutputFile::Start::as_it_is);
-  if (!log_.try_lock()) {
-    throw IoError(
-        fmt::format("{}: another run is writing into this directory. Wait for its end, "
-                    "or choose another directory (-o).",
-                    path_.string()));
-  }
+  lock();
   earlier_ = EarlierRun(path_, log_);
   try {
     write_first_files();
@@ -100,7 +112,7 @@ void RunDirectory::write_first_files() {
   log_.clear();
   for (const fs::path& name :
        {fs::path(kResultsName), fs::path(std::string(kResultsName) + ".part"),
-        fs::path(kSensorsName), fs::path(kModesName)}) {
+        fs::path(kSensorsName), fs::path(kModesName), fs::path(kCheckpointName)}) {
     std::error_code error;
     fs::remove(path_ / name, error);
     if (error) {
@@ -129,12 +141,47 @@ void RunDirectory::write_status(std::string_view json) const {
 
 void RunDirectory::begin(const results::RecordLayout& layout, const results::Geometry& geometry) {
   num_values_ = layout.num_values();
-  recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
-                                             fields_ ? &*fields_ : nullptr, options_.title,
-                                             kVersion, options_.flush);
-  sensors_ = SensorsCsv(path_ / kSensorsName, layout);
+  if (kept_) {
+    go_on_recording(layout, geometry);
+    files::replace_text_file(path_ / kModelName, options_.model_text);
+    kept_.reset();
+  } else {
+    recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
+                                               fields_ ? &*fields_ : nullptr, options_.title,
+                                               kVersion, options_.flush);
+    sensors_ = SensorsCsv(path_ / kSensorsName, layout);
+  }
   write_status(status_json(RunStatus::running, options_.title, kVersion, started_));
   if (earlier_.is_aside()) earlier_.discard();
+}
+
+/// Both files are written anew with the records that are kept. Ended at any moment, this leaves
+/// results that hold all of them.
+void RunDirectory::go_on_recording(const results::RecordLayout& layout,
+                                   const results::Geometry& geometry) {
+  const fs::path part = path_ / (std::string(kSensorsName) + ".part");
+  SensorsCsv sensors(part, layout);
+  EarlierRows earlier;
+  earlier.records = [&](const AppendRows& append) {
+    kept_->copy_records(layout, [&](std::span<const double> times, std::span<const double> values) {
+      append(times, values);
+      for (std::size_t row = 0; row < times.size(); ++row) {
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * num_values_);
+        sensors.write({times[row], {first, first + static_cast<std::ptrdiff_t>(num_values_)}});
+      }
+    });
+  };
+  earlier.fields = [&](const AppendRows& append) { kept_->copy_fields(fields_->fields, append); };
+  recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
+                                             fields_ ? &*fields_ : nullptr, options_.title,
+                                             kVersion, options_.flush, &earlier);
+  std::error_code error;
+  fs::rename(part, path_ / kSensorsName, error);
+  if (error) {
+    throw IoError(fmt::format("{}: cannot replace the file: {}.", (path_ / kSensorsName).string(),
+                              error.message()));
+  }
+  sensors_ = std::move(sensors);
 }
 
 void RunDirectory::begin_fields(const results::FieldLayout& layout) { fields_ = layout; }
@@ -176,9 +223,28 @@ void RunDirectory::write_extremes(const std::vector<double>& values) {
   guarded([&] { recorder_->write_extremes(values); });
 }
 
+void RunDirectory::write_checkpoint(const base::SavedValues& state) {
+  guarded([&] { recorder_->flush(); });
+  try_checkpoint(state);
+}
+
+void RunDirectory::try_checkpoint(const base::SavedValues& state) {
+  try {
+    for (const char* name : {kResultsName, kSensorsName}) files::sync_to_disk(path_ / name);
+    write_state(state, path_ / kCheckpointName);
+  } catch (const IoError& error) {
+    base::log(base::LogLevel::warning,
+              fmt::format("no checkpoint at t = {:.6g} s: {}", last_time_, error.what()));
+  }
+}
+
 void RunDirectory::finish(const results::RunSummary& summary) {
   if (finished_) return;
   finished_ = true;
+  if (options_.continues && !recorder_) {
+    has_earlier_run_back_ = true;
+    return log_.close();
+  }
   if (earlier_.is_aside()) {
     recorder_.reset();
     sensors_.close();
@@ -203,6 +269,8 @@ void RunDirectory::finish(const results::RunSummary& summary) {
     if (told.interrupted.empty()) told.interrupted = failure_;
   }
   write_status(summary_json(told, started_, files::utc_now()));
+  // Last, so that a run which is killed before has one to complete its files from.
+  if (failure_.empty() && last_state_) try_checkpoint(last_state_());
   log_.close();
   if (failure) std::rethrow_exception(failure);
 }

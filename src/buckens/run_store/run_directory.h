@@ -9,10 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "buckens/base/saved_values.h"
 #include "buckens/files/output_file.h"
 #include "buckens/results/record_sink.h"
 #include "buckens/run_store/earlier_run.h"
 #include "buckens/run_store/hdf5_recorder.h"
+#include "buckens/run_store/kept_records.h"
 #include "buckens/run_store/run_files.h"
 #include "buckens/run_store/sensors_csv.h"
 
@@ -24,6 +26,8 @@ struct RunDirectoryOptions {
   FlushRule flush;
   /// Whether an earlier run is restored if this one ends before begin().
   bool keeps_earlier_run = true;
+  /// The run goes on from the checkpoint in the directory; none: it begins anew.
+  std::optional<Continuation> continues = std::nullopt;
 };
 
 /// The directory with all the output of a run. Layout:
@@ -34,7 +38,8 @@ struct RunDirectoryOptions {
 class RunDirectory : public results::RecordSink {
  public:
   /// Creates the directory and its parents, or takes over that of an earlier run. Its results are
-  /// removed by begin(), or restored if this run ends without it. Other files are kept.
+  /// removed by begin(), or restored if this run ends without it. Other files are kept. A
+  /// continued run changes nothing before begin(), which cuts the results back to the checkpoint.
   /// @throws IoError if the directory contains other things than a run, another run is writing into
   /// it, or it cannot be written
   explicit RunDirectory(std::filesystem::path path, RunDirectoryOptions options = {});
@@ -54,17 +59,31 @@ class RunDirectory : public results::RecordSink {
   void write_fields(const results::Record& fields) override;
   void write_extremes(const std::vector<double>& values) override;
 
+  /// Writes checkpoint.h5, after the records so far have been brought to the disk: a continuation
+  /// from it finds all records up to its state, whatever happens later. A checkpoint that cannot be
+  /// written leaves the one before in place, and is a warning in the log.
+  /// @throws IoError as write(), if records cannot be written
+  void write_checkpoint(const base::SavedValues& state);
+  /// `state` is asked by finish() for a last checkpoint, unless writing has failed. Null: none.
+  void checkpoint_at_end(std::function<base::SavedValues()> state) {
+    last_state_ = std::move(state);
+  }
+
   /// Appends lines to log.txt; a line break is added at the end. @throws IoError
   void log(std::string_view lines);
 
   const std::filesystem::path& path() const { return path_; }
   bool is_complete() const { return finished_; }  ///< `finish` has been called
-  /// An earlier run was restored, because this one ended before begin().
+  /// An earlier run was restored or left alone, because this one ended before begin().
   bool has_earlier_run_back() const { return has_earlier_run_back_; }
 
  private:
   void take_directory();
+  void take_up();
   void write_first_files();
+  void lock();
+  void go_on_recording(const results::RecordLayout& layout, const results::Geometry& geometry);
+  void try_checkpoint(const base::SavedValues& state);
   void write_status(std::string_view json) const;
   void guarded(const std::function<void()>& work);
 
@@ -77,6 +96,8 @@ class RunDirectory : public results::RecordSink {
   SensorsCsv sensors_;
   std::unique_ptr<Hdf5Recorder> recorder_;
   std::optional<results::FieldLayout> fields_;
+  std::unique_ptr<KeptRecords> kept_;  // of the run that is continued, until begin()
+  std::function<base::SavedValues()> last_state_;
   std::size_t num_values_ = 0;
   double last_time_ = 0;
   std::string failure_;  // why recording ended early

@@ -9,6 +9,7 @@ inline constexpr char kSensorsName[] = "sensors.csv";
 inline constexpr char kSummaryName[] = "summary.json";
 inline constexpr char kModelName[] = "model.yaml";
 inline constexpr char kLogName[] = "log.txt";
+inline constexpr char kCheckpointName[] = "checkpoint.h5";
 inline constexpr char kModesName[] = "modes.json";  ///< of `buckens modes` only
 
 }  // namespace buckens::run_store

@@ -232,7 +232,7 @@ base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
 }
 
 void write_state(const base::SavedValues& state, const std::filesystem::path& path) {
-  files::replace_text_file(path, state_bytes(state));
+  files::replace_text_file(path, state_bytes(state), files::Lasting::power);
 }
 
 base::SavedValues read_state(const std::filesystem::path& path) {

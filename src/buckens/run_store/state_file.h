@@ -9,7 +9,8 @@
 
 namespace buckens::run_store {
 
-/// Writes a saved state to a file atomically: readers see a whole state or none.
+/// Writes a saved state to a file atomically: readers see a whole state or none, also after a loss
+/// of power.
 ///
 /// An HDF5 file: of numbers, counts and texts a group each with `names` (joined by line ends),
 /// `lengths` and `values`. The last kStateTrailer bytes are text that identifies the file and

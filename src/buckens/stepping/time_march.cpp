@@ -25,7 +25,7 @@ constexpr double kFade = 0.5;
 constexpr int kMostAtOnce = 5;
 
 StepSettings with_longest_step(StepSettings settings, const MarchSettings& march) {
-  settings.step = march.duration / static_cast<double>(march.longest_steps);
+  settings.step = (march.duration - march.start) / static_cast<double>(march.longest_steps);
   return settings;
 }
 
@@ -46,8 +46,8 @@ bool TimeMarch::fits(int k) const { return ticks_ % (kTicks >> k) == 0; }
 
 double TimeMarch::time() const {
   // Counting avoids the drift of summed steps.
-  return is_done() ? march_.duration
-                   : static_cast<double>(ticks_) / static_cast<double>(kTicks) * ladder_.step(0);
+  if (is_done()) return march_.duration;
+  return march_.start + static_cast<double>(ticks_) / static_cast<double>(kTicks) * ladder_.step(0);
 }
 
 StepReport TimeMarch::advance(const model::State& before, model::State& after) {

@@ -13,8 +13,9 @@ namespace buckens::stepping {
 
 /// How far to go and how long steps may be.
 struct MarchSettings {
-  double duration = 0;                      ///< [s]
-  long longest_steps = 1;                   ///< number of longest steps in the duration
+  double duration = 0;                      ///< instant of the end [s]
+  double start = 0;                         ///< instant of the first step's beginning [s]
+  long longest_steps = 1;                   ///< number of longest steps from start to end
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
 };
 
@@ -32,7 +33,7 @@ struct MarchReport {
   long failed = 0;    ///< not converged
 };
 
-/// Advances from 0 to the end of a run by steps h·2⁻ᵏ.
+/// Advances to the end of a run by steps h·2⁻ᵏ.
 ///
 /// With a tolerance, k follows the estimated error of each step, which may use a share of the
 /// tolerance in proportion to its length: in total they stay within the tolerance. While a step is
@@ -46,7 +47,7 @@ class TimeMarch {
   static constexpr int kMostHalvings = 8;   ///< without tolerance
   static constexpr int kShortestRung = 20;  ///< with one: h/2²⁰
 
-  /// @param settings `step` is replaced by duration / longest_steps
+  /// @param settings `step` is replaced by (duration − start) / longest_steps
   TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
             const MarchSettings& march);
 

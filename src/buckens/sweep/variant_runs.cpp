@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/simulation/checkpoints.h"
 #include "buckens/analysis/simulation/choose_modes.h"
-#include "buckens/analysis/simulation/simulate.h"
+#include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
+#include "buckens/base/version.h"
 #include "buckens/files/output_file.h"
 #include "buckens/files/text_file.h"
 #include "buckens/linalg/solve_exchange.h"
@@ -17,6 +20,7 @@
 #include "buckens/run_store/basis_files.h"
 #include "buckens/run_store/run_directory.h"
 #include "buckens/run_store/run_reader.h"
+#include "buckens/run_store/state_file.h"
 #include "buckens/run_store/summary_json.h"
 
 namespace buckens::sweep {
@@ -41,6 +45,25 @@ bool holds_finished_run(const fs::path& directory, const model::ModelDescription
   } catch (const IoError&) {  // damaged since: it is run again
     return false;
   }
+}
+
+/// What a run that was stopped left to go on from: the run of this model, by this version.
+std::optional<base::SavedValues> checkpoint_in(const fs::path& directory,
+                                               const model::ModelDescription& model) {
+  std::error_code error;
+  for (const char* name : {run_store::kCheckpointName, run_store::kModelName}) {
+    if (!fs::is_regular_file(directory / name, error)) return {};
+  }
+  try {
+    if (files::read_text_file(directory / run_store::kModelName) != model.source) return {};
+    base::SavedValues state = run_store::read_state(directory / run_store::kCheckpointName);
+    const auto version = state.texts.find("version");
+    const bool is_ours =
+        version != state.texts.end() && version->second == std::vector<std::string>{kVersion};
+    if (is_ours) return state;
+  } catch (const IoError&) {  // damaged: it begins anew
+  }
+  return {};
 }
 
 class Sweep {
@@ -120,22 +143,60 @@ class Sweep {
     std::unique_ptr<run_store::RunDirectory> directory;
     results::RunSummary failure;
     try {
-      directory = std::make_unique<run_store::RunDirectory>(
-          directory_of(v),
-          run_store::RunDirectoryOptions{description.title, description.source, {}, false});
+      auto checkpoint = checkpoint_in(directory_of(v), description);
+      directory = directory_for(v, description, checkpoint);
       directory->log("variant " + table_.variants[v].name + " of a sweep");
       const auto built = build(std::move(description), *directory);
       analysis::SimulationOptions options;
       options.exchange = &exchange_;
       options.stop_reason = "interrupted by the user";
       options.on_progress = [&](const analysis::Progress& progress) { return go_on(v, progress); };
-      const results::RunSummary summary = analysis::simulate(*built, *directory, options);
+      const results::RunSummary summary = simulate(*built, *directory, options, checkpoint);
       return end(v, summary.finished ? VariantStatus::done : VariantStatus::interrupted);
     } catch (const std::exception& error) {
       failure.interrupted = error.what();
     }
     if (directory) complete(*directory, failure);
     end(v, VariantStatus::failed, failure.interrupted);
+  }
+
+  /// @param checkpoint none in return if the results beside it cannot be read
+  std::unique_ptr<run_store::RunDirectory> directory_for(
+      std::size_t v, const model::ModelDescription& description,
+      std::optional<base::SavedValues>& checkpoint) const {
+    run_store::RunDirectoryOptions options{description.title, description.source, {}, false};
+    if (checkpoint) {
+      try {
+        options.continues = run_store::continuation_from(*checkpoint);
+        return std::make_unique<run_store::RunDirectory>(directory_of(v), options);
+      } catch (const IoError&) {
+        checkpoint.reset();
+        options.continues.reset();
+      }
+    }
+    return std::make_unique<run_store::RunDirectory>(directory_of(v), options);
+  }
+
+  static results::RunSummary simulate(const model::BuiltModel& built,
+                                      run_store::RunDirectory& directory,
+                                      const analysis::SimulationOptions& options,
+                                      const std::optional<base::SavedValues>& checkpoint) {
+    analysis::Simulation simulation(built, options);
+    if (checkpoint) simulation.restore(*checkpoint);
+    std::optional<analysis::Checkpoints> checkpoints;
+    if (const double interval = built.description.simulation->checkpoint; interval > 0.0) {
+      checkpoints.emplace(simulation, interval, [&directory](const base::SavedValues& state) {
+        directory.write_checkpoint(state);
+      });
+      directory.checkpoint_at_end([&simulation] { return simulation.save(); });
+    }
+    try {
+      simulation.record_into(directory);
+      return simulation.run();
+    } catch (...) {
+      directory.checkpoint_at_end({});
+      throw;
+    }
   }
 
   /// Modes chosen by trial are those of the variant; a basis in a file serves those it fits.

@@ -77,10 +77,18 @@ void SimulationRun::check_method() {
 /// Sampled signals are read at the ends of steps.
 void SimulationRun::check_samples() const {
   const double step = march_->longest_step();
+  const double begin = march_start_ / step;
   for (const model::Signal& signal : built_.model.signals.all) {
     if (!signal.is_sampled()) continue;
     const double T = signal.block->sample_time();
     const double steps = T / step;
+    if (std::abs(begin - std::round(begin)) > kWholeSteps) {
+      throw InputError(signal.where,
+                       fmt::format("signal \"{}\": a run that goes on from t = {:.9g} s with steps "
+                                   "of {:.6g} s misses its samples; use a step of which that time "
+                                   "is a multiple",
+                                   signal.name, march_start_, step));
+    }
     if (steps > 0.5 && std::abs(steps - std::round(steps)) <= kWholeSteps) continue;
     throw InputError(
         signal.where,
@@ -91,6 +99,18 @@ void SimulationRun::check_samples() const {
   }
 }
 
+/// Factorises for a grid of steps from this instant to the end.
+void SimulationRun::begin_march(double start) {
+  march_start_ = start;
+  const stepping::MarchSettings march = march_settings(spec_, start);
+  stepping::StepSettings settings = step_settings(spec_);
+  settings.threads = options_.threads;
+  settings.exchange = options_.exchange;
+  march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
+  steps_ = march.tolerance ? 0 : steps_taken_ + march.longest_steps;
+  check_samples();
+}
+
 void SimulationRun::set_up() {
   check_method();
   plan_ = plan_output(built_.description);
@@ -98,13 +118,7 @@ void SimulationRun::set_up() {
   summary_.version = kVersion;
   metric_.emplace(built_.model);
   prepared_.emplace(prepare(built_, *metric_));
-  const stepping::MarchSettings march = march_settings(spec_);
-  stepping::StepSettings settings = step_settings(spec_);
-  settings.threads = options_.threads;
-  settings.exchange = options_.exchange;
-  march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
-  if (!march.tolerance) steps_ = march.longest_steps;
-  check_samples();
+  begin_march(0.0);
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   drives_.emplace(built_.description);
@@ -200,7 +214,7 @@ void SimulationRun::step() {
   statistics_->add_step(report, state);
   work_->add(state, report.impact_loss);
   watch_events();
-  if (recording_) recording_->after_step(before_, state, is_at_end_ || march_->is_done());
+  if (recording_) recording_->after_step(before_, state, is_done());
   watch_->after_step(march_->stepper(), state);
   for (const auto& callback : callbacks) callback(state.t - before_.t);
 }
@@ -212,6 +226,7 @@ void SimulationRun::watch_events() {
       is_stopped_ = is_at_end_ = true;
     }
     base::log(base::LogLevel::info, found.text);
+    told_events_.push_back(found.text);
     summary_.notes.push_back(std::move(found.text));
   }
 }
@@ -280,7 +295,7 @@ bool SimulationRun::report_progress() {
 
 results::RunSummary SimulationRun::finish() {
   if (std::exchange(is_finished_, true)) return summary_;
-  summary_.finished = (is_done() || is_at_end_) && summary_.interrupted.empty();
+  summary_.finished = is_done() && summary_.interrupted.empty();
   if (!summary_.finished && summary_.interrupted.empty()) {
     summary_.interrupted = options_.stop_reason;
   }

@@ -44,12 +44,12 @@ class SimulationRun {
   void set_load(const std::string& load, const std::optional<Eigen::Vector3d>& value);
 
   base::SavedValues save();
-  void restore(const base::SavedValues& saved);
+  void restore(const base::SavedValues& saved, Leeway leeway);
 
   void stop() { is_stopped_ = true; }
-  bool is_over() const { return is_stopped_ || march_->is_done(); }
+  bool is_over() const { return is_stopped_ || is_done(); }
   bool is_stopped() const { return is_stopped_; }
-  bool is_done() const { return march_->is_done(); }
+  bool is_done() const { return is_at_end_ || march_->is_done(); }
   double longest_step() const { return march_->longest_step(); }
   double duration() const { return spec_.duration; }
   long num_steps() const { return steps_taken_; }
@@ -64,6 +64,7 @@ class SimulationRun {
 
   void check_method();
   void check_samples() const;
+  void begin_march(double start);
   void set_up();
   void warn(const std::string& text);
   void advise_on_step();
@@ -100,9 +101,11 @@ class SimulationRun {
   std::optional<base::SavedValues> restored_;  // kept until it has been recorded
   results::RunSummary summary_;
   NodalViews views_;
-  std::vector<double> observed_;  // values of all channels
-  long observed_at_ = -1;         // number of steps, −1: out of date
-  long steps_ = 0;                // total; 0 if unknown because of step control
+  std::vector<double> observed_;          // values of all channels
+  long observed_at_ = -1;                 // number of steps, −1: out of date
+  long steps_ = 0;                        // total; 0 if unknown because of step control
+  double march_start_ = 0;                // where the grid of steps begins [s]
+  std::vector<std::string> told_events_;  // notes on them, since t = 0
   long steps_taken_ = 0;
   bool has_begun_ = false;  // the record of the start is written
   bool is_stopped_ = false;

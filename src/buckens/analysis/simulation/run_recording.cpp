@@ -38,6 +38,12 @@ void RunRecording::begin() {
     sink_.begin_fields(fields_.layout());
   }
   sink_.begin(recorder_.layout(), geometry);
+  if (!is_first_) write_extremes();  // a continued run has some
+}
+
+void RunRecording::write_start(const model::State& state) {
+  write_record(state);
+  last_due_ = state.t;
 }
 
 void RunRecording::after_step(const model::State& before, const model::State& after, bool is_last) {
@@ -59,11 +65,14 @@ void RunRecording::after_step(const model::State& before, const model::State& af
       write_record(results::interpolate(before, after, t),
                    results::interpolate(*first, *last, share));
     }
+    last_due_ = last_written_;
   }
   if (is_last && last_written_ < after.t - near) {
     model::State state = after;
     state.lambda = results::multipliers_at(before, after, after.t);
+    const double due_fields = last_due_fields_;
     write_record(state);
+    last_due_fields_ = due_fields;
   }
 }
 
@@ -96,7 +105,9 @@ void RunRecording::write_fields(const model::State& state) {
   if (fields_.is_empty()) return;
   const double duration = built_.description.simulation->duration;
   const bool is_end = state.t >= (1.0 - 1e-9) * duration;
-  if (is_first_ || is_end || records_ % plan_.fields_stride == 0) {
+  const bool is_due = is_first_ || records_ % plan_.fields_stride == 0;
+  if (is_due || is_end) {
+    if (is_due) last_due_fields_ = state.t;
     sink_.write_fields(fields_.record(state, {{}, &recorder_.last_multipliers(), 1.0}));
   } else if (fields_.has_extremes()) {
     fields_.watch(state);

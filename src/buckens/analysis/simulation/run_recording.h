@@ -33,7 +33,7 @@ class RunRecording {
   /// Opens the sink.
   void begin();
   /// Writes the state at which the run starts.
-  void write_start(const model::State& state) { write_record(state); }
+  void write_start(const model::State& state);
   /// Continues after a time up to which nothing is written.
   void skip_to(double t);
   /// Writes what is due between two states, interpolated if steps do not coincide with it.
@@ -67,6 +67,8 @@ class RunRecording {
   bool is_first_ = true;  // no fields are written yet
   long records_ = 1;      // the state at t = 0 is written before the first step
   double last_written_ = 0;
+  // Of the records on the grid of times, which a longer run has, too; negative: none yet.
+  double last_due_ = -1, last_due_fields_ = -1;
   double seconds_ = 0;
 };
 

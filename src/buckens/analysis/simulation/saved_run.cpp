@@ -107,6 +107,11 @@ void RunRecording::visit_saved(const base::SaveVisit& visit) {
   visit.flag("is_first", is_first_);
   visit.count("records", records_, 0, kMostCounted);
   visit.number("last_written", last_written_);
+  double every = plan_.every;
+  visit.number("every", every);
+  if (every != plan_.every) skip_to(last_written_);
+  visit.number("last_due", last_due_);
+  visit.number("last_due_fields", last_due_fields_);
   fields_.visit_saved(visit.inside("fields"));
 }
 

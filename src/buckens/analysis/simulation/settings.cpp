@@ -40,13 +40,15 @@ stepping::StepSettings step_settings(const model::SimulationSpec& spec) {
   return settings;
 }
 
-stepping::MarchSettings march_settings(const model::SimulationSpec& spec) {
+stepping::MarchSettings march_settings(const model::SimulationSpec& spec, double start) {
   stepping::MarchSettings march;
   march.duration = spec.duration;
+  march.start = start;
   const double longest = spec.step.value_or(0.0);
   march.longest_steps = kStepsOfLongest;
   if (longest > 0.0) {
-    march.longest_steps = std::max(1L, std::lround(std::ceil(spec.duration / longest - 1e-9)));
+    const double steps = std::ceil((spec.duration - start) / longest - 1e-9);
+    march.longest_steps = std::max(1L, std::lround(steps));
   }
   if (spec.has_step_control()) {
     march.tolerance.emplace();

@@ -13,6 +13,7 @@ stepping::Method method_of(model::IntegrationMethod method);
 stepping::StepSettings step_settings(const model::SimulationSpec& spec);
 
 /// Duration and steps: the longest is adjusted once so that a whole number fits.
-stepping::MarchSettings march_settings(const model::SimulationSpec& spec);
+/// @param start where the steps begin [s]
+stepping::MarchSettings march_settings(const model::SimulationSpec& spec, double start = 0);
 
 }  // namespace buckens::analysis

@@ -112,7 +112,9 @@ void Simulation::release_load(const std::string& load) { run_->set_load(load, st
 
 base::SavedValues Simulation::save() const { return run_->save(); }
 
-void Simulation::restore(const base::SavedValues& saved) { run_->restore(saved); }
+void Simulation::restore(const base::SavedValues& saved, Leeway leeway) {
+  run_->restore(saved, leeway);
+}
 
 double StepView::time() const { return simulation_->time(); }
 

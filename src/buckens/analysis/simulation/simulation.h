@@ -37,6 +37,13 @@ struct SimulationOptions {
   linalg::SolveExchange* exchange = nullptr;
 };
 
+/// What may differ between the model of a saved state and the one that continues it, besides title
+/// and duration.
+enum class Leeway {
+  none,
+  steps  ///< `step` and `tolerance`, too; then the grid of steps begins anew
+};
+
 class SimulationRun;
 
 /// A simulation of a model: set up once, then advanced step by step, to an instant or to its end.
@@ -124,10 +131,10 @@ class Simulation {
   // ---- save and go on
   /// Everything needed to continue bit for bit.
   base::SavedValues save() const;
-  /// Continues from there. The model must be the same except for its title and duration.
+  /// Continues from there. The model must be the same except for its title, duration and leeway.
   /// @pre no step was taken
   /// @throws InputError saying what differs; the simulation is then unusable
-  void restore(const base::SavedValues& saved);
+  void restore(const base::SavedValues& saved, Leeway leeway = Leeway::none);
 
  private:
   std::shared_ptr<const model::BuiltModel> kept_;

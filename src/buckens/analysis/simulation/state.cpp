@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a simulation shows, accepts and saves between steps.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -53,6 +54,31 @@ std::string differences(const std::vector<std::string>& saved,
   return fmt::format("{}{}", fmt::join(out, "; "),
                      more > 0 ? fmt::format("; and {} more", more) : "");
 }
+
+/// Lines of a model without values that do not matter.
+std::vector<std::string> without(const std::vector<std::string>& lines,
+                                 const std::vector<std::string>& paths) {
+  std::vector<std::string> out;
+  for (const std::string& line : lines) {
+    const std::string path = split_line(line).first;
+    if (std::find(paths.begin(), paths.end(), path) == paths.end()) out.push_back(line);
+  }
+  return out;
+}
+
+bool have_in_common(const std::vector<std::string>& a, const std::vector<std::string>& b,
+                    const std::string& path) {
+  const auto line_of = [&](const std::vector<std::string>& lines) {
+    const auto is_it = [&](const std::string& line) { return split_line(line).first == path; };
+    return std::find_if(lines.begin(), lines.end(), is_it);
+  };
+  const auto in_a = line_of(a), in_b = line_of(b);
+  return in_a != a.end() && in_b != b.end() && *in_a == *in_b;
+}
+
+constexpr char kLongestStep[] = "longest step";
+const std::vector<std::string> kFreeSteps = {"simulation.step", "simulation.tolerance",
+                                             "simulation.absolute-tolerance", kLongestStep};
 
 }  // namespace
 
@@ -109,7 +135,7 @@ void SimulationRun::set_load(const std::string& name, const std::optional<Eigen:
 std::vector<std::string> SimulationRun::identity() const {
   std::vector<std::string> out = model::field_lines(built_.description);
   for (std::string& line : model::built_lines(built_.model)) out.push_back(std::move(line));
-  out.push_back(fmt::format("longest step: {:.12g} s", march_->longest_step()));
+  out.push_back(fmt::format("{}: {:.12g} s", kLongestStep, march_->longest_step()));
   return out;
 }
 
@@ -122,12 +148,17 @@ void SimulationRun::visit_saved(const base::SaveVisit& visit) {
   visit.number("t_before", before_.t);
   visit.vector_or_none("lambda_before", before_.lambda, state.lambda.size());
   visit.number("lambda_time_before", before_.lambda_time);
-  march_->visit_saved(visit.inside("march"));
   work_->visit_saved(visit.inside("work"));
   statistics_->visit_saved(visit.inside("statistics"));
   watch_->visit_saved(visit.inside("coupling"));
   observer_->visit_saved(visit.inside("sensors"));
-  if (!built_.description.events.empty()) events_->visit_saved(visit.inside("events"));
+  if (built_.description.events.empty()) return;
+  events_->visit_saved(visit.inside("events"));
+  visit.texts("told_events", told_events_);
+  // An event ends a run of this duration; a longer one goes on.
+  double ended = is_at_end_ ? spec_.duration : 0.0;
+  visit.number("ended", ended);
+  is_at_end_ = spec_.duration <= ended;
 }
 
 base::SavedValues SimulationRun::save() {
@@ -138,11 +169,15 @@ base::SavedValues SimulationRun::save() {
   visit.texts("version", version);
   visit.texts("model", lines);
   visit_saved(visit);
+  double longest_step = march_->longest_step();
+  visit.number("longest_step", longest_step);
+  visit.number("march_start", march_start_);
+  march_->visit_saved(visit.inside("march"));
   if (recording_) recording_->visit_saved(visit.inside("recording"));
   return out;
 }
 
-void SimulationRun::restore(const base::SavedValues& saved) {
+void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
   const base::SaveVisit visit = base::SaveVisit::restoring(saved);
   std::vector<std::string> version, lines;
   visit.texts("version", version);
@@ -153,14 +188,38 @@ void SimulationRun::restore(const base::SavedValues& saved) {
                     "would not be the same; use that version, or run from the start",
                     fmt::join(version, ""), kVersion));
   }
-  const std::vector<std::string> here = identity();
-  if (lines != here) {
+  double march_start = 0;
+  visit.number("march_start", march_start);
+  if (march_start != march_start_) begin_march(march_start);
+  std::vector<std::string> here = identity();
+  if (have_in_common(lines, here, kLongestStep)) {
+    // However it was given.
+    lines = without(lines, {"simulation.step"});
+    here = without(here, {"simulation.step"});
+  }
+  const auto interval = saved.numbers.find("recording/every");
+  if (interval != saved.numbers.end() && interval->second == std::vector{plan_.every}) {
+    lines = without(lines, {"output.every"});
+    here = without(here, {"output.every"});
+  }
+  const bool has_other_steps = leeway == Leeway::steps && lines != here &&
+                               without(lines, kFreeSteps) == without(here, kFreeSteps);
+  if (lines != here && !has_other_steps) {
     throw InputError(
         fmt::format("the state belongs to another model: {}; use the model that it "
                     "was saved with (title and duration may change)",
                     differences(lines, here)));
   }
   visit_saved(visit);
+  if (has_other_steps) {
+    begin_march(state().t);
+  } else {
+    march_->visit_saved(visit.inside("march"));
+  }
+  if (steps_ > 0 && march_start_ > 0.0) {
+    steps_ = steps_taken_ + std::lround((spec_.duration - state().t) / march_->longest_step());
+  }
+  for (const std::string& text : told_events_) summary_.notes.push_back(text);
   observed_at_ = -1;
   restored_ = saved;
   summary_.notes.push_back(fmt::format("goes on from a state saved at t = {:.6g} s", state().t));

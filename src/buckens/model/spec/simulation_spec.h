@@ -35,6 +35,7 @@ struct SimulationSpec {
   int max_iterations = 40;
   int max_outer_iterations = 30;
   bool error = false;
+  double checkpoint = 30;  ///< wall time between checkpoints [s]; 0: none
 
   bool has_step_control() const { return tolerance.has_value() || step.value_or(0.0) == 0.0; }
 
@@ -71,6 +72,12 @@ struct SimulationSpec {
               .positive()
               .like("1e-4")
               .otherwise("1e-3 with `step: auto`, else no step control"));
+    accuracy_and_effort(visit);
+  }
+
+ private:
+  template <class Visitor>
+  void accuracy_and_effort(Visitor& visit) {
     visit(base::field(
               "absolute-tolerance", absolute_tolerance,
               "error of deformation that is always admissible, relative to the mechanism's size")
@@ -96,6 +103,14 @@ struct SimulationSpec {
                       "maximum number of large solves in a step")
               .positive());
     visit(base::field("error", error, "on: same as `buckens run --error`").on_off());
+    visit(base::field("checkpoint", checkpoint,
+                      "wall time between checkpoints, from which `buckens run --continue` goes on "
+                      "after a crash; one is also written at the end. off: none")
+              .in(base::kTime)
+              .positive()
+              .or_word("off")
+              .like("30 s")
+              .otherwise("30 s"));
   }
 };
 

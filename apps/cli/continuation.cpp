@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/continuation.h"
+
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/analysis/simulation/output_plan.h"
+#include "buckens/analysis/simulation/settings.h"
+#include "buckens/base/errors.h"
+#include "buckens/run_store/run_files.h"
+#include "buckens/run_store/state_file.h"
+
+namespace buckens::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kWholeSteps = 1e-9;
+
+void require_run(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::is_regular_file(directory / run_store::kSummaryName, error)) {
+    throw IoError(
+        fmt::format("{}: not a run directory: it holds no {}. Give --continue the directory that "
+                    "`buckens run` has written (-o).",
+                    directory.string(), run_store::kSummaryName));
+  }
+  if (!fs::is_regular_file(directory / run_store::kCheckpointName, error)) {
+    throw IoError(fmt::format(
+        "{}: there is no checkpoint to go on from: the run ended before its first one, or the "
+        "model says `checkpoint: off`. Run the model from the start; simulation.checkpoint is the "
+        "time between checkpoints.",
+        directory.string()));
+  }
+}
+
+}  // namespace
+
+void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments) {
+  verb.add_option("--continue", arguments.directory,
+                  "Goes on with the run in OUT where its last checkpoint is: after\n"
+                  "Ctrl-C, a crash, a full disk or a failed step. Without MODEL it is\n"
+                  "the model that was run; --set may change step and tolerance")
+      ->type_name("OUT");
+  verb.add_option("--until", arguments.until,
+                  "With --continue: the end of the run [s], later or earlier than planned")
+      ->type_name("T");
+}
+
+Continuation::Continuation(fs::path directory) : directory_(std::move(directory)) {
+  require_run(directory_);
+  const base::SavedValues state = run_store::read_state(checkpoint());
+  try {
+    kept_ = run_store::continuation_from(state);
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}: {}", checkpoint().string(), error.what()));
+  }
+}
+
+fs::path Continuation::model() const { return directory_ / run_store::kModelName; }
+
+fs::path Continuation::checkpoint() const { return directory_ / run_store::kCheckpointName; }
+
+std::vector<std::string> Continuation::changes_until(const model::ModelDescription& description,
+                                                     double until) const {
+  if (!(until > kept_.time)) {
+    throw InputError(
+        fmt::format("--until {:g}: the run in {} has already reached t = {:.9g} s; give a later "
+                    "time",
+                    until, directory_.string(), kept_.time));
+  }
+  // Without them, the length of steps and the times of records would follow from the duration.
+  const double steps = (until - kept_.march_start) / kept_.longest_step;
+  const bool is_whole = std::abs(steps - std::round(steps)) <= kWholeSteps * steps;
+  const double end = is_whole ? until : kept_.march_start + std::ceil(steps) * kept_.longest_step;
+  std::vector<std::string> out = {
+      fmt::format("simulation.duration={:.17g}", end),
+      fmt::format("output.every={:.17g}", analysis::plan_output(description).every)};
+  const model::SimulationSpec& spec = *description.simulation;
+  out.push_back(fmt::format("simulation.step={:.17g}", kept_.longest_step));
+  if (spec.has_step_control() && !spec.tolerance) {
+    const double standard = analysis::march_settings(spec).tolerance->relative;
+    out.push_back(fmt::format("simulation.tolerance={:.17g}", standard));
+  }
+  return out;
+}
+
+}  // namespace buckens::cli
