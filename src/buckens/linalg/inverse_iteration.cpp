@@ -31,7 +31,8 @@ double longest_column(const Matrix& W, const Matrix& MW) {
 // A fresh block tells nothing about missing pairs before this many sweeps.
 constexpr int kSearchSweeps = 3;
 constexpr int kSmoothing = 2;
-constexpr int kJudgedAfter = 2;
+// Where A⁻¹M has many pairs of almost one size, θ grows for long: two sweeps may tell little of it.
+constexpr int kFirstJudged = 2, kLastJudged = 32;
 
 /// The growing basis V with M-orthonormal columns and T = VᵀM A⁻¹M V.
 class Subspace {
@@ -59,6 +60,7 @@ class Subspace {
   auto basis() const { return V_.leftCols(size_); }
   auto mass_basis() const { return MV_.leftCols(size_); }
   Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
+  bool is_judged() const;
   bool is_converged(Eigen::Index count) const;
   bool is_nothing_missed() const;
   bool is_changed(const Vector& before) const;
@@ -216,6 +218,13 @@ void Subspace::restart(Eigen::Index keep) {
   T_ = theta_.head(keep).asDiagonal();
 }
 
+/// After the sweeps 2, 4, 8 …, unless the wanted pairs are found.
+bool Subspace::is_judged() const {
+  const bool is_power_of_two = (sweeps_ & (sweeps_ - 1)) == 0;
+  return settings_.is_worthwhile && search_from_ < 0 && is_power_of_two &&
+         sweeps_ >= kFirstJudged && sweeps_ <= kLastJudged;
+}
+
 bool Subspace::is_converged(Eigen::Index count) const {
   for (Eigen::Index k = 0; k < count; ++k) {
     const double floor = 10.0 * rounding_ * std::abs(theta_[0]);
@@ -278,9 +287,7 @@ InversePairs Subspace::run() {
   while (true) {
     sweep();
     solve_projected();
-    if (sweeps_ == kJudgedAfter && settings_.is_worthwhile && !settings_.is_worthwhile(theta_[0])) {
-      return result(false);
-    }
+    if (is_judged() && !settings_.is_worthwhile(theta_[0])) return result(false);
     const bool is_exhausted = block_.cols() == 0;
     if (is_exhausted || (theta_.size() >= settings_.count && is_converged(settings_.count))) {
       if (search_from_ < 0) {

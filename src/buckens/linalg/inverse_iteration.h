@@ -17,7 +17,8 @@ struct InverseIterationSettings {
   /// Of ‖A⁻¹M x − θ x‖_M / |θ|: error of the vector; the error of θ is about its square.
   double tolerance = 1e-9;
   int max_sweeps = 400;
-  /// Called once after two sweeps with the largest |θ| so far; `false` ends the iteration there.
+  /// Called after 2, 4, 8, 16 and 32 sweeps with the largest |θ| so far; `false` ends the iteration
+  /// there.
   std::function<bool(double)> is_worthwhile = {};
 };
 

@@ -100,5 +100,24 @@ TEST(InverseIteration, ReportsWhatDidNotConverge) {
   EXPECT_FALSE(pairs.is_complete);
 }
 
+// Where all pairs are of almost one size, as over a shift far above the lowest ω², the first sweeps
+// know little of the largest.
+TEST(InverseIteration, IsJudgedMoreThanOnce) {
+  const Vector squares = Vector::LinSpaced(2000, 1.0, 1.001);
+  const SparseMatrix M = diagonal(Vector::Ones(2000));
+  std::vector<double> seen;
+  InverseIterationSettings settings{.count = 5};
+  settings.is_worthwhile = [&](double theta) {
+    seen.push_back(1.0 - theta);
+    return seen.size() < 4;
+  };
+  const auto pairs = largest_inverse_pairs(M, divided_by(squares), Matrix(2000, 0), settings);
+  EXPECT_FALSE(pairs.is_complete);
+  EXPECT_EQ(pairs.sweeps, 16);
+  ASSERT_EQ(seen.size(), 4U);
+  // Ritz values of nested spaces.
+  for (std::size_t k = 1; k < seen.size(); ++k) EXPECT_LT(seen[k], seen[k - 1]);
+}
+
 }  // namespace
 }  // namespace buckens::linalg
