@@ -7,7 +7,8 @@ if(cli_sources)
   target_include_directories(buckens_program PRIVATE "${PROJECT_SOURCE_DIR}/apps")
   target_link_libraries(
     buckens_program PRIVATE buckens buckens_options CLI11::CLI11 spdlog::spdlog
-                            nlohmann_json::nlohmann_json Threads::Threads Cairo::Cairo)
+                            nlohmann_json::nlohmann_json Threads::Threads Cairo::Cairo
+                            Httplib::Httplib)
 endif()
 
 if(BUCKENS_BENCH)

@@ -15,7 +15,9 @@ find_package(ZLIB REQUIRED)
 find_package(OpenBLAS REQUIRED)
 find_package(Spectra REQUIRED)
 find_package(Threads REQUIRED)
-find_package(Cairo REQUIRED) # the program alone uses it
+# The program alone uses these.
+find_package(Cairo REQUIRED)
+find_package(Httplib REQUIRED)
 # Optional: has libFuzzer, for the tests with label fuzz.
 find_program(BUCKENS_FUZZ_CLANG NAMES clang++-14 clang++)
 mark_as_advanced(BUCKENS_FUZZ_CLANG)

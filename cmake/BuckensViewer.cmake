@@ -40,4 +40,9 @@ if(BUCKENS_TESTS)
       set_tests_properties(${name} PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON)
     endif()
   endforeach()
+  add_test(NAME viewer.test-live
+           COMMAND "${BUCKENS_NPM}" run --silent test:live -- $<TARGET_FILE:buckens_program>
+                   "${PROJECT_SOURCE_DIR}/tests/models/endless.yaml"
+           WORKING_DIRECTORY "${viewer_dir}")
+  set_tests_properties(viewer.test-live PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON)
 endif()

@@ -65,6 +65,7 @@ FILES = {
     "README.md": {"rod.yaml": README_MODEL},
     "docs/reference/command-line.md": {"crank.yaml": CRANK},
     "docs/reference/saved-state.md": {"slider_crank.yaml": CRANK},
+    "docs/tutorials/continue.md": {"slider_crank.yaml": CRANK},
     "docs/tutorials/frames.md": {"model.yaml": README_MODEL},
     "docs/tutorials/free-vibration.md": {"tuning_fork.yaml": "examples/tuning_fork/tuning_fork.yaml"},
     "docs/tutorials/meshes.md": {"part.msh": "", "housing.inp": "examples/bracket_inp/bracket.inp",
@@ -94,6 +95,8 @@ def shortened(words, folder):
     """`run` and `sweep` with a few steps."""
     if words[0] not in ("run", "sweep") or "--error" in words:
         return words
+    if words[1] == "--continue":  # what has ended can go on only further
+        return words if "--until" in words else [*words, "--until", "0.01"]
     text = (folder / words[1]).read_text()
     units = {"s": 1, "ms": 1e-3, "us": 1e-6}
     given = {key: re.search(rf"\b{key}: *([\d.e-]+) *(s|ms|us)\b", text) for key in ("duration", "step", "every")}

@@ -10,7 +10,7 @@ buckens_build_packages=(
   g++ cmake ninja-build ccache ca-certificates
   libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libmuparser-dev libhdf5-dev libgmsh-dev zlib1g-dev libsuitesparse-dev libmetis-dev
-  libopenblas-openmp-dev libspectra-dev libcairo2-dev
+  libopenblas-openmp-dev libspectra-dev libcairo2-dev libcpp-httplib-dev
 )
 # All packages: also those of tests, benchmarks, checks and the Python module.
 buckens_packages=(

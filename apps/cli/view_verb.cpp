@@ -11,6 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/interruption.h"
+#include "cli/live_page.h"
+#include "cli/open_page.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
 
@@ -27,6 +30,7 @@ namespace fs = std::filesystem;
 struct ViewArguments {
   std::vector<std::string> runs;
   std::string page, fields;
+  bool live = false, open = false;
   std::size_t frames = page::ViewPageOptions{}.max_frames;
   std::size_t megabytes = page::ViewPageOptions{}.max_bytes >> 20U;
 };
@@ -72,6 +76,22 @@ void warn_of_unknown(const std::vector<std::string>& wanted,
   }
 }
 
+/// Serves the page until Ctrl-C.
+ExitCode view_live(const ViewArguments& arguments, const page::ViewPageOptions& options,
+                   bool json) {
+  if (!arguments.page.empty()) {
+    throw InputError("--live serves the page and writes none; leave out -o, or --live");
+  }
+  LivePage page({arguments.runs.begin(), arguments.runs.end()}, find_template(), options);
+  print(json ? to_text({{"address", page.address()}})
+             : fmt::format("{}\nFollows the run on this machine only; Ctrl-C ends it.\n",
+                           page.address()));
+  if (arguments.open) open_in_browser(page.address());
+  const Interruption interruption(false);
+  page.serve([&interruption] { return interruption.requested(); });
+  return ExitCode::ok;
+}
+
 ExitCode view(const ViewArguments& arguments, bool json) {
   const std::vector<fs::path> runs(arguments.runs.begin(), arguments.runs.end());
   const fs::path page =
@@ -80,9 +100,11 @@ ExitCode view(const ViewArguments& arguments, bool json) {
   options.max_frames = arguments.frames;
   options.max_bytes = arguments.megabytes << 20U;
   options.fields = split(arguments.fields);
+  if (arguments.live) return view_live(arguments, options, json);
   const std::vector<page::ViewPageReport> reports =
       page::write_view_page(runs, find_template(), page, options);
   warn_of_unknown(options.fields, reports);
+  if (arguments.open) open_in_browser(fs::absolute(page).string());
   if (json) {
     nlohmann::ordered_json out = {{"page", page.string()},
                                   {"records", reports.front().records},
@@ -101,7 +123,8 @@ ExitCode view(const ViewArguments& arguments, bool json) {
     counts += fmt::format("{}{} of {} records{}", counts.empty() ? "" : ", ", report.frames,
                           report.records, report.rounded ? ", fields rounded to 16 bits" : "");
   }
-  print(fmt::format("{} ({}); open it in a browser.\n", page.string(), counts));
+  print(fmt::format("{} ({}){}\n", page.string(), counts,
+                    arguments.open ? "" : "; open it in a browser."));
   return ExitCode::ok;
 }
 
@@ -109,10 +132,14 @@ constexpr char kViewFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out
   buckens view out
+  buckens view out --open                  and opens it in the browser
+  buckens view out --live --open           follows a run that goes on
   buckens view out other -o both.html      two runs side by side
 
 Writes out/view.html, one file that needs nothing else: the machine in motion with its deformation,
-stresses and other fields, and the curves of the sensors. Works while the run goes on and after it was interrupted.
+stresses and other fields, and the curves of the sensors. Works while the run goes on and after it
+was interrupted. With --live it is served instead and renewed as the run goes on, until Ctrl-C: at
+an address of this machine that only its user is told.
 
 Exit codes: 0 done, 2 bad command line, 5 the run or the page cannot be read or written.
 The page is explained in docs/tutorials/viewer.md)";
@@ -128,6 +155,9 @@ void add_view_verb(CLI::App& program, Invocation& invocation) {
       ->expected(1, 2);
   verb.add_option("-o,--out", arguments->page, "The page; without it OUT/view.html")
       ->type_name("PAGE");
+  verb.add_flag("--open", arguments->open, "Open the page in the browser");
+  verb.add_flag("--live", arguments->live,
+                "Serve the page on this machine, following the run while it goes on");
   verb.add_option("--frames", arguments->frames, "Most frames in the page")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000));

@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { KeptCamera } from './hook';
 import type { Triple } from './page_data';
 
 const kFieldOfView = 32;
@@ -183,6 +184,28 @@ export class CameraRig {
     target.add(way);
     this.controls.update();
     this.changed();
+  }
+
+  keep(): KeptCamera {
+    return {
+      orthographic: this.orthographic,
+      height: this.height,
+      zoom: this.parallel.zoom,
+      position: this.camera.position.toArray(),
+      target: this.controls.target.toArray(),
+    };
+  }
+
+  /** Looks from where another page did. */
+  adopt(kept: KeptCamera): void {
+    if (kept.orthographic !== this.orthographic) this.setOrthographic(kept.orthographic);
+    this.fitted = null;
+    this.height = kept.height;
+    this.parallel.zoom = kept.zoom;
+    this.camera.position.fromArray(kept.position);
+    this.controls.target.fromArray(kept.target);
+    this.setFrustum();
+    this.controls.update();
   }
 
   /** Takes the viewpoint of another camera of the same kind of view. */

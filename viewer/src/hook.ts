@@ -32,9 +32,35 @@ export interface ViewerState extends ViewOptions {
   bodies: { name: string; pose: number[]; screen: { x: number; y: number } }[];
 }
 
+/** What a newer page of the same run takes over from the one it replaces, as plain data. */
+export interface Kept {
+  options: ViewOptions;
+  time: number;
+  /** The time was that of the last frame: it stays so. */
+  isAtEnd: boolean;
+  playing: boolean;
+  speed: number;
+  camera: KeptCamera | null;
+}
+
+/** Where the camera is [model units: the size of the run]. */
+export interface KeptCamera {
+  orthographic: boolean;
+  height: number;
+  zoom: number;
+  position: number[];
+  target: number[];
+}
+
 declare global {
   interface Window {
     /** For tests and scripts: `setTime` pauses and shows time t [s]. */
-    __buckens?: { setTime(t: number): void; state(): ViewerState };
+    __buckens?: {
+      setTime(t: number): void;
+      state(): ViewerState;
+      /** For `buckens view --live`, which replaces the page while the run goes on. */
+      keep(): Kept;
+      adopt(kept: Kept): void;
+    };
   }
 }

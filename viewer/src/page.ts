@@ -30,7 +30,7 @@ import { Transport } from './transport';
 import { Views } from './views';
 import type { ModeShapes } from './modes';
 import type { Run } from './run';
-import type { ViewerState } from './hook';
+import type { Kept, ViewerState } from './hook';
 import type { ViewOptions } from './view_options';
 
 /** Seconds for which one period of a mode is shown. */
@@ -235,7 +235,35 @@ export class Page {
     window.__buckens = {
       setTime: (t) => this.seek(t),
       state: () => this.state(),
+      keep: () => this.keep(),
+      adopt: (kept) => this.adopt(kept),
     };
+  }
+
+  private keep(): Kept {
+    const { options, playback, leader } = this;
+    return {
+      options,
+      time: playback.time,
+      isAtEnd: playback.time >= playback.end,
+      playing: playback.playing,
+      speed: playback.speed,
+      camera: leader?.rig.keep() ?? null,
+    };
+  }
+
+  private adopt(kept: Kept): void {
+    const { options, playback } = this;
+    // Its parts are known elsewhere and stay the same objects.
+    const { field, section, ...rest } = structuredClone(kept.options);
+    Object.assign(options, rest);
+    Object.assign(options.field, field);
+    Object.assign(options.section, section);
+    playback.speed = kept.speed;
+    playback.playing = kept.playing && playback.canPlay;
+    playback.setTime(kept.isAtEnd && !kept.playing ? playback.end : kept.time);
+    if (kept.camera) this.leader?.rig.adopt(kept.camera);
+    this.changed();
   }
 
   private step(move: () => void): void {

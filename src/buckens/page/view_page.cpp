@@ -45,10 +45,9 @@ std::string script_text(const Json& json) {
 
 }  // namespace
 
-std::vector<ViewPageReport> write_view_page(
-    const std::vector<std::filesystem::path>& run_directories,
-    const std::filesystem::path& template_html, const std::filesystem::path& output_html,
-    const ViewPageOptions& options) {
+std::string view_page(const std::vector<std::filesystem::path>& run_directories,
+                      const std::filesystem::path& template_html, const ViewPageOptions& options,
+                      std::vector<ViewPageReport>& reports) {
   std::string page = files::read_text_file(template_html);
   const std::size_t at = page.find(kMarker);
   if (at == page.npos || page.find(kMarker, at + 1) != page.npos) {
@@ -59,7 +58,7 @@ std::vector<ViewPageReport> write_view_page(
   }
   ViewPageOptions share = options;
   share.max_bytes /= run_directories.size();
-  std::vector<ViewPageReport> reports(run_directories.size());
+  reports.assign(run_directories.size(), {});
   const std::vector<std::string> names = directory_names(run_directories);
   Json runs = Json::array();
   for (std::size_t i = 0; i < run_directories.size(); ++i) {
@@ -75,7 +74,16 @@ std::vector<ViewPageReport> write_view_page(
   }
   page.replace(at, kMarker.size(),
                script_text({{"format", kPageFormat}, {"runs", std::move(runs)}}));
-  files::replace_text_file(output_html, page);
+  return page;
+}
+
+std::vector<ViewPageReport> write_view_page(
+    const std::vector<std::filesystem::path>& run_directories,
+    const std::filesystem::path& template_html, const std::filesystem::path& output_html,
+    const ViewPageOptions& options) {
+  std::vector<ViewPageReport> reports;
+  files::replace_text_file(output_html,
+                           view_page(run_directories, template_html, options, reports));
   return reports;
 }
 

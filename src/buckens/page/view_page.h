@@ -25,16 +25,21 @@ struct ViewPageReport {
   std::vector<std::string> fields = {};  ///< names of all that the run recorded, in order
 };
 
-/// Writes one self-contained HTML page that shows a run, or two runs side by side.
+/// One self-contained HTML page that shows a run, or two runs side by side.
 ///
 /// `template_html` is the viewer's page, which contains the text `/*BUCKENS_DATA*/null` exactly
 /// once; the runs replace that text as JSON (format 2, viewer/src/page_data.ts). Frames are taken
 /// evenly from the records, the first and the last among them. Runs that are in progress or were
 /// killed show what they have.
 /// @param run_directories one or two
-/// @return one report for each
+/// @param reports gets one for each
 /// @throws IoError if a run cannot be read, the template does not fit, a run has no records, one
 ///   directory holds a run and the other vibrations, or the page cannot be written
+std::string view_page(const std::vector<std::filesystem::path>& run_directories,
+                      const std::filesystem::path& template_html, const ViewPageOptions& options,
+                      std::vector<ViewPageReport>& reports);
+
+/// Writes that page to a file.
 std::vector<ViewPageReport> write_view_page(
     const std::vector<std::filesystem::path>& run_directories,
     const std::filesystem::path& template_html, const std::filesystem::path& output_html,
