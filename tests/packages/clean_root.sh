@@ -55,6 +55,7 @@ in_root cmake --build /srv/cpp-build >/dev/null
 in_root /srv/cpp-build/pendulum
 
 echo "== and away again"
-in_root sh -c 'apt-get purge -y -qq buckens libbuckens-dev python3-buckens "buckens-doc*"' >/dev/null
+in_root sh -c 'apt-get purge -y -qq buckens libbuckens-dev python3-buckens "buckens-doc*" python3-h5py g++ cmake ninja-build &&
+  apt-get autoremove -y -qq --purge' >/dev/null
 if [ -e "$root/usr/share/buckens" ] || [ -e "$root/usr/bin/buckens" ]; then echo "error: files are left"; exit 1; fi
 echo "packages: ok"
