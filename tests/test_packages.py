@@ -102,3 +102,32 @@ def test_the_manual_page_knows_every_verb(buckens):
     codes = re.findall(r"^\.B (\d+)$", page, re.MULTILINE)
     text = pathlib.Path(SOURCE / "apps" / "cli" / "exit_code.h").read_text()
     assert codes == re.findall(r"= (\d+),", text)
+
+
+def test_files_for_other_services_name_what_is_here():
+    """Container file, recipe and workflow, as far as they can be checked without the services."""
+    yaml = pytest.importorskip("yaml")
+    workflow = yaml.safe_load((SOURCE / ".github" / "workflows" / "test.yaml").read_text())
+    runs = [step["run"] for job in workflow["jobs"].values() for step in job["steps"] if "run" in step]
+    scripts = [run.split()[0] for run in runs if "/" in run.split()[0]]
+    assert {"./test.sh", "./packages.sh", "tests/packages/clean_root.sh"} == set(scripts)
+    container = (SOURCE / "packaging" / "Containerfile").read_text()
+    scripts += re.findall(r"\./\w+\.sh", container)
+    assert "/source/build/release/packages/*.deb" in container
+    for script in scripts:
+        assert (SOURCE / script).stat().st_mode & 0o100, f"{script} cannot be executed"
+    # The same library of Gmsh as the package recommends.
+    assert "libgmsh4.8" in container
+    recipe = (SOURCE / "packaging" / "conda" / "meta.yaml").read_text().lower()
+    for name in re.findall(r"^find_package\((\w+)", (SOURCE / "cmake" / "BuckensDependencies.cmake").read_text(), re.MULTILINE):
+        word = {"Eigen3": "eigen", "HDF5Serial": "hdf5", "OpenBLAS": "openblas", "Threads": ""}.get(name, name.lower())
+        assert word.replace("-", "") in recipe.replace("-", ""), name
+    # What is run while building is there.
+    for option in re.findall(r"-D(BUCKENS_\w+)=", (SOURCE / "packaging" / "conda" / "build.sh").read_text()):
+        assert any(option in path.read_text() for path in (SOURCE / "cmake").glob("*.cmake")), option
+
+
+def test_the_packing_script_refuses_what_it_does_not_know():
+    done = subprocess.run([SOURCE / "packages.sh", "--without-tests"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and "unknown argument --without-tests; usage: ./packages.sh" in done.stderr
+    assert "Debian packages" in call(SOURCE / "packages.sh", "--help")
