@@ -34,6 +34,7 @@ function(buckens_module name floor)
 
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${name}/*.cpp")
   list(FILTER sources EXCLUDE REGEX "/src/buckens/${name}/test/")
+  list(REMOVE_ITEM sources ${BUCKENS_LEFT_OUT})
   if(sources)
     add_library(buckens_${name}_objects OBJECT ${sources})
     target_link_libraries(buckens_${name}_objects PRIVATE buckens_common ${third_party})

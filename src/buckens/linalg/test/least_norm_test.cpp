@@ -7,6 +7,8 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include "buckens/linalg/sparse_qr.h"
+
 namespace buckens::linalg {
 namespace {
 
@@ -59,6 +61,22 @@ TEST(LeastNorm, TakesManyEquationsAndRowsWithoutEntries) {
   EXPECT_LT((A * (x - some)).norm(), 1e-12 * (A * some).norm());
   EXPECT_LT(std::abs(x.dot(some - x)), 1e-12 * some.squaredNorm()) << "nothing can be left out";
   EXPECT_EQ(x.tail(2).norm(), 0.0);
+}
+
+TEST(SparseQr, RoutesAgree) {
+  const SparseMatrix A = chain(400, 5).transpose();
+  const Vector b = A.transpose() * numbers(A.rows());
+  const Vector x = least_norm(A, b, 1e-9);
+  EXPECT_LT((least_norm_by_eigen(A, b, 1e-9) - x).norm(), 1e-12 * x.norm());
+  const RowRank found = split_columns(A, 1e-9);
+  const RowRank other = split_columns_by_eigen(A, 1e-9);
+  EXPECT_EQ(found.independent.size(), other.independent.size());
+  EXPECT_EQ(other.independent.size() + other.dependent.size(), static_cast<std::size_t>(A.cols()));
+  Matrix kept(A.rows(), static_cast<Eigen::Index>(other.independent.size()));
+  for (Eigen::Index k = 0; k < kept.cols(); ++k) {
+    kept.col(k) = A.col(other.independent[static_cast<std::size_t>(k)]);
+  }
+  EXPECT_EQ(kept.colPivHouseholderQr().rank(), kept.cols()) << "independent indeed";
 }
 
 TEST(LeastNorm, OfNothingIsNothing) {

@@ -7,6 +7,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <gmshc.h>
 
 #include "buckens/base/errors.h"
 

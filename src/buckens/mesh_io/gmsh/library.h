@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <gmshc.h>
-
 namespace buckens::mesh_io {
 
 /// Dimension and number of an entity of a geometry.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace buckens::mesh_io {
@@ -24,20 +23,6 @@ constexpr double kNodesOfElement = 1.58, kNodesOfTriangle = 1.12;
 constexpr double kFlatNodes = 1 / 5.5;
 
 }  // namespace
-
-std::vector<FaceExtent> face_extents(const GmshLibrary& gmsh) {
-  std::map<int, double> lengths;
-  for (const GmshEntity& curve : gmsh.entities(1)) lengths[curve.second] = gmsh.size(curve);
-  std::vector<FaceExtent> out;
-  for (const GmshEntity& face : gmsh.entities(2)) {
-    FaceExtent extent{std::abs(gmsh.size(face)), gmsh.largest_curvature(face.second), {}};
-    for (const GmshEntity& curve : gmsh.boundary({face})) {
-      extent.edges.push_back(lengths[std::abs(curve.second)]);
-    }
-    out.push_back(std::move(extent));
-  }
-  return out;
-}
 
 double expected_triangles(const std::vector<FaceExtent>& faces, double size, double smallest,
                           int in_a_turn) {

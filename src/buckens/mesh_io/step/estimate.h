@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "buckens/mesh_io/gmsh/library.h"
-
 namespace buckens::mesh_io {
 
 /// What decides how many triangles a face becomes.
@@ -13,9 +11,6 @@ struct FaceExtent {
   double curvature = 0;       ///< the largest found at nine places
   std::vector<double> edges;  ///< their lengths
 };
-
-/// Faces of the model in its unit of length.
-std::vector<FaceExtent> face_extents(const GmshLibrary& gmsh);
 
 /// About how many triangles the faces become.
 /// @param smallest least size where faces are curved

@@ -189,4 +189,18 @@ SurfaceFaults surface_faults(const GmshLibrary& gmsh) {
   return out;
 }
 
+std::vector<FaceExtent> face_extents(const GmshLibrary& gmsh) {
+  std::map<int, double> lengths;
+  for (const GmshEntity& curve : gmsh.entities(1)) lengths[curve.second] = gmsh.size(curve);
+  std::vector<FaceExtent> out;
+  for (const GmshEntity& face : gmsh.entities(2)) {
+    FaceExtent extent{std::abs(gmsh.size(face)), gmsh.largest_curvature(face.second), {}};
+    for (const GmshEntity& curve : gmsh.boundary({face})) {
+      extent.edges.push_back(lengths[std::abs(curve.second)]);
+    }
+    out.push_back(std::move(extent));
+  }
+  return out;
+}
+
 }  // namespace buckens::mesh_io

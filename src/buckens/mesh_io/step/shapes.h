@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/mesh_io/gmsh/library.h"
+#include "buckens/mesh_io/step/estimate.h"
 
 namespace buckens::mesh_io {
 
@@ -52,5 +53,8 @@ struct SurfaceFaults {
 };
 
 SurfaceFaults surface_faults(const GmshLibrary& gmsh);
+
+/// Faces of the model in its unit of length.
+std::vector<FaceExtent> face_extents(const GmshLibrary& gmsh);
 
 }  // namespace buckens::mesh_io
