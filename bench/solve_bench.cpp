@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Large solves over panels against CHOLMOD's own with the same factor, and against the bound that
-// the bandwidth of memory sets: every solve reads the factor twice.
+// Factors and large solves over panels against CHOLMOD's, and solves against the bound that the
+// bandwidth of memory sets: every solve reads the factor twice.
 //
 //     solve_bench hex8:274,10,10 [--budget SECONDS] [--no-reference]
 //
@@ -17,7 +17,9 @@
 #include "solid_block.h"
 #include "stopwatch.h"
 
+#include "buckens/base/free_memory.h"
 #include "buckens/linalg/blas_kernels.h"
+#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/streaming_memory.h"
 
@@ -89,17 +91,26 @@ json measure(const SolidBlock& block, double budget, bool with_reference) {
   out["slender"] = block.is_slender();
   out["dof"] = A.rows();
   out["assembly"] = assembly.seconds();
-  const Stopwatch factorisation;
-  SparseCholesky solver(A, {with_reference ? SolveRoute::cholmod : SolveRoute::panels});
-  out["factorisation"] = factorisation.seconds();
   if (with_reference) {
-    out["cholmod"] = {{"bytes", solver.bytes()},
-                      {"residual", residual(A, solver)},
-                      {"1", solve_times(solver, 1, budget)}};
-    const Stopwatch layout;
-    if (!solver.take_panels()) solver = SparseCholesky(A, {SolveRoute::panels});
-    out["layout"] = layout.seconds();
+    const Stopwatch factorisation;
+    const SparseCholesky reference(A, {SolveRoute::cholmod});
+    out["cholmod"] = {{"factorisation", factorisation.seconds()},
+                      {"entries", reference.num_factor_entries()},
+                      {"bytes", reference.bytes()},
+                      {"residual", residual(A, reference)},
+                      {"1", solve_times(reference, 1, budget)}};
+    buckens::base::return_free_memory();
   }
+  for (const int threads : {2, 1}) {
+    const buckens::linalg::FactorThreads allowed(threads);
+    const Stopwatch factorisation;
+    const SparseCholesky factor(A);
+    out["factorisation"][std::to_string(threads)] = factorisation.seconds();
+  }
+  const double before = buckens::bench::restart_peak();
+  const SparseCholesky solver(A);
+  out["factor_bytes"] = buckens::bench::process_memory("VmHWM") - before;
+  out["entries"] = solver.num_factor_entries();
   out["panels"] = {{"bytes", solver.bytes()},
                    {"parts", solver.num_parts()},
                    {"residual", residual(A, solver)},

@@ -65,7 +65,7 @@ def failures(rows):
 
 def solve_table(results):
     rows = list(of_section(results, "solves"))
-    head = ["block", "DOF", "factorised [s]", "panels [MB]", "CHOLMOD", "panels", "÷ CHOLMOD",
+    head = ["block", "DOF", "panels [MB]", "CHOLMOD", "panels", "÷ CHOLMOD",
             "bound", "÷ bound", "2 threads", "÷ 1 thread", "bound 2", "6 rhs", "÷ 1 rhs", "32 rhs",
             "CHOLMOD 6 rhs", "residual"]
     cells = []
@@ -77,7 +77,7 @@ def solve_table(results):
         bound = [2.0 * panels["bytes"] / row["bandwidth"][n] for n in ("1", "2")]
         ratio = number(one["1"] / reference["1"], 2) if reference else "–"
         cells.append([
-            shape(row), dofs(row["dof"]), number(row["factorisation"]),
+            shape(row), dofs(row["dof"]),
             number(1e-6 * panels["bytes"]), ms(reference.get("1")), ms(one["1"]), ratio,
             ms(bound[0]), number(one["1"] / bound[0], 2), ms(two["1"]),
             number(two["1"] / one["1"], 2), ms(bound[1]), ms(one["6"]),
@@ -87,6 +87,27 @@ def solve_table(results):
             "Times in ms. `bound`: twice the bytes of the panels over the bandwidth measured in the "
             "same run; blocks whose factor stays in the cache beat it.", "",
             *lines_of(head, cells), *failures(rows)]
+
+
+def factor_table(results):
+    head = ["block", "DOF", "CHOLMOD, 1 thread [s]", "1 thread [s]", "÷ CHOLMOD", "2 threads [s]",
+            "÷ CHOLMOD", "entries ÷ CHOLMOD's", "panels [MB]", "taken at most ÷ panels"]
+    cells = []
+    for row in of_section(results, "solves"):
+        if "error" in row or not isinstance(row["factorisation"], dict):
+            continue
+        one, two = (row["factorisation"][n] for n in "12")
+        reference = row.get("cholmod", {})
+        ratio = [number(t / reference["factorisation"], 2) if reference else "–"
+                 for t in (one, two)]
+        cells.append([
+            shape(row), dofs(row["dof"]), number(reference.get("factorisation")), number(one),
+            ratio[0], number(two), ratio[1],
+            number(row["entries"] / reference["entries"], 3) if reference else "–",
+            number(1e-6 * row["panels"]["bytes"]),
+            number(row["factor_bytes"] / row["panels"]["bytes"], 3)])
+    return ["### Factors", "", "Ordering included, on one thread and on two.", "",
+            *lines_of(head, cells)]
 
 
 def step_table(results):
@@ -207,7 +228,7 @@ def origin(results):
 def tables(results):
     frame = {"frames": "frames", "per frame": "per frame [µs]", "newton/step": "iterations"}
     return [
-        origin(results), "", *solve_table(results), *step_table(results), *setup_table(results),
+        origin(results), "", *factor_table(results), *solve_table(results), *step_table(results), *setup_table(results),
         *mode_table(results),
         *google_table("Reduced body on a ball joint", results, "reduced", "reduced_step",
                       {"solves/step": "divisions by K̂", "newton/step": "iterations"}),

@@ -8,6 +8,8 @@ set(kernels "${PROJECT_SOURCE_DIR}/src/buckens/linalg/panel_kernels")
 set(instrumented
     base/task_pool.cpp
     base/test/task_pool_test.cpp
+    linalg/front.cpp
+    linalg/multifrontal.cpp
     linalg/panel_factor.cpp
     linalg/panel_kernels_portable.cpp
     linalg/solve_exchange.cpp

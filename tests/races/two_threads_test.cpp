@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One factor read by two threads, small enough for the thread sanitizer. That it gives the right
-// numbers is shown by linalg/test/panel_factor_test.cpp.
+// One factor made and read by two threads, small enough for the thread sanitizer. That it gives the
+// right numbers is shown by linalg/test/panel_factor_test.cpp.
 #include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
 namespace buckens::linalg {
@@ -46,6 +47,14 @@ TEST(TwoThreads, ReadOneFactor) {
     pool.run(2, [&](int k) { found.middleCols(2 * k, 2) = factor.solve(B.middleCols(2 * k, 2)); });
     EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 1e-15);  // of answers of size 0.01
   }
+}
+
+TEST(TwoThreads, MakeOneFactor) {
+  const SparseMatrix A = grid(8);
+  const Matrix B = Matrix::Ones(A.rows(), 1);
+  const Matrix alone = SparseCholesky(A).solve(B);
+  const FactorThreads two(2);
+  EXPECT_EQ(SparseCholesky(A).solve(B), alone);
 }
 
 }  // namespace

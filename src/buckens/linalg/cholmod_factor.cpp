@@ -2,7 +2,6 @@
 #include "buckens/linalg/cholmod_factor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -206,18 +205,11 @@ class FactorOf final : public CholmodFactor {
   /// Reports a failure of CHOLMOD. @param bytes that it needed, as far as known
   [[noreturn]] void fail(const char* task, double bytes) const {
     if (common_.status == CHOLMOD_TOO_LARGE) throw TooLarge{};
-    const std::string what = fmt::format("a matrix of size {}", size_);
-    if (common_.status == CHOLMOD_OUT_OF_MEMORY) {
-      const std::string needed =
-          bytes > 0.0 ? fmt::format(" ({} for its factor alone)", gigabytes(bytes)) : "";
-      throw NumericalError(
-          fmt::format("there is not enough memory to {} {}{}; use a coarser mesh, "
-                      "or divide or reduce the body",
-                      task, what, needed));
-    }
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw too_little_memory(task, size_, bytes);
     throw NumericalError(
-        fmt::format("CHOLMOD could not {} {} (status {}); please report this with the model", task,
-                    what, common_.status));
+        fmt::format("CHOLMOD could not {} a matrix of size {} (status {}); please report this with "
+                    "the model",
+                    task, size_, common_.status));
   }
 
   void release() {
@@ -239,29 +231,9 @@ class FactorOf final : public CholmodFactor {
   std::vector<std::int64_t> rows_begin_, values_begin_;
 };
 
-void require_finite(const SparseMatrix& A) {
-  for (int column = 0; column < A.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
-      if (std::isfinite(it.value())) continue;
-      throw NumericalError(fmt::format(
-          "a matrix of size {} has an entry that is not finite (row {}, column {}: {}); check "
-          "masses, materials, sections and the step",
-          A.rows(), it.row(), column, it.value()));
-    }
-  }
-}
-
 }  // namespace
 
-IndefiniteMatrix::IndefiniteMatrix(Eigen::Index size, Eigen::Index column)
-    : NumericalError(fmt::format(
-          "a matrix of size {} is not positive definite (column {}); check masses and materials of "
-          "the body; over-refined beams can cause this: use fewer elements",
-          size, column)),
-      column_(column) {}
-
 std::unique_ptr<CholmodFactor> CholmodFactor::make(const SparseMatrix& A, const Options& options) {
-  require_finite(A);
   try {
     return std::make_unique<FactorOf<Narrow>>(A, options);
   } catch (const TooLarge&) {

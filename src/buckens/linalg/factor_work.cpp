@@ -16,6 +16,15 @@ constexpr double kMuch = 1e9;  // bytes
 
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
 
+NumericalError too_little_memory(const char* task, Eigen::Index size, double bytes) {
+  const std::string needed =
+      bytes > 0.0 ? fmt::format(" ({} for its factor alone)", gigabytes(bytes)) : "";
+  return NumericalError(
+      fmt::format("there is not enough memory to {} a matrix of size {}{}; use a coarser mesh, or "
+                  "divide or reduce the body",
+                  task, size, needed));
+}
+
 FactorWork::FactorWork(Eigen::Index size) : is_told_(size >= kTold) {
   work_.name = fmt::format("factorising {} equations", size);
   report("ordering");

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/errors.h"
 #include "buckens/base/stopwatch.h"
 #include "buckens/base/work.h"
 
@@ -12,6 +13,9 @@ namespace buckens::linalg {
 
 /// "3.4 GB".
 std::string gigabytes(double bytes);
+
+/// That there is not enough memory, and what to do. @param bytes needed, 0 if that is not known
+NumericalError too_little_memory(const char* task, Eigen::Index size, double bytes);
 
 /// Tells those who wait (base::report_work) how far the factor of a large matrix is, and what
 /// memory it takes, before it is computed; that it is over when the object ends. Matrices of less

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "buckens/linalg/multifrontal.h"
 #include "buckens/linalg/subtree_groups.h"
 
 namespace buckens::linalg {
@@ -15,60 +16,60 @@ namespace {
 
 // Bytes from which two threads pay: their start costs as much as some 50 kB of reading each.
 constexpr double kShared = 4e6;
-// Values of the source released at a time: enough to make the call negligible.
+
+// Values of CHOLMOD's factor released at a time: enough to make the call negligible.
 constexpr std::ptrdiff_t kGivenUp = std::ptrdiff_t{1} << 20;
 
 using Block = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 
-std::vector<int> supernode_parents(const Supernodes& source) {
-  std::vector<int> supernode_of(static_cast<std::size_t>(source.size));
-  for (int s = 0; s < source.count; ++s) {
-    std::fill(supernode_of.begin() + source.first_column[s],
-              supernode_of.begin() + source.first_column[s + 1], s);
-  }
-  std::vector<int> parent(static_cast<std::size_t>(source.count), -1);
-  for (int s = 0; s < source.count; ++s) {
-    if (source.num_rows(s) == source.columns(s)) continue;
-    const int first_below = source.rows[source.rows_begin[s] + source.columns(s)];
-    parent[static_cast<std::size_t>(s)] = supernode_of[static_cast<std::size_t>(first_below)];
-  }
-  return parent;
-}
-
-std::vector<double> supernode_bytes(const Supernodes& source) {
-  std::vector<double> bytes(static_cast<std::size_t>(source.count));
-  for (int s = 0; s < source.count; ++s) {
-    const double columns = source.columns(s);
-    bytes[static_cast<std::size_t>(s)] = 8.0 * columns * (source.num_rows(s) - 0.5 * columns);
+std::vector<double> supernode_bytes(const SupernodeTree& tree) {
+  std::vector<double> bytes;
+  for (int s = 0; s < tree.count; ++s) {
+    const double columns = tree.columns(s);
+    bytes.push_back(8.0 * columns * (tree.rows_below(s) + 0.5 * columns));
   }
   return bytes;
 }
 
+/// @param rows present, the others become zero @return past the block
+double* copy_block(const double* from, Eigen::Index stride, int rows, int columns, double* to) {
+  for (int c = 0; c < columns; ++c, from += stride, to += kPanelRows) {
+    std::copy(from, from + rows, to);
+    std::fill(to + rows, to + kPanelRows, 0.0);
+  }
+  return to;
+}
+
 }  // namespace
 
-/// Fills a PanelFactor, supernode by supernode.
+/// Lays a PanelFactor out and fills it, supernode by supernode in any order.
 class PanelFactor::Layout {
  public:
-  Layout(const Supernodes& source, PanelFactor& factor)
-      : source_(source),
+  Layout(const SupernodeTree& tree, PanelFactor& factor)
+      : tree_(tree),
         factor_(factor),
-        groups_(group_subtrees(supernode_parents(source), supernode_bytes(source), kShared)),
-        place_(static_cast<std::size_t>(source.size)) {}
-
-  void make() {
+        groups_(group_subtrees(tree.parent, supernode_bytes(tree), kShared)),
+        place_(static_cast<std::size_t>(tree.size)),
+        group_of_(static_cast<std::size_t>(tree.size)),
+        first_panel_(static_cast<std::size_t>(tree.count)) {
     place_columns();
     count();
-    std::size_t next_panel = 0;
-    std::ptrdiff_t next_value = 0;
-    for_all_panels([&](int s, int begin, int end) {
-      Panel& panel = factor_.panels_[next_panel++];
-      double* values = factor_.values_.data() + next_value;
-      panel.values = values;
-      next_value += kPanelRows * panel.num_lines();
-      fill_triangle(s, begin, end, panel, values);
-      fill_rows(s, begin, end, panel, values);
-      if (source_.used_up && end == source_.columns(s)) give_up(s);
-    });
+    place_rows();
+  }
+
+  /// Takes the finished columns begin … end of supernode s (multifrontal.h).
+  void fill(int s, int begin, int end, const double* corner, std::ptrdiff_t stride) {
+    const int first = first_panel_[static_cast<std::size_t>(s)];
+    const Panel& panel = factor_.panels_[static_cast<std::size_t>(first + begin / kPanelColumns)];
+    double* values = factor_.values_.data() + (panel.values - factor_.values_.data());
+    values = fill_triangle(panel, corner, stride, values);
+    const double* below = corner + (end - begin);
+    const int count = tree_.columns(s) + tree_.rows_below(s) - end;
+    for (int b = 0; b < panel.row_blocks; ++b) {
+      const int present = std::min(kPanelRows, count - kPanelRows * b);
+      values = copy_block(below + static_cast<std::ptrdiff_t>(kPanelRows) * b, stride, present,
+                          panel.columns, values);
+    }
   }
 
  private:
@@ -77,48 +78,50 @@ class PanelFactor::Layout {
   void for_all_panels(F&& f) {
     for (int g = 0; g <= groups_.count; ++g) {
       const int wanted = g < groups_.count ? g : SubtreeGroups::kTop;
-      for (int s = 0; s < source_.count; ++s) {
-        if (groups_.group[static_cast<std::size_t>(s)] != wanted) continue;
-        for (int begin = 0; begin < source_.columns(s); begin += kPanelColumns) {
-          f(s, begin, std::min(begin + kPanelColumns, source_.columns(s)));
+      for (int s = 0; s < tree_.count; ++s) {
+        if (group_of_supernode(s) != wanted) continue;
+        for (int begin = 0; begin < tree_.columns(s); begin += kPanelColumns) {
+          f(s, begin, std::min(begin + kPanelColumns, tree_.columns(s)));
         }
+      }
+    }
+  }
+
+  template <class F>
+  void for_all_columns(F&& f) {
+    for (int s = 0; s < tree_.count; ++s) {
+      const auto next = static_cast<std::size_t>(s) + 1;
+      for (int c = tree_.first_column[next - 1]; c < tree_.first_column[next]; ++c) {
+        f(group_of_supernode(s), c);
       }
     }
   }
 
   void place_columns() {
     factor_.groups_.resize(static_cast<std::size_t>(groups_.count));
-    for (int s = 0; s < source_.count; ++s) {
-      const int g = groups_.group[static_cast<std::size_t>(s)];
+    for_all_columns([this](int g, int c) {
       int& columns = g == SubtreeGroups::kTop ? factor_.top_columns_ : group(g).columns;
-      for (int c = source_.first_column[s]; c < source_.first_column[s + 1]; ++c) {
-        place_[static_cast<std::size_t>(c)] = columns++;
-      }
-    }
+      place_[static_cast<std::size_t>(c)] = columns++;
+      group_of_[static_cast<std::size_t>(c)] = g;
+    });
     for (Group& g : factor_.groups_) {
       g.first = factor_.num_places_;
       factor_.num_places_ += g.columns + factor_.top_columns_ + 1;
     }
     factor_.origin_.assign(static_cast<std::size_t>(factor_.num_places_), -1);
-    for (int s = 0; s < source_.count; ++s) {
-      const int g = std::max(0, groups_.group[static_cast<std::size_t>(s)]);
-      for (int c = source_.first_column[s]; c < source_.first_column[s + 1]; ++c) {
-        factor_.origin_[static_cast<std::size_t>(place(c, g))] = source_.permutation[c];
-      }
-    }
+    for_all_columns([this](int g, int c) {
+      factor_.origin_[static_cast<std::size_t>(place(c, std::max(0, g)))] =
+          tree_.permutation[static_cast<std::size_t>(c)];
+    });
   }
 
   Group& group(int g) { return factor_.groups_[static_cast<std::size_t>(g)]; }
-  int supernode_group(int column) const {
-    const int* next =
-        std::upper_bound(source_.first_column, source_.first_column + source_.count + 1, column);
-    return groups_.group[static_cast<std::size_t>(next - source_.first_column - 1)];
-  }
+  int group_of_supernode(int s) const { return groups_.group[static_cast<std::size_t>(s)]; }
   /// Where group g finds a column of its own or of the top.
   int place(int column, int g) {
-    const int within = place_[static_cast<std::size_t>(column)];
-    return supernode_group(column) == SubtreeGroups::kTop ? factor_.top_place(g) + within
-                                                          : group(g).first + within;
+    const auto c = static_cast<std::size_t>(column);
+    return group_of_[c] == SubtreeGroups::kTop ? factor_.top_place(g) + place_[c]
+                                               : group(g).first + place_[c];
   }
   int missing_place(int g) { return factor_.top_place(g) + factor_.top_columns_; }
 
@@ -126,90 +129,102 @@ class PanelFactor::Layout {
     std::ptrdiff_t lines = 0;
     std::size_t rows = 0;
     for_all_panels([&](int s, int begin, int end) {
-      const int g = groups_.group[static_cast<std::size_t>(s)];
+      const int g = group_of_supernode(s);
       Panel panel{};
-      panel.first = place(source_.first_column[s] + begin, std::max(0, g));
+      const int first = tree_.first_column[static_cast<std::size_t>(s)];
+      panel.first = place(first + begin, std::max(0, g));
       panel.columns = end - begin;
-      panel.row_blocks = (source_.num_rows(s) - end + kPanelRows - 1) / kPanelRows;
+      const int below = tree_.columns(s) + tree_.rows_below(s) - end;
+      panel.row_blocks = (below + kPanelRows - 1) / kPanelRows;
       lines += panel.num_lines();
       rows += static_cast<std::size_t>(kPanelRows * panel.row_blocks);
+      const int before = static_cast<int>(factor_.panels_.size());
+      if (begin == 0) first_panel_[static_cast<std::size_t>(s)] = before;
       factor_.panels_.push_back(panel);
-      const int count = static_cast<int>(factor_.panels_.size());
       if (g == SubtreeGroups::kTop) return;
-      group(g).panels_end = count;
-      if (g + 1 < groups_.count) group(g + 1).panels_begin = group(g + 1).panels_end = count;
-      factor_.top_begin_ = count;
+      group(g).panels_end = before + 1;
+      if (g + 1 < groups_.count) group(g + 1).panels_begin = group(g + 1).panels_end = before + 1;
+      factor_.top_begin_ = before + 1;
     });
     factor_.values_ = StreamingMemory(static_cast<std::size_t>(kPanelRows * lines));
     factor_.rows_.reserve(rows);  // panels keep pointers into it
   }
 
-  void fill_triangle(int s, int begin, int end, const Panel& panel, double*& values) {
-    const int ld = source_.num_rows(s);
-    const double* corner =
-        source_.values + source_.values_begin[s] + static_cast<std::ptrdiff_t>(begin) * ld + begin;
-    const Block L(corner, end - begin, end - begin, Eigen::OuterStride<>(ld));
-    inverse_.setIdentity(end - begin, end - begin);
-    L.triangularView<Eigen::Lower>().solveInPlace(inverse_);
-    for (int b = 0; b < panel.triangle_blocks(); ++b) {
-      const int rows = std::min(kPanelRows, panel.columns - kPanelRows * b);
-      values = copy_block(inverse_.data() + static_cast<std::ptrdiff_t>(kPanelRows) * b,
-                          inverse_.rows(), rows, panel.triangle_columns(b), values);
-    }
-  }
-
-  void fill_rows(int s, int begin, int end, Panel& panel, double*& values) {
-    const int g = std::max(0, groups_.group[static_cast<std::size_t>(s)]);
-    const int ld = source_.num_rows(s);
-    const double* below =
-        source_.values + source_.values_begin[s] + static_cast<std::ptrdiff_t>(begin) * ld + end;
-    panel.rows = factor_.rows_.data() + factor_.rows_.size();
-    const int* rows = source_.rows + source_.rows_begin[s] + end;
-    const int count = ld - end;
-    for (int b = 0; b < panel.row_blocks; ++b) {
-      const int present = std::min(kPanelRows, count - kPanelRows * b);
-      for (int i = 0; i < kPanelRows; ++i) {
-        factor_.rows_.push_back(i < present ? place(rows[kPanelRows * b + i], g)
-                                            : missing_place(g));
+  void place_rows() {
+    std::size_t next = 0;
+    const double* values = factor_.values_.data();
+    for_all_panels([&](int s, int begin, int end) {
+      const int g = std::max(0, group_of_supernode(s));
+      Panel& panel = factor_.panels_[next++];
+      panel.values = values;
+      values += kPanelRows * panel.num_lines();
+      panel.rows = factor_.rows_.data() + factor_.rows_.size();
+      const int first = tree_.first_column[static_cast<std::size_t>(s)];
+      const int own = tree_.columns(s);
+      const int present = own + tree_.rows_below(s) - end;
+      for (int i = 0; i < kPanelRows * panel.row_blocks; ++i) {
+        const int row = end + i;  // of the supernode
+        const bool is_own = row < own;
+        factor_.rows_.push_back(i >= present ? missing_place(g)
+                                : is_own     ? place(first + row, g)
+                                             : place(tree_.rows_of(s)[row - own], g));
       }
-      values = copy_block(below + static_cast<std::ptrdiff_t>(kPanelRows) * b, ld, present,
-                          panel.columns, values);
+      static_cast<void>(begin);
+    });
+  }
+
+  static double* fill_triangle(const Panel& panel, const double* corner, std::ptrdiff_t stride,
+                               double* values) {
+    const int columns = panel.columns;
+    const Block L(corner, columns, columns, Eigen::OuterStride<>(stride));
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(columns, columns);
+    L.triangularView<Eigen::Lower>().solveInPlace(inverse);
+    for (int b = 0; b < panel.triangle_blocks(); ++b) {
+      const int rows = std::min(kPanelRows, columns - kPanelRows * b);
+      values = copy_block(inverse.data() + static_cast<std::ptrdiff_t>(kPanelRows) * b, columns,
+                          rows, panel.triangle_columns(b), values);
     }
+    return values;
   }
 
-  /// Releases the memory of the source as it is read, so that both never exist as a whole.
-  void give_up(int s) {
-    const double* begin = source_.values + source_.values_begin[s];
-    const double* end = begin + std::ptrdiff_t{source_.num_rows(s)} * source_.columns(s);
-    if (begin != read_end_) read_begin_ = begin;
-    read_end_ = end;
-    if (read_end_ - read_begin_ < kGivenUp) return;
-    give_up_pages(read_begin_, read_end_);
-    read_begin_ = read_end_;
-  }
-
-  /// @param rows present, the others become zero @return past the block
-  static double* copy_block(const double* from, Eigen::Index ld, int rows, int columns,
-                            double* to) {
-    for (int c = 0; c < columns; ++c, from += ld, to += kPanelRows) {
-      std::copy(from, from + rows, to);
-      std::fill(to + rows, to + kPanelRows, 0.0);
-    }
-    return to;
-  }
-
-  const Supernodes& source_;
+  const SupernodeTree& tree_;
   PanelFactor& factor_;
   SubtreeGroups groups_;
-  std::vector<int> place_;  // per column, within its group or the top
-  Eigen::MatrixXd inverse_;
-  const double* read_begin_ = nullptr;  // of the source, not yet released
-  const double* read_end_ = nullptr;
+  std::vector<int> place_;     // per column, within its group or the top
+  std::vector<int> group_of_;  // per column
+  std::vector<int> first_panel_;
 };
+
+PanelFactor::PanelFactor(const SparseMatrix& A, const SupernodeTree& tree, SimdLevel level,
+                         TaskPool* pool, const std::function<void(double bytes)>& begin)
+    : size_(tree.size), kernels_(&panel_kernels(level)) {
+  Layout layout(tree, *this);
+  if (begin) begin(bytes());
+  factorise_fronts(
+      A, tree,
+      [&layout](int s, int first, int end, const double* corner, std::ptrdiff_t stride) {
+        layout.fill(s, first, end, corner, stride);
+      },
+      pool);
+}
 
 PanelFactor::PanelFactor(const Supernodes& source, SimdLevel level)
     : size_(source.size), kernels_(&panel_kernels(level)) {
-  Layout(source, *this).make();
+  const SupernodeTree tree = supernode_tree(source);
+  Layout layout(tree, *this);
+  const double* read = source.values;
+  for (int s = 0; s < source.count; ++s) {
+    const int stride = source.num_rows(s);
+    const double* values = source.values + source.values_begin[s];
+    for (int begin = 0; begin < source.columns(s); begin += kPanelColumns) {
+      layout.fill(s, begin, std::min(begin + kPanelColumns, source.columns(s)),
+                  values + static_cast<std::ptrdiff_t>(begin) * stride + begin, stride);
+    }
+    const double* end = values + static_cast<std::ptrdiff_t>(stride) * source.columns(s);
+    if (!source.used_up || end - read < kGivenUp) continue;
+    give_up_pages(read, end);  // so that both never exist as a whole
+    read = end;
+  }
 }
 
 int PanelFactor::top_place(int group) const {

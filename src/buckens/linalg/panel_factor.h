@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,6 +10,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/panel_kernels.h"
 #include "buckens/linalg/streaming_memory.h"
+#include "buckens/linalg/supernode_tree.h"
 #include "buckens/linalg/supernodes.h"
 
 namespace buckens::linalg {
@@ -17,10 +18,10 @@ namespace buckens::linalg {
 /// A Cholesky factor laid out for repeated solves, which are limited by memory bandwidth: a forward
 /// and a backward pass read it once each, in order, without gaps.
 ///
-/// Differs from the supernodes it is made from: columns in panels of at most 128, rows in blocks of
-/// one cache line, triangles on the diagonal inverted, all contiguous on huge pages.
-/// Two threads take whole subtrees each; contributions to the rows above both are kept separate and
-/// summed in a fixed order, so the result does not depend on the number of threads.
+/// Columns lie in panels of at most 128, rows in blocks of one cache line, triangles on the
+/// diagonal inverted, all contiguous on huge pages. The factorisation (multifrontal.h) writes into
+/// them. Two threads take whole subtrees each; contributions to the rows above both are kept
+/// separate and summed in a fixed order, so the result does not depend on the number of threads.
 class PanelFactor {
  public:
   /// Intermediate results of solves, kept between calls. One for each solve at a time.
@@ -29,6 +30,15 @@ class PanelFactor {
     StreamingMemory values;
   };
 
+  /// Factorises A.
+  /// @param tree of A @param pool may share the work; changes no bit
+  /// @param begin called with bytes() before the work begins
+  /// @throws IndefiniteMatrix if A is not positive definite
+  /// @throws std::bad_alloc
+  PanelFactor(const SparseMatrix& A, const SupernodeTree& tree, SimdLevel level, TaskPool* pool,
+              const std::function<void(double bytes)>& begin = {});
+
+  /// Takes over what CHOLMOD has computed: the reference for tests and benchmarks.
   explicit PanelFactor(const Supernodes& source, SimdLevel level = best_simd_level());
 
   Eigen::Index size() const { return size_; }

@@ -2,37 +2,72 @@
 #include "buckens/linalg/sparse_cholesky.h"
 
 #include <mutex>
+#include <new>
 #include <optional>
 #include <utility>
 
+#include "buckens/linalg/factor_threads.h"
+#include "buckens/linalg/factor_work.h"
+#include "buckens/linalg/finite_matrix.h"
 #include "buckens/linalg/panel_factor.h"
+#include "buckens/linalg/supernode_tree.h"
 
 namespace buckens::linalg {
+
+namespace {
+
+// Products of a factorisation, some milliseconds, to which starting threads adds next to nothing.
+constexpr double kManyProducts = 2e7;
+
+/// The threads that a factorisation may use.
+class FactorPool {
+ public:
+  explicit FactorPool(double products) {
+    const int threads = FactorThreads::allowed();
+    if (threads > 1 && products >= kManyProducts) pool_.emplace(threads);
+  }
+  TaskPool* get() { return pool_ ? &*pool_ : nullptr; }
+
+ private:
+  std::optional<TaskPool> pool_;
+};
+
+}  // namespace
 
 struct SparseCholesky::Backend {
   std::unique_ptr<CholmodFactor> factor;  // empty where there are panels
   std::optional<PanelFactor> panels;
   Eigen::Index size = 0;
   double entries = 0;
-  int index_bits = 0;
 
   std::mutex turn;  // guards what follows and `factor`
   PanelFactor::Workspace workspace;
 
   void factorise(const SparseMatrix& A, const CholeskyOptions& options) {
     size = A.rows();
-    factor =
-        CholmodFactor::make(A, {options.route == SolveRoute::panels, options.most_narrow_entries});
-    entries = factor->num_entries();
-    index_bits = factor->index_bits();
-    if (factor->is_supernodal() && options.route != SolveRoute::cholmod) lay_out(options.simd);
+    require_finite(A);
+    if (options.route == SolveRoute::cholmod) {
+      factor = CholmodFactor::make(A, {false, options.most_narrow_entries});
+      entries = factor->num_entries();
+    } else {
+      make_panels(A, options);
+    }
   }
 
-  void lay_out(SimdLevel simd) {
-    Supernodes source = factor->supernodes();
-    source.used_up = true;
-    panels.emplace(source, simd);
-    factor.reset();
+  void make_panels(const SparseMatrix& A, const CholeskyOptions& options) {
+    double bytes = 0.0;
+    try {
+      FactorWork work(size);
+      const SupernodeTree tree = find_supernode_tree(A);
+      entries = tree.num_entries;
+      FactorPool pool(tree.num_products);
+      panels.emplace(A, tree, options.simd, pool.get(), [&](double needed) {
+        bytes = needed;
+        work.begin(bytes);
+      });
+    } catch (const std::bad_alloc&) {
+      throw too_little_memory("factorise", size, bytes);
+    }
   }
 
   void solve(const double* rhs, double* x, Eigen::Index columns, TaskPool* pool) {
@@ -77,12 +112,17 @@ int SparseCholesky::num_parts() const {
   return backend_->panels ? backend_->panels->num_groups() : 1;
 }
 
-int SparseCholesky::index_bits() const { return backend_->index_bits; }
+int SparseCholesky::index_bits() const {
+  return backend_->panels ? 64 : backend_->factor->index_bits();
+}
 
 bool SparseCholesky::take_panels(SimdLevel simd) {
   if (backend_->panels) return true;
   if (!backend_->factor->is_supernodal()) return false;
-  backend_->lay_out(simd);
+  Supernodes source = backend_->factor->supernodes();
+  source.used_up = true;
+  backend_->panels.emplace(source, simd);
+  backend_->factor.reset();
   return true;
 }
 

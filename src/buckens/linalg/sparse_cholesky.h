@@ -11,10 +11,10 @@
 
 namespace buckens::linalg {
 
-/// What does the forward and backward substitution.
+/// What factorises, and does the forward and backward substitution.
 enum class SolveRoute {
-  automatic,  ///< panels where the factor has dense parts worth it, otherwise CHOLMOD
-  panels,     ///< PanelFactor, for any matrix
+  automatic,  ///< the fastest: panels
+  panels,     ///< PanelFactor, factorised in place (multifrontal.h)
   cholmod,    ///< CHOLMOD's own: the reference for tests and benchmarks
 };
 
@@ -28,8 +28,8 @@ struct CholeskyOptions {
 /// Cholesky factor of a sparse symmetric positive definite matrix: factorised once, used for many
 /// solves.
 ///
-/// CHOLMOD factorises; the ordering is METIS' or nested dissection, whichever fills less. Large
-/// factors are then copied into a layout for solving (PanelFactor) and CHOLMOD's copy is freed.
+/// The factor is made in the layout it is solved from (PanelFactor), in the order of METIS' nested
+/// dissection (small ones: AMD's least degree), by the threads that FactorThreads allows.
 /// Solving allocates nothing after the first call of a given number of right-hand sides. Solves
 /// from several threads wait for one another.
 class SparseCholesky final : public Factor {
@@ -49,9 +49,9 @@ class SparseCholesky final : public Factor {
   int num_parts() const;
   /// Never `automatic`.
   SolveRoute route() const;
-  /// Width of CHOLMOD's indices that the factor needed: 32 or 64.
+  /// Width of the indices of the factor: 64; of CHOLMOD's own what it needed, 32 or 64.
   int index_bits() const;
-  /// Switches to solving with panels and frees CHOLMOD's copy. Not while other threads solve.
+  /// Copies CHOLMOD's own into panels, a reference for theirs. Not while other threads solve.
   /// @return false if the factor has no dense parts; then nothing changes
   bool take_panels(SimdLevel simd = best_simd_level());
 

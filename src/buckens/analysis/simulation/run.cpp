@@ -16,6 +16,7 @@
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
+#include "buckens/linalg/factor_threads.h"
 #include "buckens/results/state_interpolation.h"
 
 namespace buckens::analysis {
@@ -112,6 +113,7 @@ void SimulationRun::begin_march(double start) {
 }
 
 void SimulationRun::set_up() {
+  const linalg::FactorThreads threads(options_.threads);
   check_method();
   plan_ = plan_output(built_.description);
   summary_.title = built_.model.title;
@@ -264,6 +266,7 @@ void SimulationRun::take_steps() {
 
 /// @throws NumericalError; `after` is then as `before`
 stepping::StepReport SimulationRun::take_step(const model::State& before, model::State& after) {
+  const linalg::FactorThreads threads(options_.threads);  // another step size needs another factor
   const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
   try {
     const stepping::StepReport report = march_->advance(before, after);

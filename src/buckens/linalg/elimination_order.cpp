@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/elimination_order.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <mutex>
+#include <numeric>
+#include <span>
+
+#include <amd.h>
+#include <metis.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::linalg {
+
+namespace {
+
+// Below this number of columns least degree fills as little and takes less time.
+constexpr int kManyColumns = 3000;
+
+std::span<const int> rows_of(const SparseMatrix& A, int column) {
+  const int begin = A.outerIndexPtr()[column];
+  const int count =
+      A.isCompressed() ? A.outerIndexPtr()[column + 1] - begin : A.innerNonZeroPtr()[column];
+  return {A.innerIndexPtr() + begin, static_cast<std::size_t>(count)};
+}
+
+/// A number that differs between columns with different rows, nearly always.
+std::uint64_t fingerprint(std::span<const int> rows) {
+  std::uint64_t sum = rows.size();
+  for (const int row : rows) {
+    std::uint64_t x = static_cast<std::uint64_t>(row) + 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    sum += x ^ (x >> 31U);
+  }
+  return sum;
+}
+
+/// Vertex of each column; vertices are numbered by their first columns.
+std::vector<int> gather_columns(const SparseMatrix& A) {
+  const int n = static_cast<int>(A.cols());
+  std::vector<std::pair<std::uint64_t, int>> marks(static_cast<std::size_t>(n));
+  for (int c = 0; c < n; ++c) marks[static_cast<std::size_t>(c)] = {fingerprint(rows_of(A, c)), c};
+  std::sort(marks.begin(), marks.end());
+  std::vector<int> leader(static_cast<std::size_t>(n));  // first column with the same rows
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const auto [mark, column] = marks[k];
+    int& mine = leader[static_cast<std::size_t>(column)];
+    mine = column;
+    if (k == 0 || marks[k - 1].first != mark) continue;
+    const int before = leader[static_cast<std::size_t>(marks[k - 1].second)];
+    if (std::ranges::equal(rows_of(A, before), rows_of(A, column))) mine = before;
+  }
+  std::vector<int> vertex(static_cast<std::size_t>(n));
+  int count = 0;
+  for (std::size_t c = 0; c < vertex.size(); ++c) {
+    const auto first = static_cast<std::size_t>(leader[c]);
+    vertex[c] = first == c ? count++ : vertex[first];
+  }
+  return vertex;
+}
+
+/// Neighbours by the rows of the first column of each vertex.
+void list_neighbours(const SparseMatrix& A, const std::vector<int>& vertex, ColumnGraph& graph) {
+  const std::size_t count = graph.first_column.size() - 1;
+  std::vector<std::vector<int>> others(count);  // entries that their mirror image may lack
+  std::vector<int> seen(count, -1);
+  const auto each = [&](std::size_t v, auto&& visit) {
+    const auto first = static_cast<std::size_t>(graph.first_column[v]);
+    seen[v] = static_cast<int>(v);
+    for (const int row : rows_of(A, graph.columns[first])) {
+      const int w = vertex[static_cast<std::size_t>(row)];
+      if (seen[static_cast<std::size_t>(w)] == static_cast<int>(v)) continue;
+      seen[static_cast<std::size_t>(w)] = static_cast<int>(v);
+      visit(w);
+    }
+  };
+  for (std::size_t v = 0; v < count; ++v) {
+    each(v, [&](int w) {
+      others[v].push_back(w);
+      others[static_cast<std::size_t>(w)].push_back(static_cast<int>(v));
+    });
+  }
+  graph.begin.push_back(0);
+  for (std::vector<int>& list : others) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+    std::vector<int>().swap(list);
+  }
+}
+
+std::vector<int> by_least_degree(const ColumnGraph& graph) {
+  std::vector<int> order(static_cast<std::size_t>(graph.size()));
+  const int status = amd_order(graph.size(), graph.begin.data(), graph.neighbours.data(),
+                               order.data(), nullptr, nullptr);
+  if (status < AMD_OK) throw NumericalError("the equations could not be ordered (AMD)");
+  return order;
+}
+
+std::vector<int> by_nested_dissection(const ColumnGraph& graph) {
+  std::vector<idx_t> begin(graph.begin.begin(), graph.begin.end());
+  std::vector<idx_t> neighbours(graph.neighbours.begin(), graph.neighbours.end());
+  std::vector<idx_t> weights;
+  for (int v = 0; v < graph.size(); ++v) weights.push_back(graph.weight(v));
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_COMPRESS] = 0;  // done
+  options[METIS_OPTION_SEED] = 1;
+  idx_t vertices = graph.size();
+  std::vector<idx_t> order(weights.size()), place(weights.size());
+  // METIS draws its random numbers from rand(), which all threads share.
+  static std::mutex turn;
+  const std::scoped_lock lock(turn);
+  const int status = METIS_NodeND(&vertices, begin.data(), neighbours.data(), weights.data(),
+                                  options, order.data(), place.data());
+  if (status != METIS_OK) throw NumericalError("the equations could not be ordered (METIS)");
+  return {order.begin(), order.end()};
+}
+
+}  // namespace
+
+ColumnGraph column_graph(const SparseMatrix& A) {
+  ColumnGraph graph;
+  const std::vector<int> vertex = gather_columns(A);
+  const int count = vertex.empty() ? 0 : *std::max_element(vertex.begin(), vertex.end()) + 1;
+  graph.first_column.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (const int v : vertex) ++graph.first_column[static_cast<std::size_t>(v) + 1];
+  std::partial_sum(graph.first_column.begin(), graph.first_column.end(),
+                   graph.first_column.begin());
+  graph.columns.resize(vertex.size());
+  std::vector<int> next(graph.first_column.begin(), graph.first_column.end() - 1);
+  for (std::size_t c = 0; c < vertex.size(); ++c) {
+    int& place = next[static_cast<std::size_t>(vertex[c])];
+    graph.columns[static_cast<std::size_t>(place++)] = static_cast<int>(c);
+  }
+  list_neighbours(A, vertex, graph);
+  return graph;
+}
+
+std::vector<int> elimination_order(const ColumnGraph& graph) {
+  if (graph.neighbours.empty()) {
+    std::vector<int> order(static_cast<std::size_t>(graph.size()));
+    std::iota(order.begin(), order.end(), 0);
+    return order;
+  }
+  const bool is_large = static_cast<int>(graph.columns.size()) >= kManyColumns;
+  return is_large ? by_nested_dissection(graph) : by_least_degree(graph);
+}
+
+}  // namespace buckens::linalg
