@@ -49,18 +49,18 @@ Matrix permuted(const SparseMatrix& A, const std::vector<int>& permutation) {
 TEST(Multifrontal, GivesTheFactorOfTheMatrix) {
   // The dense one has tiles inside a front and a last block that is not whole.
   for (const SparseMatrix& A : {matrices::grid(6, 0.1), matrices::random_definite(500, 3),
-                                matrices::dense_definite(600), matrices::diagonal(9)}) {
+                                matrices::dense_definite(1100), matrices::diagonal(9)}) {
     const SupernodeTree tree = find_supernode_tree(A);
     const Matrix L = factor_of(A, tree, nullptr);
     const Matrix PAP = permuted(A, tree.permutation);
-    // Rounding of sums of at most 600 products.
+    // Rounding of sums of at most 1100 products.
     EXPECT_LE((L * L.transpose() - PAP).norm(), 1e-14 * PAP.norm()) << A.rows();
     EXPECT_GT(L.diagonal().minCoeff(), 0.0);
   }
 }
 
 TEST(Multifrontal, DoesNotDependOnTheNumberOfThreads) {
-  for (const SparseMatrix& A : {matrices::grid(9, 0.1), matrices::dense_definite(900)}) {
+  for (const SparseMatrix& A : {matrices::grid(9, 0.1), matrices::dense_definite(1100)}) {
     const SupernodeTree tree = find_supernode_tree(A);
     const Matrix alone = factor_of(A, tree, nullptr);
     for (const int threads : {1, 2, 3, 8}) {
@@ -117,7 +117,7 @@ TEST(Multifrontal, FindsAPivotThatIsNone) {
 }
 
 TEST(Trapezoid, HasEveryEntryOfTheLowerPartOnce) {
-  for (const Trapezoid shape : {Trapezoid{700, 600}, Trapezoid{256, 256}, Trapezoid{5, 2}}) {
+  for (const Trapezoid shape : {Trapezoid{1400, 1200}, Trapezoid{512, 512}, Trapezoid{5, 2}}) {
     std::vector<double> values(static_cast<std::size_t>(shape.size()), 0.0);
     for (int j = 0; j < shape.columns; ++j) {
       const int top = j / Trapezoid::kBlock * Trapezoid::kBlock;
