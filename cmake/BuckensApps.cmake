@@ -20,6 +20,6 @@ if(BUCKENS_BENCH)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
     target_link_libraries(
       ${name} PRIVATE buckens buckens_common benchmark::benchmark
-                      nlohmann_json::nlohmann_json OpenBLAS::OpenBLAS SuiteSparse::CHOLMOD)
+                      nlohmann_json::nlohmann_json OpenBLAS::OpenBLAS)
   endforeach()
 endif()

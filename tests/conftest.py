@@ -26,6 +26,12 @@ def pytest_sessionstart():
         pytest.exit(f"{PROGRAM}: the program is not built (BUCKENS_PROGRAM says where it is)", 1)
 
 
+def may_mesh_step_files():
+    """Builds with BUCKENS_GPL=OFF refuse them."""
+    told = subprocess.run([PROGRAM, "version", "--json"], capture_output=True, text=True, check=False)
+    return json.loads(told.stdout)["licence"] != "Apache-2.0"
+
+
 def heed_permissions():
     """For the child process: file permissions apply to root, too."""
     if os.geteuid() == 0:

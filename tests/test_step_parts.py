@@ -11,7 +11,9 @@ import subprocess
 
 import pytest
 
-from conftest import PROGRAM
+from conftest import PROGRAM, may_mesh_step_files
+
+pytestmark = pytest.mark.skipif(not may_mesh_step_files(), reason="built without Gmsh (BUCKENS_GPL=OFF)")
 
 PARTS = pathlib.Path(__file__).parent / "parts"
 ASSEMBLY = PARTS / "assembly.step"  # a plate of 5000 mm³, a pin that stands on it, a block apart from both
