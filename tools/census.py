@@ -36,7 +36,7 @@ MOST_ATTEMPTS = 8
 # Messages without a remedy: the file contains no body, or only part of one.
 RIGHT = [re.compile(text) for text in (
     r"the deck has no nodes", r"the deck has nodes, but no elements", r"the mesh has no elements", r"the file is empty",
-    r"INCLUDE.*cannot read", r"there is no (GRID|material|PBUSH|node|element) ", r"truncated|cut off|not complete",
+    r"cannot read the included file", r"there is no (GRID|material|PBUSH|node|element) ", r"truncated|cut off|not complete",
     r"there is another (element|property|material)", r"appears twice", r"not a text file|zero byte",
     r"fluid|acoustic|axisymmetric|hyperelastic|superelement", r"parts that nothing holds together",
     r"the mesh has no mass", r"is not a (Gmsh mesh|deck of Nastran|STEP file)", r"is this a deck of Nastran",
@@ -90,7 +90,8 @@ class Model:
             self.mesh["material"] = MATERIAL
 
     def text(self):
-        body = {"step": self.path, "material": MATERIAL} if self.ending in STEPS else {"mesh": self.mesh}
+        part = {"step": self.path, "material": MATERIAL}
+        body = {"geometry": part} if self.ending in STEPS else {"mesh": self.mesh}
         return json.dumps({"buckens": 1, "materials": MATERIALS, "bodies": {"b": body}})
 
     def add_section(self, text, section):
@@ -167,9 +168,9 @@ def examine(runner, path):
             text = text.replace(str(file), "model.yaml")
             out.update(code=code, reason=text, check_seconds=seconds, helped=code == 0)
             if attempt == 0:
-                out.update(body=code == 0 and out["read"], check_seconds=seconds)
                 if ending in STEPS:
                     out["read"] = code in (0, 3)
+                out.update(body=code == 0 and out["read"], check_seconds=seconds)
             if code == 0 or not model.help(text, properties):
                 break
     return out
