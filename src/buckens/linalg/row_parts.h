@@ -17,6 +17,7 @@ namespace buckens::linalg {
 class RowParts {
  public:
   static constexpr int kMostParts = 16;
+  static constexpr Eigen::Index kPiece = 1024;  ///< most rows of a piece
 
   explicit RowParts(Eigen::Index rows)
       : rows_(rows),
@@ -41,7 +42,6 @@ class RowParts {
  private:
   // Waking a thread costs as much as processing so many rows of several vectors.
   static constexpr Eigen::Index kPart = 2048;
-  static constexpr Eigen::Index kPiece = 1024;
 
   Eigen::Index rows_;
   int count_;

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/recycled_solves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace buckens::linalg {
+
+using Eigen::Index;
+using Eigen::VectorXf;
+
+namespace {
+// How fast the use of a pair is forgotten, per load.
+constexpr double kFade = 0.9;
+// Outcomes are counted from when all places are taken, and judged after so many loads per place. A
+// store with fewer answers than this share of them sleeps for so many times as many loads.
+constexpr long kJudgedPerPlace = 3;
+constexpr double kLeastAnswered = 0.5;
+constexpr long kSleepPerJudged = 8;
+// Loads that are solved for together may have remainders in common. Where less than this share of
+// one is new, it becomes no pair: its rounding would count.
+constexpr double kLeastNew = 0.1;
+
+constexpr long kMostCounted = 1L << 60;
+
+std::size_t index(int pair) { return static_cast<std::size_t>(pair); }
+}  // namespace
+
+RecycledSolves::RecycledSolves(const Vector& inverse_diagonal, int most)
+    : parts_(inverse_diagonal.size()),
+      most_(std::max(most, 0)),
+      scale_(inverse_diagonal.cwiseSqrt().cast<float>()),
+      sums_(static_cast<std::size_t>(parts_.count())) {
+  // Pages of memory come into being as they are written to.
+  loads_.resize(rows() * most_);
+  answers_.resize(rows() * most_);
+  scores_.reserve(static_cast<std::size_t>(most_));
+  made_.reserve(static_cast<std::size_t>(most_));
+  for (PartSums& sums : sums_) {
+    sums.products.resize(most_);
+    sums.along.resize(most_);
+  }
+  along_.resize(most_);
+}
+
+void RecycledSolves::begin(const Vector& f, Request& request, TaskPool* pool) {
+  request.remainder.resize(rows());
+  request.answer.resize(rows());
+  request.weights.setZero(most_);
+  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    request.remainder.segment(first, size) =
+        f.segment(first, size).cast<float>().cwiseProduct(scale_.segment(first, size));
+  });
+}
+
+double RecycledSolves::norm(const VectorXf& load, TaskPool* pool) {
+  for (PartSums& sums : sums_) sums.square = 0;
+  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
+    const auto piece = load.segment(first, size);
+    sums_[static_cast<std::size_t>(part)].square += static_cast<double>(piece.squaredNorm());
+  });
+  double square = 0;
+  for (const PartSums& sums : sums_) square += sums.square;
+  return std::sqrt(square);
+}
+
+double RecycledSolves::project(Request& request, TaskPool* pool) {
+  const Index m = num_pairs();
+  for (PartSums& sums : sums_) {
+    sums.along.setZero();
+    sums.square = 0;
+  }
+  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
+    PartSums& sums = sums_[static_cast<std::size_t>(part)];
+    sums.products.head(m).noalias() =
+        block(loads_, first, size).transpose() * request.remainder.segment(first, size);
+    sums.along.head(m) += sums.products.head(m).cast<double>();
+  });
+  for (Index i = 0; i < m; ++i) {
+    double sum = 0;
+    for (const PartSums& sums : sums_) sum += sums.along[i];
+    along_[i] = static_cast<float>(sum);
+  }
+  request.weights.head(m) += along_.head(m);
+  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
+    auto r = request.remainder.segment(first, size);
+    r.noalias() -= block(loads_, first, size) * along_.head(m);
+    sums_[static_cast<std::size_t>(part)].square += static_cast<double>(r.squaredNorm());
+  });
+  double square = 0;
+  for (const PartSums& sums : sums_) square += sums.square;
+  return std::sqrt(square);
+}
+
+void RecycledSolves::combine(const Request& request, Vector& x, bool adds, TaskPool* pool) const {
+  const Index m = num_pairs();
+  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    // A piece of x in single precision, where the cache holds it.
+    std::array<float, RowParts::kPiece> room;
+    Eigen::Map<VectorXf> sum(room.data(), size);
+    sum.noalias() = block(answers_, first, size) * request.weights.head(m);
+    auto to = x.segment(first, size);
+    const auto scaled = sum.cwiseProduct(scale_.segment(first, size)).cast<double>();
+    if (adds) {
+      to += scaled;
+    } else {
+      to = scaled;
+    }
+  });
+}
+
+bool RecycledSolves::answer(Vector& f, double limit, Request& request, TaskPool* pool) {
+  request.fate = Request::Fate::not_tried;
+  if (most_ == 0 || asleep_for_ > 0) return false;
+  begin(f, request, pool);
+  if (project(request, pool) <= limit) {
+    combine(request, f, false, pool);
+    request.fate = Request::Fate::answered;
+    return true;
+  }
+  // Once more: what rounding has left along the pairs must not come into the next one.
+  project(request, pool);
+  request.fate = Request::Fate::solved;
+  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    f.segment(first, size) = request.remainder.segment(first, size)
+                                 .cast<double>()
+                                 .cwiseQuotient(scale_.segment(first, size).cast<double>());
+  });
+  return false;
+}
+
+void RecycledSolves::complete(Request& request, Vector& x, TaskPool* pool) const {
+  if (request.fate != Request::Fate::solved) return;
+  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    request.answer.segment(first, size) =
+        x.segment(first, size).cast<float>().cwiseQuotient(scale_.segment(first, size));
+  });
+  combine(request, x, true, pool);
+}
+
+void RecycledSolves::learn(std::span<Request* const> requests, TaskPool* pool) {
+  made_.clear();
+  for (Request* request : requests) {
+    if (asleep_for_ > 0) {
+      --asleep_for_;
+      continue;
+    }
+    if (request->fate == Request::Fate::not_tried) continue;
+    note_use(*request);
+    note_outcome(request->fate == Request::Fate::answered);
+    if (asleep_for_ == 0 && request->fate == Request::Fate::solved) keep(*request, pool);
+  }
+}
+
+void RecycledSolves::forget() {
+  scores_.clear();
+  tried_ = answered_ = asleep_for_ = 0;
+}
+
+void RecycledSolves::keep(Request& request, TaskPool* pool) {
+  double size = norm(request.remainder, pool);
+  const double least = kLeastNew * size;
+  if (!made_.empty()) {
+    for (const int pair : made_) separate(request, pair, pool);
+    size = norm(request.remainder, pool);
+  }
+  if (!std::isfinite(size) || size <= least || static_cast<int>(made_.size()) == most_) return;
+  const int pair = free_pair();
+  store(request, size, pair, pool);
+  made_.push_back(pair);
+}
+
+void RecycledSolves::separate(Request& request, int pair, TaskPool* pool) {
+  for (PartSums& sums : sums_) sums.square = 0;
+  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
+    const float product =
+        loads_.segment(place(pair, first, size), size).dot(request.remainder.segment(first, size));
+    sums_[static_cast<std::size_t>(part)].square += static_cast<double>(product);
+  });
+  double sum = 0;
+  for (const PartSums& sums : sums_) sum += sums.square;
+  const auto along = static_cast<float>(sum);
+  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    const Index at = place(pair, first, size);
+    request.remainder.segment(first, size) -= along * loads_.segment(at, size);
+    request.answer.segment(first, size) -= along * answers_.segment(at, size);
+  });
+}
+
+int RecycledSolves::free_pair() {
+  if (num_pairs() < most_) {
+    scores_.push_back(0.0);
+    return num_pairs() - 1;
+  }
+  int least = -1;
+  for (int pair = 0; pair < num_pairs(); ++pair) {
+    if (std::find(made_.begin(), made_.end(), pair) != made_.end()) continue;
+    if (least < 0 || scores_[index(pair)] < scores_[index(least)]) least = pair;
+  }
+  return least;
+}
+
+void RecycledSolves::store(const Request& request, double norm, int pair, TaskPool* pool) {
+  scores_[index(pair)] = norm;
+  const auto scale = static_cast<float>(1.0 / norm);
+  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
+    const Index at = place(pair, first, size);
+    loads_.segment(at, size) = scale * request.remainder.segment(first, size);
+    answers_.segment(at, size) = scale * request.answer.segment(first, size);
+  });
+}
+
+void RecycledSolves::note_use(const Request& request) {
+  for (int pair = 0; pair < num_pairs(); ++pair) {
+    double& score = scores_[index(pair)];
+    score = std::max(kFade * score, std::abs(static_cast<double>(request.weights[pair])));
+  }
+}
+
+void RecycledSolves::note_outcome(bool is_answered) {
+  if (num_pairs() < most_) return;
+  ++tried_;
+  if (is_answered) ++answered_;
+  const long judged = kJudgedPerPlace * most_;
+  if (tried_ < judged) return;
+  if (static_cast<double>(answered_) < kLeastAnswered * static_cast<double>(tried_)) {
+    asleep_for_ = kSleepPerJudged * judged;
+    scores_.clear();
+    made_.clear();
+  }
+  tried_ = answered_ = 0;
+}
+
+void RecycledSolves::visit_saved(const base::SaveVisit& visit) {
+  visit.count("tried", tried_, 0, kMostCounted);
+  visit.count("answered", answered_, 0, kMostCounted);
+  visit.count("asleep_for", asleep_for_, 0, kMostCounted);
+  visit.any_numbers("scores", scores_);
+  if (num_pairs() > most_) visit.refuse("scores", "there are more pairs than places");
+  for (int pair = 0; pair < num_pairs(); ++pair) {
+    const base::SaveVisit one = visit.inside(static_cast<std::size_t>(pair));
+    visit_pair(one, "load", loads_, pair);
+    visit_pair(one, "answer", answers_, pair);
+  }
+}
+
+void RecycledSolves::visit_pair(const base::SaveVisit& visit, const std::string& name,
+                                VectorXf& pairs, int pair) {
+  Vector values(rows());
+  if (!visit.is_restoring()) {
+    parts_.for_pieces(nullptr, [&](int /*part*/, Index first, Index size) {
+      values.segment(first, size) = pairs.segment(place(pair, first, size), size).cast<double>();
+    });
+  }
+  visit.vector(name, values, rows());
+  if (!visit.is_restoring()) return;
+  parts_.for_pieces(nullptr, [&](int /*part*/, Index first, Index size) {
+    pairs.segment(place(pair, first, size), size) = values.segment(first, size).cast<float>();
+  });
+}
+
+}  // namespace buckens::linalg

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "buckens/base/saved_values.h"
+#include "buckens/base/task_pool.h"
+#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/row_parts.h"
+
+namespace buckens::linalg {
+
+/// Answers x = A⁻¹ f to loads that lie in a small space, by combining answers made before.
+///
+/// It keeps pairs (cᵢ, xᵢ = A⁻¹ cᵢ), the cᵢ orthonormal in ‖f‖² = Σ fⱼ²/Aⱼⱼ. A load is projected on
+/// them, f = Σ αᵢ cᵢ + r. If ‖r‖ is small, the answer is Σ αᵢ xᵢ; if not, r is solved for and, with
+/// its answer, becomes a pair. Where no place is left, the pair least used lately goes.
+///
+/// Pairs are kept in single precision: cᵢ is rounded before it is solved for, so that only the
+/// answer is rounded, to 6e-8 of the change that it describes.
+///
+/// A store that cannot answer half of what it is asked sleeps for a while. It changes by learn()
+/// only, so that what was asked in vain leaves no trace. All results, and what is kept, are bitwise
+/// the same with any number of threads.
+///
+/// Cost with m pairs: 3 m n numbers of four bytes read; 5 m n if r is solved for.
+class RecycledSolves {
+ public:
+  /// One load on its way to its answer.
+  struct Request {
+    Eigen::VectorXf remainder;  ///< r/√A of the diagonal, later its share of a new pair
+    Eigen::VectorXf answer;     ///< √A of the diagonal times A⁻¹ r
+    Eigen::VectorXf weights;    ///< αᵢ
+    enum class Fate { not_tried, answered, solved } fate = Fate::not_tried;
+  };
+
+  /// @param inverse_diagonal 1/Aⱼⱼ, n
+  /// @param most largest number of pairs; 0: nothing is kept
+  RecycledSolves(const Vector& inverse_diagonal, int most);
+
+  /// f ← A⁻¹ (f − r) with ‖r‖ ≤ limit and true, or f ← what is to be solved for and false: then
+  /// complete() is to follow.
+  bool answer(Vector& f, double limit, Request& request, TaskPool* pool = nullptr);
+  /// x ← A⁻¹ f. @param x the answer to what answer() left
+  void complete(Request& request, Vector& x, TaskPool* pool = nullptr) const;
+  /// Takes note of requests that were answered or completed, in this order, and keeps their pairs.
+  void learn(std::span<Request* const> requests, TaskPool* pool = nullptr);
+  /// As if nothing had ever been asked.
+  void forget();
+
+  int most() const { return most_; }
+  int num_pairs() const { return static_cast<int>(scores_.size()); }
+  bool is_asleep() const { return asleep_for_ > 0; }
+
+  /// Saves or restores the pairs and what decides on them.
+  /// @throws InputError if they do not fit
+  void visit_saved(const base::SaveVisit& visit);
+
+ private:
+  using ConstBlock = Eigen::Map<const Eigen::MatrixXf>;
+  /// Of one part of the rows.
+  struct PartSums {
+    Eigen::VectorXf products;  // of one piece
+    Vector along;
+    double square = 0;
+  };
+
+  Eigen::Index rows() const { return scale_.size(); }
+  /// Rows `first` … `first + size` of all pairs.
+  ConstBlock block(const Eigen::VectorXf& pairs, Eigen::Index first, Eigen::Index size) const {
+    return {pairs.data() + first * most_, size, num_pairs()};
+  }
+  /// Where a piece of a pair lies in a vector of pairs.
+  Eigen::Index place(Eigen::Index pair, Eigen::Index first, Eigen::Index size) const {
+    return first * most_ + pair * size;
+  }
+  void begin(const Vector& f, Request& request, TaskPool* pool);
+  /// Takes from the remainder what lies along the pairs. @return ‖r‖
+  double project(Request& request, TaskPool* pool);
+  void combine(const Request& request, Vector& x, bool adds, TaskPool* pool) const;
+  void note_use(const Request& request);
+  void note_outcome(bool is_answered);
+  void keep(Request& request, TaskPool* pool);
+  /// Takes from a request what the pair holds of it.
+  void separate(Request& request, int pair, TaskPool* pool);
+  double norm(const Eigen::VectorXf& load, TaskPool* pool);
+  int free_pair();
+  void store(const Request& request, double norm, int pair, TaskPool* pool);
+  void visit_pair(const base::SaveVisit& visit, const std::string& name, Eigen::VectorXf& pairs,
+                  int pair);
+
+  RowParts parts_;
+  int most_;
+  Eigen::VectorXf scale_;            // 1/√Aⱼⱼ
+  Eigen::VectorXf loads_, answers_;  // pairs, scaled by 1/√Aⱼⱼ and √Aⱼⱼ, piece by piece of rows
+  std::vector<double> scores_;  // of the pairs: use, fading
+  std::vector<PartSums> sums_;  // per part
+  Eigen::VectorXf along_;       // of one projection
+  std::vector<int> made_;       // pairs made in one call of learn()
+  long tried_ = 0, answered_ = 0, asleep_for_ = 0;
+};
+
+}  // namespace buckens::linalg
