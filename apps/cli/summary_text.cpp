@@ -30,7 +30,7 @@ std::string headline(const results::RunSummary& summary) {
 
 std::string bodies_table(const results::RunSummary& summary) {
   std::vector<std::vector<std::string>> rows = {
-      {"body", "nodal DOF", "coupling", "factorisations", "solves", "solves/step"}};
+      {"body", "nodal DOF", "coupling", "factorisations", "solves", "solves/step", "recycled"}};
   for (const results::BodyEffort& body : summary.bodies) {
     if (body.dof == 0) {
       rows.push_back({body.name, "rigid"});
@@ -41,7 +41,8 @@ std::string bodies_table(const results::RunSummary& summary) {
                                                                  static_cast<double>(summary.steps))
                                      : "-";
     rows.push_back({body.name, fmt::to_string(body.dof), body.coupling,
-                    fmt::to_string(body.factorisations), fmt::to_string(body.solves), per_step});
+                    fmt::to_string(body.factorisations), fmt::to_string(body.solves), per_step,
+                    fmt::to_string(body.recycled)});
   }
   return text_table(rows);
 }

@@ -24,6 +24,7 @@ const kWords: Record<string, string> = {
   dof_of_mesh: 'Nodal variables of the mesh',
   factorisations: 'Factorisations',
   solves: 'Large solves',
+  recycled: 'Solves saved by combining earlier ones',
   coupling: 'Inertial coupling',
   spin_over_lowest_frequency: 'Spin over lowest natural frequency',
   largest_neglected_share: 'Largest share of neglected coupling terms',

@@ -16,6 +16,7 @@ struct BodyEffort {
   int dof = 0;              ///< nodal variables; 0 for rigid bodies
   long factorisations = 0;  ///< large factorisations, all step sizes together
   long solves = 0;          ///< large solves while stepping
+  long recycled = 0;        ///< answers combined from earlier solves in place of further ones
   std::string coupling;     ///< level of inertial coupling in use; empty for rigid bodies
   /// Further counts and measures of this body, by name ("mode_ratio", "factor_bytes").
   std::vector<std::pair<std::string, double>> measures;

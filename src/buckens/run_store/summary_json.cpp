@@ -40,6 +40,7 @@ Json bodies_json(const std::vector<results::BodyEffort>& bodies) {
   for (const results::BodyEffort& body : bodies) {
     Json entry = {
         {"dof", body.dof}, {"factorisations", body.factorisations}, {"solves", body.solves}};
+    if (body.recycled > 0) entry["recycled"] = body.recycled;
     if (!body.coupling.empty()) entry["coupling"] = body.coupling;
     for (const auto& [name, value] : body.measures) entry[name] = value;
     all[body.name] = std::move(entry);

@@ -78,8 +78,8 @@ LaggedCoupling::Gap LaggedCoupling::evaluate(const BodyStep& step, const LargeSt
   if (step.terms.have_load()) {
     const Sizes sizes = compare_loads(pool);
     const Vector6 weights = dynamics::centrifugal_weights(step.terms, w);
-    const double whole = std::sqrt(sizes.load + weights.dot(undeformed_ * weights));
-    if (whole != 0.0) load_change = std::sqrt(sizes.change) / whole;
+    load_size_ = std::sqrt(sizes.load + weights.dot(undeformed_ * weights));
+    if (load_size_ != 0.0) load_change = std::sqrt(sizes.change) / load_size_;
     gap.motion = scheme_.force * sizes.moved / L;
   }
   const Vector3d frame_change =

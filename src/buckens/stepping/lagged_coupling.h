@@ -47,6 +47,10 @@ class LaggedCoupling {
   model::Coupling& evaluated() { return evaluated_; }
   /// Change of the load from what was used to what was evaluated.
   const linalg::Vector& change() const { return change_; }
+  /// Size of the whole coupling load, √(‖F‖² + ‖ĉ‖²), at the last evaluation.
+  double load_size() const { return load_size_; }
+  /// 1/K̂ᵢᵢ, which makes the norm; empty if there are no loads.
+  const linalg::Vector& inverse_diagonal() const { return inverse_diagonal_; }
   /// Whether take_over() changed the load, so that another solve is needed.
   bool load_changed() const { return load_changed_; }
 
@@ -66,6 +70,7 @@ class LaggedCoupling {
   model::Coupling used_, evaluated_;
   linalg::Vector change_;
   bool load_changed_ = true;
+  double load_size_ = 0;
 };
 
 }  // namespace buckens::stepping

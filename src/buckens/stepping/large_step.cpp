@@ -79,7 +79,6 @@ void LargeStep::clear_sums() {
 }
 
 void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, TaskPool* pool) {
-  ++solves_;
   const Scheme& scheme = op_->scheme();
   const linalg::Matrix& P = op_->sieve().P();
   const linalg::Matrix* patterns = before.terms.use_patterns() ? op_->patterns() : nullptr;

@@ -61,8 +61,6 @@ class LargeStep {
 
   BodyStepOperator& op() { return *op_; }
   const BodyStepOperator& op() const { return *op_; }
-  /// Solutions taken so far.
-  long solves() const { return solves_; }
 
  private:
   /// Weights of a combination of d, ḋ, d̈ and a at the start of the step.
@@ -112,7 +110,6 @@ class LargeStep {
   std::vector<PartSums> sums_;
   linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty if the equations hold at the end
   bool is_finite_ = true;
-  long solves_ = 0;
 };
 
 }  // namespace buckens::stepping

@@ -68,7 +68,24 @@ void SmallNewton::visit_saved(const base::SaveVisit& visit) {
   condensation_.reset();
 }
 
-void Stepper::visit_saved(const base::SaveVisit& visit) { newton_->visit_saved(visit); }
+void Stepper::visit_saved(const base::SaveVisit& visit) {
+  newton_->visit_saved(visit);
+  // What the last step has taught is kept now rather than at the start of the next one.
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (has_lesson_) groups_[g].learn(pool_.get());
+    groups_[g].visit_saved(visit.inside("kept_solves").inside(g));
+  }
+  has_lesson_ = false;
+  for (std::size_t b = 0; b < flexible_.size(); ++b) {
+    if (!flexible_[b]) continue;
+    body::FrameMotion& frame = flexible_[b]->frame_at_end;
+    const base::SaveVisit one = visit.inside("frames_at_end").inside(b);
+    one.fixed("p", frame.X_WB.p);
+    one.rotation("q", frame.X_WB.q);
+    one.fixed("v", frame.v);
+    one.fixed("w", frame.w);
+  }
+}
 
 void StepLadder::visit_saved(const base::SaveVisit& visit) {
   std::vector<int> rungs;

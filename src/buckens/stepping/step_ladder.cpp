@@ -12,6 +12,7 @@ namespace {
 void add(SolveCounts& sum, const SolveCounts& counts) {
   sum.factorisations += counts.factorisations;
   sum.solves += counts.solves;
+  sum.recycled += counts.recycled;
   sum.setup_solves += counts.setup_solves;
 }
 

@@ -18,6 +18,8 @@ struct StepSettings {
   double outer_tolerance = 1e-6;    ///< relative change of the coupling load
   bool iterate_coupling = false;    ///< to outer_tolerance; otherwise a second large solve is the
                                     ///< last if its coupling load was accurate to 1e-4
+  /// Most answers to changes of the coupling load that are kept per factor, for recycling; 0: none.
+  int kept_solves = 80;
   int max_newton = 40;
   int max_outer = 30;
   int threads = 1;  ///< ≥ 1; does not influence results
@@ -35,7 +37,8 @@ struct StepSettings {
 /// Effort and residuals of one step.
 struct StepReport {
   int newton_iterations = 0;
-  int large_solve_rounds = 0;    ///< large solves of the body that needed most; 0: all rigid
+  int large_solve_rounds = 0;    ///< rounds in which some body solved; 0: all rigid
+  int recycled_rounds = 0;       ///< rounds in which kept solves answered all that bodies asked
   double position_residual = 0;  ///< max |g| [m] or [-]
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,34 +43,6 @@ constexpr double kSameInstant = 1e-6;
 constexpr Eigen::Index kSharedDofs = 2000;
 constexpr int kPartsPerThread = 4;
 }  // namespace
-
-/// The n-sized part of one flexible body in a step, and its coupling.
-struct Stepper::Large {
-  Large(const body::Body& body, BodyStepOperator& op) : step(op), coupling(body, op) {}
-
-  LargeStep step;
-  LaggedCoupling coupling;
-};
-
-/// Bodies whose solves read the same factor, so that they go together as right-hand sides.
-struct Stepper::FactorGroup {
-  const linalg::Factor* factor = nullptr;
-  std::vector<std::size_t> bodies;
-  std::vector<std::size_t> active;  // those that solve in this round
-  std::vector<double*> sides;
-
-  void solve(std::vector<std::unique_ptr<Large>>& large, TaskPool* pool,
-             linalg::SolveExchange* exchange) {
-    if (active.empty()) return;
-    sides.clear();
-    for (const std::size_t b : active) sides.push_back(large[b]->step.side().data());
-    if (exchange != nullptr) {
-      exchange->solve(*factor, sides, pool);
-    } else {
-      factor->solve_in_place(sides, pool);
-    }
-  }
-};
 
 namespace {
 
@@ -117,8 +88,8 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
   std::vector<const BodyAnswer*> views;
   for (const body::Body& body : model.bodies) {
     operators_.push_back(factorised(body, scheme_, operators_, settings_));
-    large_.push_back(body.is_flexible() ? std::make_unique<Large>(body, *operators_.back())
-                                        : nullptr);
+    flexible_.push_back(
+        body.is_flexible() ? std::make_unique<FlexibleStep>(body, *operators_.back()) : nullptr);
     views.push_back(operators_.back().get());
   }
   impacts_ = std::make_unique<Impacts>(model, scheme_, views);
@@ -143,14 +114,12 @@ void Stepper::group_factors() {
     const linalg::Factor* factor = operators_[b]->shared_factor();
     if (factor == nullptr) continue;
     auto group = std::find_if(groups_.begin(), groups_.end(),
-                              [&](const FactorGroup& known) { return known.factor == factor; });
+                              [&](const FactorGroup& known) { return &known.factor() == factor; });
     if (group == groups_.end()) {
-      groups_.push_back({factor, {}, {}, {}});
+      groups_.emplace_back(*factor, flexible_[b]->coupling.inverse_diagonal(), settings_);
       group = groups_.end() - 1;
     }
-    group->bodies.push_back(b);
-    group->active.reserve(group->bodies.size());
-    group->sides.reserve(group->bodies.size());
+    group->add(*flexible_[b]);
   }
 }
 
@@ -170,69 +139,103 @@ void Stepper::start_bodies(const model::State& state) {
   for_bodies([&](std::size_t b) {
     const model::BodyState& s = state.bodies[b];
     bodies_[b].start(s, operators_[b].get(), scheme_, pool_.get());
-    if (!large_[b]) return;
-    large_[b]->coupling.start(s, state.history, state.t, pool_.get());
-    bodies_[b].quadratic = large_[b]->coupling.used().moments;
+    if (!flexible_[b]) return;
+    flexible_[b]->coupling.start(s, state.history, state.t, pool_.get());
+    bodies_[b].quadratic = flexible_[b]->coupling.used().moments;
   });
 }
 
-bool Stepper::free_responses(const model::State& state, bool first_round) {
+Stepper::Answers Stepper::free_responses(const model::State& state, int round) {
+  const bool first_round = round == 0;
   const auto is_active = [&](std::size_t b) {
-    return large_[b] && (first_round || large_[b]->coupling.load_changed());
+    return flexible_[b] && (first_round || flexible_[b]->coupling.load_changed());
   };
+  long solves = 0;
+  bool any_active = false;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!is_active(b)) continue;
+    any_active = true;
+    solves -= flexible_[b]->solves;
+  }
+  if (!any_active) return Answers::none_asked;
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
-    Large& large = *large_[b];
+    FlexibleStep& body = *flexible_[b];
     if (first_round) {
-      large.step.form_right_side(state.bodies[b], large.coupling.used().load, pool_.get());
+      body.large.form_right_side(state.bodies[b], body.coupling.used().load, pool_.get());
     } else {
-      large.step.form_right_side_of_change(large.coupling.change(), pool_.get());
+      body.large.form_right_side_of_change(body.coupling.change(), pool_.get());
     }
     BodyStepOperator& op = *operators_[b];
-    if (op.shared_factor() == nullptr) op.solve_right_side(large.step.side());
+    if (op.shared_factor() != nullptr) return;
+    op.solve_right_side(body.large.side());
+    ++body.solves;
   });
-  for (FactorGroup& group : groups_) {
-    group.active.clear();
-    std::copy_if(group.bodies.begin(), group.bodies.end(), std::back_inserter(group.active),
-                 is_active);
-  }
   // One factor is shared between threads by its subtrees, several one by one; those that wait for
   // other simulations must not wait inside of tasks.
   TaskPool* across = settings_.exchange == nullptr ? pool_.get() : nullptr;
   run_tasks(across, static_cast<int>(groups_.size()), [&](int g) {
-    groups_[static_cast<std::size_t>(g)].solve(large_, pool_.get(), settings_.exchange);
+    FactorGroup& group = groups_[static_cast<std::size_t>(g)];
+    first_round ? group.solve_loads(pool_.get()) : group.answer_changes(round == 1, pool_.get());
   });
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
-    large_[b]->step.take_solution(state.bodies[b], bodies_[b].y_free, pool_.get());
+    flexible_[b]->large.take_solution(state.bodies[b], bodies_[b].y_free, pool_.get());
   });
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (is_active(b)) return true;
+    if (is_active(b)) solves += flexible_[b]->solves;
   }
-  return false;
+  return solves > 0 ? Answers::solved : Answers::all_recycled;
+}
+
+void Stepper::recall_solves(const model::State& before) {
+  bool goes_on = true;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!flexible_[b]) continue;
+    const body::FrameMotion& end = flexible_[b]->frame_at_end;
+    const body::FrameMotion& start = before.bodies[b].frame;
+    goes_on = goes_on && start.X_WB.p == end.X_WB.p &&
+              start.X_WB.q.coeffs() == end.X_WB.q.coeffs() && start.v == end.v && start.w == end.w;
+  }
+  for (FactorGroup& group : groups_) {
+    if (!goes_on) {
+      group.forget();
+    } else if (has_lesson_) {
+      group.learn(pool_.get());
+    }
+  }
+  has_lesson_ = false;
+}
+
+void Stepper::finish_lesson(const model::State& end) {
+  has_lesson_ = true;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (flexible_[b]) flexible_[b]->frame_at_end = end.bodies[b].frame;
+  }
 }
 
 void Stepper::complete(const model::State& state) {
   for_bodies([&](std::size_t b) {
-    if (!large_[b]) return;
-    large_[b]->step.complete(state.bodies[b], bodies_[b].load, bodies_[b].correction_load,
-                             next_.bodies[b], pool_.get());
+    if (!flexible_[b]) return;
+    flexible_[b]->large.complete(state.bodies[b], bodies_[b].load, bodies_[b].correction_load,
+                                 next_.bodies[b], pool_.get());
   });
 }
 
 bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
   for_bodies([&](std::size_t b) {
-    const bool matters = large_[b] && bodies_[b].terms.are_lagged();
+    const bool matters = flexible_[b] && bodies_[b].terms.are_lagged();
     gaps_[b] = {};
     if (!matters) return;
-    gaps_[b] = large_[b]->coupling.evaluate(bodies_[b], large_[b]->step, next_.bodies[b], state.t,
-                                            settings_.outer_tolerance, model_.length, pool_.get());
+    gaps_[b] =
+        flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b], state.t,
+                                        settings_.outer_tolerance, model_.length, pool_.get());
   });
   bool settled = true;
   report.coupling_change = 0;
   coupling_motion_ = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!large_[b] || !bodies_[b].terms.are_lagged()) continue;
+    if (!flexible_[b] || !bodies_[b].terms.are_lagged()) continue;
     const LaggedCoupling::Gap& gap = gaps_[b];
     settled = settled && gap.is_settled();
     coupling_motion_ = std::max(coupling_motion_, gap.motion);
@@ -262,15 +265,15 @@ void Stepper::form_next_state(const model::State& state) {
     s.w_alg = scheme_.algorithmic(old.w_dot, old.w_alg, s.w_dot);
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     s.terms = old.terms;
-    if (!large_[b]) return;
+    if (!flexible_[b]) return;
     // complete() formed the nodal variables; the old buffers are reused in the next step.
-    std::swap(s.coupling, large_[b]->coupling.evaluated());
+    std::swap(s.coupling, flexible_[b]->coupling.evaluated());
     s.coupling_before = old.coupling;
     s.coupling_earlier = old.coupling_before;
   });
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const bool is_finite =
-        is_frame_finite(next.bodies[b]) && (!large_[b] || large_[b]->step.is_finite());
+        is_frame_finite(next.bodies[b]) && (!flexible_[b] || flexible_[b]->large.is_finite());
     if (!is_finite) fail_infinite(model_.bodies[b], next.t);
   }
 }
@@ -302,7 +305,7 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   s.frame.X_WB.p += jump.shift.tail<3>();
   s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(jump.shift.head<3>())).normalized();
   motion.frame = s.frame;
-  if (!large_[b] || operators_[b]->is_quasi_static()) return;
+  if (!flexible_[b] || operators_[b]->is_quasi_static()) return;
   // c G f answers a load f; an impulse is answered by k₀ G.
   const auto add = [&](const Eigen::VectorXd& impulse, linalg::Vector& nodal) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(operators_[b]->num_rows());
@@ -318,19 +321,28 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
 
 void Stepper::take_over_coupling() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!large_[b] || !bodies_[b].terms.are_lagged()) continue;
-    large_[b]->coupling.take_over();
-    bodies_[b].quadratic = large_[b]->coupling.used().moments;
+    if (!flexible_[b] || !bodies_[b].terms.are_lagged()) continue;
+    flexible_[b]->coupling.take_over();
+    bodies_[b].quadratic = flexible_[b]->coupling.used().moments;
   }
 }
 
-void Stepper::compute_round(const model::State& state, bool is_first, StepReport& report) {
+void Stepper::compute_round(const model::State& state, int round, StepReport& report) {
   using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
   const auto start = Clock::now();
-  if (free_responses(state, is_first)) ++report.large_solve_rounds;
+  switch (free_responses(state, round)) {
+    case Answers::solved:
+      ++report.large_solve_rounds;
+      break;
+    case Answers::all_recycled:
+      ++report.recycled_rounds;
+      break;
+    case Answers::none_asked:
+      break;
+  }
   const auto solved = Clock::now();
-  if (is_first) {
+  if (round == 0) {
     newton_->prepare(bodies_, state.t);
     newton_->iterate(bodies_, state.t, lambda_, report);
   } else {
@@ -352,6 +364,7 @@ StepReport Stepper::step(const model::State& before, model::State& after) {
 
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
+  recall_solves(state);
   lambda_ = state.lambda;
   next_.bodies.resize(bodies_.size());
   newton_->use({&state.inputs, &state.memory, &lambda_});
@@ -361,13 +374,14 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   }
   double last_change = HUGE_VAL;
   for (int round = 0;; ++round) {
-    compute_round(state, round == 0, report);
+    compute_round(state, round, report);
     if (coupling_settled(state, report)) break;
     const double change = report.coupling_change;
     const bool is_last = round + 1 >= settings_.max_outer;
     if (change <= kCouplingRounding && (is_last || change > kNoLongerFalls * last_change)) break;
     if (coupling_motion_ <= kPositionRounding && change > 0.5 * last_change) break;
-    const bool is_second = report.large_solve_rounds >= 2 && !settings_.iterate_coupling;
+    const bool is_second =
+        report.large_solve_rounds + report.recycled_rounds >= 2 && !settings_.iterate_coupling;
     const bool is_small = coupling_motion_ <= kSecondSolveMotion && change <= 0.5 * last_change;
     if (is_second && (change <= kSecondSolve || is_small)) break;
     last_change = change;
@@ -385,6 +399,7 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   take_impacts(report);
   stepped_to_ = next_.t;
   has_stepped_ = true;
+  finish_lesson(next_);
   std::swap(end, next_);  // the buffers of `end` are reused in the next step
   return report;
 }
@@ -425,7 +440,8 @@ double Stepper::lowest_frequency(std::size_t body) {
 SolveCounts Stepper::counts(std::size_t body) const {
   if (!operators_[body]) return {};
   const BodyStepOperator& op = *operators_[body];
-  return {op.factorisations(), large_[body]->step.solves(), op.setup_solves()};
+  const FlexibleStep& step = *flexible_[body];
+  return {op.factorisations(), step.solves, step.recycled, op.setup_solves()};
 }
 
 }  // namespace buckens::stepping

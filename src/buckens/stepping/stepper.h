@@ -7,8 +7,8 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/factor_group.h"
 #include "buckens/stepping/impacts.h"
-#include "buckens/stepping/lagged_coupling.h"
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
 #include "buckens/stepping/step_settings.h"
@@ -19,6 +19,7 @@ namespace buckens::stepping {
 struct SolveCounts {
   long factorisations = 0;
   long solves = 0;        ///< inside steps
+  long recycled = 0;      ///< inside steps, combined from earlier solves
   long setup_solves = 0;  ///< for interface columns
 };
 
@@ -82,15 +83,18 @@ class Stepper {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  struct Large;        // n-sized vectors of one flexible body
-  struct FactorGroup;  // bodies that share a factor
+  /// How the large solves of a round were answered.
+  enum class Answers { none_asked, all_recycled, solved };
   StepReport take_step(const model::State& state, model::State& end);
   void start_bodies(const model::State& state);
-  /// @return whether any large solve was needed
-  bool free_responses(const model::State& state, bool first_round);
+  Answers free_responses(const model::State& state, int round);
+  /// Keeps the solves of the last step if this one goes on from it; forgets all of them if not, so
+  /// that steps that were rejected or taken back leave no trace.
+  void recall_solves(const model::State& before);
+  void finish_lesson(const model::State& end);
   void complete(const model::State& state);
   void take_over_coupling();
-  void compute_round(const model::State& state, bool is_first, StepReport& report);
+  void compute_round(const model::State& state, int round, StepReport& report);
   bool coupling_settled(const model::State& state, StepReport& report);
   void form_next_state(const model::State& state);
   /// Lets what has run into rigid stops leave them again, at the end of the step.
@@ -108,7 +112,7 @@ class Stepper {
   std::unique_ptr<SmallNewton> newton_;
   std::unique_ptr<Impacts> impacts_;
   std::vector<BodyStep> bodies_;
-  std::vector<std::unique_ptr<Large>> large_;
+  std::vector<std::unique_ptr<FlexibleStep>> flexible_;  // null: rigid
   std::vector<FactorGroup> groups_;
   std::vector<LaggedCoupling::Gap> gaps_;  // per body
   std::unique_ptr<TaskPool> pool_;         // empty with one thread
@@ -116,7 +120,8 @@ class Stepper {
   linalg::Vector lambda_;  // of the current step
   double stepped_to_ = 0;  // end of the last step [s]
   bool has_stepped_ = false;
-  Eigen::Index num_dofs_ = 0;      // of all bodies
+  bool has_lesson_ = false;    // solves of the last step, to be kept if the next goes on from it
+  Eigen::Index num_dofs_ = 0;  // of all bodies
   std::size_t least_settled_ = 0;  // body with the largest change of coupling
   StepSeconds seconds_;
   double coupling_motion_ = 0;  // caused by the last change of coupling loads, relative to L

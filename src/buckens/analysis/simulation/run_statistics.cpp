@@ -116,6 +116,7 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
     effort.dof += static_cast<int>(built_.model.bodies[b].num_dofs());
     effort.factorisations += counts.factorisations;
     effort.solves += counts.solves;
+    effort.recycled += counts.recycled;
     summary.setup_solves += counts.setup_solves;
     if (deformation_[b].rotation > deformation_[bent].rotation) bent = b;
     deformation.include(deformation_[b]);

@@ -35,6 +35,7 @@ stepping::StepSettings step_settings(const model::SimulationSpec& spec) {
   settings.newton_tolerance = spec.newton_tolerance;
   settings.outer_tolerance = spec.outer_tolerance;
   settings.iterate_coupling = spec.iterate_coupling;
+  settings.kept_solves = spec.kept_solves;
   settings.max_newton = spec.max_iterations;
   settings.max_outer = spec.max_outer_iterations;
   return settings;

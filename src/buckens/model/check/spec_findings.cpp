@@ -24,6 +24,7 @@ Found needed_axis_problem(const std::optional<Eigen::Vector3d>& axis,
 namespace {
 
 constexpr double kMostSteps = 1e10;
+constexpr int kMostKeptSolves = 1000;
 // Third differences of positions contain a few times their rounding.
 constexpr double kLeastTolerance = 1e-13;
 constexpr int kMostStaticPoints = 1000000;
@@ -251,6 +252,12 @@ Found problem(const SimulationSpec& spec, const ModelDescription&) {
     return Finding{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
                                             "positions; ask for {:g} at least",
                                             *spec.tolerance, kLeastTolerance)};
+  }
+  if (spec.kept_solves > kMostKeptSolves) {
+    return Finding{"kept-solves",
+                   fmt::format("{} answers would cost more than the solves they save; keep {} at "
+                               "most, or leave the key out for 80",
+                               spec.kept_solves, kMostKeptSolves)};
   }
   if (!spec.step && !spec.tolerance) {
     return Finding{"step",

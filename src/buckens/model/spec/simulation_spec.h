@@ -32,6 +32,7 @@ struct SimulationSpec {
   double newton_tolerance = 1e-10;
   double outer_tolerance = 1e-6;
   bool iterate_coupling = false;
+  int kept_solves = 80;
   int max_iterations = 40;
   int max_outer_iterations = 30;
   bool error = false;
@@ -85,6 +86,21 @@ struct SimulationSpec {
     visit(base::field("projection", projection,
                       "newmark, wilson: project positions onto the joints each step")
               .on_off());
+    iteration_fields(visit);
+    visit(base::field("error", error, "on: same as `buckens run --error`").on_off());
+    visit(base::field("checkpoint", checkpoint,
+                      "wall time between checkpoints, from which `buckens run --continue` goes on "
+                      "after a crash; one is also written at the end. off: none")
+              .in(base::kTime)
+              .positive()
+              .or_word("off")
+              .like("30 s")
+              .otherwise("30 s"));
+  }
+
+ private:
+  template <class Visitor>
+  void iteration_fields(Visitor& visit) {
     visit(base::field("newton-tolerance", newton_tolerance,
                       "relative change at which the iteration of frames and joints stops")
               .positive());
@@ -96,21 +112,16 @@ struct SimulationSpec {
                       "on: large solves until outer-tolerance is met; off: the second one in a "
                       "step is the last if the coupling load it used was accurate to 1e-4")
               .on_off());
+    visit(base::field("kept-solves", kept_solves,
+                      "most answers to changes of the coupling load that are kept per factor, to "
+                      "be combined in place of second large solves; 0: none, at most 1000")
+              .non_negative());
     visit(base::field("max-iterations", max_iterations,
                       "maximum number of Newton iterations in a step")
               .positive());
     visit(base::field("max-outer-iterations", max_outer_iterations,
                       "maximum number of large solves in a step")
               .positive());
-    visit(base::field("error", error, "on: same as `buckens run --error`").on_off());
-    visit(base::field("checkpoint", checkpoint,
-                      "wall time between checkpoints, from which `buckens run --continue` goes on "
-                      "after a crash; one is also written at the end. off: none")
-              .in(base::kTime)
-              .positive()
-              .or_word("off")
-              .like("30 s")
-              .otherwise("30 s"));
   }
 };
 

@@ -180,7 +180,6 @@ TEST_P(LargeStepBy, SecondSolveForTheChangeOfALoadGivesTheStepWithTheNewLoad) {
   op.solve_right_side(once.side());
   once.take_solution(before, y_once, nullptr);
   once.complete(before, f, e, expected, nullptr);
-  EXPECT_EQ(twice.solves(), 2);
   EXPECT_LE((y_twice - y_once).norm(), 1e-13 * y_once.norm());
   EXPECT_LE((after.d - expected.d).norm(), 1e-13 * expected.d.norm());
   // Rates and accelerations are increments over h and h²: their rounding is that of d so divided.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/factor_group.h"
+
+#include <algorithm>
+
+namespace buckens::stepping {
+
+namespace {
+// What kept solves may leave of the coupling load without an answer, relative to it: a tenth of
+// what a second solve may (kSecondSolve), and with a finer tolerance less.
+constexpr double kLeftBySolve = 1e-5;
+constexpr double kLeftPerTolerance = 10.0;
+// Combining answers reads 3 numbers of four bytes per variable and pair. It may cost this share of
+// the two passes of a solve.
+constexpr double kShareOfSolve = 0.5;
+constexpr double kBytesPerPair = 12.0;
+// With fewer pairs a space of vibrations is not spanned.
+constexpr int kLeastPairs = 8;
+
+int most_pairs(const linalg::Factor& factor, const linalg::Vector& inverse_diagonal,
+               const StepSettings& settings) {
+  if (settings.iterate_coupling || inverse_diagonal.size() == 0) return 0;
+  const double pays =
+      kShareOfSolve * 2.0 * factor.bytes() / (kBytesPerPair * static_cast<double>(factor.size()));
+  if (pays < kLeastPairs) return 0;
+  return static_cast<int>(std::min<double>(settings.kept_solves, pays));
+}
+}  // namespace
+
+FactorGroup::FactorGroup(const linalg::Factor& factor, const linalg::Vector& inverse_diagonal,
+                         const StepSettings& settings)
+    : factor_(&factor),
+      exchange_(settings.exchange),
+      left_(std::min(kLeftBySolve, kLeftPerTolerance * settings.outer_tolerance)),
+      kept_(inverse_diagonal, most_pairs(factor, inverse_diagonal, settings)) {}
+
+void FactorGroup::add(FlexibleStep& body) {
+  bodies_.push_back(&body);
+  active_.reserve(bodies_.size());
+  sides_.reserve(bodies_.size());
+  requests_.reserve(bodies_.size());
+}
+
+void FactorGroup::solve(TaskPool* pool) {
+  if (active_.empty()) return;
+  sides_.clear();
+  for (FlexibleStep* body : active_) {
+    sides_.push_back(body->large.side().data());
+    ++body->solves;
+  }
+  if (exchange_ != nullptr) {
+    exchange_->solve(*factor_, sides_, pool);
+  } else {
+    factor_->solve_in_place(sides_, pool);
+  }
+}
+
+void FactorGroup::solve_loads(TaskPool* pool) {
+  requests_.clear();
+  active_.assign(bodies_.begin(), bodies_.end());
+  solve(pool);
+}
+
+void FactorGroup::answer_changes(bool recycles, TaskPool* pool) {
+  active_.clear();
+  for (FlexibleStep* body : bodies_) {
+    if (!body->coupling.load_changed()) continue;
+    const double limit = left_ * body->large.op().scheme().force * body->coupling.load_size();
+    if (recycles) requests_.push_back(&body->request);
+    if (recycles && kept_.answer(body->large.side(), limit, body->request, pool)) {
+      ++body->recycled;
+    } else {
+      active_.push_back(body);
+    }
+  }
+  solve(pool);
+  if (!recycles) return;
+  for (FlexibleStep* body : active_) kept_.complete(body->request, body->large.side(), pool);
+}
+
+void FactorGroup::learn(TaskPool* pool) {
+  kept_.learn(requests_, pool);
+  requests_.clear();
+}
+
+void FactorGroup::forget() {
+  kept_.forget();
+  requests_.clear();
+}
+
+}  // namespace buckens::stepping

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/linalg/recycled_solves.h"
+#include "buckens/stepping/lagged_coupling.h"
+#include "buckens/stepping/large_step.h"
+
+namespace buckens::stepping {
+
+/// The n-sized part of one flexible body in a step, its coupling, and its large solves so far.
+struct FlexibleStep {
+  FlexibleStep(const body::Body& body, BodyStepOperator& op) : large(op), coupling(body, op) {}
+
+  LargeStep large;
+  LaggedCoupling coupling;
+  linalg::RecycledSolves::Request request;  ///< of the first change of load of this step
+  body::FrameMotion frame_at_end;           ///< of the last step; tells whether the next goes on
+  long solves = 0;
+  long recycled = 0;  ///< answers combined from kept solves
+};
+
+}  // namespace buckens::stepping
