@@ -67,4 +67,33 @@ inline linalg::SparseMatrix step_matrix(const fem::FeModel& fe) {
   return out;
 }
 
+/// A block that falls from the horizontal on a ball joint at a corner.
+/// @param loads forces on as many nodes of a face, three interface variables each
+inline std::string block_pendulum(const SolidBlock& block, const std::string& level,
+                                  int loads = 0) {
+  std::string markers, forces;
+  for (int k = 0; k < loads; ++k) {
+    // Nodes of the face x = 0 except the one that is held.
+    const int across = block.divisions[1] + 1;
+    const double y = 0.1 * ((k + 1) % across) / block.divisions[1];
+    const double z = 0.1 * ((k + 1) / across) / block.divisions[2];
+    markers += fmt::format("      m{}: {{position: [0, {}, {}]}}\n", k, y, z);
+    forces += fmt::format("  f{0}: {{force: {{on: block/m{0}, value: [0, 1, 0]}}}}\n", k);
+  }
+  return fmt::format(R"(buckens: 1
+gravity: [0, -9.81, 0]
+bodies:
+  block:
+    mesh:
+      box: {{size: [{}, 0.1, 0.1], divisions: [{}, {}, {}], element: {}}}
+      material: {{E: 210 GPa, nu: 0.3, rho: 7850, damping: {{mass: 0.1, stiffness: 1e-7 s}}}}
+    coupling: {}
+{}joints:
+  pin: {{spherical: {{between: [ground, block/corner_000]}}}}
+{})",
+                     block.size().x(), block.divisions[0], block.divisions[1], block.divisions[2],
+                     block.element(), level, loads > 0 ? "    markers:\n" + markers : "",
+                     loads > 0 ? "loads:\n" + forces : "");
+}
+
 }  // namespace buckens::bench

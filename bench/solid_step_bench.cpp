@@ -28,6 +28,7 @@
 
 namespace {
 
+using buckens::bench::block_pendulum;
 using buckens::bench::process_memory;
 using buckens::bench::Running;
 using buckens::bench::shortest;
@@ -59,34 +60,6 @@ std::vector<std::string> split(const std::string& text) {
     }
   }
   return out;
-}
-
-/// A block that falls from the horizontal on a ball joint at a corner.
-/// @param loads forces on as many nodes of a face, three interface variables each
-std::string block_pendulum(const SolidBlock& block, const std::string& level, int loads = 0) {
-  std::string markers, forces;
-  for (int k = 0; k < loads; ++k) {
-    // Nodes of the face x = 0 except the one that is held.
-    const int across = block.divisions[1] + 1;
-    const double y = 0.1 * ((k + 1) % across) / block.divisions[1];
-    const double z = 0.1 * ((k + 1) / across) / block.divisions[2];
-    markers += fmt::format("      m{}: {{position: [0, {}, {}]}}\n", k, y, z);
-    forces += fmt::format("  f{0}: {{force: {{on: block/m{0}, value: [0, 1, 0]}}}}\n", k);
-  }
-  return fmt::format(R"(buckens: 1
-gravity: [0, -9.81, 0]
-bodies:
-  block:
-    mesh:
-      box: {{size: [{}, 0.1, 0.1], divisions: [{}, {}, {}], element: {}}}
-      material: {{E: 210 GPa, nu: 0.3, rho: 7850, damping: {{mass: 0.1, stiffness: 1e-7 s}}}}
-    coupling: {}
-{}joints:
-  pin: {{spherical: {{between: [ground, block/corner_000]}}}}
-{})",
-                     block.size().x(), block.divisions[0], block.divisions[1], block.divisions[2],
-                     block.element(), level, loads > 0 ? "    markers:\n" + markers : "",
-                     loads > 0 ? "loads:\n" + forces : "");
 }
 
 /// Shortest solve by CHOLMOD with the factor of a step.
@@ -127,13 +100,16 @@ json measure_level(Running& run, const std::string& level, int threads, double b
   for (int k = 0; k < 4; ++k) run.stepper->step(state);
   const long solves = run.stepper->counts(0).solves;
   const auto before = run.stepper->seconds();
+  const long recycled = run.stepper->counts(0).recycled;
   long count = 0;
+  double all_steps = 0;
   std::map<long, AlikeSteps> by_solves;
   for (const Stopwatch all; count < kLeast || all.seconds() < budget; ++count) {
     const long solved = run.stepper->counts(0).solves;
     const Stopwatch one;
     run.stepper->step(state);
     const double seconds = one.seconds();
+    all_steps += seconds;
     AlikeSteps& alike = by_solves[run.stepper->counts(0).solves - solved];
     if (alike.count++ == 0 || seconds < alike.shortest) alike.shortest = seconds;
   }
@@ -145,9 +121,12 @@ json measure_level(Running& run, const std::string& level, int threads, double b
   const auto steps = static_cast<double>(count);
   json out = {{"level", level}, {"threads", threads}};
   out["step"] = usual->second.shortest;
+  out["mean_step"] = all_steps / steps;
   out["usual_solves"] = usual->first;
   out["steps"] = count;
   out["solves_per_step"] = static_cast<double>(run.stepper->counts(0).solves - solves) / steps;
+  out["recycled_per_step"] =
+      static_cast<double>(run.stepper->counts(0).recycled - recycled) / steps;
   out["mean_large_solves"] = (after.large_solves - before.large_solves) / steps;
   out["mean_newton"] = (after.newton - before.newton) / steps;
   out["mean_completion"] = (after.completion - before.completion) / steps;
