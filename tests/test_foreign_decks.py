@@ -112,6 +112,14 @@ def test_beams_weigh_what_the_deck_says(buckens, model):
         told["mass"], rel=1e-12)
 
 
+def test_one_side_makes_a_square(buckens, model):
+    model("*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT,TYPE=B31,ELSET=E\n1,1,2\n" + STEEL +
+          "*BEAM SECTION,ELSET=E,MATERIAL=ST,SECTION=RECT\n.1\n0,0,-1\n")
+    told = report(buckens)
+    assert told["mass"] == pytest.approx(7800 * 0.01, rel=1e-12)
+    assert [n for n in told["notes"] if "the side of a square" in n]
+
+
 def test_beams_of_i_section_and_rigid_tools_beside_them(buckens, model):
     h, b, t, web = 0.2, 0.1, 0.01, 0.006
     deck = ("*NODE\n1,0,0,0\n2,1,0,0\n3,2,0,0\n101,5,0,0\n102,6,0,0\n103,6,1,0\n"

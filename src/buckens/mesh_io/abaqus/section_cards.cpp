@@ -181,13 +181,20 @@ fem::CircleSpec read_circle(AbaqusReading& in, const DeckRow& row) {
   return {first};
 }
 
+/// One value is the side of a square, as CalculiX has it.
+fem::RectangleSpec read_rectangle(AbaqusReading& in, const DeckRow& row) {
+  const double a = positive(in, row, 0, "width of the rectangle");
+  if (!row.cell(1).empty()) return {a, positive(in, row, 1, "height of the rectangle")};
+  in.note(row.place, "SECTION=RECT: the one value is the side of a square, as in CalculiX");
+  return {a, a};
+}
+
 /// The shape on a data line. Direction 1 of the section becomes local y, direction 2 local z.
 fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row) {
   fem::SectionSpec out;
   // CalculiX looks at the first letters only.
   if (name.starts_with("RECT")) {
-    const double a = positive(in, row, 0, "width of the rectangle");
-    out.shape = fem::RectangleSpec{a, positive(in, row, 1, "height of the rectangle")};
+    out.shape = read_rectangle(in, row);
   } else if (name.starts_with("CIRC")) {
     out.shape = read_circle(in, row);
   } else if (name == "PIPE") {
