@@ -68,6 +68,8 @@ if(TARGET buckens_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-buckens)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/debian/postinst"
+                                                "${PROJECT_SOURCE_DIR}/packaging/debian/prerm")
   math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (<< 3.${next_minor}), python3 (>= 3.${Python_VERSION_MINOR}~), python3-numpy")

@@ -57,5 +57,5 @@ in_root /srv/cpp-build/pendulum
 echo "== and away again"
 in_root sh -c 'apt-get purge -y -qq buckens libbuckens-dev python3-buckens "buckens-doc*" python3-h5py g++ cmake ninja-build &&
   apt-get autoremove -y -qq --purge' >/dev/null
-if [ -e "$root/usr/share/buckens" ] || [ -e "$root/usr/bin/buckens" ]; then echo "error: files are left"; exit 1; fi
+if [ -e "$root/usr/share/buckens" ] || [ -e "$root/usr/bin/buckens" ] || [ -e "$root/usr/lib/python3/dist-packages/buckens" ]; then echo "error: files are left"; exit 1; fi
 echo "packages: ok"
