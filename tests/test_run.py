@@ -28,7 +28,7 @@ def sensors_of(directory):
 def test_run_directory_is_complete(buckens, models, tmp_path):
     result = buckens("run", models / "pendulum.yaml", "-o", "out").must(0)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
-        "log.txt", "model.yaml", "results.h5", "sensors.csv", "summary.json"]
+        "checkpoint.h5", "log.txt", "model.yaml", "results.h5", "sensors.csv", "summary.json"]
     for word in ["Test pendulum", "100 steps", "t = 0.1 s", "Newton iterations",
                  "residual, position", "residual, velocity", "sieve", "energy", "set-up", "stepping", "trust",
                  "buckens view out"]:

@@ -105,7 +105,9 @@ void check_continuation(const RunArguments& arguments) {
           "--until goes with --continue OUT; elsewhere use --set simulation.duration=T");
     }
     if (arguments.model.empty()) {
-      throw InputError("MODEL is required, unless --continue OUT says which run goes on");
+      throw InputError(
+          "MODEL is required, unless --continue OUT says which run goes on. See "
+          "`buckens run --help`.");
     }
     return;
   }
