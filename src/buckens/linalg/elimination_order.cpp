@@ -16,8 +16,8 @@ namespace buckens::linalg {
 
 namespace {
 
-// Below this number of columns least degree fills as little and takes less time.
-constexpr int kManyColumns = 3000;
+// Below these numbers least degree fills as little and takes less time.
+constexpr int kManyColumns = 3000, kManyVertices = 200;
 
 std::span<const int> rows_of(const SparseMatrix& A, int column) {
   const int begin = A.outerIndexPtr()[column];
@@ -147,7 +147,8 @@ std::vector<int> elimination_order(const ColumnGraph& graph) {
     std::iota(order.begin(), order.end(), 0);
     return order;
   }
-  const bool is_large = static_cast<int>(graph.columns.size()) >= kManyColumns;
+  const bool is_large =
+      static_cast<int>(graph.columns.size()) >= kManyColumns && graph.size() >= kManyVertices;
   return is_large ? by_nested_dissection(graph) : by_least_degree(graph);
 }
 
