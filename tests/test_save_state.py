@@ -119,6 +119,22 @@ loads:
       "  sensors:", "  sensors:\n    i: {signal: i}\n    u: {signal: u}", 1)
 
 
+# Settings, locks and switches by events before and after the state is saved, and a joint that lets go.
+EVENTS = SLIDER_CRANK.replace("loads:", """  way: {prismatic: {between: [slider, ball], axis: [1, 0, 0]}}
+  hook: {fixed: {between: [rod/mid, weight]}}
+signals:
+  push: {setting: 0}
+  early: "t - 0.0153"
+  late: "t - 0.0411"
+events:
+  one: {when: early, set: {push: 3}, lock: way, release: hook}
+  two: {when: late, set: {push: "-2*push"}, unlock: way, switch-off: leg, record: on}
+loads:
+  shove: {slide-motor: {joint: way, force: "push"}}""", 1).replace("joints:", """  ball: {rigid: {mass: 50 g, inertia: [0, 0, 1e-6]}, at: {position: ["r + L", 0, 0]}}
+  weight: {rigid: {mass: 5 g, inertia: [0, 0, 1e-7]}, at: {position: ["r + L/2", 0, 0]}}
+joints:""", 1)
+
+
 # A slider that passes nodes of a flexible rail, on a spring along it.
 SLIDER = """buckens: 1
 gravity: [0, 0, -9.81]
@@ -145,6 +161,8 @@ CASES = {
     "laws of joint coordinates": (model(LAWS), 0.0301),
     "contact": (model(CLEARANCE), 0.0301),
     "blocks": (model(CONTROL), 0.03),
+    "events": (model(EVENTS), 0.0301),
+    "events, step control": (model(EVENTS, step="tolerance: 1e-4"), 0.0301),
     "blocks, newmark": (model(CONTROL, step="method: newmark"), 0.03),
     "laws, newmark": (model(LAWS, step="method: newmark"), 0.0301),
     "laws, step control": (model(LAWS, step="tolerance: 1e-4"), 0.03),

@@ -127,6 +127,7 @@ loads::Action action_of(const model::Model& model, std::size_t load, double t,
                         const Circumstances& around, const spatial::MarkerMotion& first,
                         const spatial::MarkerMotion& second, const Travel* travel) {
   const loads::ForceElement& element = *model.loads[load].element;
+  if (around.memory != nullptr && around.memory->is_off(load)) return {};
   if (around.inputs != nullptr && !around.inputs->empty() && (*around.inputs)[load]) {
     return element.act(*(*around.inputs)[load], first);
   }

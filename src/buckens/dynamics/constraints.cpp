@@ -69,6 +69,19 @@ void evaluate_slider(const model::Model& model, const model::Joint& joint,
   }
 }
 
+/// Joints that have let go ask for nothing: their rows are zero, and so depend on any others.
+void open_released(const model::Model& model, const model::RowMemory* memory, Constraints& out) {
+  if (memory == nullptr || memory->released.empty()) return;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (!memory->is_released(j)) continue;
+    for (std::size_t k = 0; k < model.joints[j].rows.size(); ++k) {
+      const int row = model.joints[j].first_row + static_cast<int>(k);
+      out.g[row] = out.g_dot[row] = out.g_t[row] = 0.0;
+      out.rows[static_cast<std::size_t>(row)].clear();
+    }
+  }
+}
+
 double coupler_bias(const model::Model& model, const model::Joint& joint,
                     const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
   double out = 0.0;
@@ -127,6 +140,20 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
       ++row;
     }
   }
+  open_released(model, memory, out);
+}
+
+std::vector<int> held_rows(const model::Model& model, const model::RowMemory& memory,
+                           const std::vector<int>& rows) {
+  if (memory.released.empty()) return rows;
+  std::vector<int> out;
+  for (const int row : rows) {
+    const model::Joint* owner = model.owner_of_row(row).first;
+    if (!memory.is_released(static_cast<std::size_t>(owner - model.joints.data()))) {
+      out.push_back(row);
+    }
+  }
+  return out;
 }
 
 std::vector<char> rate_only_rows(const model::Model& model) {
@@ -165,6 +192,10 @@ linalg::Vector constraint_bias(const model::Model& model, const std::vector<Body
           row.bias(first.motion, second.motion, bias_first, bias_second, t, states);
       if (states != nullptr) states += row.num_states();
     }
+  }
+  for (std::size_t j = 0; memory != nullptr && j < model.joints.size(); ++j) {
+    if (!memory->is_released(j)) continue;
+    bias.segment(model.joints[j].first_row, std::ssize(model.joints[j].rows)).setZero();
   }
   return bias;
 }

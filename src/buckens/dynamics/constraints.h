@@ -24,6 +24,10 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
 void evaluate_constraints(const model::Model& model, const std::vector<BodyMotion>& motions,
                           double t, Constraints& out);
 
+/// Those of `rows` whose joints have not let go.
+std::vector<int> held_rows(const model::Model& model, const model::RowMemory& memory,
+                           const std::vector<int>& rows);
+
 /// For each row of λ whether it holds its rate only, as rolling does. Its residual is zero.
 std::vector<char> rate_only_rows(const model::Model& model);
 

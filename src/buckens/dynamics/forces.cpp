@@ -164,6 +164,14 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 
 namespace {
 
+/// Rows of what is switched off stay in their places, since the number of rows is constant.
+void give_nothing(std::vector<loads::SoftRow>& rows) {
+  for (loads::SoftRow& row : rows) {
+    row.stiffness = row.damping = 0.0;
+    row.is_rigid = false;
+  }
+}
+
 SystemRow tangent_row(const model::Model& model, const model::Load& load, const LoadEnds& ends,
                       const spatial::PairRow& J) {
   if (!ends.travel) return system_row(model, load.first, ends.first, load.second, ends.second, J);
@@ -199,12 +207,16 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     const loads::Sight sight =
         sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels());
     load.element->append_tangent(sight, rows);
+    const bool is_off = around.memory != nullptr && around.memory->is_off(k);
+    if (is_off) give_nothing(rows);
     try {
-      if (has_regimes(load)) out.regimes.push_back(load.element->respond(sight).regime);
+      if (has_regimes(load)) {
+        out.regimes.push_back(is_off ? 0 : load.element->respond(sight).regime);
+      }
     } catch (const NumericalError& error) {
       fail_with_name(load, error);
     }
-    if (load.coordinate >= 0 && load.element->uses_signals()) {
+    if (!is_off && load.coordinate >= 0 && load.element->uses_signals()) {
       add_slopes_of_signals(load, motions, around, {model, sight, out});
     }
     for (const loads::SoftRow& row : rows) {

@@ -27,6 +27,17 @@ joints::RowValue value_of(const model::Joint& joint, const joints::ConstraintRow
   return citing(joint, t, [&] { return row.evaluate(F, M, t, states); });
 }
 
+/// Whether a joint holds nothing any more; its residuals are then zero.
+bool has_let_go(const model::Model& model, std::size_t index, const model::RowMemory* memory,
+                JointResiduals& out) {
+  if (memory == nullptr || !memory->is_released(index)) return false;
+  const model::Joint& joint = model.joints[index];
+  for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) {
+    values->segment(joint.first_row, std::ssize(joint.rows)).setZero();
+  }
+  return true;
+}
+
 /// The interface values of a marker's translation or rotation.
 inline Vector3d three(const Eigen::VectorXd& y, int row) { return y.segment<3>(row); }
 
@@ -224,7 +235,9 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
   const double* const states =
       memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() : nullptr;
   for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
-  for (const Joint& joint : joints_) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Joint& joint = joints_[j];
+    if (has_let_go(model_, j, memory, out)) continue;
     if (joint.num_coupled > 0) {
       evaluate_coupler(joint, motions, memory, out, lambda, forces);
       continue;
@@ -258,8 +271,7 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
         on_second.torque -= multiplier * b_x_c;
       } else {
         const joints::RowValue value =
-            value_of(model_.joints[static_cast<std::size_t>(&joint - joints_.data())], *row.row,
-                     F.marker(joint.first), M.marker(joint.second), t,
+            value_of(model_.joints[j], *row.row, F.marker(joint.first), M.marker(joint.second), t,
                      states != nullptr ? states + row.state : nullptr);
         const auto& J = value.J;
         out.g[at] = value.g;
@@ -279,6 +291,14 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
 }
 
 void JointSet::derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
+                           const model::RowMemory* memory,
+                           std::array<SystemRow, kMostRows>& out) const {
+  derive_held(joint, motions, t, memory, out);
+  if (memory == nullptr || !memory->is_released(joint)) return;
+  for (int k = 0; k < joints_[joint].num_rows; ++k) out[static_cast<std::size_t>(k)].clear();
+}
+
+void JointSet::derive_held(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
                            const model::RowMemory* memory,
                            std::array<SystemRow, kMostRows>& out) const {
   const Joint& own = joints_[joint];

@@ -41,7 +41,7 @@ class JointSet {
                 JointResiduals& out, const linalg::Vector* lambda = nullptr,
                 Forces* forces = nullptr) const;
 
-  /// Derivatives of the rows of one joint, num_rows() of them.
+  /// Derivatives of the rows of one joint, num_rows() of them; zero where it has let go.
   void derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
                    const model::RowMemory* memory, std::array<SystemRow, kMostRows>& out) const;
 
@@ -88,6 +88,8 @@ class JointSet {
   void evaluate_slider(const model::Joint& joint, const std::vector<BodyMotion>& motions, double t,
                        const model::RowMemory* memory, JointResiduals& out,
                        const linalg::Vector* lambda, Forces* forces) const;
+  void derive_held(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
+                   const model::RowMemory* memory, std::array<SystemRow, kMostRows>& out) const;
   void derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
                       const model::RowMemory* memory, SystemRow& out) const;
 

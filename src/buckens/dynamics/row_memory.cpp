@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/row_memory.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -40,10 +42,24 @@ void follow_slider(const model::Model& model, const model::Joint& joint,
   after[1] = s;
 }
 
+/// What rows of a joint that has let go remember.
+void keep_rows(const model::Joint& joint, const double* before, linalg::Vector& after) {
+  int count = joint.track ? 2 : 0;
+  for (const joints::ConstraintRow& row : joint.rows) count += joint.track ? 0 : row.num_states();
+  std::copy_n(before + joint.first_state, count, after.data() + joint.first_state);
+}
+
 /// @param lambda may be null: joints carry nothing
+/// @param released as in the memory, may be null
 void follow_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                 const linalg::Vector* lambda, const double* before, linalg::Vector& after) {
-  for (const model::Joint& joint : model.joints) {
+                 const linalg::Vector* lambda, const std::vector<char>* released,
+                 const double* before, linalg::Vector& after) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const model::Joint& joint = model.joints[j];
+    if (released != nullptr && !released->empty() && (*released)[j] != 0) {
+      if (before != nullptr) keep_rows(joint, before, after);
+      continue;
+    }
     if (joint.track) {
       citing(joint, t, [&] {
         follow_slider(model, joint, motions,
@@ -74,7 +90,7 @@ bool follow_reactions(const model::Model& model, const std::vector<BodyMotion>& 
                       const linalg::Vector& lambda, model::RowMemory& memory) {
   if (memory.rows.size() == 0) return false;
   const linalg::Vector before = memory.rows;
-  follow_rows(model, motions, 0.0, &lambda, before.data(), memory.rows);
+  follow_rows(model, motions, 0.0, &lambda, &memory.released, before.data(), memory.rows);
   return memory.rows != before;
 }
 
@@ -93,7 +109,7 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
   }
   out.laws = linalg::Vector::Zero(model.num_law_states());
   out.rows = linalg::Vector::Zero(model.num_row_states());
-  if (out.rows.size() > 0) follow_rows(model, motions, 0.0, nullptr, nullptr, out.rows);
+  if (out.rows.size() > 0) follow_rows(model, motions, 0.0, nullptr, nullptr, nullptr, out.rows);
   for (std::size_t k = 0; k < model.loads.size() && out.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
@@ -109,6 +125,8 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
 void advance_memory(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                     const Circumstances& around, model::RowMemory& out) {
   const model::RowMemory& before = *around.memory;
+  out.off = before.off;
+  out.released = before.released;
   out.coordinates.resize(before.coordinates.size());
   for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
     const model::Coordinate& coordinate = model.coordinates[k];
@@ -117,12 +135,17 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   }
   out.rows.resize(before.rows.size());
   if (before.rows.size() > 0) {
-    follow_rows(model, motions, t, around.lambda, before.rows.data(), out.rows);
+    follow_rows(model, motions, t, around.lambda, &before.released, before.rows.data(), out.rows);
   }
   out.laws.resize(before.laws.size());
   for (std::size_t k = 0; k < model.loads.size() && before.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
+    if (before.is_off(k)) {
+      const int count = load.element->num_states();
+      out.laws.segment(load.first_state, count) = before.laws.segment(load.first_state, count);
+      continue;
+    }
     const LoadEnds ends = ends_of(model, load, motions, &before);
     load.element->find_states(
         sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels()),

@@ -253,6 +253,21 @@ void start_signals(const model::Model& model, const std::vector<BodyMotion>& mot
   write_memory(s, s.x_dot, 0.0, memory);
 }
 
+void change_states(const model::Model& model, const std::vector<BodyMotion>& motions,
+                   const Circumstances& around, const std::vector<StateChange>& changes,
+                   model::RowMemory& memory) {
+  const Eigen::Index n = model.signals.num_states;
+  const double t = memory.signals[0];
+  SignalValues s;
+  s.x = memory.blocks.head(n);
+  s.x_dot.resize(n);
+  for (const StateChange& change : changes) s.x[change.state] = change.value;
+  Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
+  // The rates of the method jump with those of the states.
+  const Vector a = memory.blocks.tail(n) + (s.x_dot - memory.blocks.segment(n, n));
+  write_memory(s, a, memory.block_step, memory);
+}
+
 void advance_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      const Circumstances& around, model::RowMemory& out) {
   if (model.signals.empty()) return;

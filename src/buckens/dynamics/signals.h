@@ -36,6 +36,17 @@ void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& 
 void start_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                    model::RowMemory& memory);
 
+/// A state of a block and the value it is given.
+struct StateChange {
+  int state = 0;  ///< among those of all blocks
+  double value = 0;
+};
+
+/// Gives states of blocks other values at the instant of the memory; all signals follow.
+void change_states(const model::Model& model, const std::vector<BodyMotion>& motions,
+                   const Circumstances& around, const std::vector<StateChange>& changes,
+                   model::RowMemory& memory);
+
 /// Writes the share of signals in the memory at the end of a step, samples at its end taken.
 /// @param around with the memory at its start
 void advance_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,

@@ -62,6 +62,14 @@ struct SystemRow {
     const SystemRow& row_;
   };
   Parts parts() const { return Parts(*this); }
+
+  /// Makes all shares zero; bodies and places stay.
+  void clear() {
+    for (std::size_t k = 0; k < num_parts(); ++k) {
+      part(k).frame.setZero();
+      part(k).interface.setZero();
+    }
+  }
 };
 
 /// Kinematics of one marker, on a body or on the ground.

@@ -6,6 +6,7 @@
 
 #include "buckens/base/signal_law.h"
 #include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/rigid_law.h"
 
 namespace buckens::loads {
 
@@ -37,6 +38,23 @@ class CoordinateMotor final : public CoordinateLaw {
   ProjectedForce force(const Sight& sight) const override;
 
   MotorData data_;
+};
+
+/// Brake on a joint coordinate: a rigid row whose force is bounded by a law of time and signals.
+/// Regimes: 1 holds; 2 and 3 slip forwards and backwards; 4 is open, its bound zero.
+class CoordinateBrake final : public RigidLaw {
+ public:
+  /// @param bound [N m] or [N]; below zero counts as zero
+  explicit CoordinateBrake(base::SignalLaw bound) : bound_(std::move(bound)) {}
+
+  bool uses_signals() const override { return bound_.uses_signals(); }
+  /// Holds at rest, slips where it moves.
+  void start_states(const Sight& sight, double* states) const override;
+
+ private:
+  RigidRow row(const Sight& sight) const override;
+
+  base::SignalLaw bound_;
 };
 
 }  // namespace buckens::loads

@@ -162,9 +162,11 @@ struct SlideStopSpec : JointStop {
 };
 
 /// How dry friction sticks.
-enum class FrictionStick { elastic, rigid };
+enum class FrictionStick { elastic, rigid, bristles };
 
-constexpr std::array<const char*, 2> choice_names(FrictionStick) { return {"elastic", "rigid"}; }
+constexpr std::array<const char*, 3> choice_names(FrictionStick) {
+  return {"elastic", "rigid", "bristles"};
+}
 
 /// Dry friction, from the joint's own reaction.
 struct JointFrictionBase : JointLaw {
@@ -175,6 +177,9 @@ struct JointFrictionBase : JointLaw {
   double preload = 0;              ///< [N m] or [N]
   std::optional<double> slip;      ///< [rad] or [m]
   FrictionStick stick = FrictionStick::elastic;
+  std::optional<double> bristle_stiffness;  ///< σ₀ [N m/rad] or [N/m]
+  std::optional<double> bristle_damping;    ///< σ₁ [N m s/rad] or [N s/m]
+  double elastic_share = 0.9;
   std::optional<double> length;  ///< of the bearing [m]
 
   template <class Visitor>
@@ -207,14 +212,35 @@ struct JointFrictionBase : JointLaw {
               .like(turns ? "1e-5 rad" : "1 um")
               .otherwise(turns ? "1e-5 rad" : "1e-6 of the size of the model"));
     visit(base::field("stick", stick,
-                      "by a stiff spring that breaks away at `slip` (`elastic`), or without any "
-                      "motion (`rigid`)"));
+                      "by a stiff spring that breaks away at `slip` (`elastic`), without any "
+                      "motion (`rigid`), or by LuGre's law of bending bristles (`bristles`)"));
+    bristle_fields(visit, turns);
     visit(base::field("bearing-length", length,
                       "length over which bending moments are carried by a pair of opposite forces")
               .in(base::kLength)
               .positive()
               .like("40 mm")
               .otherwise("bending moments cause no friction"));
+  }
+
+ private:
+  template <class Visitor>
+  void bristle_fields(Visitor& visit, bool turns) {
+    visit(base::field("bristle-stiffness", bristle_stiffness, "of `bristles`, sigma-0 of LuGre")
+              .in(turns ? base::kRotationalStiffness : base::kStiffness)
+              .positive()
+              .like(turns ? "1e4 N m/rad" : "1e5 N/m")
+              .otherwise("needed with `stick: bristles`"));
+    visit(base::field("bristle-damping", bristle_damping, "of `bristles`, sigma-1 of LuGre")
+              .in(turns ? base::kRotationalDamping : base::kDamping)
+              .non_negative()
+              .like(turns ? "10 N m s/rad" : "300 N s/m")
+              .otherwise("none"));
+    visit(base::field("elastic-share", elastic_share,
+                      "share of the force that slides up to which bristles bend without slipping, "
+                      "so that nothing creeps below; 0 is LuGre's own law, which creeps")
+              .within(base::Range::fraction)
+              .like("0.8"));
   }
 };
 
@@ -240,6 +266,26 @@ struct HingeFrictionSpec : JointFrictionBase {
               .in(base::kLength)
               .non_negative()
               .like("12 mm"));
+  }
+};
+
+struct BallFrictionSpec : JointFrictionBase {
+  static constexpr const char* kKey = "ball-friction";
+  static constexpr const char* kDoc =
+      "dry friction against the rotations of a spherical joint, or about both arms of a universal "
+      "one, from the reaction of the joint; sticks without creep";
+  double radius = 0;  ///< of the ball, or of the pins of the cross [m]
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("joint", joint, "name of a spherical or universal joint")
+              .required()
+              .like("ball"));
+    law_fields(visit, true);
+    visit(base::field("radius", radius, "radius of the ball, or of the pins of the cross")
+              .in(base::kLength)
+              .non_negative()
+              .like("10 mm"));
   }
 };
 

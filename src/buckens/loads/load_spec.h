@@ -11,6 +11,7 @@
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
+#include "buckens/loads/belt_spec.h"
 #include "buckens/loads/contact_spec.h"
 #include "buckens/loads/distributed_load_spec.h"
 #include "buckens/loads/joint_law_spec.h"
@@ -128,7 +129,8 @@ struct LoadSpec {
   std::variant<ForceSpec, TorqueSpec, SpringDamperSpec, TorsionalSpringSpec, PressureSpec,
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
-               RopeSpec, HingeMotorSpec, SlideMotorSpec, ContactSpec>
+               RopeSpec, HingeMotorSpec, SlideMotorSpec, BallFrictionSpec, HingeBrakeSpec,
+               SlideBrakeSpec, ContactSpec, ElasticBeltSpec>
       kind;
 
   /// Key of the kind in the model file.

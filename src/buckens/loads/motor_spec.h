@@ -65,6 +65,43 @@ struct MotorSpec : JointLaw {
   }
 };
 
+/// A brake on a joint coordinate.
+struct BrakeSpec : JointLaw {
+  base::SignalLaw bound;  ///< [N m] or [N]
+
+  template <class Visitor>
+  void brake_fields(Visitor& visit, bool turns) {
+    joint_fields(visit, turns);
+    visit(base::field(turns ? "torque" : "force", bound,
+                      "most that it resists with, by time and signals; below zero counts as zero")
+              .in(turns ? base::kTorque : base::kForce)
+              .required()
+              .like(turns ? "\"40*pedal N m\"" : "\"500*pedal N\""));
+  }
+};
+
+struct HingeBrakeSpec : BrakeSpec {
+  static constexpr const char* kKey = "hinge-brake";
+  static constexpr const char* kDoc =
+      "brake on the angle of a joint: resists with a torque, and holds without any motion";
+  static constexpr bool kTurns = true;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    brake_fields(visit, kTurns);
+  }
+};
+
+struct SlideBrakeSpec : BrakeSpec {
+  static constexpr const char* kKey = "slide-brake";
+  static constexpr const char* kDoc =
+      "brake on the displacement of a joint: resists with a force, and holds without any motion";
+  static constexpr bool kTurns = false;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    brake_fields(visit, kTurns);
+  }
+};
+
 struct HingeMotorSpec : MotorSpec {
   static constexpr const char* kKey = "hinge-motor";
   static constexpr const char* kDoc =

@@ -34,6 +34,22 @@ void RigidLaw::find_states(const Sight& sight, double* states) const {
   states[1] = respond(sight).along_coordinate;
 }
 
+void CoordinateLock::find_states(const Sight& sight, double* states) const {
+  RigidLaw::find_states(sight, states);
+  states[2] = sight.states != nullptr ? sight.states[2] : 0.0;
+}
+
+RigidRow CoordinateLock::row(const Sight& sight) const {
+  RigidRow out;
+  out.next = sight.stand;
+  out.is_closed = sight.stand.regime != 0;
+  out.holds_position = true;
+  if (!out.is_closed) return out;
+  out.gap = sight.coordinate.value - (sight.states != nullptr ? sight.states[2] : 0.0);
+  out.slip = sight.coordinate.rate;
+  return out;
+}
+
 RigidLaw::Contact RigidStop::contact(double value) const {
   const double below = value - from_;
   const double above = to_ - value;

@@ -20,8 +20,8 @@ class RigidLaw : public ForceElement {
   int num_soft_rows() const final { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const final;
   bool is_rigid() const final { return true; }
-  int num_states() const final { return 2; }
-  void find_states(const Sight& sight, double* states) const final;
+  int num_states() const override { return 2; }
+  void find_states(const Sight& sight, double* states) const override;
 
   /// How the coordinate touches one end of its free way.
   struct Contact {
@@ -39,6 +39,19 @@ class RigidLaw : public ForceElement {
  protected:
   /// What the row leaves open and which stand follows, without the force itself.
   virtual RigidRow row(const Sight& sight) const = 0;
+};
+
+/// Holds a joint coordinate where it was locked. Regimes: 0 free, 1 locked; only events change
+/// them. Its third state is the value that it holds.
+class CoordinateLock final : public RigidLaw {
+ public:
+  static constexpr const char* kKind = "lock";
+
+  int num_states() const override { return 3; }
+  void find_states(const Sight& sight, double* states) const override;
+
+ private:
+  RigidRow row(const Sight& sight) const override;
 };
 
 /// Rigid stops of a joint coordinate: one-sided rows. Regimes: 1 at the lower end, which pushes up;

@@ -149,6 +149,23 @@ class SampleHold final : public ControlBlock {
   double sample_;
 };
 
+/// y = x, and only events change x.
+class Setting final : public ControlBlock {
+ public:
+  explicit Setting(double start) : start_(start) {}
+
+  int num_states() const override { return 1; }
+  void start(std::span<double> x) const override { x[0] = start_; }
+  bool feeds_through() const override { return false; }
+  double value(std::span<const double> x, double /*u*/) const override { return x[0]; }
+  void rates(std::span<const double>, double, std::span<double> x_dot) const override {
+    x_dot[0] = 0.0;
+  }
+
+ private:
+  double start_;
+};
+
 }  // namespace
 
 std::shared_ptr<const ControlBlock> make_linear_block(MatrixXd A, VectorXd b, VectorXd c, double d,
@@ -188,6 +205,10 @@ std::shared_ptr<const ControlBlock> make_pid(const PidData& data) {
 
 std::shared_ptr<const ControlBlock> make_switch(double on, std::optional<double> off, bool start) {
   return std::make_shared<Switch>(on, off, start);
+}
+
+std::shared_ptr<const ControlBlock> make_setting(double start) {
+  return std::make_shared<Setting>(start);
 }
 
 std::shared_ptr<const ControlBlock> make_sample_hold(double sample) {

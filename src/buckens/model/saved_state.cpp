@@ -64,6 +64,19 @@ void visit_inputs(const base::SaveVisit& visit, const Model& model, LoadInputs& 
   }
 }
 
+/// Which of `count` things are switched off.
+void visit_switches(const base::SaveVisit& visit, const std::string& name, std::size_t count,
+                    std::vector<char>& off) {
+  std::vector<int> which;
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    if (off[k] != 0) which.push_back(static_cast<int>(k));
+  }
+  visit.counts(name, which, 0, static_cast<int>(count) - 1);
+  if (!visit.is_restoring()) return;
+  off.assign(which.empty() ? 0 : count, 0);
+  for (const int k : which) off[static_cast<std::size_t>(k)] = 1;
+}
+
 void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& memory) {
   memory.coordinates.resize(model.coordinates.size());
   for (std::size_t k = 0; k < memory.coordinates.size(); ++k) {
@@ -78,6 +91,8 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
     if (!(std::abs(value) <= kMostTurns))
       visit.refuse("rows", fmt::format("{:g} is no state of a joint", value));
   }
+  visit_switches(visit, "off", model.loads.size(), memory.off);
+  visit_switches(visit, "released", model.joints.size(), memory.released);
   if (model.signals.empty()) return;
   visit.list("signals", memory.signals, model.signals.all.size() + 1);
   visit.vector("blocks", memory.blocks, 3 * model.signals.num_states);

@@ -40,6 +40,11 @@ struct RowMemory {
   /// States of blocks, their rates, and the rates of the method, SignalSet::num_states each.
   linalg::Vector blocks;
   double block_step = 0;  ///< to which the rates of the method belong [s]
+  /// What events have switched off: one entry per Model::loads and Model::joints; empty: nothing.
+  std::vector<char> off, released;
+
+  bool is_off(std::size_t load) const { return !off.empty() && off[load] != 0; }
+  bool is_released(std::size_t joint) const { return !released.empty() && released[joint] != 0; }
 };
 
 /// Values given from outside instead of laws of time, one entry per load of the model: components

@@ -30,7 +30,9 @@ class ContactSensor final : public Sensor {
         dynamics::sight_of(now.model, load_, now.state.t, circumstances_of(now), first, second);
     if (const auto* elastic = dynamic_cast<const loads::Contact*>(load.element.get())) {
       const loads::ContactReading reading = elastic->read(sight);
-      values.insert(values.end(), {reading.normal, reading.friction, reading.gap});
+      const bool is_on = !now.state.memory.is_off(load_);
+      values.insert(values.end(),
+                    {is_on ? reading.normal : 0.0, is_on ? reading.friction : 0.0, reading.gap});
       return;
     }
     const auto& stop = static_cast<const loads::RigidStop&>(*load.element);

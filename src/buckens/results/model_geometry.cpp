@@ -12,6 +12,7 @@
 #include "buckens/fem/constraint/coupled_nodes.h"
 #include "buckens/fem/solid/block.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/loads/elastic_belt.h"
 #include "buckens/model/spec/model_description.h"
 #include "buckens/results/divided_body.h"
 
@@ -270,7 +271,14 @@ Geometry model_geometry(const model::Model& model) {
     // What acts on a joint's coordinate is where the joint is drawn.
     const bool is_rope = load.kind == loads::RopeSpec::kKey;
     const bool is_contact = load.kind == loads::ContactSpec::kKey;  // nothing between the bodies
-    if (load.element->num_soft_rows() == 0 || is_contact || (load.coordinate >= 0 && !is_rope)) {
+    // What rubs in a joint is where the joint is drawn, too.
+    const bool is_in_joint = (load.coordinate >= 0 && !is_rope) || load.joint >= 0;
+    if (load.element->num_soft_rows() == 0 || is_contact || is_in_joint) continue;
+    if (const auto* belt = dynamic_cast<const loads::ElasticBelt*>(load.element.get())) {
+      out.joints.push_back({load.name,
+                            joints::to_string(joints::JointType::belt),
+                            {side_of(model, load.first), side_of(model, load.second)},
+                            to_body(model, load.first, belt->axis())});
       continue;
     }
     out.joints.push_back({load.name,

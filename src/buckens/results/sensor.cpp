@@ -14,6 +14,7 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/fem/assembly/recovery.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/results/belt_sensor.h"
 #include "buckens/results/contact_sensor.h"
 #include "buckens/results/coordinate_sensor.h"
 #include "buckens/results/deflection_sensor.h"
@@ -390,6 +391,9 @@ class Maker {
   }
   std::unique_ptr<Sensor> operator()(const model::ContactSensor& s) const {
     return make_contact_sensor(built_, spec_, s.contact);
+  }
+  std::unique_ptr<Sensor> operator()(const model::BeltSensor& s) const {
+    return make_belt_sensor(built_, spec_, s.belt);
   }
   std::unique_ptr<Sensor> operator()(const model::SectionForceSensor&) const {
     if (place_.element < 0) {

@@ -183,6 +183,7 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
                    const std::vector<dynamics::BodyMotion>& motions, double t) {
   const Law& law = laws_[index];
   const model::Load& load = model_.loads[law.load];
+  if (around.memory != nullptr && around.memory->is_off(law.load)) return false;
   const auto first = dynamics::evaluate_marker(model_, load.first, motions);
   const auto second = dynamics::evaluate_marker(model_, load.second, motions);
   const loads::Sight sight =

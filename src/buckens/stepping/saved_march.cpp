@@ -57,6 +57,12 @@ void SmallNewton::visit_saved(const base::SaveVisit& visit) {
   visit_rows(visit, "rows_in_use", model_, rows_in_use_);
   visit.counts("dependent", dependent_, 0, model_.num_constraint_rows() - 1);
   visit.flag("gave_up_rows", gave_up_rows_);
+  std::vector<int> released(released_.begin(), released_.end());
+  visit.counts("released", released, 0, 1);
+  if (released.size() != 0 && released.size() != model_.joints.size()) {
+    visit.refuse("released", "it does not belong to these joints");
+  }
+  released_.assign(released.begin(), released.end());
   visit.number("trusted_pivots", trusted_pivots_);
   watch_.visit_saved(visit.inside("watch"));
   visit.count("num_selections", num_selections_, 0, 1 << 30);

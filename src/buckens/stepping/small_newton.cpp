@@ -149,6 +149,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   }
   rounding_length_ = dynamics::rounding_length(model_, end_);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
+  follow_released(t);
   bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
   const bool is_dead_centre = !is_closed || pivots < kDeadCentre * trusted_pivots_;
@@ -299,6 +300,14 @@ bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
   condensation_.reset();
   ++num_selections_;
   return true;
+}
+
+void SmallNewton::follow_released(double t) {
+  if (around_.memory == nullptr || around_.memory->released == released_) return;
+  released_ = around_.memory->released;
+  select_rows_anew(t, true);
+  gave_up_rows_ = false;
+  trusted_pivots_ = 0.0;
 }
 
 void SmallNewton::leave_to_rows_in_use(Vector& lambda) const {

@@ -114,6 +114,8 @@ class SmallNewton {
   /// @param may_give_up whether fewer rows may be used
   /// @return true if the rows in use have changed
   bool select_rows_anew(double t, bool may_give_up);
+  /// Determines them again where joints have let go since.
+  void follow_released(double t);
   /// Multipliers of dropped rows are zero.
   void leave_to_rows_in_use(linalg::Vector& lambda) const;
   /// Reports the residuals of rows, and notes a row not in use that no longer follows from the
@@ -129,6 +131,7 @@ class SmallNewton {
   std::vector<int> rows_in_use_;
   std::vector<int> dependent_;  // at the last selection
   bool gave_up_rows_ = false;   // fewer rows in use than elsewhere: a dead centre was hit
+  std::vector<char> released_;  // joints that have let go, when rows were last selected for them
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   RowWatch watch_;
   bool has_quasi_static_ = false;

@@ -50,7 +50,8 @@ double TimeMarch::time() const {
   return march_.start + static_cast<double>(ticks_) / static_cast<double>(kTicks) * ladder_.step(0);
 }
 
-StepReport TimeMarch::advance(const model::State& before, model::State& after) {
+StepReport TimeMarch::advance(const model::State& before, model::State& after,
+                              const StepQuestion& holds_event) {
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
@@ -74,6 +75,10 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after) {
     // the step. The step after it closes what the impact has left open of the positions.
     const bool is_smooth = !report.must_settle && !has_restarted_;
     if (is_smooth && !is_admitted(after, stepper.scheme())) continue;
+    if (k_ < kEventRung && holds_event && holds_event(before, after)) {
+      shorten(1);
+      continue;
+    }
     ticks_ += kTicks >> k_;
     after.t = time();
     if (error_) has_restarted_ ? error_->start(after) : error_->accept(after);

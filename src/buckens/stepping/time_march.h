@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ class TimeMarch {
  public:
   static constexpr int kMostHalvings = 8;   ///< without tolerance
   static constexpr int kShortestRung = 20;  ///< with one: h/2²⁰
+  static constexpr int kEventRung = 4;      ///< on which events are located: h/2⁴
+
+  using StepQuestion = std::function<bool(const model::State& before, const model::State& after)>;
 
   /// @param settings `step` is replaced by (duration − start) / longest_steps
   TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
@@ -54,7 +58,10 @@ class TimeMarch {
   /// One accepted step from `before` to `after`, preceded by as many rejected ones as it takes.
   /// `before` is not changed: rejected steps leave no trace.
   /// @throws NumericalError naming the joint or body that resists, or whose error stays too large
-  StepReport advance(const model::State& before, model::State& after);
+  /// @param holds_event whether a step contains an event whose instant matters: it is then repeated
+  ///        with shorter steps, down to 1/16 of the longest, so that the event is at the end of one
+  StepReport advance(const model::State& before, model::State& after,
+                     const StepQuestion& holds_event = {});
 
   /// To be called where `state`, the end of the last step, was given other accelerations: what the
   /// error estimate knows of the past ends there.

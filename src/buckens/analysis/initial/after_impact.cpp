@@ -14,12 +14,9 @@
 
 namespace buckens::analysis {
 
-namespace {
-
-/// Closes the rates of joints and closed rigid rows by the least change of velocities, bodies
-/// taken as rigid.
 void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
-                 const dynamics::MassMetric& metric, model::State& state) {
+                 const dynamics::MassMetric& metric, Inertia inertia, model::State& state) {
+  const bool with_meshes = inertia == Inertia::frames_and_meshes;
   const auto motions = dynamics::motions_of(model, state);
   dynamics::Constraints joints;
   dynamics::evaluate_constraints(model, motions, state.t, &state.memory, joints);
@@ -27,7 +24,9 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
   dynamics::evaluate_soft_rows(model, motions, state.t, dynamics::circumstances_of(state), soft);
   std::vector<dynamics::SystemRow> rows;
   std::vector<double> rates, give;
-  const auto compliance = metric.rigid();
+  std::vector<Eigen::Matrix3d> J;
+  for (const body::Body& body : model.bodies) J.push_back(body.J0);
+  const auto compliance = with_meshes ? metric.full(J) : metric.rigid();
   for (const int row : rows_in_use) {
     rows.push_back(joints.rows[static_cast<std::size_t>(row)]);
     rates.push_back(joints.g_dot[row]);
@@ -64,10 +63,12 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
     const Eigen::Matrix<double, 6, 1> change = compliance[b].frame * responses[b].frame_load;
     state.bodies[b].frame.w += change.head<3>();
     state.bodies[b].frame.v += change.tail<3>();
+    const body::Body& body = model.bodies[b];
+    if (with_meshes && body.is_flexible() && !body.flexible->is_quasi_static) {
+      state.bodies[b].d_dot += metric.H(b) * responses[b].interface_load;
+    }
   }
 }
-
-}  // namespace
 
 void settle_after_impact(const model::Model& model, const dynamics::MassMetric& metric,
                          const std::vector<int>& rows_in_use, double rest, model::State& state) {
@@ -86,7 +87,7 @@ void settle_after_impact(const model::Model& model, const dynamics::MassMetric& 
     s.frame.X_WB.p += 0.5 * rest * dv;
     s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(0.5 * rest * dw)).normalized();
   }
-  close_rates(model, rows_in_use, metric, state);
+  close_rates(model, rows_in_use, metric, Inertia::frames, state);
   settle_rigid_rows(model, metric, rows_in_use, state);
 }
 

@@ -8,6 +8,15 @@
 
 namespace buckens::analysis {
 
+/// What takes part in an impact.
+enum class Inertia { frames, frames_and_meshes };
+
+/// Closes the rates of joints and closed rigid rows by the least change of velocities.
+/// @param inertia whether meshes answer the impulses, or bodies are taken as rigid
+/// @throws NumericalError at a singular position
+void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
+                 const dynamics::MassMetric& metric, Inertia inertia, model::State& state);
+
 /// Accelerations, multipliers and forces of rigid rows after an impact or a change of rigid rows,
 /// see settle_rigid_rows().
 ///

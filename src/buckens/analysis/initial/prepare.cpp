@@ -53,6 +53,19 @@ void settle_rows(const model::Model& model, const dynamics::MassMetric& metric,
   }
 }
 
+/// What rows and laws remember as the motion begins.
+model::RowMemory memory_at_start(const model::Model& model, const std::vector<std::string>& off,
+                                 const std::vector<dynamics::BodyMotion>& motions) {
+  model::RowMemory out = dynamics::start_memory(model, motions);
+  for (const std::string& name : off) {
+    out.off.resize(model.loads.size(), 0);
+    for (std::size_t k = 0; k < model.loads.size(); ++k) {
+      if (model.loads[k].name == name) out.off[k] = 1;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric) {
@@ -106,7 +119,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   }
   refuse_beyond_stops(model, out.state);
   const auto motions = dynamics::motions_of(model, out.state);
-  out.state.memory = dynamics::start_memory(model, motions);
+  out.state.memory = memory_at_start(model, initial.off, motions);
   count_start_turns(built.starts, model, out.state.memory);
   dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns
   settle_rows(model, metric, out.rows_in_use, out.state);

@@ -98,7 +98,8 @@ bool CouplingWatch::decide(const stepping::Stepper& stepper, model::State& state
     names += fmt::format("{}\"{}\" to {}", names.empty() ? "" : ", ", model_.bodies[b].name,
                          to_string(terms));
   }
-  compute_accelerations(model_, metric_, rows_in_use_, state);
+  compute_accelerations(model_, metric_, dynamics::held_rows(model_, state.memory, rows_in_use_),
+                        state);
   state.history = 0;
   if (steps_ == 0) return true;  // nothing has happened at another level
   const dynamics::Energy energy = dynamics::energy(model_, state);

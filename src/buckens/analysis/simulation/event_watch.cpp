@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/simulation/event_watch.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -78,8 +79,30 @@ std::vector<EventWatch::Found> EventWatch::after_step(const model::State& before
     out.push_back({fmt::format("event \"{}\" at t = {:.9g} s: signal \"{}\" {} through zero",
                                event.spec->name, crossing(event, before, after), event.spec->when,
                                last >= 0.0 && first < 0.0 ? "rises" : "falls"),
-                   event.spec->action == model::EventAction::stop});
+                   event.spec->action == model::EventAction::stop, event.spec});
     count(event, after.t);
+  }
+  return out;
+}
+
+bool EventWatch::holds_action(const model::State& before, const model::State& after) const {
+  return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
+    return event.spec->acts() && crosses(event.spec->direction, before.memory.signals[event.signal],
+                                         after.memory.signals[event.signal]);
+  });
+}
+
+std::vector<EventWatch::Found> EventWatch::after_actions(const std::vector<double>& before,
+                                                         const model::State& state) {
+  std::vector<Found> out;
+  for (Event& event : events_) {
+    const double first = before[event.signal];
+    const double last = state.memory.signals[event.signal];
+    if (!crosses(event.spec->direction, first, last)) continue;
+    out.push_back({fmt::format("event \"{}\" at t = {:.9g} s: signal \"{}\" jumps through zero",
+                               event.spec->name, state.t, event.spec->when),
+                   event.spec->action == model::EventAction::stop, event.spec});
+    count(event, state.t);
   }
   return out;
 }

@@ -17,6 +17,7 @@ class EventWatch {
   struct Found {
     std::string text;  ///< "event "landed" at t = 0.4515 s: signal "height" falls through zero"
     bool stops = false;
+    const model::EventSpec* spec = nullptr;
   };
 
   explicit EventWatch(const model::BuiltModel& built);
@@ -24,6 +25,13 @@ class EventWatch {
   /// What happened in a step. The instant is found on the motion interpolated between its ends.
   /// @throws NumericalError naming an event that happens again and again
   std::vector<Found> after_step(const model::State& before, const model::State& after);
+
+  /// Whether a step contains an event that acts on the motion.
+  bool holds_action(const model::State& before, const model::State& after) const;
+  /// What happened because actions have changed the values of signals.
+  /// @param before values of all signals before these actions
+  /// @throws NumericalError as after_step()
+  std::vector<Found> after_actions(const std::vector<double>& before, const model::State& state);
 
   void visit_saved(const base::SaveVisit& visit);
 

@@ -125,6 +125,7 @@ void SimulationRun::set_up() {
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   drives_.emplace(built_.description);
   events_.emplace(built_);
+  actions_.emplace(built_, *metric_);
   statistics_.emplace(built_);
   watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
   summary_.redundant_constraints = prepared_->redundant_text;
@@ -215,22 +216,50 @@ void SimulationRun::step() {
   ++steps_taken_;
   statistics_->add_step(report, state);
   work_->add(state, report.impact_loss);
-  watch_events();
+  const std::vector<EventWatch::Found> found = events_->after_step(before_, state);
+  note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());
   watch_->after_step(march_->stepper(), state);
+  act_on_events(found);
   for (const auto& callback : callbacks) callback(state.t - before_.t);
 }
 
-void SimulationRun::watch_events() {
-  for (EventWatch::Found& found : events_->after_step(before_, prepared_->state)) {
-    if (found.stops) {
-      found.text += "; the run ends here";
+void SimulationRun::note_events(const std::vector<EventWatch::Found>& found) {
+  for (const EventWatch::Found& event : found) {
+    std::string text = event.text;
+    if (event.stops) {
+      text += "; the run ends here";
       is_stopped_ = is_at_end_ = true;
     }
-    base::log(base::LogLevel::info, found.text);
-    told_events_.push_back(found.text);
-    summary_.notes.push_back(std::move(found.text));
+    base::log(base::LogLevel::info, text);
+    told_events_.push_back(text);
+    summary_.notes.push_back(std::move(text));
   }
+}
+
+/// Lets events act on the state at the end of the step, and those that follow from what they do.
+void SimulationRun::act_on_events(std::vector<EventWatch::Found> found) {
+  model::State& state = prepared_->state;
+  bool has_acted = false;
+  for (bool is_first = true; !found.empty(); is_first = false) {
+    if (!is_first) note_events(found);
+    const std::vector<double> signals = state.memory.signals;
+    for (const EventWatch::Found& event : found) {
+      if (recording_ && (event.spec->records || (event.stops && !is_first))) {
+        recording_->write_between(before_, state);
+      }
+      if (!event.spec->acts()) continue;
+      const EventActions::Effect effect = actions_->apply(*event.spec, state);
+      work_->take_event(state, effect.gained, effect.lost);
+      has_acted = has_acted || event.spec->changes_motion();
+    }
+    found = events_->after_actions(signals, state);
+  }
+  if (!has_acted) return;
+  actions_->settle(state);
+  work_->take_event(state, 0.0, 0.0);
+  march_->restart(state);
+  observed_at_ = -1;
 }
 
 void SimulationRun::step_by_hand() {
@@ -269,7 +298,10 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
   const linalg::FactorThreads threads(options_.threads);  // another step size needs another factor
   const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
   try {
-    const stepping::StepReport report = march_->advance(before, after);
+    const stepping::StepReport report =
+        march_->advance(before, after, [this](const model::State& from, const model::State& to) {
+          return events_->holds_action(from, to);
+        });
     drives_->check(before.t, after.t);
     // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);

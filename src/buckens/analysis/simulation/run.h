@@ -10,6 +10,7 @@
 #include "buckens/analysis/initial/prepare.h"
 #include "buckens/analysis/simulation/coupling_watch.h"
 #include "buckens/analysis/simulation/drive_laws.h"
+#include "buckens/analysis/simulation/event_actions.h"
 #include "buckens/analysis/simulation/event_watch.h"
 #include "buckens/analysis/simulation/nodal_views.h"
 #include "buckens/analysis/simulation/output_plan.h"
@@ -70,7 +71,8 @@ class SimulationRun {
   void advise_on_step();
   void advise(const std::string& body, const ExcitedBand& band);
   void set_lowest_frequency(int body, double omega);
-  void watch_events();
+  void note_events(const std::vector<EventWatch::Found>& found);
+  void act_on_events(std::vector<EventWatch::Found> found);
   void begin_records();
   void take_steps();
   stepping::StepReport take_step(const model::State& before, model::State& after);
@@ -94,6 +96,7 @@ class SimulationRun {
   std::optional<WorkAccount> work_;
   std::optional<DriveLaws> drives_;
   std::optional<EventWatch> events_;
+  std::optional<EventActions> actions_;
   std::optional<RunStatistics> statistics_;
   std::optional<CouplingWatch> watch_;
   std::optional<results::Recorder> observer_;

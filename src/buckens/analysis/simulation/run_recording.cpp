@@ -67,13 +67,16 @@ void RunRecording::after_step(const model::State& before, const model::State& af
     }
     last_due_ = last_written_;
   }
-  if (is_last && last_written_ < after.t - near) {
-    model::State state = after;
-    state.lambda = results::multipliers_at(before, after, after.t);
-    const double due_fields = last_due_fields_;
-    write_record(state);
-    last_due_fields_ = due_fields;
-  }
+  if (is_last) write_between(before, after);
+}
+
+void RunRecording::write_between(const model::State& before, const model::State& after) {
+  if (last_written_ >= after.t - 1e-6 * (after.t - before.t)) return;
+  model::State state = after;
+  state.lambda = results::multipliers_at(before, after, after.t);
+  const double due_fields = last_due_fields_;
+  write_record(state);
+  last_due_fields_ = due_fields;
 }
 
 void RunRecording::skip_to(double t) {

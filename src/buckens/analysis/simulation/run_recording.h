@@ -39,6 +39,8 @@ class RunRecording {
   /// Writes what is due between two states, interpolated if steps do not coincide with it.
   /// @param is_last whether the run ends with this step
   void after_step(const model::State& before, const model::State& after, bool is_last);
+  /// Writes a state between the times that are due, unless it has just been written.
+  void write_between(const model::State& before, const model::State& after);
   void finish(const results::RunSummary& summary);
 
   /// Saves or restores what later values depend on.

@@ -33,6 +33,15 @@ WorkAccount::Powers WorkAccount::powers(const model::State& state) {
 
 void WorkAccount::take_inputs(const model::State& state) { before_ = powers(state); }
 
+void WorkAccount::take_event(const model::State& state, double gained, double lost) {
+  take_inputs(state);
+  lambda_before_ = lambda_start_ = state.lambda;
+  lambda_time_ = state.lambda_time;
+  work_.external += gained;
+  work_.dissipated += lost;
+  turnover_ += std::abs(gained) + lost;
+}
+
 long WorkAccount::num_products() const {
   long sum = 0;
   for (const DampingWork& mesh : meshes_) sum += mesh.num_products();

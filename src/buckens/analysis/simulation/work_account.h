@@ -27,6 +27,10 @@ class WorkAccount {
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
 
+  /// To be called when an event has changed the last state.
+  /// @param gained by springs and the like [J], @param lost in impacts [J]
+  void take_event(const model::State& state, double gained, double lost);
+
   const results::WorkBalance& work() const { return work_; }
   /// What work() was before the last add().
   const results::WorkBalance& work_before() const { return work_before_; }

@@ -26,7 +26,7 @@ using Kind = joints::JointCoordinate::Kind;
 
 // Elastic slip before friction breaks away: of the model's length, and as an angle.
 constexpr double kSlip = 1e-6;
-constexpr double kSlipAngle = 1e-5;
+constexpr double kSlipOfHinge = 1e-5;
 // Rotary inertia below this share of m L² is none.
 constexpr double kNoInertia = 1e-12;
 
@@ -136,6 +136,9 @@ class JointLawBuilder {
     data.power = kind.power.value_or(HUGE_VAL);
     return std::make_shared<loads::CoordinateMotor>(std::move(data));
   }
+  static Element make(const loads::BrakeSpec& kind, const Coordinate&) {
+    return std::make_shared<loads::CoordinateBrake>(kind.bound);
+  }
   Element make(const loads::JointStop& kind, const Coordinate& coordinate) const {
     const double from = kind.from.value_or(-HUGE_VAL);
     const double to = kind.to.value_or(HUGE_VAL);
@@ -161,7 +164,7 @@ class JointLawBuilder {
   }
   Element make(const loads::HingeFrictionSpec& kind, const Coordinate& coordinate) const {
     loads::FrictionData data = common(kind, coordinate);
-    data.slip = kind.slip.value_or(kSlipAngle);
+    data.slip = kind.slip.value_or(kSlipOfHinge);
     data.radius = kind.radius;
     data.axial_radius = kind.axial_radius;
     return friction(kind, data, coordinate);
@@ -177,6 +180,11 @@ class JointLawBuilder {
                           const Coordinate& coordinate) {
     if (kind.stick == loads::FrictionStick::rigid) {
       return std::make_shared<loads::RigidFriction>(data, coordinate.law.axis());
+    }
+    if (kind.stick == loads::FrictionStick::bristles) {
+      const loads::BristleData bristles{*kind.bristle_stiffness, kind.bristle_damping.value_or(0.0),
+                                        kind.elastic_share};
+      return std::make_shared<loads::BristleFriction>(data, bristles, coordinate.law.axis());
     }
     return std::make_shared<loads::JointFriction>(data, coordinate.law.axis());
   }
@@ -220,6 +228,34 @@ bool is_joint_law(const loads::LoadSpec& spec) {
         return requires { T::kTurns; };
       },
       spec.kind);
+}
+
+void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find) {
+  Model& model = find.model();
+  for (const Kind kind : {Kind::angle, Kind::displacement}) {
+    if (!(kind == Kind::angle ? joint.turns() : joint.slides())) continue;
+    const int index = find_coordinate(joint.name, kind, find);
+    const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
+    if (model.joints[static_cast<std::size_t>(coordinate.joint)].track) {
+      throw ModelError(event.where,
+                       fmt::format("event \"{}\": joint \"{}\" slides along a beam, where it "
+                                   "cannot be locked; switch a stiff `slide-spring` on instead",
+                                   event.name, joint.name));
+    }
+    const bool is_known =
+        std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
+          return load.coordinate == index && load.kind == loads::CoordinateLock::kKind;
+        });
+    if (is_known) continue;
+    Load load;
+    load.name = fmt::format("lock of {}", joint.name);
+    load.kind = loads::CoordinateLock::kKind;
+    load.first = coordinate.first;
+    load.second = coordinate.second;
+    load.coordinate = index;
+    load.element = std::make_shared<loads::CoordinateLock>();
+    model.loads.push_back(std::move(load));
+  }
 }
 
 void add_joint_law(const loads::LoadSpec& spec, MarkerFinder& find, double length) {

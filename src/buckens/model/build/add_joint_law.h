@@ -3,8 +3,10 @@
 
 #include <string>
 
+#include "buckens/joints/joint_spec.h"
 #include "buckens/loads/load_spec.h"
 #include "buckens/model/build/marker_finder.h"
+#include "buckens/model/spec/event_spec.h"
 
 namespace buckens::model {
 
@@ -15,6 +17,10 @@ bool is_joint_law(const loads::LoadSpec& spec);
 /// @param length characteristic length of the model [m]
 /// @throws ModelError naming the law, if the joint has no such coordinate
 void add_joint_law(const loads::LoadSpec& spec, MarkerFinder& find, double length);
+
+/// Adds what holds the coordinates of a joint that events lock, free at the start.
+/// @throws ModelError naming the event, if rows cannot hold them rigidly
+void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find);
 
 /// Index into Model::coordinates of the angle or displacement of a joint, added if missing.
 /// @return −1 if there is no such joint

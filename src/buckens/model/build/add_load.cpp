@@ -10,9 +10,11 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/loads/applied_load.h"
+#include "buckens/loads/ball_friction.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/loads/spring_damper.h"
+#include "buckens/model/build/add_belt.h"
 #include "buckens/model/build/add_contact.h"
 
 namespace buckens::model {
@@ -26,6 +28,8 @@ namespace {
 constexpr double kOutOfPlane = 1e-6;
 // A rope that is shorter than the distance by this share is meant to be taut.
 constexpr double kTautRope = 1e-9;
+// Elastic turn before friction breaks away, as of hinges [rad].
+constexpr double kSlipAngle = 1e-5;
 // The same for axes, as of joints.
 constexpr double kTurnedAxis = 2e-4;
 
@@ -49,6 +53,10 @@ class LoadBuilder {
       add_torsional(*torsional, load, spec.where);
     } else if (const auto* contact = std::get_if<loads::ContactSpec>(&spec.kind)) {
       set_contact(*contact, find_, load, spec.where);
+    } else if (const auto* belt = std::get_if<loads::ElasticBeltSpec>(&spec.kind)) {
+      set_belt(*belt, find_, load, spec.where);
+    } else if (const auto* ball = std::get_if<loads::BallFrictionSpec>(&spec.kind)) {
+      add_ball_friction(*ball, load, spec.where);
     }
     find_.model().loads.push_back(std::move(load));
   }
@@ -154,6 +162,46 @@ class LoadBuilder {
           -HUGE_VAL, length, kind.restitution.value_or(0.0),
           kind.threshold.value_or(loads::RigidStop::kAtRest * length));
     }
+  }
+
+  /// Half the harmonic mean of both rotary inertias moves, as of two free bodies.
+  static double moved_inertia(const Model& model, const Joint& joint) {
+    double inverse = 0.0;
+    for (const MarkerId* id : {&joint.first, &joint.second}) {
+      if (id->body == kGround) continue;
+      const double own = model.bodies[static_cast<std::size_t>(id->body)].J0.trace() / 3.0;
+      if (own > 0.0) inverse += 1.0 / own;
+    }
+    return inverse > 0.0 ? 1.0 / inverse : 0.0;
+  }
+
+  void add_ball_friction(const loads::BallFrictionSpec& kind, Load& load,
+                         const SourceLocation& where) {
+    const Model& model = find_.model();
+    std::size_t j = 0;
+    while (model.joints[j].name != kind.joint || model.joints[j].is_tie) ++j;
+    const Joint& joint = model.joints[j];
+    load.joint = static_cast<int>(j);
+    load.first = joint.first;
+    load.second = joint.second;
+    const std::string what = fmt::format("load \"{}\"", load.name);
+    find_.require_moment(load.first, what, where);
+    find_.require_moment(load.second, what, where);
+    loads::FrictionData data;
+    data.static_coefficient = kind.coefficient;
+    data.dynamic_coefficient = kind.dynamic.value_or(kind.coefficient);
+    data.stribeck_rate = kind.stribeck.value_or(0.0);
+    data.viscous = kind.viscous;
+    data.preload = kind.preload;
+    data.slip = kind.slip.value_or(kSlipAngle);
+    data.radius = kind.radius;
+    data.inertia = moved_inertia(model, joint);
+    std::optional<loads::BallFriction::Arms> arms;
+    if (joint.type == joints::JointType::universal) {
+      const joints::ConstraintRow& cross = joint.rows.back();
+      arms = {cross.direction(), cross.second_direction()};
+    }
+    load.element = std::make_unique<loads::BallFriction>(data, arms);
   }
 
   void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,

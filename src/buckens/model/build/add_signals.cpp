@@ -67,6 +67,10 @@ std::shared_ptr<const ControlBlock> block_of(const SwitchSpec& spec) {
   return make_switch(spec.on, spec.off, spec.start);
 }
 
+std::shared_ptr<const ControlBlock> block_of(const SettingSpec& spec) {
+  return make_setting(spec.start);
+}
+
 class SignalBuilder {
  public:
   SignalBuilder(const SignalSpec& spec, MarkerFinder& find) : spec_(spec), find_(find) {
@@ -90,6 +94,7 @@ class SignalBuilder {
     block(spec_.pid);
     block(spec_.sample_hold);
     block(spec_.switched);
+    block(spec_.setting);
     return std::move(out_);
   }
 
@@ -112,7 +117,7 @@ class SignalBuilder {
   void block(const std::optional<Spec>& spec) {
     if (!spec) return;
     out_.kind = Signal::Kind::block;
-    out_.input = spec->input;
+    if constexpr (requires { spec->input; }) out_.input = spec->input;
     out_.block = block_of(*spec);
   }
 
@@ -150,6 +155,9 @@ class Sorter {
                                       return (kind.force && uses(*kind.force)) ||
                                              (kind.position && uses(*kind.position)) ||
                                              (kind.speed && uses(*kind.speed));
+                                    }
+                                    if constexpr (requires { kind.bound; }) {
+                                      return uses(kind.bound);
                                     }
                                     return false;
                                   },

@@ -83,6 +83,11 @@ class Builder {
     for (const loads::LoadSpec& load : d.loads) {
       if (is_joint_law(load)) add_joint_law(load, find, model_.length);
     }
+    for (const EventSpec& event : d.events) {
+      for (const std::string& joint : event.lock) {
+        add_lock(*base::find_named(d.joints, joint), event, find);
+      }
+    }
     connect_signals(d, model_);
     number_states();
     if (size > 0.0) move_origin(box.center());

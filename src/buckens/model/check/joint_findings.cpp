@@ -113,6 +113,21 @@ Found friction_problem(const loads::JointFrictionBase& spec) {
                    "friction with `stick: rigid` does not slip before it slides; remove this key, "
                    "or write `stick: elastic`"};
   }
+  const bool has_bristles = spec.stick == loads::FrictionStick::bristles;
+  if (has_bristles && !spec.bristle_stiffness) {
+    return Finding{"bristle-stiffness",
+                   "the key \"bristle-stiffness\" is missing; `stick: bristles` needs it, for "
+                   "example the largest friction over the displacement at which it breaks away"};
+  }
+  if (!has_bristles && (spec.bristle_stiffness || spec.bristle_damping)) {
+    return Finding{spec.bristle_stiffness ? "bristle-stiffness" : "bristle-damping",
+                   "this key belongs to `stick: bristles`; add that, or remove the key"};
+  }
+  if (has_bristles && spec.slip) {
+    return Finding{"slip",
+                   "bristles slip by their `bristle-stiffness`; remove this key, or write "
+                   "`stick: elastic`"};
+  }
   if (spec.coefficient == 0.0 && spec.preload == 0.0 && spec.viscous == 0.0) {
     return Finding{"static",
                    "friction without `static`, `preload` or `viscous` has no effect; give "
@@ -220,6 +235,33 @@ Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescrip
   return friction_problem(static_cast<const loads::JointFrictionBase&>(spec));
 }
 
+Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescription& model) {
+  if (Found found = joint_problem(spec.joint, model)) return found;
+  const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
+  const bool is_cross = std::holds_alternative<joints::UniversalSpec>(joint.kind);
+  if (!is_cross && !std::holds_alternative<joints::SphericalSpec>(joint.kind)) {
+    return Finding{"joint",
+                   fmt::format("joint \"{}\" is a {}; name a spherical or universal one, or "
+                               "use `hinge-friction` or `slide-friction`",
+                               spec.joint, joint.kind_name())};
+  }
+  if (spec.stick != loads::FrictionStick::elastic) {
+    return Finding{"stick",
+                   "a ball or cross joint sticks by a stiff spring; remove this key, or write "
+                   "`stick: elastic`"};
+  }
+  if (spec.length) {
+    return Finding{"bearing-length", "balls and crosses carry no bending moments; remove this key"};
+  }
+  if (Found found = friction_problem(static_cast<const loads::JointFrictionBase&>(spec))) {
+    return found;
+  }
+  if (spec.coefficient == 0.0 || spec.radius > 0.0) return std::nullopt;
+  return Finding{"radius", fmt::format("forces on a ball without radius cause no torque, so that "
+                                       "`static: {:g}` has no effect; give the `radius`",
+                                       spec.coefficient)};
+}
+
 Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model) {
   if (Found found = coordinate_problem(spec.joint, true, model)) return found;
   return motor_problem(spec, true);
@@ -228,6 +270,34 @@ Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescriptio
 Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescription& model) {
   if (Found found = coordinate_problem(spec.joint, false, model)) return found;
   return motor_problem(spec, false);
+}
+
+Found own_joint_problem(const loads::HingeBrakeSpec& spec, const ModelDescription& model) {
+  return coordinate_problem(spec.joint, true, model);
+}
+
+Found own_joint_problem(const loads::SlideBrakeSpec& spec, const ModelDescription& model) {
+  return coordinate_problem(spec.joint, false, model);
+}
+
+Found own_joint_problem(const loads::ElasticBeltSpec& spec, const ModelDescription&) {
+  if (spec.coefficient && *spec.coefficient > 0.0 && spec.pretension == 0.0) {
+    return Finding{"pretension",
+                   "without pretension a belt with `friction` carries nothing, since it has none "
+                   "to begin with; give one, or leave `friction` out for a toothed belt"};
+  }
+  return std::nullopt;
+}
+
+Found own_joint_problem(const BeltSensor& spec, const ModelDescription& model) {
+  std::vector<std::string> known;
+  for (const loads::LoadSpec& load : model.loads) {
+    if (std::holds_alternative<loads::ElasticBeltSpec>(load.kind)) known.push_back(load.name);
+  }
+  if (std::find(known.begin(), known.end(), spec.belt) != known.end()) return std::nullopt;
+  return Finding{"belt", fmt::format("there is no elastic-belt \"{}\".{}", spec.belt,
+                                     known.empty() ? " The model has none."
+                                                   : base::suggestion(spec.belt, known))};
 }
 
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model) {

@@ -26,10 +26,15 @@ Found own_joint_problem(const loads::SlideSpringSpec& spec, const ModelDescripti
 Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::HingeBrakeSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::SlideBrakeSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::ElasticBeltSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const BeltSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);

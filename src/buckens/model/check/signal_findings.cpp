@@ -20,7 +20,7 @@ int num_given(const SignalSpec& s) {
          int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.integral.has_value()} +
          int{s.lag.has_value()} + int{s.transfer_function.has_value()} +
          int{s.state_space.has_value()} + int{s.pid.has_value()} + int{s.sample_hold.has_value()} +
-         int{s.switched.has_value()};
+         int{s.switched.has_value()} + int{s.setting.has_value()};
 }
 
 }  // namespace
@@ -30,8 +30,8 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
     return Finding{"",
                    "exactly one of the keys value, joint-angle, joint-speed, "
                    "joint-displacement, joint-velocity, position, velocity, force-of, "
-                   "integral, lag, transfer-function, state-space, pid, sample-hold and "
-                   "switch is needed"};
+                   "integral, lag, transfer-function, state-space, pid, sample-hold, "
+                   "switch and setting is needed"};
   }
   struct Seen {
     const std::optional<std::string>& joint;
@@ -56,10 +56,92 @@ Found problem(const SwitchSpec& spec, const ModelDescription&) {
                              spec.on)};
 }
 
+namespace {
+
+/// The settings that an event changes.
+Found changes_problem(const EventSpec& spec, const ModelDescription& model) {
+  std::vector<std::string> settings;
+  for (const SignalSpec& signal : model.signals) {
+    if (signal.setting) settings.push_back(signal.name);
+  }
+  for (const SettingChange& change : spec.changes) {
+    if (std::find(settings.begin(), settings.end(), change.name) != settings.end()) continue;
+    if (base::find_named(model.signals, change.name) != nullptr) {
+      return Finding{"set",
+                     fmt::format("signal \"{}\" follows from the motion; only signals with a "
+                                 "`setting` can be set",
+                                 change.name)};
+    }
+    return Finding{"set", fmt::format("unknown signal \"{}\".{}", change.name,
+                                      base::suggestion(change.name, settings))};
+  }
+  return std::nullopt;
+}
+
+/// The loads, and joints that give way, that can be switched.
+Found switches_problem(const std::vector<std::string>& switched, const char* key,
+                       const ModelDescription& model) {
+  std::vector<std::string> known = names_of(model.loads);
+  for (const joints::JointSpec& joint : model.joints) {
+    if (std::holds_alternative<joints::BushingSpec>(joint.kind)) known.push_back(joint.name);
+  }
+  for (const OwnForce& force : model.own_forces) known.push_back(force.name);
+  for (const std::string& name : switched) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const bool is_joint = base::find_named(model.joints, name) != nullptr;
+    return Finding{
+        key, is_joint ? fmt::format("\"{}\" is a joint; joints are not switched, but "
+                                    "come under `lock`, `unlock` or `release`",
+                                    name)
+                      : fmt::format("unknown load \"{}\".{}", name, base::suggestion(name, known))};
+  }
+  return std::nullopt;
+}
+
+Found locks_problem(const std::vector<std::string>& joints, const char* key,
+                    const ModelDescription& model) {
+  for (const std::string& name : joints) {
+    const auto* joint = base::find_named(model.joints, name);
+    if (joint == nullptr) {
+      return Finding{key, fmt::format("unknown joint \"{}\".{}", name,
+                                      base::suggestion(name, names_of(model.joints)))};
+    }
+    const bool is_driven = std::string(joint->kind_name()).starts_with("prescribed");
+    if ((joint->turns() || joint->slides()) && !is_driven) continue;
+    return Finding{key, fmt::format("joint \"{}\" is a {}, which {}; name one that turns about or "
+                                    "slides along an axis and is not driven",
+                                    name, joint->kind_name(),
+                                    is_driven ? "follows its law of time"
+                                              : "has no angle or displacement to hold")};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Found problem(const EventSpec& spec, const ModelDescription& model) {
-  if (base::find_named(model.signals, spec.when) != nullptr) return std::nullopt;
-  return Finding{"when", fmt::format("unknown signal \"{}\".{}", spec.when,
-                                     base::suggestion(spec.when, names_of(model.signals)))};
+  if (base::find_named(model.signals, spec.when) == nullptr) {
+    return Finding{"when", fmt::format("unknown signal \"{}\".{}", spec.when,
+                                       base::suggestion(spec.when, names_of(model.signals)))};
+  }
+  if (Found found = changes_problem(spec, model)) return found;
+  if (Found found = switches_problem(spec.switch_on, "switch-on", model)) return found;
+  if (Found found = switches_problem(spec.switch_off, "switch-off", model)) return found;
+  if (Found found = locks_problem(spec.lock, "lock", model)) return found;
+  if (Found found = locks_problem(spec.unlock, "unlock", model)) return found;
+  for (const std::string& name : spec.release) {
+    const auto* joint = base::find_named(model.joints, name);
+    if (joint == nullptr) {
+      return Finding{"release", fmt::format("unknown joint \"{}\".{}", name,
+                                            base::suggestion(name, names_of(model.joints)))};
+    }
+    if (std::holds_alternative<joints::BushingSpec>(joint->kind)) {
+      return Finding{"release", fmt::format("joint \"{}\" is a bushing; name it under "
+                                            "`switch-off`",
+                                            name)};
+    }
+  }
+  return std::nullopt;
 }
 
 Found problem(const MarkerSignalSpec& spec, const ModelDescription&) {

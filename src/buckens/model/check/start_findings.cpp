@@ -74,7 +74,17 @@ Found problem(const InitialJointSpec& spec, const ModelDescription& model) {
                             spec.displacement ? "displacement" : "velocity");
 }
 
-Found problem(const InitialSpec& spec, const ModelDescription&) {
+Found problem(const InitialSpec& spec, const ModelDescription& model) {
+  for (const std::string& name : spec.off) {
+    if (base::find_named(model.loads, name) != nullptr) continue;
+    return Finding{"off", fmt::format("unknown load \"{}\".{}", name,
+                                      base::suggestion(name, names_of(model.loads)))};
+  }
+  if (!spec.off.empty() && spec.start == StartKind::static_equilibrium) {
+    return Finding{"off", fmt::format("the equilibrium counts all loads, \"{}\" among them; remove "
+                                      "`start: static`, or let an event switch the load off",
+                                      spec.off.front())};
+  }
   if (spec.start != StartKind::static_equilibrium) return std::nullopt;
   for (const InitialJointSpec& joint : spec.joints) {
     if (!joint.angle && !joint.displacement) continue;

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "buckens/base/field.h"
+#include "buckens/base/signal_law.h"
 #include "buckens/base/source_location.h"
 
 namespace buckens::model {
@@ -20,6 +22,22 @@ enum class EventAction { note, stop };
 
 constexpr std::array<const char*, 2> choice_names(EventAction) { return {"note", "stop"}; }
 
+/// The value that a signal with a `setting` is given.
+struct SettingChange {
+  std::string name;
+  SourceLocation where;
+  base::SignalLaw value;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("value", value, "number, or formula of t and signals at that instant")
+              .of_any_dimension()
+              .required()
+              .shorthand()
+              .like("\"0.5*angle\""));
+  }
+};
+
 /// Something that happens when a signal goes through zero.
 struct EventSpec {
   std::string name;
@@ -27,6 +45,18 @@ struct EventSpec {
   std::string when;  ///< name of a signal
   Crossing direction = Crossing::both;
   EventAction action = EventAction::note;
+  std::vector<SettingChange> changes;
+  std::vector<std::string> switch_on, switch_off;  ///< loads
+  std::vector<std::string> lock, unlock, release;  ///< joints
+  bool records = false;
+
+  /// Whether the motion after it is another one.
+  bool changes_motion() const {
+    return !changes.empty() || !switch_on.empty() || !switch_off.empty() || !lock.empty() ||
+           !unlock.empty() || !release.empty();
+  }
+  /// Whether its instant matters.
+  bool acts() const { return changes_motion() || records; }
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -36,6 +66,27 @@ struct EventSpec {
     visit(base::field("direction", direction, "which way it goes"));
     visit(base::field("do", action,
                       "`note` the time in the summary of the run, or note it and `stop`"));
+    visit(base::field("set", changes, "new values of signals with a `setting`")
+              .like("{target: 0.5, gain: \"2*gain\"}"));
+    visit(base::field("switch-on", switch_on, "loads, springs, motors … that act from now on")
+              .like("[motor]"));
+    visit(base::field("switch-off", switch_off, "loads, springs, motors … that no longer act")
+              .like("[latch]"));
+    joint_fields(visit);
+    visit(base::field("record", records, "whether the results get a record of this instant")
+              .on_off());
+  }
+
+ private:
+  template <class Visitor>
+  void joint_fields(Visitor& visit) {
+    visit(base::field("lock", lock,
+                      "joints whose angle and displacement are held as they are from now on; what "
+                      "moves is stopped by an impact")
+              .like("[hinge]"));
+    visit(base::field("unlock", unlock, "joints that are free again after `lock`").like("[hinge]"));
+    visit(base::field("release", release, "joints that hold nothing any more: they have let go")
+              .like("[hook]"));
   }
 };
 

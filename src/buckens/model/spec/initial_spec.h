@@ -140,7 +140,8 @@ struct InitialSpec {
   std::vector<InitialBodySpec> bodies;
   std::vector<InitialJointSpec> joints;
   StartKind start = StartKind::as_given;
-  bool preload = false;  ///< accept bodies that must be deformed to fit together
+  std::vector<std::string> off;  ///< loads
+  bool preload = false;          ///< accept bodies that must be deformed to fit together
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -151,6 +152,8 @@ struct InitialSpec {
               .like("{elbow: {angle: 30 deg, speed: 2 rad/s}}"));
     visit(base::field("start", start,
                       "`static` starts in equilibrium under gravity and constant loads"));
+    visit(base::field("off", off, "loads that do not act until an event switches them on")
+              .like("[brake]"));
     visit(base::field("preload", preload, "accept bodies that must be deformed to fit together"));
   }
 };

@@ -117,9 +117,9 @@ struct ModelDescription {
                       "named numbers that vary with the motion, for motors, loads and other "
                       "signals")
               .like("{angle: {joint-angle: elbow}, u: \"20*(0.5 - angle)\"}"));
+    visit(base::field("loads", loads, "loads and force laws by name"));
     visit(base::field("events", events, "what happens when signals go through zero")
               .like("{landed: {when: height, direction: falling, do: stop}}"));
-    visit(base::field("loads", loads, "loads and force laws by name"));
     visit(base::field("initial", initial, "how the motion starts").otherwise("at rest, as placed"));
     visit(base::field("simulation", simulation, "duration and time step")
               .otherwise("the model can be checked but not run"));

@@ -338,6 +338,22 @@ struct ContactSensor {
   }
 };
 
+/// Tensions of an elastic belt.
+struct BeltSensor {
+  static constexpr const char* kKey = "belt";
+  static constexpr const char* kDoc =
+      "of an elastic belt: the forces in its spans, `left` and `right` of the way from the first "
+      "pulley to the second as seen against the axis, and the length by which it has slipped "
+      "(`slip`)";
+  std::string belt;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(
+        base::field("belt", belt, "name of the elastic belt").required().shorthand().like("drive"));
+  }
+};
+
 /// A signal of the model.
 struct SignalSensor {
   static constexpr const char* kKey = "signal";
@@ -358,7 +374,7 @@ struct SensorSpec {
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
                SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
-               EnergySensor, JointCoordinateSensor, SignalSensor, ContactSensor>
+               EnergySensor, JointCoordinateSensor, SignalSensor, ContactSensor, BeltSensor>
       kind;
 
   template <class Visitor>

@@ -191,6 +191,19 @@ struct SwitchSpec : BlockInput {
   }
 };
 
+/// A number that only events change.
+struct SettingSpec {
+  double start = 0;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("start", start, "value until an event sets another")
+              .of_any_dimension()
+              .required()
+              .shorthand()
+              .like("0.2"));
+  }
+};
+
 /// A named number that varies with the motion: exactly one of the members is given.
 struct SignalSpec {
   std::string name;
@@ -206,6 +219,7 @@ struct SignalSpec {
   std::optional<PidSpec> pid;
   std::optional<SampleHoldSpec> sample_hold;
   std::optional<SwitchSpec> switched;
+  std::optional<SettingSpec> setting;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -226,6 +240,7 @@ struct SignalSpec {
     visit(base::field("switch", switched,
                       "1 or 0 by the level of a signal, from the end of the step in which it is "
                       "reached"));
+    visit(base::field("setting", setting, "a number that only events change, with their `set`"));
   }
 
  private:

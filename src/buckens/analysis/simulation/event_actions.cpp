@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/simulation/event_actions.h"
+
+#include <algorithm>
+
+#include "buckens/analysis/initial/after_impact.h"
+#include "buckens/analysis/initial/rigid_rows_start.h"
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/energy.h"
+#include "buckens/dynamics/signals.h"
+#include "buckens/dynamics/travel.h"
+#include "buckens/loads/rigid_law.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+constexpr int kFree = 0, kLocked = 1;
+
+double kinetic_energy(const model::Model& model, const model::State& state) {
+  return dynamics::energy(model, state).kinetic;
+}
+
+void mark(std::vector<char>& marks, std::size_t count, std::size_t which, bool is_marked) {
+  marks.resize(count, 0);
+  marks[which] = is_marked ? 1 : 0;
+}
+
+}  // namespace
+
+EventActions::Effect EventActions::apply(const model::EventSpec& event, model::State& state) const {
+  const model::Model& model = built_.model;
+  Effect out;
+  set_signals(event, state);
+  const double stored = dynamics::energy(model, state).springs;
+  switch_loads(event.switch_on, true, state);
+  switch_loads(event.switch_off, false, state);
+  out.gained = dynamics::energy(model, state).springs - stored;
+  for (const std::string& joint : event.release) release_joint(joint, state);
+  bool has_locked = false;
+  for (const std::string& joint : event.unlock) hold_joint(joint, false, state);
+  for (const std::string& joint : event.lock) {
+    has_locked = hold_joint(joint, true, state) || has_locked;
+  }
+  if (has_locked) {
+    const double before = kinetic_energy(model, state);
+    close_rates(model, rows_in_use(state), metric_, Inertia::frames_and_meshes, state);
+    out.lost = before - kinetic_energy(model, state);
+  }
+  return out;
+}
+
+void EventActions::settle(model::State& state) const {
+  state.lambda.setZero();  // of joints that have let go, too
+  settle_rigid_rows(built_.model, metric_, rows_in_use(state), state);
+  state.history = 0;
+  follow_signals({}, state);  // rates have jumped
+}
+
+void EventActions::follow_signals(const std::vector<dynamics::StateChange>& changes,
+                                  model::State& state) const {
+  if (built_.model.signals.empty()) return;
+  dynamics::change_states(built_.model, dynamics::motions_of(built_.model, state),
+                          dynamics::circumstances_of(state), changes, state.memory);
+}
+
+/// All values are those before any is changed: their order does not matter.
+void EventActions::set_signals(const model::EventSpec& event, model::State& state) const {
+  if (event.changes.empty()) return;
+  std::vector<dynamics::StateChange> changes;
+  for (const model::SettingChange& change : event.changes) {
+    for (const model::Signal& signal : built_.model.signals.all) {
+      if (signal.name != change.name) continue;
+      changes.push_back({signal.first_state, change.value.value(state.t, state.memory.signals)});
+    }
+  }
+  follow_signals(changes, state);
+}
+
+void EventActions::switch_loads(const std::vector<std::string>& names, bool on,
+                                model::State& state) const {
+  const model::Model& model = built_.model;
+  const auto motions = dynamics::motions_of(model, state);
+  for (const std::string& name : names) {
+    for (std::size_t k = 0; k < model.loads.size(); ++k) {
+      const model::Load& load = model.loads[k];
+      if (load.name != name || state.memory.is_off(k) != on) continue;
+      mark(state.memory.off, model.loads.size(), k, !on);
+      const int count = load.element->num_states();
+      if (count == 0) continue;
+      auto states = state.memory.laws.segment(load.first_state, count);
+      states.setZero();
+      if (!on) continue;
+      const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, &state.memory);
+      load.element->start_states(
+          dynamics::sight_of(model, k, state.t, dynamics::circumstances_of(state),
+                             ends.first.motion, ends.second.motion, ends.travels()),
+          states.data());
+    }
+  }
+}
+
+/// @return whether anything is held that was not
+bool EventActions::hold_joint(const std::string& name, bool is_held, model::State& state) const {
+  const model::Model& model = built_.model;
+  const auto motions = dynamics::motions_of(model, state);
+  bool is_new = false;
+  for (const model::Load& load : model.loads) {
+    if (load.kind != loads::CoordinateLock::kKind) continue;
+    const auto index = static_cast<std::size_t>(load.coordinate);
+    const auto joint = static_cast<std::size_t>(model.coordinates[index].joint);
+    if (model.joints[joint].name != name) continue;
+    double* const states = state.memory.laws.data() + load.first_state;
+    const bool was_held = states[0] != kFree;
+    states[0] = is_held ? kLocked : kFree;
+    if (!is_held || !was_held) states[1] = 0.0;
+    if (!is_held || was_held) continue;
+    states[2] = dynamics::coordinate_motion(model, index, &state.memory, motions).value;
+    is_new = true;
+  }
+  return is_new;
+}
+
+void EventActions::release_joint(const std::string& name, model::State& state) const {
+  const auto& joints = built_.model.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].name == name && !joints[j].is_tie) {
+      mark(state.memory.released, joints.size(), j, true);
+    }
+  }
+}
+
+std::vector<int> EventActions::rows_in_use(const model::State& state) const {
+  dynamics::Constraints all;
+  dynamics::evaluate_constraints(built_.model, dynamics::motions_of(built_.model, state), state.t,
+                                 &state.memory, all);
+  if (all.rows.empty()) return {};
+  std::vector<int> rows = metric_.split(all.rows).independent;
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace buckens::analysis

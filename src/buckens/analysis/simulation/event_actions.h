@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/dynamics/mass_metric.h"
+#include "buckens/dynamics/signals.h"
+#include "buckens/model/build/build_model.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// What events do to the state in which they find the mechanism.
+///
+/// Settings, switches and locks change what acts from here on; a lock that stops a moving joint is
+/// an impact, in which the other joints and all masses take part. Accelerations follow when all
+/// events of an instant have acted, see settle(). Theory: docs/theory/24-control.md §5.
+class EventActions {
+ public:
+  EventActions(const model::BuiltModel& built, const dynamics::MassMetric& metric)
+      : built_(built), metric_(metric) {}
+
+  /// What it has done to the energy.
+  struct Effect {
+    double gained = 0;  ///< by springs that were switched on, less those switched off [J]
+    double lost = 0;    ///< when moving joints were locked [J]
+  };
+  /// @throws NumericalError if locks cannot stop the mechanism
+  Effect apply(const model::EventSpec& event, model::State& state) const;
+
+  /// Finds the accelerations and multipliers that belong to what acts now.
+  /// @throws NumericalError as settle_rigid_rows()
+  void settle(model::State& state) const;
+
+ private:
+  void set_signals(const model::EventSpec& event, model::State& state) const;
+  void follow_signals(const std::vector<dynamics::StateChange>& changes, model::State& state) const;
+  void switch_loads(const std::vector<std::string>& names, bool on, model::State& state) const;
+  bool hold_joint(const std::string& name, bool is_held, model::State& state) const;
+  void release_joint(const std::string& name, model::State& state) const;
+  std::vector<int> rows_in_use(const model::State& state) const;
+
+  const model::BuiltModel& built_;
+  const dynamics::MassMetric& metric_;
+};
+
+}  // namespace buckens::analysis

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/loads/ball_friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::loads {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+Quaterniond relative_rotation(const Sight& sight) {
+  return Quaterniond(Matrix3d(sight.first.R.transpose() * sight.second.R));
+}
+
+}  // namespace
+
+BallFriction::Stand BallFriction::look(const Sight& sight) const {
+  const FrictionData& data = bound_.data();
+  const Quaterniond now = relative_rotation(sight);
+  Vector3d turned = Vector3d::Zero();  // in the step, axes of the first marker
+  Vector3d before = Vector3d::Zero();
+  if (sight.states != nullptr) {
+    const double* q = sight.states;
+    turned = spatial::log_rotation(now * Quaterniond(q[0], q[1], q[2], q[3]).conjugate());
+    before = Eigen::Map<const Vector3d>(q + 4);
+  }
+  const Vector3d w = sight.second.w - sight.first.w;
+  Stand out;
+  out.along = sight.first.R;
+  if (arms_) {
+    out.along.col(0) = sight.first.R * arms_->first;
+    out.along.col(1) = sight.second.R * arms_->second;
+    out.along.col(2) = out.along.col(0).cross(out.along.col(1)).normalized();
+  }
+  out.rate = out.along.transpose() * w;
+  out.strain = before + out.along.transpose() * (sight.first.R * turned);
+  const double load = data.radius * sight.reaction.force.norm();
+  out.stiffness = (data.static_coefficient * load + data.preload) / data.slip;
+  out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
+  const Vector3d trial = -out.stiffness * out.strain - out.damping * out.rate;
+  const auto cut = [&](int first, int count) {
+    const double size = trial.segment(first, count).norm();
+    const double most = bound_.at(load, out.rate.segment(first, count).norm());
+    const double share = size > most ? most / size : 1.0;
+    out.torque.segment(first, count) = share * trial.segment(first, count);
+    if (share == 1.0) return;
+    for (int k = first; k < first + count; ++k) out.slides[static_cast<std::size_t>(k)] = true;
+    out.strain.segment(first, count) =
+        out.stiffness > 0.0 ? Vector3d(-out.torque / out.stiffness).segment(first, count).eval()
+                            : Vector3d(Vector3d::Zero()).segment(first, count).eval();
+  };
+  out.torque.setZero();
+  if (arms_) {
+    cut(0, 1);
+    cut(1, 1);
+    out.strain[2] = 0.0;
+  } else {
+    cut(0, 3);
+  }
+  out.torque -= data.viscous * out.rate;
+  if (arms_) out.torque[2] = 0.0;
+  return out;
+}
+
+Action BallFriction::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
+                              const spatial::MarkerMotion& /*second*/) const {
+  return {};
+}
+
+Action BallFriction::respond(const Sight& sight) const {
+  const Stand s = look(sight);
+  Action out;
+  out.on_second.torque = s.along * s.torque;
+  out.on_first.torque = -out.on_second.torque;
+  out.stored_energy = 0.5 * s.stiffness * s.strain.squaredNorm();
+  double power = s.torque.dot(s.rate);
+  for (int k = 0; k < 3; ++k) {
+    const bool slides = s.slides[static_cast<std::size_t>(k)];
+    if (slides) out.regime |= 1 << k;
+    if (!slides) power += s.stiffness * s.strain[k] * s.rate[k];
+  }
+  out.active_power = power;
+  out.dissipation = -power;
+  return out;
+}
+
+void BallFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  const Stand s = look(sight);
+  for (int k = 0; k < 3; ++k) {
+    SoftRow row;
+    row.J.segment<3>(0) = -s.along.col(k).transpose();
+    row.J.segment<3>(6) = s.along.col(k).transpose();
+    const bool is_held = !(arms_ && k == 2);
+    const bool sticks = is_held && !s.slides[static_cast<std::size_t>(k)];
+    row.stiffness = sticks ? s.stiffness : 0.0;
+    row.damping = (sticks ? s.damping : 0.0) + (is_held ? bound_.data().viscous : 0.0);
+    rows.push_back(row);
+  }
+}
+
+void BallFriction::start_states(const Sight& sight, double* states) const {
+  Sight fresh = sight;
+  fresh.states = nullptr;
+  find_states(fresh, states);
+}
+
+void BallFriction::find_states(const Sight& sight, double* states) const {
+  const Quaterniond now = relative_rotation(sight);
+  states[0] = now.w();
+  Eigen::Map<Vector3d>(states + 1) = now.vec();
+  Eigen::Map<Vector3d>(states + 4) = look(sight).strain;
+}
+
+}  // namespace buckens::loads

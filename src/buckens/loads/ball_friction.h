@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "buckens/loads/joint_friction.h"
+
+namespace buckens::loads {
+
+/// Dry friction of a ball in its socket, or of both bearings of a cross joint, from the reaction
+/// of the joint: elastic stick with return mapping as JointFriction, on rotations.
+///
+/// In a ball the bound holds for the whole vector of the torque; in a cross joint for each of its
+/// two arms. States: the rotation of the second marker in the first, and the strain: a vector in
+/// axes of the first marker, or one number per arm. Theory: docs/theory/22-rows.md §4.
+class BallFriction final : public ForceElement {
+ public:
+  /// Arms of a cross joint: unit vectors in the first and in the second marker.
+  struct Arms {
+    Eigen::Vector3d first, second;
+  };
+  /// @param data with a radius; slip and inertia are those of rotation
+  BallFriction(const FrictionData& data, std::optional<Arms> arms)
+      : bound_(data, Eigen::Vector3d::Zero()), arms_(std::move(arms)) {}
+
+  /// Zero: the law needs its states, see respond().
+  Action evaluate(double t, const spatial::MarkerMotion& first,
+                  const spatial::MarkerMotion& second) const override;
+  Action respond(const Sight& sight) const override;
+  int num_soft_rows() const override { return 3; }
+  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  int num_states() const override { return 7; }
+  void start_states(const Sight& sight, double* states) const override;
+  void find_states(const Sight& sight, double* states) const override;
+
+ private:
+  /// Torques along directions of the world, one after the other.
+  struct Stand {
+    Eigen::Matrix3d along;   // unit columns; the third is unused by arms
+    Eigen::Vector3d torque;  // on the second marker, along the columns [N m]
+    Eigen::Vector3d strain;  // after rest has followed [rad]
+    Eigen::Vector3d rate;    // [rad/s]
+    std::array<bool, 3> slides{};
+    double stiffness = 0, damping = 0;
+  };
+  Stand look(const Sight& sight) const;
+
+  FrictionBound bound_;
+  std::optional<Arms> arms_;
+};
+
+}  // namespace buckens::loads

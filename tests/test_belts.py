@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Elastic belts that slip by the capstan law, brakes, and friction by bristles."""
+
+import math
+
+import numpy
+import pytest
+
+from conftest import SOURCE
+
+WRAP = math.pi - 2 * math.asin(0.05 / 0.4)
+FACTOR = math.exp(0.3 * WRAP)
+
+
+def test_the_example_slips_by_the_capstan_law(sensors):
+    out = sensors((SOURCE / "examples" / "belt_drive/belt_drive").with_suffix(".yaml").read_text())
+    before = (out["t"] > 0.3) & (out["t"] < 0.4)
+    # By then vibrations of the belt have died out to 1e-6 of its force.
+    assert out["belt.left"][before] - out["belt.right"][before] == pytest.approx(20, abs=1e-3)
+    assert out["fan.rate"][before] / out["motor.rate"][before] == pytest.approx(0.5, abs=1e-6)
+    slips = out["t"] > 0.8
+    # Exact in every step, since the centres stand still: it is a projection.
+    assert out["belt.left"][slips] / out["belt.right"][slips] == pytest.approx(FACTOR, rel=1e-9)
+    assert out["belt.left"][slips] == pytest.approx(400 * FACTOR / (1 + FACTOR), rel=1e-9)
+    assert 400 * FACTOR / (1 + FACTOR) == pytest.approx(281.7, abs=0.05)
+    gamma = math.asin(0.05 / 0.4)
+    assert out["bearing.x"][slips] == pytest.approx(400 * math.cos(gamma), rel=1e-9)
+    across = (out["belt.left"] - out["belt.right"])[slips] * math.sin(gamma)
+    assert abs(out["bearing.y"][slips]) == pytest.approx(across, rel=1e-8)
+    # The fan slows down by 20 - 16.34 N m on 0.02 kg m².
+    slows = slips & (out["t"] < 0.9) & (out["fan.rate"] > 1)
+    slope = numpy.polyfit(out["t"][slows], out["fan.rate"][slows], 1)[0]
+    torque = 0.1 * (out["belt.left"] - out["belt.right"])[slips][0]
+    assert slope == pytest.approx((torque - 20) / 0.02, rel=1e-6)
+    # Trapezoidal work of a drag with corners: h of their jump in slope.
+    assert abs(out["balance"]).max() < 1e-3 * out["lost"][-1]
+
+
+BELT = """
+buckens: 1
+planar: xy
+bodies:
+  a: {rigid: {mass: 1 kg, inertia: [0, 0, 2e-3]}}
+  b: {rigid: {mass: 1 kg, inertia: [0, 0, 8e-3]}, at: {position: [0.3, 0.1, 0]}}
+joints:
+  a: {revolute: {between: [ground, a]}}
+  b: {JOINT}
+loads:
+  belt: {elastic-belt: {between: [a, b], radii: [60 mm, 80 mm], stiffness: 20 kN, BELT}}
+initial: {bodies: {a: {angular-velocity: [0, 0, 30]}}}
+simulation: {duration: 0.2 s, step: STEP}
+output:
+  every: 1 ms
+  sensors: {belt: {belt: belt}, a: {joint-coordinate: a}, b: {relative: {between: [ground, b], quantity: angle}}, balance: {energy: balance}, total: {energy: total}}
+"""
+
+
+def belt(text, joint="revolute: {between: [{ground: [0.3, 0.1, 0]}, b]}", step="0.2 ms"):
+    return BELT.replace("BELT", text).replace("JOINT", joint).replace("STEP", step)
+
+
+@pytest.mark.parametrize("crossed", [False, True])
+def test_a_toothed_belt_is_a_spring_between_pulleys(sensors, crossed):
+    """Two inertias and the spring 2 EA/l: one frequency, exact to h². Crossed: the other way round."""
+    out = sensors(belt(f"pretension: 1 kN, crossed: {'on' if crossed else 'off'}", step="0.1 ms"))
+    sign = -1 if crossed else 1
+    D = math.hypot(0.3, 0.1)
+    k = 2 * 20e3 / math.sqrt(D ** 2 - (0.06 - sign * 0.08) ** 2)
+    # w = r1 a - r2 b: w'' = -k w (r1²/J1 + r2²/J2)
+    omega = math.sqrt(k * (0.06 ** 2 / 2e-3 + 0.08 ** 2 / 8e-3))
+    w = 0.06 * 30 / omega * numpy.sin(omega * out["t"])
+    # (w h)² t w/12 of the amplitude.
+    error = (omega * 1e-4) ** 2 * omega * 0.2 / 12
+    found = 0.06 * out["a.value"] - sign * 0.08 * out["b"]
+    assert abs(found - w).max() < 2 * error * 0.06 * 30 / omega
+    assert out["belt.left"] - out["belt.right"] == pytest.approx(k * found, abs=1e-6)
+    assert abs(out["belt.left"] + out["belt.right"] - 2000).max() < 1e-6
+    assert abs(out["balance"]).max() < 1e-2 and abs(out["belt.slip"]).max() == 0
+
+
+def test_a_span_goes_slack(sensors):
+    """Without pretension one span pulls at a time; energy is kept."""
+    out = sensors(belt("pretension: 0"))
+    assert out["belt.left"].min() == 0 and out["belt.right"].min() == 0 and out["belt.left"].max() > 100
+    # h² of the 0.9 J that are there.
+    assert numpy.ptp(out["total"]) < 2e-2 and abs(out["balance"]).max() < 2e-2
+
+
+def test_wrong_belts_are_named(buckens, tmp_path):
+    for text, words in {
+        "friction: 0.3": ("without pretension a belt with `friction` carries nothing", "toothed belt"),
+        "crossed: on, pretension: 1, radii: [200 mm, 300 mm]": ("leaves no room for a crossed belt",),
+    }.items():
+        model = belt(text)
+        if "radii: [200" in text:
+            model = model.replace("radii: [60 mm, 80 mm], ", "")
+        (tmp_path / "model.yaml").write_text(model)
+        buckens("check", "model.yaml").must(2, "belt", *words)
+    (tmp_path / "model.yaml").write_text(belt("pretension: 1").replace("{belt: belt}", "{belt: bel}"))
+    buckens("check", "model.yaml").must(2, "there is no elastic-belt \"bel\"", "belt")
+
+
+BALL = """
+buckens: 1
+gravity: [0, 0, -10]
+bodies: {rod: {rigid: {mass: 2 kg, com: [0, 0, -0.5], inertia: [0.1, 0.1, 0.02]}}}
+joints: {ball: {JOINT}}
+loads:
+  rub: {ball-friction: {joint: ball, static: 0.2, radius: 20 mm, PRELOAD}}
+  twist: {torque: {on: rod, value: [TORQUE]}}
+simulation: {duration: DURATION, step: 1 ms}
+output: {every: 10 ms, sensors: {w: {angular-velocity: rod}, q: {rotation: rod}, balance: {energy: balance}}}
+"""
+SOCKET = "spherical: {between: [ground, rod/origin]}"
+CROSS = "universal: {between: [ground, rod/origin], axis: [1, 0, 0], second-axis: [0, 1, 0]}"
+
+
+def ball(joint, torque, preload="viscous: 0", duration="0.3 s"):
+    return BALL.replace("JOINT", joint).replace("TORQUE", torque).replace("PRELOAD", preload).replace("DURATION", duration)
+
+
+def test_a_ball_rubs_by_its_radius(sensors):
+    """20 N hang on the ball: 0.08 N m. A twist of 0.1 N m about the vertical spins 0.02 kg m²."""
+    out = sensors(ball(SOCKET, "0, 0, 0.1 N m"))
+    # Elastic until 1e-5 rad, then 1 rad/s²; the reaction stays 20 N.
+    assert out["w.z"][-1] == pytest.approx(0.3, abs=6e-3)
+    assert numpy.polyfit(out["t"][5:], out["w.z"][5:], 1)[0] == pytest.approx(1.0, abs=1e-4)
+    # Below the bound it holds, in any direction, without creep.
+    out = sensors(ball(SOCKET, "0.03 N m, 0.02 N m, 0.06 N m", duration="2 s"))
+    assert numpy.abs(out["q.z"]).max() < 2e-5 and numpy.abs(out["q.x"]).max() < 2e-5
+    assert numpy.ptp(out["q.z"][100:]) < 1e-9
+
+
+def test_a_swinging_ball_loses_what_friction_takes(sensors):
+    for joint in (SOCKET, CROSS):
+        text = ball(joint, "0, 0, 0", "preload: 0.2 N m", "1 s").replace(
+            "simulation:", "initial: {bodies: {rod: {angular-velocity: [3, 1, 0], velocity: [-0.5, 1.5, 0]}}}\nsimulation:")
+        out = sensors(text)
+        # h² of the 3 J that are there.
+        assert abs(out["balance"]).max() < 1e-2
+        assert abs(out["w.x"][-1]) < 2.9
+
+
+def test_a_cross_rubs_about_each_arm(sensors):
+    """About either arm 0.07 N m of the 0.08 N m that it can hold; as a vector they are more."""
+    out = sensors(ball(CROSS, "0.07 N m, 0.07 N m, 0", duration="1 s"))
+    assert numpy.abs(out["q.x"]).max() < 2e-5 and numpy.abs(out["q.y"]).max() < 2e-5
+    # A ball would be held by its weight only.
+    out = sensors(ball(SOCKET, "0.07 N m, 0.07 N m, 0", duration="1 s"))
+    assert numpy.abs(out["q.x"]).max() > 1e-4
+
+
+@pytest.mark.parametrize("words, before, after", [
+    ("joint \"ball\" is a fixed; name a spherical or universal one", SOCKET, "fixed: {between: [ground, rod/origin]}"),
+    ("without radius cause no torque", "radius: 20 mm", "radius: 0"),
+    ("sticks by a stiff spring", "radius: 20 mm", "radius: 20 mm, stick: rigid"),
+    ("carry no bending moments", "radius: 20 mm", "radius: 20 mm, bearing-length: 3 mm"),
+])
+def test_wrong_ball_friction_is_named(buckens, tmp_path, words, before, after):
+    (tmp_path / "model.yaml").write_text(ball(SOCKET, "0, 0, 0").replace(before, after))
+    buckens("check", "model.yaml").must(2, "model.yaml:", words)
+
+
+BRAKE = """
+buckens: 1
+bodies: {wheel: {rigid: {mass: 2 kg, inertia: [0.1, 0.1, 0.05]}}}
+joints: {shaft: {revolute: {between: [ground, wheel], axis: [0, 0, 1]}}}
+signals: {pedal: "t < 0.2 ? 0 : t < 0.6 ? 1 : 0.2"}
+loads:
+  brake: {hinge-brake: {joint: shaft, torque: "2*pedal N m"}}
+  motor: {torque: {on: wheel, value: [0, 0, 0.5 N m]}}
+simulation: {duration: 0.8 s, step: 1 ms}
+output: {every: 1 ms, sensors: {shaft: {joint-coordinate: shaft}, brake: {spring-torque: brake}, balance: {energy: balance}}}
+"""
+
+
+def test_a_brake_slips_holds_and_lets_go(sensors):
+    """0.5 N m on 0.05 kg m²; the brake stops it with 2 N m, holds 0.5 N m without motion, and slips with 0.4 N m."""
+    out = sensors(BRAKE)
+    rate, t = out["shaft.rate"], out["t"]
+    assert rate[t < 0.2] == pytest.approx(10 * t[t < 0.2], abs=1e-9)
+    # Stopped after 2/30 s; a jump of the law may be late by a step.
+    held = (t > 0.2 + 2 / 30 + 3e-3) & (t < 0.599)
+    assert abs(rate[held]).max() < 1e-12 and numpy.ptp(out["shaft.value"][held]) < 1e-12
+    assert abs(out["brake"][held]) == pytest.approx(0.5, abs=1e-9)
+    slips = t > 0.61
+    assert numpy.polyfit(t[slips], rate[slips], 1)[0] == pytest.approx(2.0, abs=1e-6)
+    assert abs(out["balance"]).max() < 1e-2
+
+
+LUGRE = """
+buckens: 1
+bodies: {block: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}}
+joints: {way: {prismatic: {between: [ground, block], axis: [1, 0, 0]}}}
+signals:
+  moved: {joint-displacement: way}
+loads:
+  pull: {slide-motor: {joint: way, force: "2*(0.1*t - moved) N"}}
+  rub:
+    slide-friction: {joint: way, static: 0, PARAMETERS, viscous: 0.4 N s/m, stick: bristles, bristle-stiffness: 1e5 N/m, bristle-damping: 316.2277660168379 N s/m, elastic-share: SHARE}
+simulation: {duration: DURATION, step: STEP}
+output: {every: 1 s, sensors: {x: {joint-coordinate: way}, balance: {energy: balance}}}
+"""
+
+
+def test_bristles_do_not_creep_unless_asked_to(sensors):
+    """A load that oscillates below the break-away moves a block by LuGre's own law on and on, otherwise not."""
+    moved = {}
+    for share in (0, 0.9):
+        text = (LUGRE.replace("PARAMETERS", "preload: 1 N").replace("SHARE", str(share))
+                .replace("DURATION", "8 s").replace("STEP", "5 ms")
+                .replace("2*(0.1*t - moved) N", "0.55 + 0.3*sin(8*pi*t) N"))
+        x = sensors(text)["x.value"]
+        moved[share] = x[-1] - x[5]
+    assert moved[0] > 1e-5
+    assert abs(moved[0.9]) < 1e-9
+
+
+def test_steady_sliding_of_bristles_is_coulomb_friction(sensors):
+    text = (LUGRE.replace("PARAMETERS", "preload: 1 N").replace("SHARE", "0.9").replace("DURATION", "2 s")
+            .replace("STEP", "2 ms").replace("2*(0.1*t - moved) N", "3 N"))
+    x = sensors(text)["x.value"]
+    # v' = 3 - 1 - 0.4 v from rest. To bend 1e-5 m against 316 N s/m takes 2 ms, in which up to 2 N are missing: 4e-3 m/s.
+    assert x[-1] - x[-2] == pytest.approx(5 - (2 / 0.16) * (math.exp(-0.4) - math.exp(-0.8)), abs=4e-3)
+
+
+def test_stick_and_slip_by_bristles(sensors):
+    """Canudas de Wit's block on a spring drawn at 0.1 m/s; x at 25 s by an independent integration (DOPRI5, step 5e-5)."""
+    text = (LUGRE.replace("PARAMETERS", "static: 1.5, dynamic: 1, stribeck-velocity: 1 mm/s").replace("static: 0, ", "")
+            .replace("SHARE", "0").replace("DURATION", "25 s").replace("bodies:", "gravity: [0, -1, 0]\nbodies:", 1))
+    errors = [abs(sensors(text.replace("STEP", step))["x.value"][-1] - 1.908839199226505) for step in ("8 ms", "4 ms")]
+    assert errors[1] < 0.4 * errors[0] and errors[1] < 1e-3
+
+
+@pytest.mark.parametrize("words, before, after", [
+    ("the key \"bristle-stiffness\" is missing", "bristle-stiffness: 1e5 N/m, ", ""),
+    ("belongs to `stick: bristles`", "stick: bristles, ", ""),
+    ("bristles slip by their `bristle-stiffness`", "stick: bristles", "stick: bristles, slip: 1 um"),
+])
+def test_wrong_bristles_are_named(buckens, tmp_path, words, before, after):
+    text = (LUGRE.replace("PARAMETERS", "preload: 1 N").replace("SHARE", "0.9").replace("DURATION", "1 s")
+            .replace("STEP", "1 ms"))
+    assert before in text
+    (tmp_path / "model.yaml").write_text(text.replace(before, after))
+    buckens("check", "model.yaml").must(2, "model.yaml:10:", words)
