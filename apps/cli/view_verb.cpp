@@ -5,7 +5,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "cli/open_page.h"
 #include "cli/output.h"
 #include "cli/verbs.h"
+#include "cli/viewer_page.h"
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
@@ -34,21 +34,6 @@ struct ViewArguments {
   std::size_t frames = page::ViewPageOptions{}.max_frames;
   std::size_t megabytes = page::ViewPageOptions{}.max_bytes >> 20U;
 };
-
-/// The viewer's page lies at the same place relative to the program in the build and after
-/// installation.
-fs::path find_template() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path page = (program.parent_path() / "../share/buckens/viewer.html").lexically_normal();
-  if (error || !fs::is_regular_file(page, error)) {
-    throw IoError(fmt::format(
-        "{}: the page of the viewer is missing. It is built by the target buckens_viewer, which "
-        "needs npm; configure again with -DBUCKENS_VIEWER=ON after tools/setup.sh, and build.",
-        page.string()));
-  }
-  return page;
-}
 
 /// The names between commas.
 std::vector<std::string> split(const std::string& list) {
@@ -82,7 +67,7 @@ ExitCode view_live(const ViewArguments& arguments, const page::ViewPageOptions& 
   if (!arguments.page.empty()) {
     throw InputError("--live serves the page and writes none; leave out -o, or --live");
   }
-  LivePage page({arguments.runs.begin(), arguments.runs.end()}, find_template(), options);
+  LivePage page({arguments.runs.begin(), arguments.runs.end()}, find_page_template(), options);
   print(json ? to_text({{"address", page.address()}})
              : fmt::format("{}\nFollows the run on this machine only; Ctrl-C ends it.\n",
                            page.address()));
@@ -102,7 +87,7 @@ ExitCode view(const ViewArguments& arguments, bool json) {
   options.fields = split(arguments.fields);
   if (arguments.live) return view_live(arguments, options, json);
   const std::vector<page::ViewPageReport> reports =
-      page::write_view_page(runs, find_template(), page, options);
+      page::write_view_page(runs, find_page_template(), page, options);
   warn_of_unknown(options.fields, reports);
   if (arguments.open) open_in_browser(fs::absolute(page).string());
   if (json) {

@@ -70,9 +70,9 @@ export class Page {
     const runs = shapes.length ? shapes.map((shape) => shape.run) : stored;
     this.runs = runs;
     const items = fieldItems(runs);
-    this.options = startOptions(items);
-    const changed = () => this.changed();
     const times = allTimes(runs);
+    this.options = startOptions(items, times.length === 1 && shapes.length === 0);
+    const changed = () => this.changed();
     this.playback = new Playback(times);
     const bounds = runs.map(runBounds).reduce(joined);
     const magnitudes = new Magnitudes(runs, bounds.size);

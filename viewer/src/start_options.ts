@@ -1,18 +1,21 @@
 import type { FieldItem } from './fields';
 import type { ViewOptions } from './view_options';
 
-/** Initial view of the page: stresses in colour if there are any; for vibrations their shape. */
-export function startOptions(items: FieldItem[]): ViewOptions {
+/**
+ * Initial view of the page: stresses in colour if there are any; for vibrations their shape. A single
+ * instant, such as that of `buckens check --view`, has names, markers and axes.
+ */
+export function startOptions(items: FieldItem[], isStill = false): ViewOptions {
   const stress =
     items.find(({ id }) => id === 'von_mises') ??
     items.find(({ unit }) => unit === 'Pa') ??
     items.find(({ id }) => id === 'relative_displacement/magnitude');
   return {
-    frames: false,
+    frames: isStill,
     joints: true,
     loads: true,
     reactions: false,
-    labels: false,
+    labels: isStill,
     undeformed: false,
     colors: stress !== undefined,
     field: {
