@@ -76,9 +76,9 @@ bool have_in_common(const std::vector<std::string>& a, const std::vector<std::st
   return in_a != a.end() && in_b != b.end() && *in_a == *in_b;
 }
 
-constexpr char kLongestStep[] = "longest step";
+constexpr char kLongestStepLine[] = "longest step";
 const std::vector<std::string> kFreeSteps = {"simulation.step", "simulation.tolerance",
-                                             "simulation.absolute-tolerance", kLongestStep};
+                                             "simulation.absolute-tolerance", kLongestStepLine};
 
 }  // namespace
 
@@ -135,7 +135,7 @@ void SimulationRun::set_load(const std::string& name, const std::optional<Eigen:
 std::vector<std::string> SimulationRun::identity() const {
   std::vector<std::string> out = model::field_lines(built_.description);
   for (std::string& line : model::built_lines(built_.model)) out.push_back(std::move(line));
-  out.push_back(fmt::format("{}: {:.12g} s", kLongestStep, march_->longest_step()));
+  out.push_back(fmt::format("{}: {:.12g} s", kLongestStepLine, march_->longest_step()));
   return out;
 }
 
@@ -192,7 +192,7 @@ void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
   visit.number("march_start", march_start);
   if (march_start != march_start_) begin_march(march_start);
   std::vector<std::string> here = identity();
-  if (have_in_common(lines, here, kLongestStep)) {
+  if (have_in_common(lines, here, kLongestStepLine)) {
     // However it was given.
     lines = without(lines, {"simulation.step"});
     here = without(here, {"simulation.step"});

@@ -118,7 +118,7 @@ TEST(SummaryJson, HoldsTheFiguresOfARun) {
   summary.finished = true;
   summary.steps = 1000;
   summary.wall_seconds = {2.0, 0.5, 1.5, {{"solve", 1.0}}};
-  summary.bodies.push_back({"rod", 96, 1, 1001, "first-order", {{"mode_ratio", 0.02}}});
+  summary.bodies.push_back({"rod", 96, 1, 1001, 975, "first-order", {{"mode_ratio", 0.02}}});
   summary.setup_solves = 12;
   summary.newton_iterations = {2500, 2.5, 4};
   summary.residuals = {1e-15, 2e-14, 3e-16};
@@ -133,6 +133,7 @@ TEST(SummaryJson, HoldsTheFiguresOfARun) {
   EXPECT_EQ(json["bodies"]["rod"]["dof"], 96);
   EXPECT_EQ(json["bodies"]["rod"]["factorisations"], 1);
   EXPECT_EQ(json["bodies"]["rod"]["solves"], 1001);
+  EXPECT_EQ(json["bodies"]["rod"]["recycled"], 975);
   EXPECT_EQ(json["bodies"]["rod"]["mode_ratio"], 0.02);
   EXPECT_EQ(json["setup_solves"], 12);
   EXPECT_EQ(json["newton_iterations"]["per_step_mean"], 2.5);
