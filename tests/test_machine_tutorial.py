@@ -14,7 +14,7 @@ def test_the_parts_of_the_page_make_a_machine(sensors, tmp_path):
     mechanism, laws, motor, signals, events = re.findall(r"```yaml\n(.*?)```", page, re.S)
     sensors_of = ", u: {signal: u}, motor: {spring-torque: motor}, y: {position: load}, hook: {joint-force: hook}, balance: {energy: balance}, lost: {energy: dissipated}}}"
     assert mechanism.endswith("}}}\n")
-    out = sensors(mechanism[:-4] + "}" + sensors_of + "\n" + signals + events + laws + motor)
+    out = sensors(mechanism[:-4] + "}" + sensors_of + "\n" + signals + events.removeprefix("signals:\n") + laws + motor.removeprefix("loads:\n"))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     notes = [note for note in summary["notes"] if note.startswith("event")]
     assert [note.split('"')[1] for note in notes] == ["arrived", "drop"]

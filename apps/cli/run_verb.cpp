@@ -104,11 +104,6 @@ void check_continuation(const RunArguments& arguments) {
       throw InputError(
           "--until goes with --continue OUT; elsewhere use --set simulation.duration=T");
     }
-    if (arguments.model.empty()) {
-      throw InputError(
-          "MODEL is required, unless --continue OUT says which run goes on. See "
-          "`buckens run --help`.");
-    }
     return;
   }
   const auto refuse = [](const char* option, const char* why) {
@@ -307,6 +302,9 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
   add_json_option(verb, invocation);
   verb.footer(kRunFooter);
   verb.callback([arguments, &invocation] {
+    if (arguments->model.empty() && arguments->continuation.directory.empty()) {
+      throw CLI::ValidationError("MODEL is required, unless --continue OUT says which run goes on");
+    }
     invocation.action = [arguments, &invocation] { return run(*arguments, invocation.json); };
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/summary_text.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,11 @@ std::string headline(const results::RunSummary& summary) {
 
 std::string bodies_table(const results::RunSummary& summary) {
   std::vector<std::vector<std::string>> rows = {
-      {"body", "nodal DOF", "coupling", "factorisations", "solves", "solves/step", "recycled"}};
+      {"body", "nodal DOF", "coupling", "factorisations", "solves", "solves/step"}};
+  const bool any_recycled =
+      std::any_of(summary.bodies.begin(), summary.bodies.end(),
+                  [](const results::BodyEffort& body) { return body.recycled > 0; });
+  if (any_recycled) rows.front().emplace_back("recycled");
   for (const results::BodyEffort& body : summary.bodies) {
     if (body.dof == 0) {
       rows.push_back({body.name, "rigid"});
@@ -41,8 +46,8 @@ std::string bodies_table(const results::RunSummary& summary) {
                                                                  static_cast<double>(summary.steps))
                                      : "-";
     rows.push_back({body.name, fmt::to_string(body.dof), body.coupling,
-                    fmt::to_string(body.factorisations), fmt::to_string(body.solves), per_step,
-                    fmt::to_string(body.recycled)});
+                    fmt::to_string(body.factorisations), fmt::to_string(body.solves), per_step});
+    if (any_recycled) rows.back().push_back(fmt::to_string(body.recycled));
   }
   return text_table(rows);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A copy of the state is all that a run needs to continue; see README.md.
+// What a run needs to continue: a copy of the state, and of the solves that were kept; see
+// README.md.
 #include <array>
 #include <memory>
 #include <utility>
@@ -36,6 +37,14 @@ class Run {
       for (int k = 0; k < 3; ++k) steppers_[changes_step ? 1 : 0]->step(state_);
     }
   }
+  /// Goes on with what the steppers of another run have kept.
+  void take_kept_solves(Run& from) {
+    for (std::size_t k = 0; k < steppers_.size(); ++k) {
+      base::SavedValues saved;
+      from.steppers_[k]->visit_saved(base::SaveVisit::saving(saved));
+      steppers_[k]->visit_saved(base::SaveVisit::restoring(saved));
+    }
+  }
   const model::State& state() const { return state_; }
 
  private:
@@ -49,10 +58,13 @@ void expect_same_bits(const model::Model& model, Method method, double h) {
   stepping::StepSettings settings;
   settings.method = method;
   settings.step = h;
-  for (const bool changes_step : {false, true}) {
+  for (const auto& [changes_step, keeps] : {std::pair(false, false), std::pair(true, false),
+                                            std::pair(false, true), std::pair(true, true)}) {
+    settings.kept_solves = keeps ? 80 : 0;
     Run through(model, settings, start.rows_in_use, start.state);
     through.go(8, changes_step);
     Run resumed(model, settings, start.rows_in_use, through.state());
+    if (keeps) resumed.take_kept_solves(through);
     through.go(8, changes_step);
     resumed.go(8, changes_step);
     test::expect_same(through.state(), resumed.state());

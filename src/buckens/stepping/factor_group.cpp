@@ -16,13 +16,15 @@ constexpr double kShareOfSolve = 0.5;
 constexpr double kBytesPerPair = 12.0;
 // With fewer pairs a space of vibrations is not spanned.
 constexpr int kLeastPairs = 8;
+// A solve with a factor of so few bytes, which stays in the cache, is a small part of a step.
+constexpr double kLeastBytes = 100e3;
 
 int most_pairs(const linalg::Factor& factor, const linalg::Vector& inverse_diagonal,
                const StepSettings& settings) {
   if (settings.iterate_coupling || inverse_diagonal.size() == 0) return 0;
   const double pays =
       kShareOfSolve * 2.0 * factor.bytes() / (kBytesPerPair * static_cast<double>(factor.size()));
-  if (pays < kLeastPairs) return 0;
+  if (pays < kLeastPairs || factor.bytes() < kLeastBytes) return 0;
   return static_cast<int>(std::min<double>(settings.kept_solves, pays));
 }
 }  // namespace

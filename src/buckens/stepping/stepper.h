@@ -40,7 +40,8 @@ struct StepSeconds {
 /// One step, FM (37)–(43): a large solve per flexible body for the motion without joint forces; the
 /// small Newton in frame coordinates and λ; a thin product to complete the nodal variables;
 /// inertial coupling evaluated there, with a further solve if it changed by more than the outer
-/// tolerance.
+/// tolerance. Such solves are kept and combined in later steps, as long as each step goes on from
+/// the end of the one before; without `kept_solves` a step depends on nothing but the state before.
 class Stepper {
  public:
   /// Factorises. @param rows_in_use independent joint rows

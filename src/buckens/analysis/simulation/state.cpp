@@ -188,8 +188,9 @@ void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
                     "would not be the same; use that version, or run from the start",
                     fmt::join(version, ""), kVersion));
   }
-  double march_start = 0;
+  double march_start = 0, longest_step = 0;
   visit.number("march_start", march_start);
+  visit.number("longest_step", longest_step);  // for those who cut records; here it is in `lines`
   if (march_start != march_start_) begin_march(march_start);
   std::vector<std::string> here = identity();
   if (have_in_common(lines, here, kLongestStepLine)) {

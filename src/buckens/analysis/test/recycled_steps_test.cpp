@@ -92,8 +92,8 @@ TEST(RecycledSteps, TakeOneSolveEachAfterAReleaseAndTheSameWay) {
   EXPECT_LE(kept.counts.solves, kSteps + 80);
   EXPECT_GE(kept.counts.solves + kept.counts.recycled, 2 * kSteps - 10);
   EXPECT_LT(kept.largest_energy_error, 1.02 * all.largest_energy_error);
-  // What two solves leave in comparison with iteration is the measure for what kept ones may
-  // change, and what one solve leaves would be seen.
+  // What leaving out the second solve changes of the force is the measure for both: for what two
+  // solves leave in comparison with iteration, and for what kept ones change.
   StepSettings iterated = ringing_steps(0);
   iterated.iterate_coupling = true;
   iterated.outer_tolerance = 1e-12;
@@ -103,12 +103,14 @@ TEST(RecycledSteps, TakeOneSolveEachAfterAReleaseAndTheSameWay) {
   const auto of_kept = distances(model, kept, all, tip);
   const auto of_one = distances(model, after(model, single, kSteps), all, tip);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_LT(of_kept[k], 2.0 * of_two[k]) << k;
     RecordProperty("kept_" + std::to_string(k), fmt::format("{:.2e}", of_kept[k]));
     RecordProperty("two_" + std::to_string(k), fmt::format("{:.2e}", of_two[k]));
     RecordProperty("one_" + std::to_string(k), fmt::format("{:.2e}", of_one[k]));
   }
-  EXPECT_GT(of_one[1], 10.0 * of_two[1]);
+  // Of the tip only rounding is seen.
+  EXPECT_LT(of_kept[0], 1e-13);
+  EXPECT_LT(of_kept[1], 1e-2 * of_one[1]);
+  EXPECT_LT(of_two[1], 1e-2 * of_one[1]);
   RecordProperty("solves", std::to_string(kept.counts.solves));
 }
 

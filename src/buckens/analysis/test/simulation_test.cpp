@@ -228,6 +228,7 @@ TEST(Simulation, AStateThatDoesNotFitIsRefused) {
   };
   // Whatever value is missing, too long, out of range or not finite.
   for (const auto& [path, list] : saved.numbers) {
+    SCOPED_TRACE(path);
     base::SavedValues damaged = saved;
     damaged.numbers.erase(path);
     refuses(damaged, "it is missing");
