@@ -106,6 +106,8 @@ def factor_table(results):
             number(row["entries"] / reference["entries"], 3) if reference else "–",
             number(1e-6 * row["panels"]["bytes"]),
             number(row["factor_bytes"] / row["panels"]["bytes"], 3)])
+    if not cells:
+        return []
     return ["### Factors", "", "Ordering included, on one thread and on two.", "",
             *lines_of(head, cells)]
 
