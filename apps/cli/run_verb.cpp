@@ -29,6 +29,7 @@
 #include "buckens/base/version.h"
 #include "buckens/base/work.h"
 #include "buckens/files/output_file.h"
+#include "buckens/linalg/factor_cache.h"
 #include "buckens/model_file/model_file.h"
 
 namespace buckens::cli {
@@ -46,6 +47,7 @@ struct RunArguments {
   bool quiet = false;
   bool error = false;
   int threads = 1;
+  std::string factors;
   StateArguments state;
   ContinuationArguments continuation;
 
@@ -140,6 +142,7 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
                              const Interruption& interruption, ProgressDisplay& display,
                              RunJournal& journal) {
   Watch watch(display, journal, interruption);
+  const linalg::FactorCache factors(arguments.factors);
   analysis::SimulationOptions options;
   options.stop_reason = "interrupted by the user";
   options.threads = arguments.threads;
@@ -296,6 +299,10 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
                   "Threads that advance bodies at the same time, two of them also one large\n"
                   "body; 1 if not given. Results are the same to the last bit")
       ->check(CLI::Range(1, kMostThreads));
+  verb.add_option("--factors", arguments->factors,
+                  "Folder in which large factors are kept and looked for: a second run with the\n"
+                  "same matrices need not compute them. Results are the same to the last bit")
+      ->type_name("DIR");
   add_state_options(verb, arguments->state);
   verb.get_option("MODEL")->required(false);
   add_continuation_options(verb, arguments->continuation);

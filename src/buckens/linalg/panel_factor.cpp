@@ -8,7 +8,12 @@
 #include <Eigen/Dense>
 
 #include "buckens/linalg/multifrontal.h"
+#include "buckens/linalg/single_thread.h"
 #include "buckens/linalg/subtree_groups.h"
+
+// LAPACK, in OpenBLAS.
+extern "C" void dtrtri_(const char* part, const char* diagonal, const int* size, double* values,
+                        const int* stride, int* failed);
 
 namespace buckens::linalg {
 
@@ -176,9 +181,13 @@ class PanelFactor::Layout {
   static double* fill_triangle(const Panel& panel, const double* corner, std::ptrdiff_t stride,
                                double* values) {
     const int columns = panel.columns;
-    const Block L(corner, columns, columns, Eigen::OuterStride<>(stride));
-    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(columns, columns);
-    L.triangularView<Eigen::Lower>().solveInPlace(inverse);
+    Eigen::MatrixXd inverse(columns, columns);
+    inverse.triangularView<Eigen::Lower>() =
+        Block(corner, columns, columns, Eigen::OuterStride<>(stride));
+    inverse.triangularView<Eigen::StrictlyUpper>().setZero();
+    int failed = 0;  // never: the pivots are positive
+    const SingleThread alone;
+    dtrtri_("L", "N", &columns, inverse.data(), &columns, &failed);
     for (int b = 0; b < panel.triangle_blocks(); ++b) {
       const int rows = std::min(kPanelRows, columns - kPanelRows * b);
       values = copy_block(inverse.data() + static_cast<std::ptrdiff_t>(kPanelRows) * b, columns,

@@ -62,6 +62,8 @@ class PanelFactor {
     int panels_begin = 0, panels_end = 0;
   };
   class Layout;
+  friend class PanelFile;
+  explicit PanelFactor(SimdLevel level) : kernels_(&panel_kernels(level)) {}
 
   void solve_some(const double* const* B, double* const* X, int columns, Workspace& work,
                   TaskPool* pool) const;

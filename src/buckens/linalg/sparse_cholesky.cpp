@@ -6,10 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "buckens/linalg/factor_cache.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/finite_matrix.h"
 #include "buckens/linalg/panel_factor.h"
+#include "buckens/linalg/panel_file.h"
 #include "buckens/linalg/supernode_tree.h"
 
 namespace buckens::linalg {
@@ -18,6 +20,9 @@ namespace {
 
 // Products of a factorisation, some milliseconds, to which starting threads adds next to nothing.
 constexpr double kManyProducts = 2e7;
+// Bytes of a factor from which it is kept in a folder: smaller ones are made in less than a tenth
+// of a second.
+constexpr double kWorthKeeping = 8e6;
 
 /// The threads that a factorisation may use.
 class FactorPool {
@@ -57,6 +62,9 @@ struct SparseCholesky::Backend {
   void make_panels(const SparseMatrix& A, const CholeskyOptions& options) {
     double bytes = 0.0;
     try {
+      std::optional<PanelFile> file;
+      if (!FactorCache::folder().empty()) file.emplace(FactorCache::folder(), A);
+      if (file && take_stored(*file, options.simd)) return;
       FactorWork work(size);
       const SupernodeTree tree = find_supernode_tree(A);
       entries = tree.num_entries;
@@ -65,9 +73,18 @@ struct SparseCholesky::Backend {
         bytes = needed;
         work.begin(bytes);
       });
+      if (file && bytes >= kWorthKeeping) file->write(*panels, entries);
     } catch (const std::bad_alloc&) {
       throw too_little_memory("factorise", size, bytes);
     }
+  }
+
+  bool take_stored(const PanelFile& file, SimdLevel simd) {
+    std::optional<PanelFile::Stored> stored = file.read(simd);
+    if (!stored) return false;
+    panels.emplace(std::move(stored->factor));
+    entries = stored->entries;
+    return true;
   }
 
   void solve(const double* rhs, double* x, Eigen::Index columns, TaskPool* pool) {
