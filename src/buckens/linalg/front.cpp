@@ -31,6 +31,23 @@ void subtract_product(double* C, int c_stride, const double* X, int x_stride, co
               C, c_stride);
 }
 
+/// Rows that follow one another in both fronts: what makes adding them fast.
+struct Run {
+  int begin, place, count;
+};
+
+std::vector<Run> runs_of(std::span<const int> places) {
+  std::vector<Run> runs;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i) {
+    const int place = places[static_cast<std::size_t>(i)];
+    if (runs.empty() || runs.back().place + runs.back().count != place) {
+      runs.push_back({i, place, 0});
+    }
+    ++runs.back().count;
+  }
+  return runs;
+}
+
 /// f(row, rows) for the tiles of rows from `begin` to `end`.
 template <class F>
 void for_tiles(int begin, int end, TaskPool* pool, F&& f) {
@@ -57,13 +74,22 @@ void Front::begin(double* own, double* rest, TaskPool* pool) {
 
 void Front::add(const double* rest, std::span<const int> places, TaskPool* pool) {
   const int count = static_cast<int>(places.size());
+  const std::vector<Run> runs = runs_of(places);
   const Trapezoid source{count, count};
   run_tasks(pool, source.blocks(), [&](int p) {
+    std::size_t first = 0;  // run that column j belongs to
     for (int j = p * kTile; j < p * kTile + source.width(p); ++j) {
       const double* from = source.column(rest, j);
       double* to = column(places[static_cast<std::size_t>(j)]);
-      const int* place = places.data();
-      for (int i = j; i < count; ++i) to[place[i]] += from[i];
+      while (runs[first].begin + runs[first].count <= j) ++first;
+      for (std::size_t r = first; r < runs.size(); ++r) {
+        const Run& run = runs[r];
+        const int begin = std::max(run.begin, j);
+        double* at = to + run.place + (begin - run.begin);
+        const double* values = from + begin;
+        const int length = run.begin + run.count - begin;
+        for (int i = 0; i < length; ++i) at[i] += values[i];
+      }
     }
   });
 }
