@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::uint64_t kFactor = 0x9fb21c651e98df25U;
 
-std::uint64_t mix(std::uint64_t lane, std::uint64_t word) {
+std::uint64_t stir(std::uint64_t lane, std::uint64_t word) {
   return std::rotl((lane ^ word) * kFactor, 27) + word;
 }
 
-std::uint64_t finish(std::uint64_t x) {
+std::uint64_t settle(std::uint64_t x) {
   x = (x ^ (x >> 32U)) * kFactor;
   x = (x ^ (x >> 29U)) * 0xbf58476d1ce4e5b9U;
   return x ^ (x >> 32U);
@@ -31,12 +31,12 @@ void ContentHash::add(const void* bytes, std::size_t count) {
   std::size_t left = count;
   for (; left >= sizeof words; left -= sizeof words, at += sizeof words) {
     std::memcpy(words.data(), at, sizeof words);
-    for (std::size_t k = 0; k < 4; ++k) lanes[k] = mix(lanes[k], words[k]);
+    for (std::size_t k = 0; k < 4; ++k) lanes[k] = stir(lanes[k], words[k]);
   }
   words = {};
   if (left > 0) std::memcpy(words.data(), at, left);
   words[3] ^= static_cast<std::uint64_t>(count) << 8U;  // where one run ends counts, too
-  for (std::size_t k = 0; k < 4; ++k) lanes[k] = mix(lanes[k], words[k]);
+  for (std::size_t k = 0; k < 4; ++k) lanes[k] = stir(lanes[k], words[k]);
   lanes_ = lanes;
   count_ += count;
 }
@@ -44,8 +44,8 @@ void ContentHash::add(const void* bytes, std::size_t count) {
 std::array<std::uint64_t, 2> ContentHash::value() const {
   std::array<std::uint64_t, 2> out = {count_, ~count_};
   for (std::size_t k = 0; k < 4; ++k) {
-    out[0] = finish(out[0] + std::rotl(lanes_[k], static_cast<int>(7 * k)));
-    out[1] = finish(out[1] ^ (lanes_[k] * (2 * k + 3)));
+    out[0] = settle(out[0] + std::rotl(lanes_[k], static_cast<int>(7 * k)));
+    out[1] = settle(out[1] ^ (lanes_[k] * (2 * k + 3)));
   }
   return out;
 }
