@@ -24,10 +24,10 @@
 namespace buckens::linalg {
 namespace {
 
-constexpr int kSize = 40;
+constexpr int kColumns = 40;
 
 /// Symmetric, diagonally dominant, condition below 100.
-SparseMatrix definite(int n = kSize) {
+SparseMatrix definite(int n = kColumns) {
   std::vector<Triplet> entries;
   for (int k = 0; k < n; ++k) {
     entries.emplace_back(k, k, 4.0 + k % 5);
@@ -54,22 +54,22 @@ Matrix right_sides(Eigen::Index n, Eigen::Index count) {
 TEST(SparseCholesky, SolvesAsADenseFactor) {
   const SparseMatrix A = definite();
   const SparseCholesky factor(A);
-  const Matrix B = right_sides(kSize, 5);
+  const Matrix B = right_sides(kColumns, 5);
   const Matrix expected = Matrix(A).ldlt().solve(B);
   EXPECT_LE((factor.solve(B) - expected).norm(), 1e-13 * expected.norm());
   Vector x = B.col(2);
   factor.solve_in_place(x);
   EXPECT_LE((x - expected.col(2)).norm(), 1e-13 * expected.norm());
-  EXPECT_EQ(factor.size(), kSize);
+  EXPECT_EQ(factor.size(), kColumns);
   EXPECT_GE(factor.num_factor_entries(), 0.5 * static_cast<double>(A.nonZeros()));
 }
 
 TEST(SparseCholesky, MovesWithItsFactor) {
   SparseCholesky first(definite());
   const SparseCholesky second(std::move(first));
-  Vector x = Vector::Ones(kSize);
+  Vector x = Vector::Ones(kColumns);
   second.solve_in_place(x);
-  EXPECT_LE((definite() * x - Vector::Ones(kSize)).norm(), 1e-13);
+  EXPECT_LE((definite() * x - Vector::Ones(kColumns)).norm(), 1e-13);
 }
 
 TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {
@@ -92,7 +92,7 @@ std::string refusal(const SparseMatrix& A, const CholeskyOptions& options = {}) 
 }
 
 TEST(SparseCholesky, SaysWhereAMatrixIsIndefinite) {
-  for (const int n : {kSize, 5000}) {
+  for (const int n : {kColumns, 5000}) {
     SparseMatrix A = definite(n);
     A.coeffRef(17, 17) = -5.0;
     try {
@@ -149,7 +149,7 @@ TEST(SparseCholesky, CountsWiderWhereCholmodNeedsIt) {
     EXPECT_NE(refusal(definite(), {SolveRoute::cholmod}).find("has no CHOLMOD"), std::string::npos);
     return;
   }
-  for (const int n : {kSize, 5000}) {
+  for (const int n : {kColumns, 5000}) {
     const SparseMatrix A = definite(n);
     const Matrix B = right_sides(n, 3);
     CholeskyOptions options;
@@ -170,10 +170,10 @@ TEST(SparseLu, FactorisesNewValuesInOnePattern) {
   SparseLu lu(A);
   for (const double shift : {0.0, 1.0, -20.0}) {  // the last is indefinite and needs other pivots
     SparseMatrix B = A;
-    for (int k = 0; k < kSize; ++k) B.coeffRef(k, k) += shift * std::cos(k);
+    for (int k = 0; k < kColumns; ++k) B.coeffRef(k, k) += shift * std::cos(k);
     ASSERT_TRUE(lu.factorise(B));
     EXPECT_GT(lu.pivot_ratio(), 1e-6);
-    const Vector b = right_sides(kSize, 1).col(0);
+    const Vector b = right_sides(kColumns, 1).col(0);
     Vector x = b;
     lu.solve_in_place(x);
     EXPECT_LE((B * x - b).norm(), 1e-11 * b.norm()) << shift;
@@ -195,17 +195,17 @@ TEST(SparseLu, TellsASingularMatrixAndRecovers) {
 
 TEST(ConjugateGradients, SolveAsADenseFactor) {
   const SparseMatrix A = definite();
-  const Vector b = right_sides(kSize, 1).col(0);
+  const Vector b = right_sides(kColumns, 1).col(0);
   const Vector expected = Matrix(A).ldlt().solve(b);
   // Residual 1e-14 |b| times the condition.
   EXPECT_LE((conjugate_gradients(A, b) - expected).norm(), 1e-12 * expected.norm());
-  EXPECT_EQ(conjugate_gradients(A, Vector::Zero(kSize)).norm(), 0.0);
+  EXPECT_EQ(conjugate_gradients(A, Vector::Zero(kColumns)).norm(), 0.0);
 }
 
 TEST(ConjugateGradients, RefuseWhatIsNoNumber) {
   const SparseMatrix A = definite();
   for (const double value : {std::nan(""), HUGE_VAL, 1e200}) {  // the last overflows when squared
-    Vector b = Vector::Ones(kSize);
+    Vector b = Vector::Ones(kColumns);
     b[3] = value;
     try {
       conjugate_gradients(A, b);
