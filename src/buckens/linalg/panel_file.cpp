@@ -50,11 +50,6 @@ void warn(const fs::path& path, const std::string& what) {
   base::log(base::LogLevel::warning, fmt::format("stored factor {}: {}", path.string(), what));
 }
 
-/// What a panel is without its places in memory.
-struct PlainPanel {
-  std::int32_t first, columns, row_blocks;
-};
-
 /// A name that no other process or thread uses.
 fs::path aside(const fs::path& path) {
   static std::atomic<int> number{0};
@@ -62,6 +57,11 @@ fs::path aside(const fs::path& path) {
 }
 
 }  // namespace
+
+/// What a panel is without its places in memory.
+struct PanelFile::PlainPanel {
+  std::int32_t first, columns, row_blocks;
+};
 
 /// The fixed beginning of a file; the runs follow.
 struct PanelFile::Header {

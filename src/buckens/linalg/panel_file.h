@@ -30,6 +30,7 @@ class PanelFile {
   void write(const PanelFactor& factor, double entries) const;
 
  private:
+  struct PlainPanel;
   struct Header;
   struct Runs;
 
