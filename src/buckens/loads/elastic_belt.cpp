@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+// A strain that yielded in the step before stands at its bound but for rounding.
+constexpr double kAtBound = 1.0 - 1e-9;
 constexpr int kFirstAngle = 0, kSecondAngle = 1, kWound = 2, kSlip = 3;
 
 /// The angle from −π to π that differs from this one by whole turns.
@@ -36,10 +38,13 @@ struct ElasticBelt::Stand {
   double left = 0, right = 0;  // tensions [N]
   double left_elastic = 0, right_elastic = 0;  // their shares that are stored [N]
   double share = 1;                            // most that their difference can be of their sum
-  int regime = 0;  // 0 sticks; ±1 slips; 2, 3: the right, the left span is slack; 4: both
+  double share_rate = 0;  // by wraps that grow or shrink as the centres move [1/s]
+  int regime = 0;         // 0 sticks; ±1 slips; 2, 3: the right, the left span is slack; 4: both
 
   /// By the common and opposite elongation of the spans.
   void find_tensions(const ElasticBeltData& data);
+  /// Rate of `wound` [m/s]: where it yields, that of the bound.
+  double wound_rate(const ElasticBeltData& data) const;
 };
 
 double ElasticBelt::way(double distance, double first_radius, double second_radius) {
@@ -72,6 +77,16 @@ void ElasticBelt::Stand::find_tensions(const ElasticBeltData& data) {
   if (left == 0.0 && right == 0.0) regime = 4;
   left_elastic = std::max(0.0, stretch + k * wound);
   right_elastic = std::max(0.0, stretch - k * wound);
+}
+
+double ElasticBelt::Stand::wound_rate(const ElasticBeltData& data) const {
+  if (!data.coefficient) return winding_rate;
+  if (stretch <= 0.0) return 0.0;
+  const double most = share * stretch / data.stiffness;
+  if (std::abs(wound) < kAtBound * most) return winding_rate;
+  const double side = wound > 0.0 ? 1.0 : -1.0;
+  const double bound_rate = share * apart_rate + share_rate * stretch / data.stiffness;
+  return side * std::min(side * winding_rate, bound_rate);
 }
 
 ElasticBelt::Stand ElasticBelt::look(const Sight& sight) const {
@@ -111,6 +126,9 @@ ElasticBelt::Stand ElasticBelt::look(const Sight& sight) const {
     const double gamma = std::asin(sine);
     const double wrap = std::numbers::pi + 2.0 * (r2 < 0.0 ? gamma : -std::abs(gamma));
     out.share = std::tanh(0.5 * *data_.coefficient * wrap);  // (m − 1)/(m + 1)
+    const double gamma_rate = -sine / (D * cosine * cosine) * out.apart_rate;
+    const double wrap_rate = 2.0 * (r2 < 0.0 || gamma < 0.0 ? gamma_rate : -gamma_rate);
+    out.share_rate = (1.0 - out.share * out.share) * 0.5 * *data_.coefficient * wrap_rate;
   }
   out.find_tensions(data_);
   return out;
@@ -133,8 +151,7 @@ Action ElasticBelt::respond(const Sight& sight) const {
                       (s.left_elastic * s.left_elastic + s.right_elastic * s.right_elastic -
                        2.0 * data_.pretension * data_.pretension) /
                       k;
-  double wound_rate = s.winding_rate;
-  if (s.regime == 1 || s.regime == -1) wound_rate = s.regime * s.share * s.apart_rate;
+  const double wound_rate = s.wound_rate(data_);
   const double stored_rate =
       s.left_elastic * (s.apart_rate + wound_rate) + s.right_elastic * (s.apart_rate - wound_rate);
   out.active_power =
