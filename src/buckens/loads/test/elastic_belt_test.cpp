@@ -53,6 +53,19 @@ struct Drive {
   }
 };
 
+double power_of(const Action& action, const Drive& drive) {
+  return action.on_first.force.dot(drive.a.v) + action.on_first.torque.dot(drive.a.w) +
+         action.on_second.force.dot(drive.b.v) + action.on_second.torque.dot(drive.b.w);
+}
+
+/// By central differences along the motion. @param step [s]
+double energy_rate(const ElasticBelt& belt, Drive drive, double step) {
+  drive.move(step);
+  const double after = belt.respond(drive.sight()).stored_energy;
+  drive.move(-2 * step);
+  return (after - belt.respond(drive.sight()).stored_energy) / (2 * step);
+}
+
 TEST(ElasticBelt, PowerIsTheRateOfItsEnergyUnlessItIsDampedOrSlips) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -68,16 +81,9 @@ TEST(ElasticBelt, PowerIsTheRateOfItsEnergyUnlessItIsDampedOrSlips) {
     drive.move(2e-3);
     const Action action = belt.respond(drive.sight());
     EXPECT_NEAR(action.active_power, 0.0, 1e-9);  // all of it is stored
-    double power = 0;
-    power += action.on_first.force.dot(drive.a.v) + action.on_first.torque.dot(drive.a.w);
-    power += action.on_second.force.dot(drive.b.v) + action.on_second.torque.dot(drive.b.w);
-    constexpr double kStep = 1e-6;
-    drive.move(kStep);
-    const double after = belt.respond(drive.sight()).stored_energy;
-    drive.move(-2 * kStep);
-    const double before = belt.respond(drive.sight()).stored_energy;
+    const double power = power_of(action, drive);
     // Differences of second order and of the energy's rounding.
-    EXPECT_NEAR((after - before) / (2 * kStep), -power, 1e-5 * (1 + std::abs(power)));
+    EXPECT_NEAR(energy_rate(belt, drive, 1e-6), -power, 1e-5 * (1 + std::abs(power)));
   }
 }
 
@@ -96,15 +102,8 @@ TEST(ElasticBelt, WhatItDissipatesIsWhatItTakesAndDoesNotStore) {
         drive.b.v = Vector3d(2.0, 0.3, 0);
         drive.move(time);
         const Action action = belt.respond(drive.sight());
-        double power = 0;
-        power += action.on_first.force.dot(drive.a.v) + action.on_first.torque.dot(drive.a.w);
-        power += action.on_second.force.dot(drive.b.v) + action.on_second.torque.dot(drive.b.w);
-        constexpr double kStep = 1e-7;
-        drive.move(kStep);
-        const double after = belt.respond(drive.sight()).stored_energy;
-        drive.move(-2 * kStep);
-        const double before = belt.respond(drive.sight()).stored_energy;
-        EXPECT_NEAR((after - before) / (2 * kStep), -power - action.dissipation,
+        const double power = power_of(action, drive);
+        EXPECT_NEAR(energy_rate(belt, drive, 1e-7), -power - action.dissipation,
                     1e-5 * (1 + std::abs(power)))
             << second_radius << ' ' << damping << ' ' << time;
         if (damping > 0.0 || time > 1e-4) {
