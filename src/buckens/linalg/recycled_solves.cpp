@@ -238,6 +238,9 @@ void RecycledSolves::visit_saved(const base::SaveVisit& visit) {
   visit.count("asleep_for", asleep_for_, 0, kMostCounted);
   visit.any_numbers("scores", scores_);
   if (num_pairs() > most_) visit.refuse("scores", "there are more pairs than places");
+  for (const double score : scores_) {
+    if (!std::isfinite(score)) visit.refuse("scores", "a score is not finite");
+  }
   for (int pair = 0; pair < num_pairs(); ++pair) {
     const base::SaveVisit one = visit.inside(static_cast<std::size_t>(pair));
     visit_pair(one, "load", loads_, pair);

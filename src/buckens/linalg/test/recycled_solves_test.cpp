@@ -210,6 +210,8 @@ TEST(RecycledSolves, GoOnBitwiseFromWhatWasSaved) {
   }
   RecycledSolves smaller(chain.inverse_diagonal(), 4);
   EXPECT_THROW(smaller.visit_saved(base::SaveVisit::restoring(saved)), InputError);
+  saved.numbers["scores"].front() = NAN;
+  EXPECT_THROW(other.visit_saved(base::SaveVisit::restoring(saved)), InputError);
 }
 
 TEST(RecycledSolves, NeverKeepWhatIsNoNumber) {
