@@ -20,12 +20,13 @@ def test_the_parts_of_the_page_make_a_machine(sensors, tmp_path):
     assert [note.split('"')[1] for note in notes] == ["arrived", "drop"]
     assert abs(out["motor"]).max() <= 45 * (1 + 1e-12)
     held = (out["t"] > 1.1) & (out["t"] < 1.2)
-    assert out["arm.value"][held] == pytest.approx(0.5, abs=0.05)
+    # The integral of the controller is still going down: 4.8 mrad above the goal, with any step.
+    assert out["arm.value"][held] == pytest.approx(0.5, abs=6e-3)
     # After 1.2 s the load falls freely.
     free = out["t"] > 1.205
     y, t = out["y.y"][free], out["t"][free]
     fall = (y[2:] - 2 * y[1:-1] + y[:-2]) / 0.005 ** 2
     assert fall == pytest.approx(-9.81, abs=1e-6)
     assert abs(out["hook.y"][free]).max() == 0
-    # What rings when the load lets go, too fast for the step, dies out by the method: of some 12 J.
-    assert abs(out["balance"]).max() < 5e-3 * 12
+    # What rings when the load lets go, too fast for the step, dies out by the method: 0.034 J with 1 ms, half of it with half the step.
+    assert abs(out["balance"]).max() < 0.04
