@@ -385,3 +385,35 @@ def test_a_sensor_of_no_contact_is_refused(buckens, tmp_path):
     text = CONTACT.replace("BODIES", BALL).replace("SPEC", PLANE) + "output: {sensors: {s: {contact: x}}}"
     (tmp_path / "model.yaml").write_text(text)
     buckens("check", "model.yaml").must(2, "there is no contact \"x\"", "c")
+
+
+def test_painleves_rod_jams_and_jumps(sensors):
+    """A rod pushed along a rough floor: the floor's force turns it into the floor, whatever the force is (Painleve 1895)."""
+    angle, friction, stiffness = math.radians(50), 2, 1e6
+    out = sensors(f"""
+buckens: 1
+planar: xy
+gravity: [0, -{G}, 0]
+bodies:
+  rod:
+    rigid: {{mass: 1 kg, inertia: [0, 0, "1/3"]}}
+    at: {{position: ["-cos(50*pi/180)", "sin(50*pi/180) + 1e-3 - 4e-6", 0], orientation: {{axis: [0, 0, 1], angle: -50 deg}}}}
+    markers: {{tip: {{position: [1, 0, 0]}}}}
+loads:
+  floor: {{contact: {{between: [ground, rod/tip], shapes: [{{plane: [0, 1, 0]}}, {{sphere: 1 mm}}], stiffness: {stiffness}, static: {friction}}}}}
+initial: {{bodies: {{rod: {{velocity: [2, 0, 0]}}}}}}
+simulation: {{duration: 0.3 s, step: 0.05 ms}}
+output: {{every: 0.2 ms, sensors: {{tip: {{position: rod/tip}}, v: {{velocity: rod/tip}}, c: {{contact: floor}}, lost: {{energy: dissipated}}, balance: {{energy: balance}}}}}}
+""")
+    # While it slides, the overlap has d'' = g - A N with A < 0: no equilibrium, and N grows with cosh(sqrt(-A k) t).
+    A = 1 + 3 * math.cos(angle) * (math.cos(angle) - friction * math.sin(angle))
+    assert A < -0.7
+    early = out["t"] < 1.1e-3
+    grows = (4 - G / A) * numpy.cosh(math.sqrt(-A * stiffness) * out["t"][early]) + G / A
+    assert out["c.normal"][early] == pytest.approx(grows, rel=2e-3)  # the rod turns meanwhile, by 1e-3 rad
+    # Some 600 N stop the tip within 6 ms, sixty times the weight; the rod jumps, and comes down again.
+    k = out["c.normal"].argmax()
+    assert 5e-3 < out["t"][k] < 6e-3 and out["c.normal"][k] > 500 and out["v.x"][k] < 0
+    assert 0.025 < out["tip.y"].max() < 0.032
+    # First order in the step where it sticks at once: 2e-3 J with a fifth of the step; 2 J at the start.
+    assert numpy.abs(out["balance"]).max() < 0.012
