@@ -53,6 +53,7 @@ PICTURES = (
     Picture("rough_lid", (("run", "examples/rough_lid/rough_lid.yaml"),), time=0.65),
     Picture("crane_cable", (("run", "examples/crane_cable/crane_cable.yaml"),), time=0.4),
     Picture("gear_train", (("run", "examples/gear_train/gear_train.yaml"),), time=0.5),
+    Picture("windscreen_wiper", (("run", "examples/windscreen_wiper/windscreen_wiper.yaml"),), time=0.4),
     Picture("cam_follower", (("run", "examples/cam_follower/cam_follower.yaml"),), time=0.4),
     Picture("robot_arm", (("run", "examples/robot_arm/robot_arm.yaml"),), time=0.3),
     Picture("trolley_on_flexible_rail", (("run", "examples/trolley_on_flexible_rail/trolley_on_flexible_rail.yaml"),),
