@@ -148,6 +148,21 @@ def test_names_of_what_is_looked_at(sim):
         sim.bodies["cart"].frame.position[0] = 1
 
 
+def test_arrays_are_read_only_after_the_end(tmp_path):
+    sim = buckens.Simulation(buckens.Model.from_dict(TREE), out=tmp_path / "out")
+    place = sim.bodies["cart"].frame.position
+    sim.run()
+    sim.finish()
+    with pytest.raises(ValueError, match="read-only"):
+        place[0] = 1
+    with pytest.raises(ValueError, match="WRITEABLE"):
+        place.flags.writeable = True
+    # Results are copies, which may be written; the file is as it was.
+    run = buckens.open(tmp_path / "out")
+    run["place"][:] = 1
+    assert buckens.open(tmp_path / "out")["place"][0, 2] == 0
+
+
 def test_values_of_loads(sim):
     for wrong in ([1, 2], "far", [1, "x", 3], [[1, 2, 3]]):
         with pytest.raises(buckens.InputError, match="'drive': expected three numbers, found"):

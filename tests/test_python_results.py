@@ -2,6 +2,7 @@
 """Results and verbs of the program from Python, and the module's types."""
 
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -201,7 +202,7 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     text = (SOURCE / "docs" / "tutorials" / "python.md").read_text()
     blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
-    first, objects, arrays, controller, force, study = blocks
+    first, objects, arrays, controller, force, setting, signal, study = blocks
     names = {}
     exec(first, names)
     assert (tmp_path / "mid.png").stat().st_size > 1000 and names["summary"]["steps"] == 2000
@@ -210,6 +211,14 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     exec(arrays, names)
     assert buckens.check(names["cantilever"])["bodies"]["bar"]["elements"] == 2
     shown = capsys.readouterr().out.splitlines()
+    exec(setting, names)
+    # Constant torque: 4 rad/s^2 for half a second, integrated exactly.
+    assert [float(word) for word in capsys.readouterr().out.split()] == pytest.approx([0.5, 2.0], rel=1e-9)
+    exec(signal, names)
+    turned = buckens.Simulation(names["shaft"])
+    turned.run()
+    # w = 20 rad/s, damping ratio 0.2: e^(-4) of the way is left.
+    assert turned.signals["angle"] == pytest.approx(0.5, abs=0.5 * math.exp(-4))
     # Two lines of the first block, and a height per variant: 10 ms of fall about the hinge.
     assert len(shown) == 2 + 3
     for line in shown[2:]:

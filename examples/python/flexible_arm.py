@@ -4,7 +4,8 @@
 usage: python3 examples/python/flexible_arm.py [OUT]   OUT: run directory, default build/flexible_arm
 
 The motor gets the torque that a rigid arm would need for a smooth motion, and a feedback of the angle of
-its shaft. The tip keeps swinging about the angle that is reached; the feedback damps it.
+its shaft. The tip keeps swinging about the angle that is reached; the feedback damps it. The controller is
+evaluated within the steps: it has no delay.
 """
 
 import math
@@ -25,12 +26,13 @@ model = buckens.Model(
     bodies={"rotor": buckens.Rigid(mass=0.5, inertia=[0, 0, ROTOR]), "arm": arm},
     joints={"shaft": buckens.Revolute(between=["ground", "rotor"]),
             "flange": buckens.Fixed(between=["rotor", "arm/start"])},
-    loads={"motor": buckens.Torque(on="rotor", value=[0, 0, 0])},
+    signals={"angle": {"joint-angle": "shaft"}, "speed": {"joint-speed": "shaft"}, "torque": {"setting": 0}},
+    loads={"motor": buckens.HingeMotor(joint="shaft", torque="torque")},
     simulation={"duration": 1.5, "step": 2e-4},
     output={"every": 2e-3, "sensors": {
         "angle": buckens.JointCoordinateSensor(joint="shaft"),
         "tip": buckens.DeflectionSensor(of="arm/end", from_="frame"),
-        "torque": buckens.LoadTorqueSensor(load="motor")}})
+        "torque": buckens.SpringTorqueSensor(spring="motor")}})  # as it opposes the angle
 
 inertia = ROTOR + buckens.check(model)["bodies"]["arm"]["mass"] * LENGTH**2 / 3  # about the shaft [kg m^2]
 STIFFNESS, DAMPING = inertia * 15**2, 2 * 0.7 * inertia * 15  # of the feedback [N m/rad, N m s/rad]
@@ -44,18 +46,14 @@ def way(t):
             ANGLE / DURATION**2 * 60 * s * (1 - s) * (1 - 2 * s))
 
 
+@model.signal()
+def torque(t, angle, speed):
+    """The signal `torque` at any instant, from the signals that its parameters name."""
+    wanted = way(t)
+    return inertia * wanted[2] + STIFFNESS * (wanted[0] - angle) + DAMPING * (wanted[1] - speed)
+
+
 sim = buckens.Simulation(model, out=sys.argv[1] if len(sys.argv) > 1 else "build/flexible_arm")
-
-
-@sim.on_step
-def control(now):
-    """Called after each step: measures the angle and sets the torque of the next step."""
-    angle, rate = now.sensors["angle.value"], now.sensors["angle.rate"]
-    wanted = way(now.time)
-    torque = (inertia * wanted[2] + STIFFNESS * (wanted[0] - angle) + DAMPING * (wanted[1] - rate))
-    now.set_load("motor", [0, 0, torque])
-
-
 summary = sim.run(progress=sys.stderr.isatty())
 
 run = buckens.open(sim.directory)

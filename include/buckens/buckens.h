@@ -11,6 +11,7 @@
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
 #include "buckens/base/visit_fields.h"
+#include "buckens/model/build/function_signals.h"
 #include "buckens/model/builder.h"
 #include "buckens/model_file/load_model.h"
 #include "buckens/results/table.h"
@@ -24,7 +25,9 @@ using analysis::Simulation;
 using analysis::SimulationOptions;
 using analysis::StepView;
 using model::BuiltModel;
+using model::give_functions;
 using model::ModelBuilder;
+using model::SignalFunction;
 using model_file::load_model;
 using results::RunSummary;
 using results::Table;

@@ -13,7 +13,7 @@ namespace buckens::python {
 
 namespace {
 
-std::shared_ptr<const model::BuiltModel> build(model::ModelDescription description) {
+std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
   std::vector<std::string> notes;
   analysis::choose_modes(description, notes,
                          [](const std::string& text) { base::log(base::LogLevel::info, text); });
@@ -61,11 +61,13 @@ std::shared_ptr<const model::BuiltModel> ModelHandle::built() const {
 }
 
 std::shared_ptr<const model::BuiltModel> ModelHandle::built_with(
-    std::vector<model::OwnForce> forces) const {
-  if (forces.empty()) return built();
+    std::vector<model::OwnForce> forces, const std::vector<model::SignalFunction>& signals) const {
+  if (forces.empty() && signals.empty()) return built();
   model::ModelDescription description = description_;
   for (model::OwnForce& force : forces) description.own_forces.push_back(std::move(force));
-  return build(std::move(description));
+  std::unique_ptr<model::BuiltModel> out = build(std::move(description));
+  model::give_functions(signals, *out);
+  return out;
 }
 
 }  // namespace buckens::python

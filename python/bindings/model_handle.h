@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/model/build/build_model.h"
+#include "buckens/model/build/function_signals.h"
 
 namespace buckens::python {
 
@@ -28,8 +29,9 @@ class ModelHandle {
   const model::ModelDescription& description() const { return description_; }
   /// @throws InputError, ModelError with the names of bodies, joints and markers
   std::shared_ptr<const model::BuiltModel> built() const;
-  /// The same with forces written in code, which no other simulation gets.
-  std::shared_ptr<const model::BuiltModel> built_with(std::vector<model::OwnForce> forces) const;
+  /// The same with forces and signals written in code, which no other simulation gets.
+  std::shared_ptr<const model::BuiltModel> built_with(
+      std::vector<model::OwnForce> forces, const std::vector<model::SignalFunction>& signals) const;
 
  private:
   model::ModelDescription description_;

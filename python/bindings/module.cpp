@@ -41,6 +41,8 @@ void define_model(py::module_& core) {
       .def_property_readonly("bodies", [](const Model& m) { return names(m.description().bodies); })
       .def_property_readonly("joints", [](const Model& m) { return names(m.description().joints); })
       .def_property_readonly("loads", [](const Model& m) { return names(m.description().loads); })
+      .def_property_readonly("signals",
+                             [](const Model& m) { return names(m.description().signals); })
       .def_property_readonly("sensors",
                              [](const Model& m) { return names(m.description().output.sensors); })
       .def_property_readonly("duration", [](const Model& m) -> std::optional<double> {
@@ -51,11 +53,15 @@ void define_model(py::module_& core) {
 
 std::shared_ptr<SimulationHandle> make_simulation(
     const std::shared_ptr<ModelHandle>& model,
-    const std::vector<std::tuple<std::string, std::string, py::function>>& forces, int threads,
-    const std::string& out, bool keep_records, const std::string& start_from) {
+    const std::vector<std::tuple<std::string, std::string, py::function>>& forces,
+    const std::vector<std::tuple<std::string, std::vector<std::string>, py::function>>& signals,
+    int threads, const std::string& out, bool keep_records, const std::string& start_from) {
   SimulationSettings settings;
   for (const auto& [name, marker, function] : forces) {
     settings.forces.push_back({name, marker, function});
+  }
+  for (const auto& [name, inputs, function] : signals) {
+    settings.signals.push_back({name, inputs, function});
   }
   settings.threads = threads;
   settings.out = out;
@@ -67,7 +73,7 @@ std::shared_ptr<SimulationHandle> make_simulation(
 void define_simulation(py::module_& core) {
   using Simulation = SimulationHandle;
   py::class_<Simulation, std::shared_ptr<Simulation>>(core, "Simulation")
-      .def(py::init(&make_simulation), "model"_a, "forces"_a, "threads"_a, "out"_a,
+      .def(py::init(&make_simulation), "model"_a, "forces"_a, "signals"_a, "threads"_a, "out"_a,
            "keep_records"_a, "start_from"_a)
       .def("step", &Simulation::step)
       .def("advance", &Simulation::advance, "t"_a)
@@ -88,6 +94,9 @@ void define_simulation(py::module_& core) {
       .def("curves", &Simulation::curves)
       .def("set_load", &Simulation::set_load, "load"_a, "value"_a)
       .def("release_load", &Simulation::release_load, "load"_a)
+      .def("signal", &Simulation::signal, "name"_a)
+      .def("signals", &Simulation::signals)
+      .def("set_signal", &Simulation::set_signal, "signal"_a, "value"_a)
       .def("save", &Simulation::save, "path"_a);
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 
-#include "buckens/base/errors.h"
 #include "buckens/loads/differenced_force.h"
 #include "buckens/model/builder.h"
 
@@ -32,30 +31,7 @@ Eigen::Vector3d three_numbers(const py::object& value, const std::string& marker
   return {values[0], values[1], values[2]};
 }
 
-/// Holds a Python object that may be destroyed by a thread without Python's lock.
-struct SharedFunction {
-  py::function function;
-  explicit SharedFunction(py::function given) : function(std::move(given)) {}
-  SharedFunction(const SharedFunction&) = delete;
-  SharedFunction& operator=(const SharedFunction&) = delete;
-  ~SharedFunction() {
-    const py::gil_scoped_acquire lock;
-    function.release().dec_ref();
-  }
-};
-
 }  // namespace
-
-void PendingException::keep(py::error_already_set&& raised) {
-  if (!error) error.emplace(std::move(raised));
-}
-
-void PendingException::deliver() {
-  if (!error) return;
-  py::error_already_set raised = std::move(*error);
-  error.reset();
-  throw raised;
-}
 
 model::OwnForce own_force(const PythonForce& force, std::shared_ptr<PendingException> pending,
                           std::shared_ptr<const Eigen::Vector3d> origin) {
@@ -63,20 +39,10 @@ model::OwnForce own_force(const PythonForce& force, std::shared_ptr<PendingExcep
   auto law = [shared, pending = std::move(pending), origin = std::move(origin),
               marker = force.marker](double t,
                                      const spatial::MarkerMotion& motion) -> Eigen::Vector3d {
-    const py::gil_scoped_acquire lock;
-    try {
-      if (!pending->error) {
-        return three_numbers(shared->function(t, array_of(motion.p + *origin), array_of(motion.v)),
-                             marker);
-      }
-    } catch (py::error_already_set& raised) {
-      pending->keep(std::move(raised));
-    } catch (const py::type_error& error) {
-      error.set_error();
-      pending->keep(py::error_already_set());
-    }
-    throw NumericalError(fmt::format("the function that gives the force on \"{}\" raised {}",
-                                     marker, pending->error->what()));
+    return call_within_step(*pending, fmt::format("the force on \"{}\"", marker), [&] {
+      return three_numbers(shared->function(t, array_of(motion.p + *origin), array_of(motion.v)),
+                           marker);
+    });
   };
   model::OwnForce out;
   out.name = force.name;

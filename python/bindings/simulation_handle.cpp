@@ -30,11 +30,15 @@ SimulationHandle::SimulationHandle(std::shared_ptr<const ModelHandle> model,
   for (const PythonForce& force : settings.forces) {
     forces.push_back(own_force(force, pending_, origin));
   }
+  std::vector<model::SignalFunction> signals;
+  for (const PythonSignal& signal : settings.signals) {
+    signals.push_back(signal_function(signal, pending_));
+  }
   analysis::SimulationOptions options;
   options.threads = settings.threads;
   options.stop_reason = "stopped from Python";
   compute([&] {
-    built_ = model->built_with(std::move(forces));
+    built_ = model->built_with(std::move(forces), signals);
     *origin = built_->model.origin;
     const model::ModelDescription& description = built_->description;
     if (!settings.out.empty()) {
@@ -203,6 +207,11 @@ void SimulationHandle::set_load(const std::string& load, const Eigen::Vector3d& 
 void SimulationHandle::release_load(const std::string& load) {
   require_at_rest("release_load");
   evaluate([&] { simulation_->release_load(load); });
+}
+
+void SimulationHandle::set_signal(const std::string& signal, double value) {
+  require_at_rest("set_signal");
+  evaluate([&] { simulation_->set_signal(signal, value); });
 }
 
 void SimulationHandle::save(const std::string& path) const {

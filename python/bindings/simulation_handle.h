@@ -16,6 +16,7 @@
 
 #include "bindings/model_handle.h"
 #include "bindings/python_force.h"
+#include "bindings/python_signal.h"
 
 #include "buckens/analysis/error/sensor_curves.h"
 #include "buckens/analysis/simulation/simulation.h"
@@ -26,6 +27,7 @@ namespace buckens::python {
 
 struct SimulationSettings {
   std::vector<PythonForce> forces;
+  std::vector<PythonSignal> signals;
   int threads = 1;
   std::string out;           ///< run directory; empty: none
   bool keep_records = true;  ///< sensors at the instants of records, in memory
@@ -65,6 +67,8 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   pybind11::array multipliers();
   /// A copy of a quantity that is recorded, in its own shape.
   pybind11::array value(const std::string& path) const;
+  double signal(const std::string& name) const;
+  std::vector<std::string> signals() const;
   /// Path, unit, names of components of all that value() knows.
   std::vector<std::tuple<std::string, std::string, std::vector<std::string>>> quantities() const;
   /// Name, unit and values of the sensors at the instants of records; the instants come first.
@@ -73,6 +77,7 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   // ---- act
   void set_load(const std::string& load, const Eigen::Vector3d& value);
   void release_load(const std::string& load);
+  void set_signal(const std::string& signal, double value);
   void save(const std::string& path) const;
 
  private:

@@ -83,6 +83,17 @@ py::array SimulationHandle::value(const std::string& path) const {
   return out;
 }
 
+double SimulationHandle::signal(const std::string& name) const {
+  require_at_rest("signals");
+  return simulation_->signal(name);
+}
+
+std::vector<std::string> SimulationHandle::signals() const {
+  std::vector<std::string> out;
+  for (const model::Signal& signal : built_->model.signals.all) out.push_back(signal.name);
+  return out;
+}
+
 std::vector<std::tuple<std::string, std::string, std::vector<std::string>>>
 SimulationHandle::quantities() const {
   std::vector<std::tuple<std::string, std::string, std::vector<std::string>>> out;

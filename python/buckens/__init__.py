@@ -17,9 +17,10 @@ from .errors import DifferenceError, Error, InputError, IoError, ModelError, Num
 from .model import Model, load
 from .objects import *  # noqa: F403
 from .objects import __all__ as _parts
+from .present import Body, Frame
 from .result_mesh import ResultMesh
 from .results import Results, RunPage, open  # noqa: A004 (the name says what it does)
-from .simulation import Body, Frame, Simulation
+from .simulation import Simulation
 from .verbs import check, compare, convert, mesh_info, modes, static, sweep, view
 from .yaml_text import to_yaml
 

@@ -9,6 +9,7 @@ from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Unio
 from . import _core
 from .messages import tell_messages
 from .model_files import ModelFiles
+from .signal_function import GivenSignal, SignalFunction, given_signal
 from .yaml_text import _flow, to_yaml
 
 #: f(t, x, v): time [s], position [m] and velocity [m/s] of the marker; returns a force [N].
@@ -55,16 +56,19 @@ class Model:
         self._take(_parse(keys, ".", files), files)
 
     def _take(self, core: _core.Model, files: ModelFiles,
-              forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> None:
+              forces: Sequence[Tuple[str, str, ForceFunction]] = (),
+              signals: Sequence[GivenSignal] = ()) -> None:
         self._core = core
         self._files = files
         self._forces = list(forces)
+        self._signals = list(signals)
 
     @classmethod
     def _of(cls, core: _core.Model, files: ModelFiles,
-            forces: Sequence[Tuple[str, str, ForceFunction]] = ()) -> Model:
+            forces: Sequence[Tuple[str, str, ForceFunction]] = (),
+            signals: Sequence[GivenSignal] = ()) -> Model:
         out = cls.__new__(cls)
-        out._take(core, files, forces)
+        out._take(core, files, forces, signals)
         return out
 
     @classmethod
@@ -102,7 +106,7 @@ class Model:
         """
         name = os.path.join(self._core.directory, "model.yaml")
         core = _core.Model.parse(self._core.source, name, overrides_of(changes), False)
-        return Model._of(core, self._files, self._forces)
+        return Model._of(core, self._files, self._forces, self._signals)
 
     def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
         """Decorator: a force on a marker by a function, evaluated within the steps.
@@ -127,8 +131,39 @@ class Model:
 
         return add
 
+    def signal(self, name: Optional[str] = None,
+               inputs: Optional[Sequence[str]] = None) -> Callable[[SignalFunction], SignalFunction]:
+        """Decorator: the value of a signal by a function, evaluated within the steps.
+
+        The function is called with the time [s] and the values of other signals at the same instant,
+        several times per step, and returns a number. It must give the same for the same arguments.
+        What it does to motors and loads is part of the step's iteration, with derivatives by
+        differences: a controller has no delay.
+
+        Parameters
+        ----------
+        name
+            Of a signal with a ``setting`` or a formula, whose place the function takes; without it
+            the name of the function.
+        inputs
+            Names of the signals that it takes; without it the names of its parameters after the
+            first, except those with defaults.
+
+        Examples
+        --------
+        >>> @model.signal()                                           # doctest: +SKIP
+        ... def command(t, angle, speed):
+        ...     return 20 * (0.5 - angle) - 3 * speed
+        """
+
+        def add(function: SignalFunction) -> SignalFunction:
+            self._signals.append(given_signal(function, name, inputs))
+            return function
+
+        return add
+
     def to_yaml(self) -> str:
-        """The text of a model file with this model. Forces by functions are not part of it.
+        """The text of a model file with this model. Forces and signals by functions are not part of it.
 
         Meshes and matrices given as arrays are named in it as files that go with this model;
         :meth:`save` writes them, too.
@@ -160,6 +195,11 @@ class Model:
     def loads(self) -> List[str]:
         """Names of loads and force laws, without forces by functions."""
         return self._core.loads
+
+    @property
+    def signals(self) -> List[str]:
+        """Names of the signals."""
+        return self._core.signals
 
     @property
     def sensors(self) -> List[str]:

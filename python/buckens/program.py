@@ -54,6 +54,9 @@ def file_of(model: ModelLike) -> Iterator[str]:
     if model._forces:
         raise errors.InputError(f"the model has the function {model._forces[0][0]!r} as a force, which "
                                 "the program cannot call; simulate it with buckens.Simulation")
+    if model._signals:
+        raise errors.InputError(f"the model has a function as the signal {model._signals[0][0]!r}, which "
+                                "the program cannot call; simulate it with buckens.Simulation")
     with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
         path = os.path.join(folder, "model.yaml")
         directory = os.path.abspath(model._core.directory or ".")

@@ -7,114 +7,19 @@ import json
 import os
 import sys
 import weakref
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core
 from .curve import Curve
 from .errors import InputError
 from .messages import tell_messages
 from .model import ForceFunction, Model, PathLike
+from .present import Array, Bodies, Signals, Values
+from .signal_function import SignalFunction, given_signal
 
-Array = npt.NDArray[np.float64]
 Progress = Union[bool, Callable[[float, float, int], object]]
-
-
-class Frame:
-    """Motion of a body's frame: arrays that follow the simulation, read-only.
-
-    Attributes
-    ----------
-    position : (3,) array
-        Origin, the mass centre of the body, in world axes [m].
-    rotation : (3, 3) array
-        From body axes to world axes.
-    velocity : (3,) array
-        Of the origin, world axes [m/s].
-    angular_velocity : (3,) array
-        In body axes [rad/s].
-    """
-
-    def __init__(self, numbers: Array) -> None:
-        self.position = numbers[0:3]
-        self.rotation = numbers[3:12].reshape(3, 3)
-        self.velocity = numbers[12:15]
-        self.angular_velocity = numbers[15:18]
-
-    def __repr__(self) -> str:
-        return f"<buckens.Frame at {self.position} m, velocity {self.velocity} m/s>"
-
-
-class Body:
-    """A body of a simulation."""
-
-    def __init__(self, core: _core.Simulation, name: str) -> None:
-        self._core = core
-        self.name = name
-
-    @property
-    def frame(self) -> Frame:
-        """Motion of its frame."""
-        return Frame(self._core.frame(self.name))
-
-    @property
-    def displacements(self) -> Array:
-        """Nodal displacements [m] and rotations [rad] in body axes, (nodes, 6).
-
-        A read-only array without copy: it follows the simulation and keeps it alive.
-        """
-        return self._core.displacements(self.name)
-
-    @property
-    def velocities(self) -> Array:
-        """Rates of :attr:`displacements`, (nodes, 6) [m/s, rad/s]."""
-        return self._core.velocities(self.name)
-
-    def __repr__(self) -> str:
-        return f"<buckens.Body {self.name!r}>"
-
-
-class Bodies(Mapping[str, Body]):
-    """Bodies by name."""
-
-    def __init__(self, core: _core.Simulation, names: List[str]) -> None:
-        self._bodies = {name: Body(core, name) for name in names}
-
-    def __getitem__(self, name: str) -> Body:
-        if name not in self._bodies:
-            known = ", ".join(self._bodies)
-            raise InputError(f"there is no body {name!r}; the model has {known}")
-        return self._bodies[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._bodies)
-
-    def __len__(self) -> int:
-        return len(self._bodies)
-
-
-class Values(Mapping[str, Any]):
-    """Present values of a kind of quantity by name: sensors, energies."""
-
-    def __init__(self, core: _core.Simulation, prefix: str) -> None:
-        self._core, self._prefix = core, prefix
-
-    def __getitem__(self, name: str) -> Any:
-        value = self._core.value(self._prefix + name)
-        return float(value) if value.ndim == 0 else value
-
-    def __iter__(self) -> Iterator[str]:
-        for path, _, _ in self._core.quantities():
-            if path.startswith(self._prefix):
-                yield path[len(self._prefix):]
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
-
-    def __repr__(self) -> str:
-        return repr(dict(self))
 
 
 class Simulation:
@@ -145,6 +50,7 @@ class Simulation:
             raise InputError(f"expected a buckens.Model, found {model!r}; buckens.load reads one")
         self._model = model
         self._forces: List[Tuple[str, str, ForceFunction]] = list(model._forces)
+        self._signals = list(model._signals)
         self._callbacks: List[Callable[[], object]] = []
         if not isinstance(threads, int) or not 1 <= threads <= 256:
             raise InputError(f"threads: expected a whole number from 1 to 256, found {threads!r}")
@@ -172,8 +78,8 @@ class Simulation:
         self._core_now: Optional[_core.Simulation] = None
         self._is_preparing = True
         try:
-            self._core_now = _core.Simulation(self._model._core, self._forces, threads, out, record,
-                                              start_from)
+            self._core_now = _core.Simulation(self._model._core, self._forces, self._signals, threads,
+                                              out, record, start_from)
         finally:
             self._is_preparing = False
         for callback in self._callbacks:
@@ -184,7 +90,7 @@ class Simulation:
 
     @property
     def _core(self) -> _core.Simulation:
-        """The simulation of the library; set up again if forces were added."""
+        """The simulation of the library; set up again if forces or signals were added."""
         if self._core_now is None:
             if self._is_preparing:
                 raise InputError("the simulation is being set up, which is within a step; a force "
@@ -279,15 +185,46 @@ class Simulation:
         """
 
         def add(function: ForceFunction) -> ForceFunction:
-            if self._was_seen or self._core.num_steps > 0:
-                raise InputError(f"the force on {marker!r} comes too late: arrays of this simulation "
-                                 "are in use or steps were taken; add forces first, or to the model")
+            self._require_new(f"the force on {marker!r}")
             load = name or str(getattr(function, "__name__", "force"))
             self._forces.append((load, marker, function))
             self._core_now = None
             return function
 
         return add
+
+    def signal(self, name: Optional[str] = None,
+               inputs: Optional[Sequence[str]] = None) -> Callable[[SignalFunction], SignalFunction]:
+        """Decorator: the value of a signal by a function, as :meth:`buckens.Model.signal`, of this
+        simulation only.
+
+        To be given before anything else is asked of the simulation, as :meth:`force`.
+        """
+
+        def add(function: SignalFunction) -> SignalFunction:
+            given = given_signal(function, name, inputs)
+            self._require_new(f"the function of signal {given[0]!r}")
+            self._signals.append(given)
+            self._core_now = None
+            return function
+
+        return add
+
+    def _require_new(self, what: str) -> None:
+        if self._was_seen or self._core.num_steps > 0:
+            raise InputError(f"{what} comes too late: arrays of this simulation are in use or steps were "
+                             "taken; add functions first, or to the model")
+
+    def set_signal(self, signal: str, value: float) -> None:
+        """Gives a signal with a ``setting`` a value, from now on: what motors and loads that name it
+        follow. The value is part of what :meth:`save` writes.
+
+        Parameters
+        ----------
+        value
+            In SI units of what follows it.
+        """
+        self._core.set_signal(signal, _number(f"signal {signal!r}", value))
 
     def set_load(self, load: str, value: Sequence[float]) -> None:
         """Gives a force [N] or torque [N m] of the model a value instead of its law, from now on.
@@ -356,6 +293,11 @@ class Simulation:
     def sensors(self) -> Values:
         """Present values of the sensors by name: numbers, or arrays of components."""
         return Values(self._core, "sensors/")
+
+    @property
+    def signals(self) -> Signals:
+        """Present values of the signals by name."""
+        return Signals(self._core)
 
     @property
     def energies(self) -> Values:

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/model/function_signal.h"
 
 namespace buckens::dynamics {
 
@@ -108,6 +109,9 @@ class Evaluation {
       return action_of(model_, index, t_, around_, ends.first.motion, ends.second.motion,
                        ends.travels())
           .along_coordinate;
+    }
+    if (const model::FunctionSignal* function = model::function_of(signal)) {
+      return function->value_at(t_, out_.values);
     }
     const model::ControlBlock& block = *signal.block;
     const double u = block.feeds_through() ? signal.input.value(t_, out_.values) : 0.0;

@@ -43,6 +43,8 @@ class SimulationRun {
   const results::RecordLayout& layout() const { return observer_->layout(); }
   NodalViews& nodal_views() { return views_; }
   void set_load(const std::string& load, const std::optional<Eigen::Vector3d>& value);
+  void set_signal(const std::string& signal, double value);
+  double signal(const std::string& name) const;
 
   base::SavedValues save();
   void restore(const base::SavedValues& saved, Leeway leeway);
@@ -80,6 +82,7 @@ class SimulationRun {
   bool report_progress();
   void split_wall_time();
   std::vector<std::size_t> loads_with_values(const std::string& name) const;
+  std::size_t find_signal(const std::string& name) const;
   void visit_saved(const base::SaveVisit& visit);
   std::vector<std::string> identity() const;
 

@@ -96,6 +96,8 @@ Eigen::Map<const Eigen::VectorXd> Simulation::sensor(const std::string& name) co
   return values("sensors/" + name);
 }
 
+double Simulation::signal(const std::string& name) const { return run_->signal(name); }
+
 Eigen::Map<const Simulation::NodalMatrix> Simulation::displacements(const std::string& body) const {
   return run_->nodal_views().displacements(find_whole(built().model, body), state());
 }
@@ -110,6 +112,10 @@ void Simulation::set_load(const std::string& load, const Eigen::Vector3d& value)
 
 void Simulation::release_load(const std::string& load) { run_->set_load(load, std::nullopt); }
 
+void Simulation::set_signal(const std::string& signal, double value) {
+  run_->set_signal(signal, value);
+}
+
 base::SavedValues Simulation::save() const { return run_->save(); }
 
 void Simulation::restore(const base::SavedValues& saved, Leeway leeway) {
@@ -122,6 +128,10 @@ void StepView::stop() const { simulation_->stop(); }
 
 void StepView::set_load(const std::string& load, const Eigen::Vector3d& value) const {
   simulation_->set_load(load, value);
+}
+
+void StepView::set_signal(const std::string& signal, double value) const {
+  simulation_->set_signal(signal, value);
 }
 
 Eigen::Map<const Eigen::VectorXd> StepView::sensor(const std::string& name) const {

@@ -113,6 +113,8 @@ class Simulation {
   const results::RecordLayout& layout() const;
   /// Current values of a sensor of the model.
   Eigen::Map<const Eigen::VectorXd> sensor(const std::string& name) const;
+  /// Current value of a signal of the model. @throws InputError naming the nearest
+  double signal(const std::string& name) const;
   using NodalMatrix = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   /// Nodal displacements and rotations of a flexible body in its axes, one row per node.
   Eigen::Map<const NodalMatrix> displacements(const std::string& body) const;
@@ -127,6 +129,10 @@ class Simulation {
   void set_load(const std::string& load, const Eigen::Vector3d& value);
   /// Returns the load to its law.
   void release_load(const std::string& load);
+  /// Gives a signal with a `setting` a value from now on, which motors, loads and other signals
+  /// that name it follow like a law that jumps here. Part of what save() keeps.
+  /// @throws InputError naming the signals that can be set
+  void set_signal(const std::string& signal, double value);
 
   // ---- save and go on
   /// Everything needed to continue bit for bit.

@@ -11,6 +11,9 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/base/version.h"
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/signals.h"
+#include "buckens/model/function_signal.h"
 #include "buckens/model/saved_state.h"
 #include "buckens/model/spec/field_lines.h"
 #include "buckens/results/state_interpolation.h"
@@ -19,6 +22,7 @@ namespace buckens::analysis {
 
 namespace {
 
+constexpr double kSameEnd = 1e-9;  // ends of steps are counted
 constexpr long kMostEver = 1L << 60;
 constexpr std::size_t kMostDifferences = 3;
 
@@ -102,6 +106,12 @@ std::vector<std::size_t> SimulationRun::loads_with_values(const std::string& nam
   std::vector<std::string> known;
   for (std::size_t k = 0; k < built_.model.loads.size(); ++k) {
     const model::Load& load = built_.model.loads[k];
+    if (load.name == name && load.coordinate >= 0) {
+      throw InputError(fmt::format(
+          "load \"{}\" acts on the coordinate of a joint and takes no value from outside; "
+          "let it follow a signal with a `setting`, which can be set",
+          name));
+    }
     if (!load.element->takes_values()) continue;
     known.push_back(load.name);
     if (load.name == name) out.push_back(k);
@@ -130,6 +140,55 @@ void SimulationRun::set_load(const std::string& name, const std::optional<Eigen:
   observed_at_ = -1;
   if (steps_taken_ > 0) return;
   settle_rigid_rows(built_.model, *metric_, prepared_->rows_in_use, state);
+}
+
+std::size_t SimulationRun::find_signal(const std::string& name) const {
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < built_.model.signals.all.size(); ++k) {
+    known.push_back(built_.model.signals.all[k].name);
+    if (known.back() == name) return k;
+  }
+  if (known.empty()) {
+    throw InputError(
+        fmt::format("there is no signal \"{}\": the model has none; add `signals: {{{}: {{setting: "
+                    "0}}}}` to it",
+                    name, name));
+  }
+  throw InputError(
+      fmt::format("there is no signal \"{}\".{}", name, base::suggestion(name, known)));
+}
+
+double SimulationRun::signal(const std::string& name) const {
+  return prepared_->state.memory.signals[find_signal(name) + 1];
+}
+
+void SimulationRun::set_signal(const std::string& name, double value) {
+  const model::Signal& signal = built_.model.signals.all[find_signal(name)];
+  const auto* spec = base::find_named(built_.description.signals, name);
+  if (model::function_of(signal) != nullptr) {
+    throw InputError(
+        fmt::format("signal \"{}\" is given by a function; let that return the value", name));
+  }
+  if (!spec->setting) {
+    throw InputError(
+        fmt::format("signal \"{}\" follows from the motion; only signals with a "
+                    "`setting` can be set",
+                    name));
+  }
+  if (!std::isfinite(value)) {
+    throw InputError(fmt::format("signal \"{}\": its value {} is not finite", name, value));
+  }
+  model::State& state = prepared_->state;
+  const auto follow = [&](const std::vector<dynamics::StateChange>& changes) {
+    dynamics::change_states(built_.model, dynamics::motions_of(built_.model, state),
+                            dynamics::circumstances_of(state), changes, state.memory);
+  };
+  follow({{signal.first_state, value}});
+  has_new_inputs_ = true;
+  observed_at_ = -1;
+  if (steps_taken_ > 0) return;
+  settle_rigid_rows(built_.model, *metric_, prepared_->rows_in_use, state);
+  follow({});  // signals that look at forces
 }
 
 std::vector<std::string> SimulationRun::identity() const {
@@ -213,6 +272,12 @@ void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
   }
   visit_saved(visit);
   if (has_other_steps) {
+    if (state().t >= spec_.duration * (1.0 - kSameEnd)) {
+      throw InputError(fmt::format(
+          "the state is that at the end of the run, t = {:g} s; give the model a longer "
+          "simulation.duration, with --set, or with --until where the run itself goes on",
+          state().t));
+    }
     begin_march(state().t);
   } else {
     march_->visit_saved(visit.inside("march"));

@@ -22,6 +22,8 @@ class StepView {
   void stop() const;
   /// As Simulation::set_load, from this instant on.
   void set_load(const std::string& load, const Eigen::Vector3d& value) const;
+  /// As Simulation::set_signal, from this instant on.
+  void set_signal(const std::string& signal, double value) const;
   /// As Simulation::sensor.
   Eigen::Map<const Eigen::VectorXd> sensor(const std::string& name) const;
 

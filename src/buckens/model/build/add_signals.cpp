@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/model/build/add_joint_law.h"
+#include "buckens/model/function_signal.h"
 
 namespace buckens::model {
 
@@ -143,6 +144,7 @@ class Sorter {
   bool needs(std::size_t k, std::size_t j) const {
     const Signal& signal = model_.signals.all[k];
     const std::string& name = model_.signals.all[j].name;
+    if (const FunctionSignal* function = function_of(signal)) return function->takes(name);
     const auto uses = [&](const base::SignalLaw& law) { return law.uses(name); };
     if (signal.kind == Signal::Kind::formula) return uses(signal.input);
     if (signal.block) return signal.block->feeds_through() && uses(signal.input);
@@ -206,6 +208,8 @@ void add_signals(const ModelDescription& description, MarkerFinder& find) {
 
 void connect_signals(const ModelDescription& description, Model& model) {
   SignalSet& signals = model.signals;
+  signals.num_states = 0;
+  signals.order.clear();
   for (std::size_t k = 0; k < signals.all.size(); ++k) {
     Signal& signal = signals.all[k];
     if (signal.block) {

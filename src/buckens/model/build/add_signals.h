@@ -11,7 +11,7 @@ namespace buckens::model {
 void add_signals(const ModelDescription& description, MarkerFinder& find);
 
 /// Finds the loads that signals look at and the order in which signals can be evaluated. To be
-/// called when all loads are there.
+/// called when all loads are there, and again when functions take the place of values.
 /// @throws ModelError naming the signals of an algebraic loop
 void connect_signals(const ModelDescription& description, Model& model);
 

@@ -10,6 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/visit_fields.h"
+#include "buckens/model/function_signal.h"
 
 namespace buckens::model {
 
@@ -177,6 +178,12 @@ std::vector<std::string> built_lines(const Model& model) {
   }
   out.push_back(fmt::format("joints: {} equations", model.num_constraint_rows()));
   for (const Load& load : model.loads) out.push_back("load " + load.name + ": " + load.kind);
+  for (const Signal& signal : model.signals.all) {
+    if (const FunctionSignal* function = function_of(signal)) {
+      out.push_back(fmt::format("signal {}: function of t, {}", signal.name,
+                                fmt::join(function->inputs(), ", ")));
+    }
+  }
   return out;
 }
 

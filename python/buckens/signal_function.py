@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Functions that give the values of signals."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Callable, List, Optional, Sequence, Tuple
+
+from .errors import InputError
+
+#: f(t, ...): time [s] and the values of signals; returns a number.
+SignalFunction = Callable[..., float]
+#: Name of the signal, the signals that its function takes, and the function.
+GivenSignal = Tuple[str, List[str], SignalFunction]
+
+
+def given_signal(function: SignalFunction, name: Optional[str],
+                 inputs: Optional[Sequence[str]]) -> GivenSignal:
+    """A function with its name and inputs, from its parameters where they are not given.
+
+    Raises
+    ------
+    InputError
+        If it cannot be called, or its parameters do not say what it takes.
+    """
+    if not callable(function):
+        raise InputError(f"signal: expected a function, found {function!r}")
+    signal = name or str(getattr(function, "__name__", "signal"))
+    if inputs is None:
+        return signal, _parameters(function, signal), function
+    if isinstance(inputs, str):
+        raise InputError(f"signal {signal!r}: inputs are a list of names, found {inputs!r}; write [{inputs!r}]")
+    return signal, [str(one) for one in inputs], function
+
+
+def _parameters(function: SignalFunction, signal: str) -> List[str]:
+    """Names of the parameters after the first, without those that have a default."""
+    try:
+        parameters = list(inspect.signature(function).parameters.values())
+    except (TypeError, ValueError):
+        parameters = []
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    needed = [one for one in parameters if one.default is inspect.Parameter.empty]
+    if not needed or any(one.kind not in kinds for one in needed):
+        raise InputError(f"signal {signal!r}: the parameters of its function do not say which signals it takes; "
+                         "write f(t, angle, speed), or give inputs=[\"angle\", \"speed\"]")
+    return [one.name for one in needed[1:]]

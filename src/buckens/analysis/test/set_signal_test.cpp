@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "buckens/analysis/simulation/simulation.h"
+#include "buckens/base/errors.h"
+#include "buckens/model/test/described.h"
+
+namespace buckens::analysis {
+namespace {
+
+using model::test::Described;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+double spin(const Simulation& simulation) { return simulation.frame("wheel").w.z(); }
+
+TEST(SetSignal, AMotorFollowsASettingThatIsSet) {
+  Described m;
+  m.d.planar = spatial::Plane::xy;
+  m.rigid("wheel", 1, {0, 0, 0}, {0, 0, 0.5});
+  m.joint<joints::RevoluteSpec>("shaft", "ground", "wheel");
+  m.d.simulation.emplace();
+  m.d.simulation->duration = 1;
+  m.d.simulation->step = 0.01;
+  model::SignalSpec command;
+  command.name = "command";
+  command.setting.emplace();
+  m.d.signals.push_back(command);
+  base::SignalLaw follow;
+  follow.formula.emplace("command", std::vector<std::string>{"t", "command"}, base::Parameters{},
+                         SourceLocation{});
+  follow.names = {"command"};
+  follow.places = {0};
+  auto& motor = m.load<loads::HingeMotorSpec>("drive");
+  motor.joint = "shaft";
+  motor.force = follow;
+  const auto built = m.build();
+  Simulation simulation(*built);
+  simulation.set_signal("command", 2);
+  EXPECT_EQ(simulation.signal("command"), 2);
+  simulation.advance_to(0.5);
+  EXPECT_NEAR(spin(simulation), 2.0, 1e-12);  // 4 rad/s² from the first instant on
+  const base::SavedValues saved = simulation.save();
+  Simulation other(*built);
+  other.restore(saved);
+  EXPECT_EQ(other.signal("command"), 2);
+  for (Simulation* one : {&simulation, &other}) {
+    one->on_step([](const StepView& now) { now.set_signal("command", -now.time()); });
+    one->run();
+  }
+  EXPECT_EQ(spin(simulation), spin(other));
+  // −∫2t dt from 0.5 to 1, late by a step of 10 ms: half of it for the rise over a step.
+  EXPECT_NEAR(spin(simulation), 2.0 - 0.75, 0.05);
+  EXPECT_THAT([&] { other.set_signal("comand", 1); },
+              ThrowsMessage<InputError>(HasSubstr("Did you mean \"command\"?")));
+}
+
+}  // namespace
+}  // namespace buckens::analysis
