@@ -17,6 +17,8 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/work.h"
 #include "buckens/files/output_file.h"
+#include "buckens/sweep/parts.h"
+#include "buckens/sweep/shards.h"
 #include "buckens/sweep/summary.h"
 #include "buckens/sweep/table.h"
 #include "buckens/sweep/variant_runs.h"
@@ -30,6 +32,7 @@ namespace fs = std::filesystem;
 struct SweepArguments {
   std::string model, table, out;
   std::vector<std::string> overrides, ranges;
+  std::string shard, merge;
   int together = sweep::SweepOptions{}.together;
   bool quiet = false;
 
@@ -122,20 +125,31 @@ nlohmann::ordered_json outcome_json(const sweep::SweepOutcome& outcome, const fs
           {"passes", outcome.passes}};
 }
 
-ExitCode exit_code_of(const sweep::SweepOutcome& outcome) {
+ExitCode exit_code_of(const std::vector<sweep::VariantOutcome>& variants) {
   const auto any = [&](sweep::VariantStatus status) {
-    return std::any_of(outcome.variants.begin(), outcome.variants.end(),
+    return std::any_of(variants.begin(), variants.end(),
                        [&](const auto& variant) { return variant.status == status; });
   };
   if (any(sweep::VariantStatus::interrupted)) return ExitCode::interrupted;
   return any(sweep::VariantStatus::failed) ? ExitCode::numerical : ExitCode::ok;
 }
 
-ExitCode sweep(const SweepArguments& arguments, bool json) {
-  if (arguments.quiet) base::set_work_sink({});
-  const sweep::SweepTable variants = variants_of(arguments);
-  const fs::path directory = arguments.directory();
-  const fs::path table = directory / sweep::kSweepName;
+void write_table(const fs::path& directory, const sweep::SummaryTable& summary) {
+  files::replace_text_file(directory / sweep::kSweepName, summary.csv());
+  summary.write_hdf5(directory / sweep::kSweepHdf5Name);
+}
+
+void tell_outcome(const SweepArguments& arguments, const sweep::SweepOutcome& outcome,
+                  const fs::path& table, bool json) {
+  if (json) {
+    print(to_text(outcome_json(outcome, arguments.directory(), table)));
+  } else if (!arguments.quiet) {
+    print(outcome_text(outcome, table));
+  }
+}
+
+sweep::SweepOutcome run(const SweepArguments& arguments, const sweep::SweepTable& variants,
+                        bool json) {
   const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   SweepDisplay display(arguments.quiet || json);
   sweep::SweepOptions options;
@@ -144,15 +158,56 @@ ExitCode sweep(const SweepArguments& arguments, bool json) {
     display.show(progress);
     return !interruption.requested();
   };
-  const sweep::SweepOutcome outcome =
-      sweep::run_variants(arguments.model, arguments.overrides, variants, directory, options);
-  files::replace_text_file(table, sweep::sweep_summary_csv(directory, variants, outcome));
-  if (json) {
-    print(to_text(outcome_json(outcome, directory, table)));
-  } else if (!arguments.quiet) {
-    print(outcome_text(outcome, table));
+  return sweep::run_variants(arguments.model, arguments.overrides, variants, arguments.directory(),
+                             options);
+}
+
+/// One shard: its variants, and its part of the table.
+ExitCode run_shard(const SweepArguments& arguments, const sweep::SweepTable& table, bool json) {
+  const sweep::Shard shard = sweep::parse_shard(arguments.shard);
+  const fs::path directory = arguments.directory();
+  const std::string study = sweep::study_of(arguments.model, arguments.overrides, table);
+  const std::vector<int> groups = sweep::matrix_groups(arguments.model, arguments.overrides, table);
+  const auto shards = sweep::divide_into_shards(groups, shard.count);
+  const std::vector<std::size_t>& mine = shards[static_cast<std::size_t>(shard.index) - 1];
+  const sweep::SweepTable variants = sweep::selected(table, mine);
+  const sweep::SweepOutcome outcome = run(arguments, variants, json);
+  sweep::write_part(directory, shard, study, mine,
+                    sweep::sweep_summary(directory, variants, outcome));
+  tell_outcome(arguments, outcome, directory / sweep::kPartsName / (shard.name() + ".json"), json);
+  return exit_code_of(outcome.variants);
+}
+
+ExitCode merge(const SweepArguments& arguments, bool json) {
+  const bool has_more = !arguments.model.empty() || !arguments.table.empty() ||
+                        !arguments.ranges.empty() || !arguments.shard.empty() ||
+                        !arguments.out.empty() || !arguments.overrides.empty();
+  if (has_more) {
+    throw InputError({},
+                     "`buckens sweep --merge OUT` takes nothing but the directory of the parts");
   }
-  return exit_code_of(outcome);
+  const fs::path directory = arguments.merge;
+  const sweep::MergedSweep merged = sweep::merge_parts(directory);
+  write_table(directory, merged.summary);
+  SweepArguments told = arguments;
+  told.out = arguments.merge;
+  tell_outcome(told, {merged.variants}, directory / sweep::kSweepName, json);
+  return exit_code_of(merged.variants);
+}
+
+ExitCode sweep(const SweepArguments& arguments, bool json) {
+  if (arguments.quiet) base::set_work_sink({});
+  if (!arguments.merge.empty()) return merge(arguments, json);
+  if (arguments.model.empty()) {
+    throw InputError({}, "MODEL is required: `buckens sweep MODEL TABLE`, or `--merge OUT`");
+  }
+  const sweep::SweepTable variants = variants_of(arguments);
+  if (!arguments.shard.empty()) return run_shard(arguments, variants, json);
+  const fs::path directory = arguments.directory();
+  const sweep::SweepOutcome outcome = run(arguments, variants, json);
+  write_table(directory, sweep::sweep_summary(directory, variants, outcome));
+  tell_outcome(arguments, outcome, directory / sweep::kSweepName, json);
+  return exit_code_of(outcome.variants);
 }
 
 constexpr char kSweepFooter[] = R"(
@@ -168,6 +223,10 @@ Each variant becomes the run directory OUT/NAME; OUT/sweep.csv has a row per var
 energy error, trust, and the last value and extremes of every sensor. Variants whose bodies have
 equal matrices advance side by side: one factorisation serves all, and their solves read it once.
 
+With --shard I/N this process runs the I-th of N parts of the table, as tasks of a job array do;
+variants that share factors stay together. When all have ended, `buckens sweep --merge OUT` makes
+the table. Every shard may be started again: it keeps what is finished.
+
 A variant that fails does not stop the others. Ctrl-C ends the sweep after the steps that go on; the
 same command later keeps what is finished and runs the rest.
 
@@ -180,6 +239,7 @@ void add_sweep_verb(CLI::App& program, Invocation& invocation) {
   CLI::App& verb = *program.add_subcommand("sweep", "Simulate variants of a model side by side");
   const auto arguments = std::make_shared<SweepArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
+  verb.get_option("MODEL")->required(false);
   verb.add_option("TABLE", arguments->table, "Table of variants (CSV)");
   verb.add_option("--vary", arguments->ranges, "Values of one quantity; may be given repeatedly")
       ->type_name("PATH=[VALUE,...]")
@@ -192,6 +252,10 @@ void add_sweep_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("--together", arguments->together, "Most variants that advance side by side")
       ->capture_default_str()
       ->check(CLI::Range(1, 32));
+  verb.add_option("--shard", arguments->shard, "Only the I-th of N parts of the variants")
+      ->type_name("I/N");
+  verb.add_option("--merge", arguments->merge, "Make the table of the parts that lie in OUT")
+      ->type_name("OUT");
   verb.add_flag("-q,--quiet", arguments->quiet, "Failures only");
   add_json_option(verb, invocation);
   verb.footer(kSweepFooter);

@@ -2,53 +2,24 @@
 #include "buckens/sweep/summary.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "buckens/base/errors.h"
-#include "buckens/files/csv_row.h"
 #include "buckens/run_store/run_reader.h"
 #include "buckens/run_store/sensors_csv.h"
+#include "buckens/run_store/summary_json.h"
 
 namespace buckens::sweep {
 
 namespace {
 
-/// A row under construction: cells by column name. Columns keep the order of their first use.
-class CsvTable {
- public:
-  void begin_row() { rows_.emplace_back(); }
-  void add(const std::string& column, const std::string& cell) {
-    if (std::find(columns_.begin(), columns_.end(), column) == columns_.end()) {
-      columns_.push_back(column);
-    }
-    rows_.back()[column] = cell;
-  }
+void add(SummaryCells& cells, std::string column, std::string cell) {
+  cells.emplace_back(std::move(column), std::move(cell));
+}
 
-  std::string text() const {
-    std::string out;
-    for (const std::string& column : columns_) {
-      out += (out.empty() ? "" : ",") + files::csv_cell(column);
-    }
-    for (const auto& row : rows_) {
-      out += '\n';
-      bool is_first = true;
-      for (const std::string& column : columns_) {
-        if (!is_first) out += ',';
-        is_first = false;
-        const auto cell = row.find(column);
-        if (cell != row.end()) out += files::csv_cell(cell->second);
-      }
-    }
-    return out + '\n';
-  }
-
- private:
-  std::vector<std::string> columns_;
-  std::vector<std::map<std::string, std::string>> rows_;
-};
+bool is_sensor(const results::Channel& channel) { return channel.path.starts_with("sensors/"); }
 
 std::string number(double value) { return fmt::format("{:.17g}", value); }
 
@@ -75,62 +46,103 @@ std::string trust_in(const SummaryJson& trust) {
   return out;
 }
 
-void add_effort(CsvTable& table, const run_store::RunReader& run) {
-  const auto json = SummaryJson::parse(run.summary_text());
-  table.add("end_time [s]", number(number_in(json, "end_time")));
-  table.add("steps", std::to_string(count_in(json, "steps")));
+void add_effort(SummaryCells& cells, const std::string& summary) {
+  const auto json = SummaryJson::parse(summary);
+  add(cells, "end_time [s]", number(number_in(json, "end_time")));
+  add(cells, "steps", std::to_string(count_in(json, "steps")));
   long solves = 0;
   if (const auto bodies = json.find("bodies"); bodies != json.end() && bodies->is_object()) {
     for (const auto& body : *bodies) solves += body.is_object() ? count_in(body, "solves") : 0;
   }
-  table.add("solves", std::to_string(solves));
+  add(cells, "solves", std::to_string(solves));
   if (json.contains("energy_error") && json["energy_error"].is_number()) {
-    table.add("energy_error", number(json["energy_error"].get<double>()));
+    add(cells, "energy_error", number(json["energy_error"].get<double>()));
   }
-  if (json.contains("trust")) table.add("trust", trust_in(json["trust"]));
+  if (json.contains("trust")) add(cells, "trust", trust_in(json["trust"]));
 }
 
-void add_sensors(CsvTable& table, const run_store::RunReader& run) {
+void add_channel(SummaryCells& cells, const results::Channel& channel,
+                 const std::vector<Extremes>& extremes) {
+  const std::vector<std::string> names = run_store::csv_column_names(channel);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    add(cells, names[k] + " last", number(extremes[k].last));
+    add(cells, names[k] + " min", number(extremes[k].least));
+    add(cells, names[k] + " max", number(extremes[k].most));
+  }
+}
+
+SummaryCells cells_of_run(const run_store::RunReader& run) {
+  SummaryCells cells;
+  add_effort(cells, run.summary_text());
   for (const results::Channel& channel : run.layout().channels()) {
-    if (!channel.path.starts_with("sensors/")) continue;
+    if (!is_sensor(channel)) continue;
     const std::vector<double> values = run.read(channel.path);
     const std::size_t size = channel.size();
     if (values.size() < size) continue;
-    const std::vector<std::string> names = run_store::csv_column_names(channel);
-    for (std::size_t k = 0; k < size; ++k) {
-      double least = values[k], most = values[k], last = values[k];
-      for (std::size_t at = k; at < values.size(); at += size) {
-        last = values[at];
-        least = std::min(least, last);
-        most = std::max(most, last);
-      }
-      table.add(names[k] + " last", number(last));
-      table.add(names[k] + " min", number(least));
-      table.add(names[k] + " max", number(most));
-    }
+    std::vector<Extremes> extremes(size);
+    for (std::size_t k = 0; k < values.size(); ++k) extremes[k % size].see(values[k]);
+    add_channel(cells, channel, extremes);
   }
+  return cells;
 }
 
 }  // namespace
 
-std::string sweep_summary_csv(const std::filesystem::path& out, const SweepTable& table,
-                              const SweepOutcome& outcome) {
-  CsvTable csv;
+void SensorExtremes::begin(const results::RecordLayout& layout, const results::Geometry&) {
+  for (std::size_t c = 0; c < layout.channels().size(); ++c) {
+    if (is_sensor(layout.channel(c))) {
+      const results::Channel& channel = layout.channel(c);
+      sensors_.push_back({channel, layout.offset(c), std::vector<Extremes>(channel.size())});
+    }
+  }
+  // As a file of results lists them.
+  std::sort(sensors_.begin(), sensors_.end(),
+            [](const Sensor& a, const Sensor& b) { return a.channel.path < b.channel.path; });
+}
+
+void SensorExtremes::write(const results::Record& record) {
+  ++num_records_;
+  for (Sensor& sensor : sensors_) {
+    for (std::size_t k = 0; k < sensor.extremes.size(); ++k) {
+      sensor.extremes[k].see(record.values[sensor.offset + k]);
+    }
+  }
+}
+
+SummaryCells SensorExtremes::cells(const results::RunSummary& summary) const {
+  SummaryCells cells;
+  add_effort(cells, run_store::summary_json(summary, "", ""));
+  for (const Sensor& sensor : sensors_) {
+    if (num_records_ > 0) add_channel(cells, sensor.channel, sensor.extremes);
+  }
+  return cells;
+}
+
+SummaryCells summary_cells(const SweepTable& table, const Variant& variant,
+                           const VariantOutcome& outcome) {
+  SummaryCells cells;
+  add(cells, "name", variant.name);
+  for (std::size_t k = 0; k < table.paths.size(); ++k) {
+    add(cells, table.paths[k], variant.values[k]);
+  }
+  add(cells, "status", to_string(outcome.status));
+  add(cells, "message", outcome.message);
+  return cells;
+}
+
+SummaryTable sweep_summary(const std::filesystem::path& out, const SweepTable& table,
+                           const SweepOutcome& outcome) {
+  SummaryTable summary;
   for (std::size_t v = 0; v < table.variants.size(); ++v) {
     const VariantOutcome& variant = outcome.variants[v];
-    csv.begin_row();
-    csv.add("name", variant.name);
-    for (std::size_t k = 0; k < table.paths.size(); ++k) {
-      csv.add(table.paths[k], table.variants[v].values[k]);
+    SummaryCells cells = summary_cells(table, table.variants[v], variant);
+    if (variant.status == VariantStatus::done || variant.status == VariantStatus::kept) {
+      const SummaryCells found = cells_of_run(run_store::RunReader(out / variant.name));
+      cells.insert(cells.end(), found.begin(), found.end());
     }
-    csv.add("status", to_string(variant.status));
-    csv.add("message", variant.message);
-    if (variant.status != VariantStatus::done && variant.status != VariantStatus::kept) continue;
-    const run_store::RunReader run(out / variant.name);
-    add_effort(csv, run);
-    add_sensors(csv, run);
+    summary.add_row(cells);
   }
-  return csv.text();
+  return summary;
 }
 
 }  // namespace buckens::sweep

@@ -37,7 +37,7 @@ void check_name(const std::string& name, const SourceLocation& where) {
       std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == '+' || c == '=';
       });
-  if (name == kSweepName) {
+  if (name == kSweepName || name == kSweepHdf5Name) {
     throw InputError(where, fmt::format("\"{}\" is the name of the table that the sweep writes; "
                                         "choose another for the run directory",
                                         name));

@@ -81,11 +81,7 @@ class Sweep {
     // Errors without any variant do not concern the variants.
     const model::ModelDescription base =
         model_file::read_model_file(model, overrides, step_meshes_);
-    if (!base.simulation) {
-      throw InputError(base.where,
-                       "there is no `simulation:`, so it is not known how far to simulate. Add for "
-                       "instance `simulation: {duration: 1 s, step: 1 ms}`.");
-    }
+    if (!base.simulation) throw InputError(base.where, kNoSimulation);
     make_directory();
     for (std::size_t begin = 0; begin < table_.variants.size() && !stopped_;) {
       begin = run_wave(begin);

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`buckens sweep --shard` and `--merge`: a sweep in parts, as job arrays run it, is the sweep."""
+
+import csv
+import json
+import signal
+import time
+
+import pytest
+
+RANGES = ("--vary", "gravity.1=[-9.81 m/s^2, -1.62 m/s^2, 0]", "--vary", "simulation.duration=[10 ms, 20 ms]")
+# Too large for a dense inverse.
+BLOCK = """
+buckens: 1
+parameters: {E: 1e8 Pa, g: 9.81 m/s^2}
+gravity: [0, "-g", 0]
+materials: {soft: {E: E, nu: 0.3, rho: 1000 kg/m^3}}
+bodies: {block: {mesh: {box: {size: [1 m, 0.1 m, 0.1 m], divisions: [8, 4, 4]}, material: soft}}}
+joints: {pin: {spherical: {between: [ground, block/face_x0]}}}
+simulation: {duration: 0.4 ms, step: 0.2 ms}
+"""
+
+
+def test_parts_make_the_table_of_the_whole(buckens, models, tmp_path):
+    model = models / "pendulum.yaml"
+    buckens("sweep", model, *RANGES, "-o", "whole", "-q").must(0)
+    for shard in ("3/4", "1/4", "4/4", "2/4"):
+        told = buckens("sweep", model, *RANGES, "-o", "parts", "--shard", shard, "--json").must(0)
+        assert len(told.json["variants"]) in (1, 2)
+        assert told.json["table"].endswith(f".parts/{shard.replace('/', '-of-')}.json")
+    assert not (tmp_path / "parts" / "sweep.csv").exists()
+    buckens("sweep", "--merge", "parts").must(0)
+    whole = (tmp_path / "whole" / "sweep.csv").read_text()
+    assert (tmp_path / "parts" / "sweep.csv").read_text() == whole
+    # Everything again: nothing is computed twice, and the table is the same.
+    for shard in ("1/4", "2/4", "3/4", "4/4"):
+        told = buckens("sweep", model, *RANGES, "-o", "parts", "--shard", shard, "--json").must(0)
+        assert {variant["status"] for variant in told.json["variants"]} == {"kept"}
+    merged = buckens("sweep", "--merge", "parts", "--json").must(0).json
+    assert [variant["name"] for variant in merged["variants"]] == [f"{k:03}" for k in range(1, 7)]
+    assert (tmp_path / "parts" / "sweep.csv").read_text() == whole.replace(",done,", ",kept,")
+
+
+def test_the_table_is_there_as_hdf5_too(buckens, models, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    buckens("sweep", models / "pendulum.yaml", *RANGES, "-o", "out", "-q").must(0)
+    rows = list(csv.DictReader((tmp_path / "out" / "sweep.csv").open()))
+    with h5py.File(tmp_path / "out" / "sweep.h5") as file:
+        columns = {data.attrs["column"]: data for data in file.values()}
+        assert {key.decode() if isinstance(key, bytes) else key for key in columns} == set(rows[0])
+        assert file["tip.x last"].attrs["unit"] in ("m", b"m")
+        assert list(file["tip.x last"][:]) == [float(row["tip.x [m] last"]) for row in rows]
+        assert [name.decode() for name in file["name"][:]] == [row["name"] for row in rows]
+
+
+def test_variants_with_one_factor_share_a_shard(buckens, tmp_path):
+    """The table alternates between two materials; each shard makes one factor."""
+    (tmp_path / "block.yaml").write_text(BLOCK)
+    ranges = ("--vary", "parameters.g=[9.81 m/s^2, 0, 1]", "--vary", "parameters.E=[1e8 Pa, 2e8 Pa]")
+    names = []
+    for shard in ("1/2", "2/2"):
+        told = buckens("sweep", "block.yaml", *ranges, "-o", "out", "--shard", shard, "--json").must(0)
+        names.append([variant["name"] for variant in told.json["variants"]])
+        assert told.json["factorisations"] == 1
+    assert names == [["001", "003", "005"], ["002", "004", "006"]]
+
+
+def test_reasons_of_failures_are_in_the_table(buckens, models, tmp_path):
+    ranges = ("--vary", "bodies.beam.beam.elements=[2, -1, 4]")
+    codes = [buckens("sweep", models / "beam.yaml", *ranges, "-o", "out", "--shard", f"{k}/3", "-q").code
+             for k in (1, 2, 3)]
+    assert sorted(codes) == [0, 0, 4]
+    buckens("sweep", "--merge", "out").must(4)
+    rows = list(csv.DictReader((tmp_path / "out" / "sweep.csv").open()))
+    assert [row["status"] for row in rows] == ["done", "failed", "done"]
+    assert "elements" in rows[1]["message"] and "-1" in rows[1]["message"]
+
+
+def test_a_killed_shard_goes_on(buckens, start, models, tmp_path):
+    steps = ("--vary", "gravity.1=[" + ", ".join(map(str, range(1, 31))) + "]", "--set", "simulation.step=20 us")
+    call = ("sweep", models / "pendulum.yaml", *steps, "-o", "out", "--shard", "1/2", "--together", "1", "--json")
+    process = start(*call)
+    for _ in range(2000):
+        if (tmp_path / "out" / "003" / "summary.json").exists():
+            break
+        time.sleep(0.01)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    buckens("sweep", "--merge", "out").must(2, "parts")
+    again = buckens(*call).must(0).json
+    statuses = [variant["status"] for variant in again["variants"]]
+    assert len(statuses) == 15 and statuses[:2] == ["kept", "kept"] and set(statuses) <= {"kept", "done"}
+    buckens("sweep", "--merge", "out").must(2, "1 of 2 shards", "2/2")
+
+
+def test_says_what_is_wrong(buckens, models, tmp_path):
+    model = models / "pendulum.yaml"
+    for shard in ("0/4", "5/4", "half", "2"):
+        buckens("sweep", model, *RANGES, "--shard", shard).must(2, "--shard", "3/8")
+    (tmp_path / "empty").mkdir()
+    buckens("sweep", "--merge", "empty").must(2, "no parts", "--shard I/N")
+    buckens("sweep", "--merge", "nowhere").must(2, "no parts")
+    buckens("sweep", model, "--merge", "out").must(2, "--merge OUT")
+    buckens("sweep").must(2, "MODEL")
+    (tmp_path / "table.csv").write_text("simulation.duration\n")
+    buckens("sweep", model, "table.csv", "--shard", "1/2").must(2, "no variants")
+    # More shards than variants: some have nothing to do.
+    for k in range(1, 10):
+        buckens("sweep", model, *RANGES, "-o", "many", "--shard", f"{k}/9", "-q").must(0)
+    buckens("sweep", "--merge", "many", "-q").must(0)
+    # Parts of another table.
+    buckens("sweep", model, "--vary", "gravity.1=[1, 2]", "-o", "many", "--shard", "2/9", "-q").must(0)
+    buckens("sweep", "--merge", "many").must(2, "2-of-9", "another model or table")
+    part = tmp_path / "many" / ".parts" / "1-of-9.json"
+    part.write_text(json.dumps({"shard": 1}))
+    buckens("sweep", "--merge", "many").must(5, "1-of-9", "remove it")
