@@ -71,6 +71,7 @@ FILES = {
     "docs/tutorials/meshes.md": {"part.msh": "", "housing.inp": "examples/bracket_inp/bracket.inp",
                                  "rod.step": "examples/connecting_rod/rod.step"},
     "docs/tutorials/results.md": {"rod.yaml": README_MODEL},
+    "docs/tutorials/studies.md": {"slider_crank.yaml": CRANK, "variants.csv": VARIANTS},
     "docs/tutorials/sweeps.md": {"slider_crank.yaml": CRANK, "variants.csv": VARIANTS},
     "docs/tutorials/viewer.md": {"MODEL.yaml": CRANK},
 }
@@ -94,6 +95,8 @@ def is_grammar(block):
 def shortened(words, folder):
     """`run` and `sweep` with a few steps."""
     if words[0] not in ("run", "sweep") or "--error" in words:
+        return words
+    if words[1] == "--merge":
         return words
     if words[1] == "--continue":  # what has ended can go on only further
         return words if "--until" in words else [*words, "--until", "0.01"]

@@ -8,6 +8,7 @@
 #include "bindings/exceptions.h"
 #include "bindings/messages.h"
 #include "bindings/simulation_handle.h"
+#include "bindings/studies.h"
 
 #include "buckens/base/version.h"
 #include "buckens/linalg/blas_kernels.h"
@@ -122,4 +123,5 @@ PYBIND11_MODULE(_core, core) {
   core.def("take_messages", &python::messages_as_list);
   python::define_model(core);
   python::define_simulation(core);
+  python::define_studies(core);
 }

@@ -10,7 +10,7 @@
 All numbers are in SI units; messages of the library go to the logger "buckens".
 """
 
-from . import _core
+from . import _core, study
 from .array_mesh import ArrayMesh
 from .curve import Curve
 from .errors import DifferenceError, Error, InputError, IoError, ModelError, NumericalError
@@ -27,4 +27,4 @@ from .yaml_text import to_yaml
 __version__: str = _core.version
 __all__ = ["ArrayMesh", "Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "Model",
            "ModelError", "NumericalError", "ResultMesh", "Results", "RunPage", "Simulation", "check", "compare", "convert",
-           "load", "mesh_info", "modes", "open", "static", "sweep", "to_yaml", "view"] + _parts
+           "load", "mesh_info", "modes", "open", "static", "study", "sweep", "to_yaml", "view"] + _parts

@@ -8,11 +8,15 @@ or the name of a model file.
 from __future__ import annotations
 
 import os
+import tempfile
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 from .model import Overrides, PathLike, overrides_of
 from .program import ModelLike, call, file_of
-from .yaml_text import _flow
+from .study_progress import ProgressLike
+from .study_runs import sweep_on
+from .study_tables import TableLike, is_frame, ranges_of, write_frame
+from .study_workers import ExecutorLike
 
 Quantity = Union[str, float]
 
@@ -62,26 +66,54 @@ def static(model: ModelLike, out: PathLike, set: Overrides = None) -> Dict[str, 
         return call("static", [path, *_options(out=out), *_changes(set)])
 
 
-def sweep(model: ModelLike, table: Union[PathLike, Mapping[str, Sequence[Any]]], out: PathLike,
-          together: Optional[int] = None, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
-    """Runs variants of a model, each into a directory below ``out``.
+def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[int] = None,
+          set: Overrides = None, executor: Optional[ExecutorLike] = None, progress: ProgressLike = False,  # noqa: A002
+          workers: Optional[int] = None) -> Dict[str, Any]:
+    """Runs variants of a model.
+
+    Without an executor the program runs them here, each into a directory below ``out``. With one they are
+    handed to its workers, which keep no directories, only the rows of the table; see docs/tutorials/studies.md.
 
     Parameters
     ----------
     table
-        A CSV file with a row per variant, or values by path, of which all combinations are run:
-        ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
+        A CSV file with a row per variant, a pandas.DataFrame, or values by path, of which all combinations
+        are run: ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
     together
         Variants that advance side by side.
+    executor
+        Who runs them: a number of processes, an executor of concurrent.futures or mpi4py.futures, a Client
+        of Dask, or a function that makes an executor, which is then replaced if it loses a process.
+    progress
+        True: lines on the standard error stream; a function: called with a :class:`buckens.study.Progress`.
+    workers
+        How many there are, where the executor does not tell.
+
+    Returns
+    -------
+    dict
+        ``["table"]`` is the table in CSV, ``["variants"]`` a list with ``name``, ``status`` and, of those that
+        failed, ``message``.
+
+    Raises
+    ------
+    InputError, IoError
+        For what concerns all variants: a bad table, a model that a worker cannot see, workers of other
+        versions. The same call later keeps what is finished.
     """
-    if isinstance(table, Mapping):
-        variants = [word for key, values in table.items()
-                    for word in ("--vary", f"{key}={_flow(list(values), key)}")]
-    else:
-        variants = [os.fspath(table)]
-    with file_of(model) as path:
-        return call("sweep", [path, *variants, *_options(out=out, together=together),
-                              *_changes(set)])
+    if executor is not None:
+        return sweep_on(executor, model, table, out, together, set, progress, workers)
+    with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
+        if isinstance(table, Mapping):
+            variants = [word for change in ranges_of(table) for word in ("--vary", change)]
+        elif is_frame(table):
+            variants = [os.path.join(folder, "table.csv")]
+            write_frame(table, variants[0])
+        else:
+            variants = [os.fspath(table)]
+        with file_of(model) as path:
+            return call("sweep", [path, *variants, *_options(out=out, together=together),
+                                  *_changes(set)])
 
 
 def compare(first: PathLike, second: PathLike, tolerance: Optional[float] = None,

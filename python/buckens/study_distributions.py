@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Quantities that vary: distributions with units."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Dict, List, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .errors import InputError
+
+Array = npt.NDArray[np.float64]
+Quantity = Union[str, float]
+
+
+class Distribution:
+    """A quantity that varies. Made by :func:`uniform`, :func:`normal`, :func:`lognormal`, :func:`triangular` or from text.
+
+    Attributes
+    ----------
+    kind
+        Its name.
+    parameters
+        In the unit as written.
+    unit
+        "mm"; empty for SI or pure numbers.
+    """
+
+    def __init__(self, kind: str, parameters: Sequence[float], unit: str) -> None:
+        self.kind, self.parameters, self.unit = kind, tuple(float(value) for value in parameters), unit
+
+    def at(self, shares: Any) -> Array:
+        """The values below which given shares (0 to 1) of all values lie, in the unit as written."""
+        from scipy import stats
+
+        # Shares of exactly 0 or 1, which designs may hold, would be infinitely far away.
+        p = np.clip(np.asarray(shares, dtype=np.float64), 1e-12, 1 - 1e-12)
+        a, b = self.parameters[:2]
+        if self.kind == "uniform":
+            return np.asarray(a + (b - a) * p)
+        if self.kind == "normal":
+            return np.asarray(stats.norm.ppf(p, a, b))
+        if self.kind == "lognormal":
+            return np.asarray(a * np.exp(b * stats.norm.ppf(p)))
+        low, peak, high = self.parameters
+        return np.asarray(stats.triang.ppf(p, (peak - low) / (high - low), low, high - low))
+
+    def texts(self, values: Any) -> List[str]:
+        """Values as a model file has them: all their digits, and the unit."""
+        return [f"{float(value)!r} {self.unit}".rstrip() for value in values]
+
+    def __repr__(self) -> str:
+        numbers = ", ".join(f"{value:g}" for value in self.parameters)
+        return f"<{self.kind} distribution {numbers}{' ' + self.unit if self.unit else ''}>"
+
+
+def uniform(low: Quantity, high: Quantity) -> Distribution:
+    """All values from `low` to `high` alike: ``uniform("9 mm", "11 mm")``."""
+    (a, b), unit = _in_one_unit(low, high)
+    if not a < b:
+        raise InputError(f"uniform: expected low < high, found {low!r} and {high!r}")
+    return Distribution("uniform", (a, b), unit)
+
+
+def normal(mean: Quantity, deviation: Quantity) -> Distribution:
+    """The normal distribution with a mean and a standard deviation."""
+    (a, b), unit = _in_one_unit(mean, deviation)
+    if not b > 0:
+        raise InputError(f"normal: expected a standard deviation above 0, found {deviation!r}")
+    return Distribution("normal", (a, b), unit)
+
+
+def lognormal(median: Quantity, deviation: float) -> Distribution:
+    """Values whose logarithm is distributed normally, with a standard deviation of that logarithm (0.1 is about 10 %)."""
+    (a,), unit = _in_one_unit(median)
+    if not (a > 0 and deviation > 0):
+        raise InputError(f"lognormal: expected a median and a deviation above 0, found {median!r} and {deviation!r}")
+    return Distribution("lognormal", (a, deviation), unit)
+
+
+def triangular(low: Quantity, peak: Quantity, high: Quantity) -> Distribution:
+    """Values from `low` to `high`, most of them near `peak`."""
+    (a, b, c), unit = _in_one_unit(low, peak, high)
+    if not (a <= b <= c and a < c):
+        raise InputError(f"triangular: expected low <= peak <= high, found {low!r}, {peak!r} and {high!r}")
+    return Distribution("triangular", (a, b, c), unit)
+
+
+_RANGE = re.compile(r"(.+?)\s+(?:\+-|\+/-|±)\s*(.+)|(.+?)\s+(?:to|…|\.\.\.)\s+(.+)")
+
+
+def distribution_of(path: str, given: Any) -> Distribution:
+    """A distribution, or its text: "10 mm +- 0.1 mm" (normal, the standard deviation after the sign), "9 mm to 11 mm"
+    (uniform). A tolerance within which all values lie is written as a range.
+
+    Raises
+    ------
+    InputError
+        Naming the path.
+    """
+    if isinstance(given, Distribution):
+        return given
+    if isinstance(given, str):
+        match = _RANGE.fullmatch(given.strip())
+        try:
+            if match is not None and match[1] is not None:
+                return normal(_with_unit_of(match[1], match[2]), _with_unit_of(match[2], match[1]))
+            if match is not None:
+                return uniform(_with_unit_of(match[3], match[4]), _with_unit_of(match[4], match[3]))
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from None
+    raise InputError(f"{path}: expected a distribution, such as \"10 mm +- 0.1 mm\", \"9 mm to 11 mm\" or "
+                     f"buckens.study.triangular(...), found {given!r}")
+
+
+def _with_unit_of(one: str, other: str) -> str:
+    """The unit may be written once: "10 +- 0.1 mm"; a share of the other value in percent: "10 mm +- 2 %"."""
+    number, unit, factor, _ = _core.quantity(one)
+    value, with_unit, _, _ = _core.quantity(other)
+    if unit == "%" and with_unit != "%":
+        return f"{abs(value) * number * factor!r} {with_unit}".rstrip()
+    return one if unit or not with_unit or with_unit == "%" else f"{one} {with_unit}"
+
+
+def _in_one_unit(*quantities: Quantity) -> Tuple[List[float], str]:
+    """Numbers in the unit of the first, and that unit."""
+    parts = [_core.quantity(text) if isinstance(text, str) else (float(text), "", 1.0, "") for text in quantities]
+    _, unit, factor, dimension = parts[0]
+    for text, (_, _, _, other) in zip(quantities, parts):
+        if other != dimension:
+            raise InputError(f"{quantities[0]!r} is in {dimension or 'pure numbers'}, {text!r} in {other or 'pure numbers'}; "
+                             "write both in units of one kind")
+    return [number * (size / factor if size != factor else 1.0) for number, _, size, _ in parts], unit
+
+
+def distributions_of(quantities: Dict[str, Any]) -> Dict[str, Distribution]:
+    if not quantities:
+        raise InputError("there is nothing that varies; give distributions by path, {\"parameters.L\": \"1 m +- 1 mm\"}")
+    return {path: distribution_of(path, given) for path, given in quantities.items()}

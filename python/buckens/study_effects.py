@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a study says: mean and quantiles of results, main effects, Sobol indices, a picture."""
+
+from __future__ import annotations
+
+import csv
+import os
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from .errors import InputError
+from .model import PathLike
+from .study_distributions import Array
+from .study_sampling import Samples
+
+#: What :func:`buckens.sweep` returns, or the directory or table that it has written.
+SweepLike = Union[Mapping[str, Any], PathLike]
+
+
+def results(sweep: SweepLike, column: str) -> Array:
+    """A column of the table of a sweep as numbers, a row per variant; NaN where a variant failed.
+
+    Parameters
+    ----------
+    column
+        "tip.y [m] max"; the unit may be left out: "tip.y max".
+
+    Raises
+    ------
+    InputError
+        Naming the columns there are.
+    """
+    path = os.fspath(sweep["table"] if isinstance(sweep, Mapping) else sweep)
+    if os.path.isdir(path):
+        path = os.path.join(path, "sweep.csv")
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    names = list(rows[0]) if rows else []
+    found = [name for name in names if column in (name, _without_unit(name))]
+    if not found:
+        raise InputError(f"{path}: there is no column {column!r}; there are {', '.join(names)}")
+    try:
+        return np.array([float(row[found[0]] or "nan") for row in rows])
+    except ValueError:
+        raise InputError(f"{path}: the column {found[0]!r} does not hold numbers") from None
+
+
+def _without_unit(name: str) -> str:
+    before, bracket, rest = name.partition(" [")
+    return before + rest.partition("]")[2] if bracket else name
+
+
+class Statistics(NamedTuple):
+    """Of one result over a study."""
+
+    num_values: int     # of variants that ended well
+    mean: float
+    deviation: float    # standard deviation
+    mean_error: float   # standard error of the mean, if samples were independent
+    quantiles: Dict[float, float]
+
+
+def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95)) -> Statistics:
+    """Mean, standard deviation and quantiles, without variants that failed (NaN)."""
+    good = _good(np.asarray(values, dtype=np.float64))
+    deviation = float(np.std(good, ddof=1)) if len(good) > 1 else 0.0
+    return Statistics(len(good), float(np.mean(good)), deviation, deviation / float(np.sqrt(len(good))),
+                      {share: float(np.quantile(good, share)) for share in quantiles})
+
+
+def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Array]:
+    """How the mean of a result goes with each quantity alone.
+
+    Returns
+    -------
+    dict
+        By path an array (bins, 2): mean of the quantity, in its unit, and mean of the result over the variants of a bin.
+        Bins hold equally many variants; a quantity with fewer values has one for each.
+    """
+    results_ = _rows(samples, values)
+    out = {}
+    for path, column in zip(samples.columns, samples.values.T):
+        parts = [np.flatnonzero(column == value) for value in np.unique(column)]
+        if len(parts) > bins:
+            parts = np.array_split(np.argsort(column, kind="stable"), bins)
+        means = []
+        for part in parts:
+            part = part[np.isfinite(results_[part])]
+            if len(part):
+                means.append((float(np.mean(column[part])), float(np.mean(results_[part]))))
+        out[path] = np.array(means)
+    return out
+
+
+class SobolIndices(NamedTuple):
+    """Shares of the variance of a result by quantity.
+
+    Attributes
+    ----------
+    first
+        What a quantity contributes by itself.
+    total
+        The same with all that it contributes together with others.
+    first_error, total_error
+        Half widths of intervals of 95 %, by resampling.
+    """
+
+    first: Dict[str, float]
+    total: Dict[str, float]
+    first_error: Dict[str, float]
+    total_error: Dict[str, float]
+
+
+def sobol_indices(samples: Samples, values: Any, resamples: int = 200, seed: int = 0) -> SobolIndices:
+    """Sobol indices from a design of :func:`buckens.study.sensitivity`.
+
+    First-order indices by the estimator of Saltelli et al. (2010), total ones by that of Jansen (1999). Rows with a
+    variant that failed are left out together with their partners.
+    """
+    if samples.kind != "sensitivity":
+        raise InputError(f"sobol_indices: the samples are of the kind {samples.kind!r}; make them by buckens.study.sensitivity")
+    parts = _rows(samples, values).reshape(-1, samples.base)
+    parts = parts[:, np.all(np.isfinite(parts), axis=0)]
+    if parts.shape[1] < 2:
+        raise InputError("sobol_indices: fewer than two rows of the design ended well in all their variants")
+    first, total = _indices(parts)
+    engine = np.random.default_rng(seed)
+    drawn = [_indices(parts[:, engine.integers(0, parts.shape[1], parts.shape[1])]) for _ in range(resamples)]
+    errors = [1.96 * np.std([pair[k] for pair in drawn], axis=0) if resamples > 1 else np.zeros(len(first)) for k in (0, 1)]
+    by_path = [dict(zip(samples.columns, map(float, numbers))) for numbers in (first, total, *errors)]
+    return SobolIndices(*by_path)
+
+
+def _indices(parts: Array) -> "tuple[Array, Array]":
+    """Rows: results of A, of B, and of A with one column from B each."""
+    # The mean is taken off: it does not change the indices, but what their estimators lose to chance.
+    centred = parts - np.mean(parts[:2])
+    a, b, mixed = centred[0], centred[1], centred[2:]
+    variance = np.var(centred[:2])
+    if variance <= 1e-30 * max(float(np.max(np.abs(parts))) ** 2, 1e-300):
+        return np.zeros(len(mixed)), np.zeros(len(mixed))
+    first = np.mean(b * (mixed - a), axis=1) / variance
+    total = np.mean((a - mixed) ** 2, axis=1) / (2 * variance)
+    return first, total
+
+
+def _rows(samples: Samples, values: Any) -> Array:
+    out = np.asarray(values, dtype=np.float64)
+    if out.shape != (len(samples),):
+        raise InputError(f"expected a result for each of the {len(samples)} samples, found an array of shape {out.shape}")
+    return out
+
+
+def _good(values: Array) -> Array:
+    good: Array = values[np.isfinite(values)]
+    if not len(good):
+        raise InputError("no variant has a result")
+    return good
+
+
+def picture(samples: Samples, values: Any, label: str = "result", file: Optional[PathLike] = None) -> Any:
+    """A figure of matplotlib: how often values occur, with mean and quantiles; each quantity against the result, with its
+    main effect; and Sobol indices, if the design allows them."""
+    import matplotlib
+    matplotlib.use("agg") if file is not None else None
+    import matplotlib.pyplot as plt
+
+    results_ = _rows(samples, values)
+    told = statistics(results_)
+    has_indices = samples.kind == "sensitivity"
+    count = 1 + len(samples.columns) + has_indices
+    columns = min(count, 3)
+    rows = -(-count // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(4.2 * columns, 3.2 * rows), squeeze=False, layout="constrained")
+    places = list(axes.ravel())
+    _draw_distribution(places[0], _good(results_), told, label)
+    for place, (path, effect) in zip(places[1:], main_effects(samples, results_).items()):
+        unit = samples.units[path]
+        place.plot(samples.values[:, samples.columns.index(path)], results_, ".", markersize=3, alpha=0.5)
+        place.plot(effect[:, 0], effect[:, 1], "o-", color="C1")
+        place.set_xlabel(f"{path} [{unit}]" if unit else path)
+        place.set_ylabel(label)
+    if has_indices:
+        _draw_indices(places[1 + len(samples.columns)], sobol_indices(samples, results_))
+    for place in places[count:]:
+        place.set_axis_off()
+    if file is not None:
+        figure.savefig(os.fspath(file))
+        plt.close(figure)
+    return figure
+
+
+def _draw_distribution(place: Any, good: Array, told: Statistics, label: str) -> None:
+    place.hist(good, bins=min(40, max(5, int(np.sqrt(len(good))))), color="0.8")
+    place.axvline(told.mean, color="C1", label=f"mean {told.mean:.4g}")
+    for share in (0.05, 0.5, 0.95):
+        place.axvline(told.quantiles[share], linestyle="--", color="C0", label=f"{100 * share:.0f} % {told.quantiles[share]:.4g}")
+    place.set_xlabel(label)
+    place.set_ylabel("variants")
+    place.legend(fontsize="small")
+
+
+def _draw_indices(place: Any, indices: SobolIndices) -> None:
+    names: List[str] = list(indices.first)
+    at = np.arange(len(names))
+    place.bar(at - 0.2, list(indices.first.values()), 0.4, yerr=list(indices.first_error.values()), label="first order")
+    place.bar(at + 0.2, list(indices.total.values()), 0.4, yerr=list(indices.total_error.values()), label="total")
+    place.set_xticks(at, [name.rpartition(".")[2] for name in names])
+    place.set_ylabel("share of the variance")
+    place.legend(fontsize="small")

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The best variant: minima of results over ranges of quantities, by way of sweeps."""
+
+from __future__ import annotations
+
+import pathlib
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional
+
+import numpy as np
+
+from .errors import InputError
+from .model import Overrides, PathLike
+from .program import ModelLike
+from .study_distributions import Array, Distribution, distributions_of
+from .study_effects import results
+from .study_sampling import Samples
+from .study_workers import ExecutorLike
+from .verbs import sweep
+
+
+class Optimum(NamedTuple):
+    """Attributes: values by path, in the units of the ranges; the least result; number of variants run; SciPy's own answer."""
+
+    values: Dict[str, float]
+    result: float
+    num_variants: int
+    scipy: Any
+
+
+def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callable[[Mapping[str, Any]], Any]", out: PathLike,
+             executor: Optional[ExecutorLike] = None, population: int = 16, generations: int = 20, tolerance: float = 1e-3,
+             seed: int = 0, set: Overrides = None) -> Optimum:  # noqa: A002
+    """The values within ranges at which a result is least, by ``scipy.optimize.differential_evolution``.
+
+    Each generation is one sweep, so that its variants run side by side or on an executor.
+
+    Parameters
+    ----------
+    ranges
+        By path: ``{"parameters.L": "280 mm to 320 mm"}``.
+    result
+        A column of the table, "tip.y max"; or a function of what :func:`buckens.sweep` returns that gives a number per
+        variant. Variants that fail count as infinitely bad.
+    out
+        Directory; a folder per generation. The same call later goes through the finished ones at once.
+    population, generations, tolerance
+        Variants per generation, at most so many generations, and the spread of results (relative) at which it ends.
+    """
+    from scipy.optimize import differential_evolution
+
+    distributions = distributions_of(dict(ranges))
+    for path, distribution in distributions.items():
+        if distribution.kind != "uniform":
+            raise InputError(f"{path}: expected a range, such as \"9 mm to 11 mm\", found {distribution!r}")
+    bounds = [distribution.parameters[:2] for distribution in distributions.values()]
+    if population < 5 * len(bounds):
+        population = 5 * len(bounds)
+    folder = pathlib.Path(out)
+    sizes: List[int] = []
+
+    def generation(points: Array) -> Array:
+        table = np.atleast_2d(points.T)
+        place = folder / f"{len(sizes):03}"
+        sizes.append(len(table))
+        return _run(model, distributions, table, result, place, executor, set)
+
+    start = _start(bounds, population, seed)
+    answer = differential_evolution(generation, bounds, maxiter=generations, init=start, tol=tolerance, seed=seed, polish=False,
+                                    updating="deferred", vectorized=True)
+    return Optimum(dict(zip(distributions, map(float, answer.x))), float(answer.fun), sum(sizes), answer)
+
+
+def _run(model: ModelLike, distributions: Dict[str, Distribution], table: Array, result: Any, place: pathlib.Path,
+         executor: Optional[ExecutorLike], set: Overrides) -> Array:  # noqa: A002
+    samples = Samples(distributions, table, "optimum")
+    done = sweep(model, samples, place, set=set, executor=executor)
+    values = results(done, result) if isinstance(result, str) else np.asarray(result(done), dtype=np.float64)
+    if values.shape != (len(table),):
+        raise InputError(f"the function `result` gave an array of shape {values.shape} for {len(table)} variants")
+    return np.where(np.isfinite(values), values, np.inf)
+
+
+def _start(bounds: List[Any], population: int, seed: int) -> Array:
+    from scipy.stats import qmc
+
+    low, high = np.array(bounds).T
+    return np.asarray(low + (high - low) * qmc.LatinHypercube(len(bounds), seed=seed).random(population))

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How far a study is: over all workers, time to go, what is slow."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+import sys
+import time
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+from .errors import InputError
+from .model import PathLike
+from .study_journal import FOLDER, STUDY, StudyJournal
+
+_INTERVAL = 2.0  # between lines [s]
+
+
+class Progress(NamedTuple):
+    """How far a study is.
+
+    Attributes
+    ----------
+    variants, done, failed, kept
+        All, those with a result, those without one, and those of `done` that an earlier call had finished.
+    running
+        Name, age [s] and worker of variants that are being run, the oldest first.
+    slowest
+        Name and duration [s] of the five that took longest.
+    seconds_each
+        Mean duration of a variant; None before the first.
+    under_way
+        Tasks that are handed out.
+    """
+
+    variants: int
+    done: int
+    failed: int
+    kept: int
+    running: List[Tuple[str, float, str]]
+    slowest: List[Tuple[str, float]]
+    seconds_each: Optional[float]
+    under_way: int
+
+    @classmethod
+    def of(cls, variants: int, kept: int, rows: Sequence[Dict[str, Any]], begun: Dict[str, Tuple[float, str]],
+           under_way: int) -> Progress:
+        failed = sum(1 for row in rows if ["status", "failed"] in [list(cell) for cell in row["cells"]])
+        times = [(str(row["cells"][0][1]), float(row["seconds"])) for row in rows]
+        slowest = sorted(times, key=lambda item: -item[1])[:5]
+        now = time.time()
+        running = sorted(((name, now - since, worker) for name, (since, worker) in begun.items()), key=lambda item: -item[1])
+        mean = sum(seconds for _, seconds in times) / len(times) if times else None
+        return cls(variants, len(rows) - failed, failed, kept, running, slowest, mean, under_way)
+
+    @property
+    def ended(self) -> int:
+        return self.done + self.failed
+
+
+ProgressLike = Union[bool, Callable[[Progress], object]]
+
+
+class ProgressDisplay:
+    """Lines on the standard error stream, or calls of a function, every two seconds."""
+
+    def __init__(self, progress: ProgressLike) -> None:
+        self._tell = progress
+        self._start = time.monotonic()
+        self._next = self._start
+        self._first: Optional[int] = None
+
+    def is_due(self) -> bool:
+        return bool(self._tell) and time.monotonic() >= self._next
+
+    def show(self, progress: Progress) -> None:
+        """Tells now; :meth:`is_due` says when it is time to."""
+        if self._first is None:
+            self._first = progress.ended
+        self._next = time.monotonic() + _INTERVAL
+        if callable(self._tell):
+            self._tell(progress)
+        else:
+            print(self.text(progress), file=sys.stderr, flush=True)
+
+    def text(self, progress: Progress) -> str:
+        new = progress.ended - (self._first or 0)
+        passed = time.monotonic() - self._start
+        left = passed / new * (progress.variants - progress.ended) if new else None
+        parts = [f"{progress.ended} of {progress.variants} variants", f"{progress.failed} failed"]
+        if left is not None:
+            parts.append(f"{new / passed:.1f} per second, {clock(left)} to go")
+        if progress.running and progress.seconds_each and progress.running[0][1] > 3 * progress.seconds_each + 1:
+            name, age, worker = progress.running[0]
+            parts.append(f"slow: {name} for {clock(age)} on {worker}")
+        return ", ".join(parts)
+
+
+def clock(seconds: float) -> str:
+    """A duration as people say it."""
+    minutes, rest = divmod(int(seconds + 0.5), 60)
+    hours, minutes = divmod(minutes, 60)
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
+
+
+def status(out: PathLike) -> Progress:
+    """How far a study is that runs in another process, or was stopped.
+
+    Raises
+    ------
+    InputError
+        If there is no study in this directory.
+    """
+    folder = pathlib.Path(out)
+    try:
+        about = json.loads((folder / FOLDER / STUDY).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        raise InputError(f"{folder}: there is no study here; give the directory `out` of a buckens.sweep with an "
+                         "executor") from None
+    journal = StudyJournal(folder, about["study"])
+    journal.read()
+    names = about["variants"]
+    rows = [row for key, row in journal.rows.items() if key in names]
+    begun = {names[key]: value for key, value in journal.begun.items() if key in names}
+    return Progress.of(len(names), 0, rows, begun, 0)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Samples of quantities that vary, as tables for :func:`buckens.sweep`."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, Optional, Sequence
+
+import numpy as np
+
+from .errors import InputError
+from .study_distributions import Array, Distribution, distributions_of
+
+
+class Samples:
+    """A design: rows of values by path, ready to be run by :func:`buckens.sweep` and to be judged by its makers.
+
+    Attributes
+    ----------
+    columns
+        Paths in the model file.
+    values
+        (rows, paths), in the units of the distributions.
+    units
+        By path.
+    kind
+        "grid", "latin-hypercube", "sobol" or "sensitivity".
+    """
+
+    def __init__(self, distributions: Mapping[str, Distribution], values: Array, kind: str, base: int = 0) -> None:
+        self.columns: List[str] = list(distributions)
+        self.values = values
+        self.units = {path: distribution.unit for path, distribution in distributions.items()}
+        self.kind = kind
+        self.base = base  # rows of each part of a design for sensitivities
+        self._distributions = dict(distributions)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def itertuples(self, index: bool = False, name: Optional[str] = None) -> Any:
+        """Rows as texts with units, as a pandas.DataFrame would give them."""
+        texts = [distribution.texts(column) for distribution, column in zip(self._distributions.values(), self.values.T)]
+        return zip(*texts)
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame of numbers, in the units of the distributions."""
+        import pandas
+
+        return pandas.DataFrame(self.values, columns=[f"{path} [{self.units[path]}]" if self.units[path] else path
+                                                      for path in self.columns])
+
+    def __repr__(self) -> str:
+        return f"<buckens.study.Samples: {len(self)} rows of {', '.join(self.columns)} ({self.kind})>"
+
+
+def grid(quantities: Mapping[str, Any], count: int = 5) -> Samples:
+    """All combinations of `count` values of each quantity, in the middle of ranges of equal probability."""
+    distributions = distributions_of(dict(quantities))
+    _check_count(count, 1, "count")
+    if count ** len(distributions) > 100_000:
+        raise InputError(f"grid: {count} values of {len(distributions)} quantities are {count ** len(distributions)} "
+                         "variants, more than 100000; take fewer, or a Latin hypercube")
+    shares = (np.arange(count) + 0.5) / count
+    tables = np.meshgrid(*[distribution.at(shares) for distribution in distributions.values()], indexing="ij")
+    return Samples(distributions, np.stack([table.ravel() for table in tables], axis=1), "grid")
+
+
+def latin_hypercube(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
+    """`count` rows that divide each quantity into as many ranges of equal probability and hold one value of each."""
+    from scipy.stats import qmc
+
+    distributions = distributions_of(dict(quantities))
+    _check_count(count, 1, "count")
+    return _from_shares(distributions, qmc.LatinHypercube(len(distributions), seed=seed).random(count), "latin-hypercube")
+
+
+def sobol(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
+    """The first `count` points of Sobol's sequence, scrambled: they fill the space more evenly than chance. A power of two
+    is best."""
+    distributions = distributions_of(dict(quantities))
+    _check_count(count, 1, "count")
+    return _from_shares(distributions, _sobol_points(len(distributions), count, seed), "sobol")
+
+
+def sensitivity(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
+    """A design from which :func:`sobol_indices` finds what each quantity contributes to the variance of a result.
+
+    Saltelli's: two independent samples A and B of `count` rows (a power of two), then for each quantity A with the
+    column of that quantity from B; count (quantities + 2) rows.
+    """
+    distributions = distributions_of(dict(quantities))
+    _check_count(count, 2, "count")
+    if count & (count - 1):
+        raise InputError(f"sensitivity: expected a power of two as count, found {count}; 64, 128 and 256 are some")
+    size = len(distributions)
+    points = _sobol_points(2 * size, count, seed)
+    first, second = points[:, :size], points[:, size:]
+    parts = [first, second]
+    for k in range(size):
+        mixed = first.copy()
+        mixed[:, k] = second[:, k]
+        parts.append(mixed)
+    return _from_shares(distributions, np.concatenate(parts), "sensitivity", count)
+
+
+def _from_shares(distributions: Dict[str, Distribution], shares: Array, kind: str, base: int = 0) -> Samples:
+    columns: Sequence[Array] = [distribution.at(column) for distribution, column in zip(distributions.values(), shares.T)]
+    return Samples(distributions, np.stack(columns, axis=1), kind, base)
+
+
+def _sobol_points(dimensions: int, count: int, seed: int) -> Array:
+    from scipy.stats import qmc
+
+    sequence = qmc.Sobol(dimensions, scramble=True, seed=seed)
+    # SciPy warns of counts that are no powers of two; the points are the same ones.
+    power = int(np.ceil(np.log2(max(count, 1))))
+    return np.asarray(sequence.random_base2(power)[:count])
+
+
+def _check_count(count: Any, least: int, what: str) -> None:
+    if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < least:
+        raise InputError(f"{what}: expected a whole number of at least {least}, found {count!r}")

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables of variants, from files, ranges and frames of pandas, as the library takes them."""
+
+from __future__ import annotations
+
+import csv
+import os
+import pathlib
+from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple, Union
+
+from . import _core
+from .errors import InputError
+from .model import PathLike
+from .yaml_text import _flow
+
+#: A CSV file, values by path (all combinations are run), or a pandas.DataFrame with a row per variant.
+TableLike = Union[PathLike, Mapping[str, Sequence[Any]], Any]
+
+
+class VariantTable(NamedTuple):
+    """Quantities of the model by path, and variants: name and values as text."""
+
+    paths: List[str]
+    variants: List[Tuple[str, List[str]]]
+
+
+def is_frame(table: Any) -> bool:
+    """Whether something is a pandas.DataFrame or looks like one."""
+    return hasattr(table, "columns") and hasattr(table, "itertuples")
+
+
+def ranges_of(table: Mapping[str, Sequence[Any]]) -> List[str]:
+    """Values by path as the program takes them after `--vary`."""
+    return [f"{path}={_flow(list(values), path)}" for path, values in table.items()]
+
+
+def write_frame(table: Any, file: PathLike) -> None:
+    """A frame as the table in CSV that the program reads; numbers keep all their digits."""
+    columns = [str(column) for column in table.columns]
+    if not len(table):
+        raise InputError("the table has no variants; give it a row per variant")
+    with open(file, "w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out)
+        writer.writerow(columns)
+        for row in table.itertuples(index=False, name=None):
+            writer.writerow([value if isinstance(value, str) else _flow(value, column)
+                             for column, value in zip(columns, row)])
+
+
+def table_of(table: TableLike, folder: pathlib.Path) -> VariantTable:
+    """The variants of any kind of table.
+
+    Parameters
+    ----------
+    folder
+        For the file in which a frame is handed to the library.
+
+    Raises
+    ------
+    InputError
+        For tables without variants, repeated names and the like.
+    """
+    if isinstance(table, Mapping):
+        if not table:
+            raise InputError("the table has no variants; give it values by path, "
+                             "{\"parameters.speed\": [100, 150]}")
+        return VariantTable(*_core.combinations(ranges_of(table)))
+    if is_frame(table):
+        file = folder / "table.csv"
+        write_frame(table, file)
+        return VariantTable(*_core.read_table(str(file)))
+    return VariantTable(*_core.read_table(os.fspath(table)))

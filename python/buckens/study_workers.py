@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Executors of any kind as the workers of a study: who they are, how many, and what their loss looks like."""
+
+from __future__ import annotations
+
+import concurrent.futures as cf
+import multiprocessing
+import os
+import time
+from typing import Any, Callable, Optional, Union
+
+from .errors import Error, InputError, IoError
+
+#: Number of processes here, an executor, a Client of Dask, or a function that makes an executor.
+ExecutorLike = Union[int, "cf.Executor", Callable[[], Any], Any]
+
+_PATIENCE = 60.0  # for a scheduler that does not answer [s]
+
+
+class Workers:
+    """Hands work to an executor, and gets another one where that is possible if it breaks."""
+
+    def __init__(self, executor: ExecutorLike, count: Optional[int] = None) -> None:
+        self._make: Optional[Callable[[], Any]] = None
+        self._is_own = True
+        if isinstance(executor, int) and not isinstance(executor, bool):
+            if not 1 <= executor <= 4096:
+                raise InputError(f"executor: expected 1 to 4096 processes, found {executor}")
+            processes = executor
+            # Not copies of this process, which may have threads.
+            self._make = lambda: cf.ProcessPoolExecutor(processes, multiprocessing.get_context("forkserver"))
+        elif not hasattr(executor, "submit") and callable(executor):
+            self._make = executor
+        elif hasattr(executor, "get_executor"):  # a Client of Dask
+            self._executor: Any = executor.get_executor(pure=False)
+            self._is_own = False
+        elif hasattr(executor, "submit"):
+            self._executor = executor
+            self._is_own = False
+        else:
+            raise InputError(f"executor: expected a number of processes or something with `submit`, such as an executor of "
+                             f"concurrent.futures or a Client of Dask, found {executor!r}")
+        if self._make is not None:
+            self._executor = self._make()
+        self._client: Any = executor if hasattr(executor, "get_executor") else getattr(executor, "_client", None)
+        self._asked = count
+
+    @property
+    def count(self) -> int:
+        """Tasks that run at the same time, as far as it is known."""
+        if self._asked:
+            return self._asked
+        if self._client is not None:
+            return max(1, sum(int(threads) for threads in self._client.nthreads().values()))
+        known = getattr(self._executor, "_max_workers", None) or getattr(self._executor, "num_workers", None)
+        return int(known) if known else os.cpu_count() or 1
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> "cf.Future[Any]":
+        """As the executor does; one that has broken is replaced first.
+
+        Raises
+        ------
+        IoError
+            If there is none any more.
+        """
+        deadline = time.monotonic() + _PATIENCE
+        while True:
+            try:
+                future: "cf.Future[Any]" = self._executor.submit(function, *arguments)
+                return future
+            except Exception as error:  # of a kind that only the executor knows
+                if self._make is not None:
+                    self._renew()
+                elif self._client is None or time.monotonic() > deadline or self._client.status == "closed":
+                    raise IoError(f"the executor takes no more work ({type(error).__name__}: {error}); call again with another "
+                                  "one: what is finished is kept") from error
+                if time.monotonic() > deadline:
+                    raise
+                time.sleep(0.2)
+
+    def _renew(self) -> None:
+        self._executor.shutdown(wait=False)
+        assert self._make is not None
+        self._executor = self._make()
+
+    def close(self, is_hurried: bool) -> None:
+        """Ends an executor that was made here."""
+        if self._is_own:
+            self._executor.shutdown(wait=not is_hurried, cancel_futures=True)
+
+
+def is_loss(future: "cf.Future[Any]") -> bool:
+    """Whether a task ended because its worker or its scheduler did, and not by an error of its own."""
+    if future.cancelled():
+        return True
+    error = future.exception()
+    if error is None or isinstance(error, (Error, ImportError)):
+        return False
+    if isinstance(error, (cf.BrokenExecutor, cf.CancelledError, ConnectionError, EOFError, BrokenPipeError)):
+        return True
+    # Those of Dask, which need not be installed here: KilledWorker, CommClosedError, FutureCancelledError.
+    return type(error).__module__.split(".")[0] == "distributed"
