@@ -94,6 +94,7 @@ def test_small_motions_of_a_pendulum(buckens):
     (["--about", "static"], 2, ["--about", "--system"]),
     (["--system", "--body", "fork"], 2, ["--system", "--body"]),
     (["--tolerance", "1"], 2, ["--tolerance"]),
+    (["--threads", "0"], 2, ["--threads"]),
 ])
 def test_errors_of_the_command_line(buckens, arguments, code, words):
     buckens("modes", FORK, *arguments).must(code, *words)
@@ -128,3 +129,5 @@ def test_thin_curved_shells_need_few_sweeps(buckens, tmp_path):
     assert frequencies(told)[:2] == pytest.approx(lowest, rel=5e-3)
     # Before the shift was judged more than once: 212.
     assert told["work"]["sweeps"] < 40
+    shared = buckens("modes", "tube.yaml", "--count", 6, "--threads", 2, "--json").must(0).json["analyses"][0]
+    assert shared["modes"] == told["modes"]

@@ -19,6 +19,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/files/output_file.h"
+#include "buckens/linalg/factor_threads.h"
 #include "buckens/run_store/run_directory.h"
 
 namespace buckens::cli {
@@ -30,6 +31,7 @@ struct ModesArguments {
   std::vector<std::string> overrides;
   int count = 10;
   double tolerance = 1e-9;
+  int threads = 1;
   bool system = false;
   bool condition = false;
 };
@@ -88,6 +90,7 @@ std::vector<analysis::VibrationReport> analyse(const model::BuiltModel& built,
 }
 
 ExitCode modes(const ModesArguments& arguments, bool json) {
+  const linalg::FactorThreads threads(arguments.threads);
   const auto built = read_and_build(arguments.model, arguments.overrides);
   const std::string& title = built->description.title;
   const auto reports = analyse(*built, arguments);
@@ -148,6 +151,10 @@ void add_modes_verb(CLI::App& program, Invocation& invocation) {
   system->excludes(body)->excludes(method)->excludes(condition);
   verb.add_option("--tolerance", arguments->tolerance, "Relative error of the shapes, 1e-9")
       ->check(number_between(1e-14, 1e-2));
+  verb.add_option("--threads", arguments->threads,
+                  "Threads that share large bodies; 1 if not given. Results are the same to the\n"
+                  "last bit")
+      ->check(CLI::Range(1, kMostThreads));
   verb.add_option("-o,--out", arguments->out, "Directory for the shapes")->type_name("OUT");
   add_json_option(verb, invocation);
   verb.footer(kModesFooter);

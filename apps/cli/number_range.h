@@ -10,6 +10,9 @@
 
 namespace buckens::cli {
 
+/// Of an option `--threads`.
+inline constexpr int kMostThreads = 256;
+
 /// Accepts plain numbers from `least` to `most`. The ranges of CLI11 accept "nan" and print limits
 /// with six decimals.
 inline CLI::Validator number_between(double least, double most) {

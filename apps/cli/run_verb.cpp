@@ -14,6 +14,7 @@
 #include "cli/failure.h"
 #include "cli/interruption.h"
 #include "cli/journaled_sink.h"
+#include "cli/number_range.h"
 #include "cli/output.h"
 #include "cli/progress_display.h"
 #include "cli/run_journal.h"
@@ -38,8 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using base::LogLevel;
-
-constexpr int kMostThreads = 256;
 
 struct RunArguments {
   std::string model, out;

@@ -66,11 +66,12 @@ FreeFreeModes solve_dense(const FlexiblePart& part) {
 }
 
 void judge(const FlexiblePart& part, const ModeOperator& op, FreeFreeModes& out) {
+  TaskPool* pool = op.pool.get();
   const Vector scale = variable_scale(part.fe.M, part.fe.K);
-  const Matrix Mphi = linalg::symmetric_product(part.fe.M, out.shapes);
+  const Matrix Mphi = linalg::symmetric_product(part.fe.M, out.shapes, pool);
   const Vector squares = out.omega.cwiseAbs2();
   const Matrix inertia = Mphi * squares.asDiagonal();
-  const Matrix left = linalg::symmetric_product(part.fe.K, out.shapes) - inertia;
+  const Matrix left = linalg::symmetric_product(part.fe.K, out.shapes, pool) - inertia;
   out.residual = (scale.asDiagonal() * left)
                      .colwise()
                      .norm()
@@ -80,7 +81,7 @@ void judge(const FlexiblePart& part, const ModeOperator& op, FreeFreeModes& out)
   op.inverse(image);
   out.solves += image.cols();
   image = out.shapes - image * (squares.array() + op.shift).matrix().asDiagonal();
-  const Matrix of_image = linalg::symmetric_product(part.fe.M, image);
+  const Matrix of_image = linalg::symmetric_product(part.fe.M, image, pool);
   out.error = image.cwiseProduct(of_image).colwise().sum().cwiseMax(0.0).cwiseSqrt();
 }
 

@@ -110,9 +110,10 @@ IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOpera
   // If a large part of all modes is wanted, the rigid ones of the penalty form would be among them,
   // mixed with vibrations of the same eigenvalue.
   const bool may_meet_rigid_ones = op.penalty > 0.0 && 20 * count > M.rows();
+  linalg::InverseIterationSettings settings = settings_for(count, tolerance);
+  settings.pool = op.pool.get();
   const linalg::InversePairs pairs = linalg::largest_inverse_pairs(
-      M, op.inverse, may_meet_rigid_ones ? sieve.Phi() : Matrix(M.rows(), 0),
-      settings_for(count, tolerance));
+      M, op.inverse, may_meet_rigid_ones ? sieve.Phi() : Matrix(M.rows(), 0), settings);
   check_complete(pairs, count);
   IteratedModes out{elastic_modes(pairs, sieve, op, count), std::move(op), pairs.sweeps,
                     pairs.solves, 1};
@@ -145,6 +146,7 @@ IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, c
       return false;
     };
     if (attempt == kMostShifts) settings.is_worthwhile = nullptr;
+    settings.pool = op->pool.get();
     const linalg::InversePairs pairs =
         linalg::largest_inverse_pairs(M, op->inverse, Matrix(M.rows(), 0), settings);
     solves += pairs.solves;

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/sparse_lu.h"
+#include "buckens/linalg/tall_products.h"
 
 namespace buckens::body {
 
@@ -23,6 +25,8 @@ namespace {
 constexpr Eigen::Index kFullPenalty = 1500;
 constexpr double kMostEntries = 1.5e8;  // 1.2 GB of factor, 1.8 with its indices
 constexpr int kPowerIterations = 20;
+// Below, waking threads takes as long as they save.
+constexpr Eigen::Index kManyVariables = 10000;
 
 Vector unit_diagonal(const Vector& diagonal) {
   return diagonal.unaryExpr([](double a) { return a > 0.0 ? 1.0 / std::sqrt(a) : 1.0; });
@@ -73,12 +77,19 @@ ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const
   ModeOperator op;
   op.shift = shift;
   op.factor_entries = factor->num_factor_entries();
+  if (linalg::FactorThreads::allowed() > 1 && M.rows() >= kManyVariables) {
+    op.pool = std::make_shared<TaskPool>(linalg::FactorThreads::allowed());
+  }
   // Yᵀ and Y commute with K + μM; both are applied so that rigid motion never grows to a size
   // that rounding cannot remove.
-  op.inverse = [factor, &sieve](Matrix& F) {
-    F -= sieve.P() * (sieve.Phi().transpose() * F);
-    F = factor->solve(F);
-    sieve.apply(F);
+  op.inverse = [factor, &sieve, pool = op.pool](Matrix& F) {
+    const auto remove = [&](const Matrix& P, const Matrix& Phi) {
+      const Matrix shares = linalg::inner_products(Phi, F, pool.get());
+      linalg::subtract_combinations(P, shares, F, pool.get());
+    };
+    remove(sieve.P(), sieve.Phi());
+    factor->solve_in_place(F, pool.get());
+    remove(sieve.Phi(), sieve.P());
   };
   op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
   op.solve = [factor](const Vector& b) -> Vector {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/body/sieve.h"
 #include "buckens/linalg/inverse_iteration.h"
 
@@ -18,6 +20,8 @@ struct ModeOperator {
   /// A itself and its inverse, for estimating its condition number; size of A.
   std::function<linalg::Vector(const linalg::Vector&)> multiply, solve;
   linalg::Vector scale;  ///< scales the diagonal of A to one
+  /// Threads for what is done with large vectors; none where linalg::FactorThreads allows only one.
+  std::shared_ptr<TaskPool> pool;
 };
 
 /// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor.

@@ -43,9 +43,8 @@ class Subspace {
         inverse_(inverse),
         settings_(settings),
         deflated_(deflated),
-        MD_(symmetric_product(M, deflated)),
-        V_(M.rows(), std::min<Eigen::Index>(M.rows(), basis_limit())),
-        MV_(M.rows(), V_.cols()) {}
+        MD_(symmetric_product(M, deflated, settings.pool)),
+        V_(M.rows(), std::min<Eigen::Index>(M.rows(), basis_limit())) {}
 
   InversePairs run();
 
@@ -56,9 +55,9 @@ class Subspace {
   void restart(Eigen::Index keep);
   void orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix* shares,
                       Matrix* coefficients);
-  void remove_known(Matrix& W, Matrix& MW, const Matrix* shares_of_basis) const;
+  void remove_known(Matrix& W, const Matrix& MW, const Matrix* shares_of_basis) const;
+  Matrix mass_times(const Matrix& X) const { return symmetric_product(M_, X, settings_.pool); }
   auto basis() const { return V_.leftCols(size_); }
-  auto mass_basis() const { return MV_.leftCols(size_); }
   Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
   bool is_judged() const;
   bool is_converged(Eigen::Index count) const;
@@ -77,7 +76,7 @@ class Subspace {
   const InverseIterationSettings settings_;
   const Matrix& deflated_;
   Matrix MD_;
-  Matrix V_, MV_;              // basis and its product with M, n×(room for all)
+  Matrix V_;                   // basis, n×(room for all)
   Eigen::Index size_ = 0;      // m: columns of the basis
   Matrix T_;                   // m×m
   Matrix block_, mass_block_;  // next block, M-orthonormal to V, and its product with M
@@ -95,18 +94,16 @@ class Subspace {
 };
 
 /// @param shares_of_basis VᵀM W if it is known
-void Subspace::remove_known(Matrix& W, Matrix& MW, const Matrix* shares_of_basis) const {
-  if (deflated_.cols() > 0) {
-    const Matrix shares = inner_products(MD_, W);
-    subtract_combinations(deflated_, shares, W);
-    subtract_combinations(MD_, shares, MW);
-    shares_of_basis = nullptr;  // of what W was before
-  }
+void Subspace::remove_known(Matrix& W, const Matrix& MW, const Matrix* shares_of_basis) const {
+  TaskPool* pool = settings_.pool;
   if (size_ > 0) {
     const Matrix shares =
-        shares_of_basis != nullptr ? *shares_of_basis : inner_products(mass_basis(), W);
-    subtract_combinations(basis(), shares, W);
-    subtract_combinations(mass_basis(), shares, MW);
+        shares_of_basis != nullptr ? *shares_of_basis : inner_products(basis(), MW, pool);
+    subtract_combinations(basis(), shares, W, pool);
+  }
+  // The basis has no share in what is deflated, so one does not disturb the other.
+  if (deflated_.cols() > 0) {
+    subtract_combinations(deflated_, inner_products(MD_, W, pool), W, pool);
   }
 }
 
@@ -118,10 +115,9 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
                               Matrix* coefficients) {
   if (coefficients != nullptr) *coefficients = Matrix::Identity(W.cols(), W.cols());
   for (int pass = 0; pass < kMostPasses && W.cols() > 0; ++pass) {
-    // The first pass may have removed most of W; what it left of M W is then rounding.
-    if (pass == 1) MW = symmetric_product(M_, W);
     remove_known(W, MW, pass == 0 ? shares : nullptr);
-    const Matrix G = inner_products(W, MW);
+    MW = mass_times(W);
+    const Matrix G = inner_products(W, MW, settings_.pool);
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (G + G.transpose()));
     const double least = pass == 0 ? nothing : 0.1;
     Eigen::Index dropped = 0;
@@ -133,8 +129,8 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
     const Matrix U = eigen.eigenvectors().rightCols(kept);
     const Vector size = eigen.eigenvalues().tail(kept).cwiseSqrt();
     const Matrix to_unit = U * size.cwiseInverse().asDiagonal();
-    W = combinations(W, to_unit);
-    MW = combinations(MW, to_unit);
+    W = combinations(W, to_unit, settings_.pool);
+    MW = combinations(MW, to_unit, settings_.pool);
     if (coefficients != nullptr) {
       *coefficients = (size.asDiagonal() * U.transpose() * *coefficients).eval();
     }
@@ -151,16 +147,16 @@ void Subspace::start(unsigned seed, int smoothing) {
   const auto columns = std::min<Eigen::Index>(settings_.block, M_.rows());
   Matrix X = scattered_block(M_.rows(), columns, seed);
   for (int k = 0; k < smoothing; ++k) {
-    X = symmetric_product(M_, X);
+    X = mass_times(X);
     inverse_(X);
     solves_ += X.cols();
-    const Matrix MX = symmetric_product(M_, X);
+    const Matrix MX = mass_times(X);
     for (Eigen::Index j = 0; j < X.cols(); ++j) {
       const double size = std::sqrt(std::max(0.0, X.col(j).dot(MX.col(j))));
       if (size > 0.0) X.col(j) /= size;
     }
   }
-  Matrix MX = symmetric_product(M_, X);
+  Matrix MX = mass_times(X);
   orthonormalise(std::move(X), std::move(MX), kNothingNew, nullptr, nullptr);
 }
 
@@ -170,17 +166,15 @@ void Subspace::sweep() {
   size_ += width;
   if (size_ > V_.cols()) {  // the search for missed pairs may go beyond the limit
     V_.conservativeResize(M_.rows(), size_);
-    MV_.conservativeResize(M_.rows(), size_);
   }
   V_.middleCols(before, width) = block_;
-  MV_.middleCols(before, width) = mass_block_;
-  Matrix W = mass_block_;
+  Matrix W = std::move(mass_block_);
   inverse_(W);
   solves_ += width;
   ++sweeps_;
-  Matrix MW = symmetric_product(M_, W);
+  Matrix MW = mass_times(W);
   longest_ = std::max(longest_, longest_column(W, MW));
-  const Matrix H = inner_products(mass_basis(), W);
+  const Matrix H = inner_products(basis(), MW, settings_.pool);
   const Matrix square = H.bottomRows(width);
   if (longest_ > 0.0) {
     rounding_ = std::max(rounding_, (square - square.transpose()).norm() / longest_);
@@ -212,8 +206,7 @@ void Subspace::solve_projected() {
 
 void Subspace::restart(Eigen::Index keep) {
   const Matrix Z = Z_.leftCols(keep);
-  V_.leftCols(keep) = combinations(basis(), Z);
-  MV_.leftCols(keep) = combinations(mass_basis(), Z);
+  V_.leftCols(keep) = combinations(basis(), Z, settings_.pool);
   size_ = keep;
   T_ = theta_.head(keep).asDiagonal();
 }
@@ -247,7 +240,8 @@ InversePairs Subspace::result(bool is_complete) const {
   Eigen::Index count = wanted();
   while (count > 0 && std::abs(theta_[count - 1]) <= kNothing * std::abs(theta_[0])) --count;
   out.theta = theta_.head(count);
-  out.shapes = count > 0 ? combinations(basis(), Z_.leftCols(count)) : Matrix(M_.rows(), 0);
+  out.shapes =
+      count > 0 ? combinations(basis(), Z_.leftCols(count), settings_.pool) : Matrix(M_.rows(), 0);
   out.residual = residual_.head(count).cwiseQuotient(out.theta.cwiseAbs());
   out.sweeps = sweeps_;
   out.solves = solves_;

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::linalg {
@@ -20,6 +21,7 @@ struct InverseIterationSettings {
   /// Called after 2, 4, 8, 16 and 32 sweeps with the largest |θ| so far; `false` ends the iteration
   /// there.
   std::function<bool(double)> is_worthwhile = {};
+  TaskPool* pool = nullptr;  ///< may share the products with M and the basis; changes no bit
 };
 
 /// Eigenpairs of A⁻¹M, largest |θ| first.

@@ -21,6 +21,37 @@ constexpr double kSubtreesPerThread = 6.0;
 // Products from which sharing a front among threads costs less than it gains.
 constexpr double kSharedFront = 2e7;
 
+/// Memory that one subtree after the other works in: new pages cost as much as a tenth of the work.
+class Rooms {
+ public:
+  StreamingMemory take(std::size_t size) {
+    StreamingMemory room;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!spare_.empty()) {
+        room = std::move(spare_.back());
+        spare_.pop_back();
+      }
+    }
+    if (room.size() < size) {
+      room = StreamingMemory();  // before the larger one, so that both never exist
+      room = StreamingMemory(size);
+    }
+    return room;
+  }
+
+  void give_back(StreamingMemory room) {
+    const std::scoped_lock lock(mutex_);
+    spare_.push_back(std::move(room));
+  }
+
+  void clear() { spare_.clear(); }
+
+ private:
+  std::mutex mutex_;
+  std::vector<StreamingMemory> spare_;
+};
+
 class Multifrontal {
  public:
   Multifrontal(const SparseMatrix& A, const SupernodeTree& tree, const TakeColumns& take,
@@ -39,6 +70,7 @@ class Multifrontal {
     divide();
     run_tasks(pool_, static_cast<int>(subtrees_.size()),
               [this](int k) { factorise_subtree(subtrees_[at(k)].begin, subtrees_[at(k)].root); });
+    rooms_.clear();
     std::vector<int> local(at(tree_.size));
     for (const int s : top_) {
       if (tree_.first_column[at(s)] > failed_) break;  // those before it do not depend on it
@@ -123,7 +155,7 @@ class Multifrontal {
   /// The rests of fronts lie one after the other; a parent comes behind those of its children and
   /// then takes their place.
   void factorise_subtree(int begin, int root) {
-    StreamingMemory room(at64(room_needed(begin, root)));
+    StreamingMemory room = rooms_.take(at64(room_needed(begin, root)));
     std::vector<int> local(at(tree_.size));
     const std::vector<int> children = count_children(begin, root);
     std::vector<std::pair<int, double*>> waiting;
@@ -146,6 +178,7 @@ class Multifrontal {
       free = to + f.rest_size();
     }
     keep_rest(root, room.data());
+    rooms_.give_back(std::move(room));
   }
 
   void keep_rest(int s, const double* values) {
@@ -229,6 +262,7 @@ class Multifrontal {
   std::vector<Subtree> subtrees_;
   std::vector<int> top_;
   std::map<int, std::vector<int>> top_children_;
+  Rooms rooms_;
   std::vector<StreamingMemory> rest_;  // of fronts whose parents are in the top
 };
 

@@ -7,6 +7,7 @@
 
 #include <cblas.h>
 
+#include "buckens/linalg/row_parts.h"
 #include "buckens/linalg/single_thread.h"
 
 namespace buckens::linalg {
@@ -34,43 +35,75 @@ void multiply_by_blas(CBLAS_TRANSPOSE transposed, double alpha, const Eigen::Ref
 
 }  // namespace
 
-Matrix inner_products(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B) {
-  Matrix out = Matrix::Zero(A.cols(), B.cols());
-  multiply_by_blas(CblasTrans, 1.0, A, B, 0.0, out);
-  return out;
+Matrix inner_products(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& B,
+                      TaskPool* pool) {
+  const RowParts parts(B.rows());
+  std::vector<Matrix> sums(static_cast<std::size_t>(parts.count()));
+  run_tasks(pool, parts.count(), [&](int part) {
+    const Eigen::Index begin = parts.begin(part);
+    const Eigen::Index rows = parts.end(part) - begin;
+    Matrix& sum = sums[static_cast<std::size_t>(part)];
+    sum = Matrix::Zero(A.cols(), B.cols());
+    multiply_by_blas(CblasTrans, 1.0, A.middleRows(begin, rows), B.middleRows(begin, rows), 0.0,
+                     sum);
+  });
+  for (std::size_t part = 1; part < sums.size(); ++part) sums[0] += sums[part];
+  return sums[0];
 }
 
 // B is written to through the copy.
 void subtract_combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S,
-                           Eigen::Ref<Matrix> B) {  // NOLINT(performance-unnecessary-value-param)
-  multiply_by_blas(CblasNoTrans, -1.0, A, S, 1.0, B);
+                           Eigen::Ref<Matrix> B,  // NOLINT(performance-unnecessary-value-param)
+                           TaskPool* pool) {
+  const RowParts parts(B.rows());
+  run_tasks(pool, parts.count(), [&](int part) {
+    const Eigen::Index begin = parts.begin(part);
+    const Eigen::Index rows = parts.end(part) - begin;
+    multiply_by_blas(CblasNoTrans, -1.0, A.middleRows(begin, rows), S, 1.0,
+                     B.middleRows(begin, rows));
+  });
 }
 
-Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S) {
-  Matrix out = Matrix::Zero(A.rows(), S.cols());
-  multiply_by_blas(CblasNoTrans, 1.0, A, S, 0.0, out);
+Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Matrix>& S,
+                    TaskPool* pool) {
+  Matrix out(A.rows(), S.cols());
+  const RowParts parts(A.rows());
+  run_tasks(pool, parts.count(), [&](int part) {
+    const Eigen::Index begin = parts.begin(part);
+    const Eigen::Index rows = parts.end(part) - begin;
+    out.middleRows(begin, rows).setZero();
+    multiply_by_blas(CblasNoTrans, 1.0, A.middleRows(begin, rows), S, 0.0,
+                     out.middleRows(begin, rows));
+  });
   return out;
 }
 
-Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X) {
+Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X, TaskPool* pool) {
   const Eigen::Index n = A.rows();
   Matrix out(n, X.cols());
+  const RowParts parts(n);
   // Columns side by side, so that an entry meets all of them in one place.
   std::vector<double> beside(static_cast<std::size_t>(kColumnsAtOnce * n), 0.0);
   for (Eigen::Index done = 0; done < X.cols(); done += kColumnsAtOnce) {
     const Eigen::Index columns = std::min<Eigen::Index>(kColumnsAtOnce, X.cols() - done);
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      double* to = beside.data() + c;
-      for (Eigen::Index i = 0; i < n; ++i) to[kColumnsAtOnce * i] = X(i, done + c);
-    }
-    for (Eigen::Index j = 0; j < n; ++j) {
-      double sum[kColumnsAtOnce] = {};
-      for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
-        const double* x = beside.data() + static_cast<std::ptrdiff_t>(kColumnsAtOnce) * it.row();
-        for (int c = 0; c < kColumnsAtOnce; ++c) sum[c] += it.value() * x[c];
+    run_tasks(pool, parts.count(), [&](int part) {
+      for (Eigen::Index c = 0; c < columns; ++c) {
+        double* to = beside.data() + c;
+        for (Eigen::Index i = parts.begin(part); i < parts.end(part); ++i) {
+          to[kColumnsAtOnce * i] = X(i, done + c);
+        }
       }
-      for (Eigen::Index c = 0; c < columns; ++c) out(j, done + c) = sum[c];
-    }
+    });
+    run_tasks(pool, parts.count(), [&](int part) {
+      for (Eigen::Index j = parts.begin(part); j < parts.end(part); ++j) {
+        double sum[kColumnsAtOnce] = {};
+        for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+          const double* x = beside.data() + static_cast<std::ptrdiff_t>(kColumnsAtOnce) * it.row();
+          for (int c = 0; c < kColumnsAtOnce; ++c) sum[c] += it.value() * x[c];
+        }
+        for (Eigen::Index c = 0; c < columns; ++c) out(j, done + c) = sum[c];
+      }
+    });
   }
   return out;
 }

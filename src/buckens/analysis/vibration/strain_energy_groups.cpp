@@ -63,12 +63,19 @@ const char* kind_name(const fem::ElementBlock& block) {
 
 StrainEnergyGroups::StrainEnergyGroups(const fem::FeModel& fe) {
   const fem::MeshView mesh{fe.nodes, fe.dofs};
+  // All the energy is in a group on its own: large meshes of one kind need no second stiffness.
+  if (fe.blocks.size() == 1 && fe.blocks[0]->is_solid() && fe.K.nonZeros() > 0) {
+    names_.emplace_back(kind_name(*fe.blocks[0]));
+    return;
+  }
   const auto add = [&](std::string name, const fem::ElementBlock& block) {
     fem::StiffnessSum sum;
     block.add_stiffness(mesh, sum);
     if (sum.K.empty()) return;
     names_.push_back(std::move(name));
-    stiffness_.push_back(std::move(sum.K));
+    linalg::SparseMatrix K(fe.dofs.num_dofs, fe.dofs.num_dofs);
+    K.setFromTriplets(sum.K.begin(), sum.K.end());
+    stiffness_.push_back(std::move(K));
   };
   for (const auto& block : fe.blocks) {
     Parts parts;
@@ -85,20 +92,14 @@ StrainEnergyGroups::StrainEnergyGroups(const fem::FeModel& fe) {
   }
 }
 
-std::vector<double> StrainEnergyGroups::energies(const linalg::Vector& d) const {
-  std::vector<double> out;
-  for (const std::vector<linalg::Triplet>& group : stiffness_) {
-    double energy = 0.0;
-    for (const linalg::Triplet& k : group) energy += 0.5 * d[k.row()] * k.value() * d[k.col()];
-    out.push_back(energy);
-  }
-  return out;
-}
-
 std::vector<double> StrainEnergyGroups::shares(const linalg::Vector& d) const {
-  std::vector<double> out = energies(d);
+  if (stiffness_.empty()) return std::vector<double>(names_.size(), 1.0);
+  std::vector<double> out;
   double sum = 0.0;
-  for (const double energy : out) sum += energy;
+  for (const linalg::SparseMatrix& K : stiffness_) {
+    out.push_back(0.5 * d.dot(K * d));
+    sum += out.back();
+  }
   for (double& energy : out) energy = sum > 0.0 ? energy / sum : 0.0;
   return out;
 }

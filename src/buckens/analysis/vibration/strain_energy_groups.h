@@ -16,14 +16,12 @@ class StrainEnergyGroups {
 
   /// "beam 1", counted from 1 in the order of the model file, "bar 3", "solids".
   const std::vector<std::string>& names() const { return names_; }
-  /// Energy of each group [J].
-  std::vector<double> energies(const linalg::Vector& d) const;
   /// Energy of each group over their sum; zeros without energy.
   std::vector<double> shares(const linalg::Vector& d) const;
 
  private:
   std::vector<std::string> names_;
-  std::vector<std::vector<linalg::Triplet>> stiffness_;
+  std::vector<linalg::SparseMatrix> stiffness_;  // of each group; none where there is only one
 };
 
 }  // namespace buckens::analysis

@@ -12,6 +12,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/fem/assembly/assemble.h"
+#include "buckens/linalg/factor_threads.h"
 
 namespace buckens::body {
 namespace {
@@ -70,6 +71,18 @@ void expect_modes_solve(const FlexiblePart& part, const FreeFreeModes& modes) {
   EXPECT_LE((strain - squares).norm(), 1e-8 * squares.norm());
   // Rigid motion in units of one.
   EXPECT_LE((part.sieve.P().transpose() * modes.shapes).norm(), 1e-9);
+}
+
+// Enough variables for the factor, the solves and the products to be shared.
+TEST(FreeFreeModes, AreTheSameWithAnyNumberOfThreads) {
+  const FlexiblePart part = part_of(lattice(4, 7));
+  ASSERT_GT(part.num_dofs(), 10000);
+  const FreeFreeModes alone = free_free_modes(part, {.count = 4});
+  const linalg::FactorThreads threads(3);
+  const FreeFreeModes shared = free_free_modes(part, {.count = 4});
+  EXPECT_EQ(alone.omega, shared.omega);
+  EXPECT_EQ(alone.shapes, shared.shapes);
+  EXPECT_EQ(alone.error, shared.error);
 }
 
 TEST(FreeFreeModes, AllMethodsAgree) {

@@ -24,6 +24,25 @@ TEST(TallProducts, EqualThoseOfEigenForBlocksOfLargerMatrices) {
   EXPECT_LE((rest - (B - A * inner)).norm(), kSumRounding * A.norm() * inner.norm());
 }
 
+TEST(TallProducts, ThreadsChangeNoBit) {
+  const Eigen::Index rows = 9000;  // of several parts
+  const Matrix A = scattered_block(rows, 7, 1);
+  const Matrix B = scattered_block(rows, 5, 2);
+  TaskPool pool(3);
+  const Matrix inner = inner_products(A, B);
+  EXPECT_EQ(inner, inner_products(A, B, &pool));
+  EXPECT_LE((inner - A.transpose() * B).norm(), kSumRounding * A.norm() * B.norm());
+  EXPECT_EQ(combinations(A, inner), combinations(A, inner, &pool));
+  Matrix alone = B, shared = B;
+  subtract_combinations(A, inner, alone);
+  subtract_combinations(A, inner, shared, &pool);
+  EXPECT_EQ(alone, shared);
+  SparseMatrix C(rows, rows);
+  for (int i = 0; i < static_cast<int>(rows); ++i) C.insert(i, i) = 1.0 + 0.3 * i;
+  C.makeCompressed();
+  EXPECT_EQ(symmetric_product(C, A), symmetric_product(C, A, &pool));
+}
+
 TEST(TallProducts, NothingToMultiplyIsNothing) {
   const Matrix A = scattered_block(kRows, 3, 2);
   const Matrix none(kRows, 0);
