@@ -6,13 +6,14 @@ import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 import urllib.parse
 
 import pytest
 
 from conftest import BINARY, SOURCE
 
-pytestmark = pytest.mark.skipif(not (shutil.which("sphinx-build") and shutil.which("doxygen")),
+made_here = pytest.mark.skipif(not (shutil.which("sphinx-build") and shutil.which("doxygen")),
                                 reason="./docs.sh installs Sphinx and Doxygen; ./test.sh does not")
 
 
@@ -37,6 +38,19 @@ def dead_links(site, page):
             yield f"{page.relative_to(site)} -> {target}"
 
 
+def test_every_page_is_in_the_table_of_contents():
+    """What Sphinx would warn about, also where it is not installed."""
+    index = SOURCE / "docs" / "site" / "index.md"
+    listed = set()
+    for line in index.read_text().splitlines():
+        if line.startswith(".."):
+            listed.update(path.resolve() for path in index.parent.parent.glob(line.removeprefix("../") + ".md"))
+    pages = {page.resolve() for folder in ("tutorials", "reference", "theory", "developers")
+             for page in (SOURCE / "docs" / folder).glob("*.md")}
+    assert sorted(str(page.relative_to(SOURCE.resolve())) for page in pages - listed) == []
+
+
+@made_here
 def test_pages_are_complete(tmp_path):
     if BINARY.resolve() != (SOURCE / "build" / "release").resolve():
         pytest.skip("docs.sh uses build/release")
@@ -52,3 +66,20 @@ def test_pages_are_complete(tmp_path):
     sources = [path for path in pathlib.Path(SOURCE / "docs").rglob("*.md")]
     assert len(pages) >= len(sources)
     assert [link for page in pages for link in dead_links(site, page)] == []
+    for words, page in (("checkpoint", "docs/tutorials/continue.html"), ("set_signal", "docs/tutorials/python.html")):
+        assert page in found_by_search(site, words), words
+
+
+def found_by_search(site, words):
+    """Pages that the search shows for some words, in a browser that has the pages from the disk."""
+    browser = shutil.which("chromium") or shutil.which("google-chrome")
+    if browser is None:
+        pytest.skip("no browser is installed")
+    address = (site / "search.html").as_uri() + "?" + urllib.parse.urlencode({"q": words})
+    with tempfile.TemporaryDirectory() as profile:
+        shown = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}",
+                                "--virtual-time-budget=20000", "--dump-dom", address],
+                               text=True, capture_output=True, timeout=120, check=True)
+    links = Links()
+    links.feed(shown.stdout.partition('id="search-results"')[2])
+    return {urllib.parse.urlsplit(target).path for target in links.targets}
