@@ -1,0 +1,16 @@
+# The multigrid solver for iterative solves: a plug-in that is loaded when somebody asks for it. Nothing else links PETSc, MPI and what they bring along (docs/developers/iterative.md).
+if(NOT BUCKENS_PETSC)
+  return()
+endif()
+
+find_package(PkgConfig REQUIRED)
+find_package(MPI REQUIRED COMPONENTS C)
+pkg_check_modules(petsc REQUIRED IMPORTED_TARGET petsc>=3.18)
+
+add_library(buckens_petsc MODULE "${PROJECT_SOURCE_DIR}/plugins/petsc/multigrid.cpp")
+set_target_properties(
+  buckens_petsc PROPERTIES CXX_VISIBILITY_PRESET hidden LIBRARY_OUTPUT_DIRECTORY
+                                                        "${PROJECT_BINARY_DIR}/lib")
+target_include_directories(buckens_petsc PRIVATE "${PROJECT_SOURCE_DIR}/src")
+target_link_libraries(buckens_petsc PRIVATE buckens_options PkgConfig::petsc MPI::MPI_C)
+install(TARGETS buckens_petsc LIBRARY DESTINATION lib/buckens COMPONENT program)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// What a plug-in with a multigrid solver offers: C types only, so that its libraries stay outside
+/// of everything else. The source of such a plug-in includes this header and nothing else of
+/// Buckens.
+extern "C" {
+
+/// Rises with every change of what stands here.
+enum { kBuckensGridVersion = 1 };
+
+/// A symmetric positive definite matrix by columns. The arrays must live as long as its solver.
+struct BuckensGridMatrix {
+  int size;
+  const int* starts;  ///< size + 1
+  const int* rows;    ///< ascending within a column
+  const double* values;
+  int block;              ///< variables per node, 1 where it varies
+  int num_motions;        ///< rigid motions
+  const double* motions;  ///< size × num_motions, by columns
+};
+
+/// When an iteration may stop: ‖r‖ ≤ clamp(absolute, least ‖r₀‖, most ‖r₀‖), in the norm of the
+/// preconditioner, which is about the energy of the error.
+struct BuckensGridLimits {
+  double absolute, least, most;
+  int most_iterations;
+};
+
+struct BuckensGridOutcome {
+  int iterations;
+  double first, last;  ///< ‖r₀‖, ‖r‖
+  int has_converged;
+};
+
+/// Functions that fail return null or not zero and write why into `error`.
+struct BuckensGridPlugin {
+  int version;
+  const char* (*name)();
+  void* (*make)(const BuckensGridMatrix* matrix, char* error, int error_size);
+  /// x: an estimate, then the answer.
+  int (*solve)(void* solver, const double* b, double* x, const BuckensGridLimits* limits,
+               BuckensGridOutcome* outcome, char* error, int error_size);
+  /// Bytes held by the solver, without the arrays of its matrix.
+  double (*bytes)(void* solver);
+  void (*release)(void* solver);
+};
+
+/// The one function that a plug-in exports.
+typedef const BuckensGridPlugin* (*BuckensFindGridPlugin)();
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/iterative_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/base/stopwatch.h"
+#include "buckens/base/work.h"
+#include "buckens/linalg/finite_matrix.h"
+#include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/single_thread.h"
+
+namespace buckens::linalg {
+
+namespace {
+
+// Share of what the estimate lacks that may be left at most.
+constexpr double kLeftOfEstimate = 1e-8;
+// Matrices from this size on are worth a word to those who wait.
+constexpr Eigen::Index kToldSize = 100000;
+
+/// The libraries behind a plug-in know one thread.
+std::mutex& turn_of_plugin() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+struct IterativeSolver::Solver {
+  const BuckensGridPlugin* plugin = nullptr;
+  void* handle = nullptr;
+  double bytes = 0;
+  IterationCounts counts;  // guarded by turn_of_plugin()
+
+  ~Solver() {
+    const std::scoped_lock lock(turn_of_plugin());
+    if (handle != nullptr) plugin->release(handle);
+  }
+};
+
+IterativeSolver::IterativeSolver(SparseMatrix A, const Matrix& motions,
+                                 const IterationSettings& settings)
+    : A_(std::move(A)), settings_(settings), solver_(std::make_unique<Solver>()) {
+  A_.makeCompressed();
+  require_finite(A_);
+  solver_->plugin = &grid_solver();
+  const base::Stopwatch watch;
+  base::Work work;
+  work.name = fmt::format("coarsening {} equations", A_.rows());
+  work.stage = "multigrid";
+  if (A_.rows() >= kToldSize) base::report_work(work);
+  const BuckensGridMatrix matrix{static_cast<int>(A_.rows()),
+                                 A_.outerIndexPtr(),
+                                 A_.innerIndexPtr(),
+                                 A_.valuePtr(),
+                                 settings.block,
+                                 static_cast<int>(motions.cols()),
+                                 motions.data()};
+  std::array<char, 400> error{};
+  {
+    const std::scoped_lock lock(turn_of_plugin());
+    const SingleThread single;
+    solver_->handle = solver_->plugin->make(&matrix, error.data(), static_cast<int>(error.size()));
+    if (solver_->handle != nullptr) solver_->bytes = solver_->plugin->bytes(solver_->handle);
+  }
+  work.stage.clear();
+  if (A_.rows() >= kToldSize) base::report_work(work);
+  if (solver_->handle == nullptr) {
+    throw NumericalError(fmt::format(
+        "multigrid for a matrix of size {} failed: {}; factorise it, or use a coarser mesh",
+        A_.rows(), error.data()));
+  }
+  solver_->counts.setup_seconds = watch.seconds();
+}
+
+IterativeSolver::~IterativeSolver() = default;
+
+double IterativeSolver::num_factor_entries() const { return bytes() / 12.0; }
+
+double IterativeSolver::bytes() const {
+  return 12.0 * static_cast<double>(A_.nonZeros()) + solver_->bytes;
+}
+
+IterationCounts IterativeSolver::iteration_counts() const {
+  const std::scoped_lock lock(turn_of_plugin());
+  return solver_->counts;
+}
+
+void IterativeSolver::iterate(const double* b, double* x, double energy) const {
+  const base::Stopwatch watch;
+  const BuckensGridLimits limits{settings_.tolerance * energy, settings_.tolerance,
+                                 std::max(kLeftOfEstimate, settings_.tolerance),
+                                 settings_.most_iterations};
+  BuckensGridOutcome outcome{};
+  std::array<char, 400> error{};
+  const std::scoped_lock lock(turn_of_plugin());
+  const SingleThread single;
+  const int failure = solver_->plugin->solve(solver_->handle, b, x, &limits, &outcome, error.data(),
+                                             static_cast<int>(error.size()));
+  ++solver_->counts.solves;
+  solver_->counts.iterations += outcome.iterations;
+  solver_->counts.seconds += watch.seconds();
+  if (failure == 0 && outcome.has_converged != 0) return;
+  throw NumericalError(
+      failure != 0
+          ? fmt::format("conjugate gradients on a matrix of size {} failed: {}; factorise "
+                        "it",
+                        A_.rows(), error.data())
+          : fmt::format("conjugate gradients on a matrix of size {} have not converged in {} "
+                        "iterations (the error fell from {:.3g} to {:.3g}); factorise it, use a "
+                        "shorter step, or a mesh without very flat elements",
+                        A_.rows(), outcome.iterations, outcome.first, outcome.last));
+}
+
+void IterativeSolver::improve(const Vector& b, Vector& x, double energy) const {
+  const double found = energy > 0.0 ? energy : std::sqrt(std::abs(b.dot(x)));
+  iterate(b.data(), x.data(), std::isfinite(found) ? found : 0.0);
+}
+
+void IterativeSolver::solve(const double* B, double* X, Eigen::Index columns,
+                            TaskPool* /*pool*/) const {
+  Vector b(size());
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    b = Eigen::Map<const Vector>(B + k * size(), size());
+    double* x = X + k * size();
+    std::fill_n(x, size(), 0.0);
+    iterate(b.data(), x, 0.0);
+  }
+}
+
+void IterativeSolver::solve_in_place(std::span<double* const> vectors, TaskPool* pool) const {
+  for (double* x : vectors) solve(x, x, 1, pool);
+}
+
+}  // namespace buckens::linalg

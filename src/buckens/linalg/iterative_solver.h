@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "buckens/linalg/factor.h"
+
+namespace buckens::linalg {
+
+/// Work of a solver that iterates.
+struct IterationCounts {
+  long solves = 0, iterations = 0;
+  double seconds = 0;        ///< of all solves, wall time [s]
+  double setup_seconds = 0;  ///< before the first one [s]
+};
+
+struct IterationSettings {
+  int block = 1;             ///< variables per node if all nodes have as many, node by node; else 1
+  double tolerance = 1e-11;  ///< of an answer, in the norm of energy
+  int most_iterations = 500;
+};
+
+/// Solves A x = b by conjugate gradients with smoothed-aggregation multigrid (grid_library.h)
+/// instead of a factor: memory and time of a solve grow like the size of A.
+///
+/// The error e of an answer x satisfies √(eᵀA e) ≤ tolerance·√(xᵀA x), as the preconditioner
+/// estimates it, and is below 1e-8 of what the estimate of the answer lacked: for the extrapolated
+/// motion of a step, that is about its local error. Always the same bits, whatever the number of
+/// threads.
+class IterativeSolver final : public Factor {
+ public:
+  /// @param A symmetric positive definite, both triangles stored; kept
+  /// @param motions n×(0…6), motions with little energy: those of a rigid body
+  /// @throws IoError if there is no multigrid solver
+  /// @throws NumericalError if A is not finite or it cannot be made
+  IterativeSolver(SparseMatrix A, const Matrix& motions, const IterationSettings& settings);
+  ~IterativeSolver() override;
+  IterativeSolver(const IterativeSolver&) = delete;
+  IterativeSolver& operator=(const IterativeSolver&) = delete;
+
+  Eigen::Index size() const override { return A_.rows(); }
+  /// Entries of A and of the coarser matrices, about.
+  double num_factor_entries() const override;
+  double bytes() const override;
+
+  using Factor::solve;
+  using Factor::solve_in_place;
+  /// One column after the other, from zero. @throws NumericalError if one does not converge
+  void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override;
+  void solve_in_place(std::span<double* const> vectors, TaskPool* pool) const override;
+
+  /// x ← A⁻¹ b. @param x on entry an estimate of the answer
+  /// @param energy √(yᵀA y) of a vector y beside which the error of x has to be negligible; 0: x
+  void improve(const Vector& b, Vector& x, double energy) const;
+  IterationCounts iteration_counts() const;
+
+ private:
+  void iterate(const double* b, double* x, double energy) const;
+
+  SparseMatrix A_;
+  IterationSettings settings_;
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace buckens::linalg
