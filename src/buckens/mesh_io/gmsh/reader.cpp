@@ -10,6 +10,13 @@ namespace {
 constexpr std::int64_t kMostTag = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostInt = std::numeric_limits<std::int32_t>::max();
 
+/// Gmsh's numbers of lines, triangles, quadrangles, tetrahedra, prisms and hexahedra of order three
+/// to ten, complete or without nodes inside; second order ends at 19.
+bool is_of_high_order(std::int64_t type) {
+  return (type >= 20 && type <= 33) || (type >= 36 && type <= 66) || (type >= 71 && type <= 75) ||
+         (type >= 79 && type <= 83) || (type >= 90 && type <= 131);
+}
+
 }  // namespace
 
 std::int64_t GmshReader::int32(std::string_view what, std::int64_t least) {
@@ -80,6 +87,13 @@ void GmshReader::add_node(std::int64_t id, const Eigen::Vector3d& position) {
 
 const GmshElement& GmshReader::element_of(std::int64_t type) const {
   const GmshElement* found = gmsh_element(static_cast<int>(type));
+  if (found == nullptr && is_of_high_order(type)) {
+    text_.fail(
+        fmt::format("elements of third or higher order (Gmsh's type {}) cannot be used; "
+                    "make the mesh in second order (in Gmsh: `Mesh.ElementOrder = 2` or "
+                    "`gmsh -order 2`)",
+                    type));
+  }
   if (found == nullptr) {
     text_.fail(fmt::format("elements of Gmsh's type {} cannot be used; {} can", type,
                            gmsh_element_names()));

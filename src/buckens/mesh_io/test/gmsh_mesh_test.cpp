@@ -324,6 +324,9 @@ TEST(GmshMesh, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(gmsh_message(test::replaced(two, "20 30 40 50", "20 30 40 77")),
               HasSubstr("part.msh:26:20: element 5 refers to node 77"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "5 4 2 5", "5 94 2 5")), HasSubstr("type 94"));
+  const std::string third = gmsh_message(test::replaced(two, "5 4 2 5", "5 29 2 5"));
+  EXPECT_THAT(third, HasSubstr("third or higher order (Gmsh's type 29)"));
+  EXPECT_THAT(third, HasSubstr("Mesh.ElementOrder = 2"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "5 4 2 5", "4 4 2 5")), HasSubstr("the number 4"));
   EXPECT_THAT(gmsh_message(test::replaced(two, "10 0 0 0", "99999999999999999999 0 0 0")),
               HasSubstr("a whole number"));
