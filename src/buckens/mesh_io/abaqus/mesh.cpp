@@ -175,11 +175,50 @@ void AbaqusMesh::add_element(int scope, int element) {
   const std::size_t length = pieces == 2 ? 2 : nodes.size();
   for (std::size_t piece = 0; piece < pieces; ++piece) {
     block.ids.push_back(raw->ids[k] + shift_ * scope);
-    for (std::size_t i = 0; i < length; ++i) block.nodes.push_back(nodes[piece + i]);
     sources_[entry->second].push_back({scope, element});
-    if (raw->type->role != AbaqusRole::beam || property < 0) continue;
-    block.up.push_back(up_direction(scope, element, nodes[piece], nodes[piece + 1]));
+    const bool has_shape = raw->type->role == AbaqusRole::beam && property >= 0;
+    if (has_shape) block.up.push_back(up_direction(scope, element, nodes[piece], nodes[piece + 1]));
+    Vector3d shift = Vector3d::Zero();
+    if (has_shape) {
+      const auto& section = placed.scope->sections[static_cast<std::size_t>(section_number)];
+      shift = shift_of(section, nodes[piece], nodes[piece + 1], block.up.back());
+    }
+    for (std::size_t i = 0; i < length; ++i) {
+      block.nodes.push_back(shifted_node(nodes[piece + i], shift, raw->places[k]));
+    }
   }
+}
+
+/// From the nodes of a beam to the centre of its section. @param up direction 2
+Vector3d AbaqusMesh::shift_of(const AbaqusSection& section, int a, int b,
+                              const Vector3d& up) const {
+  if (section.shift.isZero(0.0)) return Vector3d::Zero();
+  const Vector3d along =
+      out_.positions[static_cast<std::size_t>(b)] - out_.positions[static_cast<std::size_t>(a)];
+  return section.shift[0] * up.cross(along.normalized()) + section.shift[1] * up;
+}
+
+/// The node itself, or one beside it that follows it as a rigid body.
+int AbaqusMesh::shifted_node(int node, const Vector3d& shift, DeckPlace place) {
+  if (shift.isZero(0.0)) return node;
+  const auto [entry, is_new] = shifted_.try_emplace({node, {shift.x(), shift.y(), shift.z()}}, 0);
+  if (!is_new) return entry->second;
+  if (shifted_.size() == 1) {
+    free_label_ = *std::max_element(out_.node_ids.begin(), out_.node_ids.end());
+    out_.notes.push_back(
+        note_at(place, "OFFSET1, OFFSET2: beams have nodes of their own on rigid links", 1));
+  }
+  const Vector3d position = out_.positions[static_cast<std::size_t>(node)] + shift;
+  out_.positions.push_back(position);
+  out_.node_ids.push_back(++free_label_);
+  entry->second = static_cast<int>(out_.positions.size()) - 1;
+  fem::ImportedRigidLink link;
+  link.name = fmt::format("offset {}", free_label_);
+  link.reference = node;
+  link.nodes = {entry->second};
+  link.line = place.line;
+  out_.rigid_links.push_back(std::move(link));
+  return entry->second;
 }
 
 /// Direction 2 of the section, t × n1.

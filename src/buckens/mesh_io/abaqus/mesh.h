@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -47,6 +48,9 @@ class AbaqusMesh {
   void add_elements(int scope);
   void add_element(int scope, int element);
   Eigen::Vector3d up_direction(int scope, int element, int a, int b) const;
+  Eigen::Vector3d shift_of(const AbaqusSection& section, int a, int b,
+                           const Eigen::Vector3d& up) const;
+  int shifted_node(int node, const Eigen::Vector3d& shift, DeckPlace place);
   void number_blocks();
   void add_masses(int scope);
   void add_sets(int scope);
@@ -72,8 +76,10 @@ class AbaqusMesh {
   std::map<std::pair<const AbaqusElementType*, int>, std::size_t> block_of_;
   /// Per block: the placed scope and element of each of its elements.
   std::vector<std::vector<AbaqusElementAt>> sources_;
-  std::vector<std::vector<Numbers>> numbers_;  ///< per placed scope and element
-  std::int64_t shift_ = 0;                     ///< of labels from instance to instance
+  std::vector<std::vector<Numbers>> numbers_;                     ///< per placed scope and element
+  std::map<std::pair<int, std::array<double, 3>>, int> shifted_;  ///< by node and shift
+  std::int64_t free_label_ = 0;                                   ///< of the last node added
+  std::int64_t shift_ = 0;  ///< of labels from instance to instance
 };
 
 /// Adds rigid links, averages and equations.

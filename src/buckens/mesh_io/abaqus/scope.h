@@ -92,6 +92,9 @@ struct AbaqusSection {
   double offset = 0;                 ///< of the nodes' surface from the middle one, in thicknesses
   std::vector<Layer> layers;
   std::optional<fem::SectionSpec> shape;
+  Eigen::Vector2d measures = Eigen::Vector2d::Zero();  ///< of the shape along 1 and 2; 0: unknown
+  /// From the nodes of beams to the centres of their sections, along directions 1 and 2.
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   Eigen::Vector3d n1 = -Eigen::Vector3d::UnitZ();
   DeckPlace place;
 };

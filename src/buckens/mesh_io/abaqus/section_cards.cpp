@@ -85,16 +85,30 @@ void refuse_other_thickness(AbaqusReading& in, const DeckKeyword& keyword) {
   }
 }
 
-/// What CalculiX knows beside the measures of a section.
-void refuse_beams_off_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
-  for (const char* key : {"OFFSET1", "OFFSET2"}) {
-    const std::string text = in.optional_parameter(keyword, key);
-    if (text.empty() || files::deck_number(text) == 0.0) continue;
-    in.lines.fail(keyword.place,
-                  fmt::format("{}={}: beams offset from their nodes are not supported; give them "
-                              "nodes of their own and join these by *MPC, BEAM",
-                              key, text.substr(0, 40)));
+/// OFFSET1 and OFFSET2 of CalculiX: where the nodes lie, seen from the centre of the section, in
+/// its measures along directions 1 and 2.
+void read_beam_offset(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSection& section) {
+  constexpr const char* kKeys[] = {"OFFSET1", "OFFSET2"};
+  for (int k = 0; k < 2; ++k) {
+    const std::string text = in.optional_parameter(keyword, kKeys[k]);
+    if (text.empty()) continue;
+    const auto value = files::deck_number(text);
+    if (!value) {
+      in.lines.fail(keyword.place, fmt::format("{}={}: expected a number of section measures",
+                                               kKeys[k], text.substr(0, 40)));
+    }
+    const double measure = section.measures[k];
+    if (*value != 0.0 && measure == 0.0) {
+      in.lines.fail(keyword.place,
+                    fmt::format("{}={}: offsets need a section of type RECT, CIRC, PIPE or BOX; "
+                                "give the beams nodes of their own and join these by *MPC, BEAM",
+                                kKeys[k], text.substr(0, 40)));
+    }
+    section.shift[k] = -*value * measure;
   }
+}
+
+void refuse_nodal_measures(AbaqusReading& in, const DeckKeyword& keyword) {
   if (!keyword.has("NODALTHICKNESS")) return;
   in.lines.fail(keyword.place,
                 "*BEAM SECTION with NODAL THICKNESS: measures that vary over a section are not "
@@ -164,21 +178,44 @@ fem::SectionSpec read_general(AbaqusReading& in, const DeckRow& row) {
   return out;
 }
 
+/// With diameters a along y and b along z; shear factors by Cowper (1966) at ν = 0.
+fem::GeneralSectionSpec ellipse(double a, double b) {
+  constexpr double kPi = std::numbers::pi;
+  constexpr int kPoints = 16;  // between two of them the ellipse is higher by 2 %
+  const double aa = a * a, bb = b * b;
+  fem::GeneralSectionSpec out;
+  out.A = kPi * a * b / 4;
+  out.Iy = kPi * a * b * bb / 64;
+  out.Iz = kPi * a * aa * b / 64;
+  out.J = kPi * std::pow(a * b, 3) / (16 * (aa + bb));
+  out.shear_factor_y = 12 * (3 * aa + bb) / (40 * aa + 16 * bb);
+  out.shear_factor_z = 12 * (3 * bb + aa) / (40 * bb + 16 * aa);
+  for (int k = 0; k < kPoints; ++k) {
+    const double angle = 2 * kPi * k / kPoints;
+    out.stress_points.push_back({a / 2 * std::cos(angle), b / 2 * std::sin(angle)});
+  }
+  return out;
+}
+
 /// One value is the radius, as Abaqus has it; two are the diameters of CalculiX.
-fem::CircleSpec read_circle(AbaqusReading& in, const DeckRow& row) {
+fem::SectionSpec read_circle(AbaqusReading& in, const DeckRow& row) {
+  fem::SectionSpec out;
   const double first = positive(in, row, 0, "measure of the circle");
   if (row.cell(1).empty()) {
     in.note(row.place,
             "SECTION=CIRC: the one value is the radius, as in Abaqus; CalculiX takes it for the "
             "diameter, so write it twice in a deck of CalculiX");
-    return {2.0 * first};
+    out.shape = fem::CircleSpec{2.0 * first};
+    return out;
   }
-  if (in.lines.number(row, 1, "second diameter of the circle") != first) {
-    in.lines.fail(row.place,
-                  "the two diameters of CIRC differ; give an ellipse as SECTION=GENERAL");
-  }
+  const double second = positive(in, row, 1, "second diameter of the circle");
   in.note(row.place, "SECTION=CIRC: two values are the diameters, as in CalculiX");
-  return {first};
+  if (second == first) {
+    out.shape = fem::CircleSpec{first};
+  } else {
+    out.shape = ellipse(first, second);
+  }
+  return out;
 }
 
 /// One value is the side of a square, as CalculiX has it.
@@ -196,7 +233,7 @@ fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const De
   if (name.starts_with("RECT")) {
     out.shape = read_rectangle(in, row);
   } else if (name.starts_with("CIRC")) {
-    out.shape = read_circle(in, row);
+    out = read_circle(in, row);
   } else if (name == "PIPE") {
     const double radius = positive(in, row, 0, "radius of the pipe");
     const double wall = positive(in, row, 1, "wall of the pipe");
@@ -220,6 +257,17 @@ fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const De
   return out;
 }
 
+/// Extent of a shape along directions 1 and 2; zero where its data do not tell.
+Eigen::Vector2d outer_measures(AbaqusReading& in, const std::string& name, const DeckRow& row) {
+  const bool is_round = name.starts_with("CIRC");
+  if (name == "PIPE" || (is_round && row.cell(1).empty())) {
+    return Eigen::Vector2d::Constant(2.0 * in.lines.number(row, 0, "radius"));
+  }
+  if (!is_round && !name.starts_with("RECT") && name != "BOX") return Eigen::Vector2d::Zero();
+  const double first = in.lines.number(row, 0, "first measure");
+  return {first, in.lines.number_or(row, 1, first, "second measure")};
+}
+
 /// Shape and, on the next line, direction n1.
 void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& section) {
   DeckRow row;
@@ -227,6 +275,7 @@ void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& 
     in.lines.fail(section.place, "the measures of the section are missing");
   section.shape = read_shape(in, name, row);
   section.shape->where = in.lines.where(row.place);
+  section.measures = outer_measures(in, name, row);
   if (!in.lines.next_row_or_blank(row) || row.cells.empty()) return;
   section.n1 = read_vector(in.lines, row, 0, "direction n1");
   if (section.n1.norm() == 0.0) in.lines.fail(row.place, "direction n1 cannot be zero");
@@ -272,8 +321,9 @@ void read_nodal_thickness(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
 
 void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
-  refuse_beams_off_nodes(in, keyword);
+  refuse_nodal_measures(in, keyword);
   read_shape_rows(in, upper(in.parameter(keyword, "SECTION")), section);
+  read_beam_offset(in, keyword, section);
 }
 
 void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword) {

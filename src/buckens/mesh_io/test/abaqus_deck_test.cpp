@@ -391,6 +391,36 @@ TEST(AbaqusBeams, CirclesAreRadiiOfAbaqusOrDiametersOfCalculix) {
   EXPECT_EQ(note(two, "two values are the diameters").line, 7);
 }
 
+TEST(AbaqusBeams, TwoDiametersAreAnEllipse) {
+  const ImportedMesh mesh = read_text(
+      "*NODE\n1,0,0,0\n2,1,0,0\n*ELEMENT, TYPE=B31, ELSET=E\n1,1,2\n"
+      "*BEAM SECTION, ELSET=E, SECTION=CIRC\n0.05, 0.08\n0,0,-1\n");
+  const auto& shape = std::get<fem::GeneralSectionSpec>(mesh.properties.at(0).section->shape);
+  const double a = 0.025, b = 0.04;  // semi-axes along y and z
+  EXPECT_NEAR(shape.A, std::numbers::pi * a * b, 1e-17);
+  EXPECT_NEAR(shape.Iy, std::numbers::pi / 4 * a * b * b * b, 1e-20);
+  EXPECT_NEAR(shape.Iz, std::numbers::pi / 4 * a * a * a * b, 1e-20);
+  EXPECT_NEAR(shape.J, std::numbers::pi * std::pow(a * b, 3) / (a * a + b * b), 1e-20);
+}
+
+TEST(AbaqusBeams, OffsetsPutThemBesideTheirNodes) {
+  const ImportedMesh mesh = read_text(
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,2,0,0\n*ELEMENT, TYPE=B31, ELSET=E\n1,1,2\n2,2,3\n"
+      "*BEAM SECTION, ELSET=E, SECTION=RECT, OFFSET1=0.5, OFFSET2=-1\n0.04, 0.06\n0,0,-1\n");
+  // n1 = −z, n2 = x × n1 = y. The nodes lie half a width along n1 and a height against n2 from the
+  // centres, so these lie at +0.02 along z and +0.06 along y.
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  ASSERT_EQ(mesh.positions.size(), 6u);
+  EXPECT_THAT(labels(mesh, mesh.blocks[0].nodes), ElementsAre(4, 5, 5, 6));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d expected(static_cast<double>(k), 0.06, 0.02);
+    EXPECT_LT((mesh.positions[3 + k] - expected).norm(), 1e-16);
+    EXPECT_EQ(mesh.rigid_links.at(k).reference, static_cast<int>(k));
+    EXPECT_THAT(mesh.rigid_links[k].nodes, ElementsAre(3 + static_cast<int>(k)));
+  }
+  EXPECT_THAT(note(mesh, "OFFSET1").text, HasSubstr("nodes of their own"));
+}
+
 TEST(AbaqusNotes, WhatChangesHowPartsHoldTogetherIsRefusedOrSkipped) {
   const std::string deck =
       "*NODE\n1,0,0,0,0,0,1\n2,1,0,0\n*ELEMENT, TYPE=B31, ELSET=E\n1,1,2\n"

@@ -260,10 +260,12 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1\n1,0,0\n",
           {"deck.inp:11:1", "lies along the beam"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=PIPE\n1, 2\n", {"thicker than the radius"});
-  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1, 2\n",
-          {"deck.inp:13:1", "two diameters of CIRC differ"});
-  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, OFFSET2=0.5\n1, 2\n",
-          {"deck.inp:12:1", "OFFSET2=0.5", "offset from their nodes"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=CIRC\n1, -2\n",
+          {"deck.inp:13:1", "second diameter of the circle is -2"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=GENERAL, OFFSET2=0.5\n1, 1, 0, 1, 1\n",
+          {"deck.inp:12:1", "OFFSET2=0.5", "need a section of type RECT", "*MPC, BEAM"});
+  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, OFFSET1=SPOS\n1, 2\n",
+          {"deck.inp:12:1", "OFFSET1=SPOS", "expected a number"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, NODAL THICKNESS\n", {"NODAL THICKNESS"});
   refuses(beam + "*BEAM GENERAL SECTION, ELSET=E\n1,1,0.5,1,1\n", {"I12 must be zero"});
   refuses(with_nodes("*ELASTIC\n1,0\n"), {"belongs below a *MATERIAL"});
