@@ -45,7 +45,7 @@ class StudyRun:
         self._queue = self._waves(together)
         self._num_queued = sum(len(wave) for _, wave in self._queue)
         self._losses: Dict[str, int] = {}
-        self._flying: Dict["cf.Future[Done]", Task] = {}
+        self._flying: Dict["cf.Future[Done]", Tuple[Task, str]] = {}  # with the scheduler that has it
         self._per_variant: Optional[float] = None
         self._number = 0
         self._call = uuid.uuid4().hex[:8]
@@ -75,10 +75,13 @@ class StudyRun:
             while self._queue or self._flying:
                 while self._queue and len(self._flying) < TASKS_AHEAD * self._workers.count:
                     task = self._next_task()
-                    self._flying[self._workers.submit(run_task, self._study, task)] = task
+                    future = self._workers.submit(run_task, self._study, task)
+                    self._flying[future] = (task, self._workers.scheduler)
                 ended, _ = cf.wait(self._flying, timeout=1.0, return_when=cf.FIRST_COMPLETED)
                 for future in ended:
-                    self._take(future, self._flying.pop(future))
+                    self._take(future, self._flying.pop(future)[0])
+                if not ended:
+                    self._look_after()
                 self._show()
             is_hurried = False
         finally:
@@ -88,6 +91,15 @@ class StudyRun:
             if not is_hurried:
                 self._journal.read()
         self._journal.tidy()
+
+    def _look_after(self) -> None:
+        """Nothing has come back for a while: it will not if the scheduler has forgotten it."""
+        self._workers.check()
+        for future, (task, scheduler) in list(self._flying.items()):
+            if scheduler != self._workers.scheduler and not future.done():
+                del self._flying[future]
+                future.cancel()
+                self._take_loss(task)
 
     def _show(self) -> None:
         if self._display.is_due():

@@ -44,6 +44,9 @@ class Workers:
             self._executor = self._make()
         self._client: Any = executor if hasattr(executor, "get_executor") else getattr(executor, "_client", None)
         self._asked = count
+        self._known, self._next_question = 1, 0.0
+        #: Changes when the scheduler of Dask is started again, which forgets what it was given.
+        self.scheduler = ""
 
     @property
     def count(self) -> int:
@@ -51,9 +54,24 @@ class Workers:
         if self._asked:
             return self._asked
         if self._client is not None:
-            return max(1, sum(int(threads) for threads in self._client.nthreads().values()))
+            self._ask_scheduler()
+            return self._known
         known = getattr(self._executor, "_max_workers", None) or getattr(self._executor, "num_workers", None)
         return int(known) if known else os.cpu_count() or 1
+
+    def _ask_scheduler(self) -> None:
+        """How many threads there are now; what was known before while the scheduler does not answer."""
+        now = time.monotonic()
+        if now < self._next_question:
+            return
+        self._next_question = now + 2.0
+        if self._client.status == "running":
+            try:
+                about = self._client.scheduler_info()
+                self._known = max(1, sum(int(worker["nthreads"]) for worker in about["workers"].values()))
+                self.scheduler = str(about["id"])
+            except Exception:  # of a kind that only the client knows; what it means shows when work is handed over
+                pass
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> "cf.Future[Any]":
         """As the executor does; one that has broken is replaced first.
@@ -63,20 +81,35 @@ class Workers:
         IoError
             If there is none any more.
         """
+        self._await_scheduler()
         deadline = time.monotonic() + _PATIENCE
         while True:
             try:
                 future: "cf.Future[Any]" = self._executor.submit(function, *arguments)
                 return future
             except Exception as error:  # of a kind that only the executor knows
-                if self._make is not None:
-                    self._renew()
-                elif self._client is None or time.monotonic() > deadline or self._client.status == "closed":
-                    raise IoError(f"the executor takes no more work ({type(error).__name__}: {error}); call again with another "
-                                  "one: what is finished is kept") from error
-                if time.monotonic() > deadline:
-                    raise
-                time.sleep(0.2)
+                if self._make is None or time.monotonic() > deadline:
+                    raise _no_more_work(f"{type(error).__name__}: {error}") from error
+                self._renew()
+                time.sleep(0.1)
+
+    def check(self) -> None:
+        """To be called while nothing comes back; raises IoError if nothing will."""
+        if self._client is not None and self._client.status == "closed":
+            raise _no_more_work("the connection to the scheduler of Dask is lost")
+        if self._client is not None:
+            self._ask_scheduler()
+
+    def _await_scheduler(self) -> None:
+        """Work for a scheduler that is not there would never come back; it may be started again meanwhile."""
+        deadline = time.monotonic() + _PATIENCE
+        while self._client is not None and self._client.status != "running":
+            self._next_question = 0.0  # it may be another one then
+            if self._client.status == "closed" or time.monotonic() > deadline:
+                raise _no_more_work("the connection to the scheduler of Dask is lost")
+            time.sleep(0.1)
+        if self._client is not None:
+            self._ask_scheduler()
 
     def _renew(self) -> None:
         self._executor.shutdown(wait=False)
@@ -87,6 +120,10 @@ class Workers:
         """Ends an executor that was made here."""
         if self._is_own:
             self._executor.shutdown(wait=not is_hurried, cancel_futures=True)
+
+
+def _no_more_work(reason: str) -> IoError:
+    return IoError(f"the executor takes no more work ({reason}); call again with another one: what is finished is kept")
 
 
 def is_loss(future: "cf.Future[Any]") -> bool:

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a study costs beyond its variants, and how it grows with the number of workers.
+
+usage: PYTHONPATH=build/release/python python3 bench/study_bench.py [--variants N] [--duration SECONDS] [--processes 1,2,4,8,16]
+
+Prints a table: processes, wall time, efficiency against one process that runs the same variants in a loop (as far as there are
+processors), and overhead per variant. Then the load of the process that hands out variants, measured with variants that do
+nothing, and from it the number of workers that keep it busy: a prediction, with the time that a task lasts.
+"""
+
+import argparse
+import concurrent.futures as cf
+import json
+import os
+import pathlib
+import tempfile
+import time
+
+from buckens import _core, study_runs
+from buckens.study_worker import Done
+from buckens.verbs import sweep
+
+MODEL = """
+buckens: 1
+gravity: [0, -9.81 m/s^2, 0]
+parameters: {push: 1 N}
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3}}
+bodies: {rod: {beam: {to: [1 m, 0, 0], elements: 8, section: {circle: {diameter: 8 mm}}, material: steel}}}
+joints: {pin: {revolute: {between: [ground, rod/start]}}}
+loads: {push: {force: {on: rod/end, value: [0, push, 0]}}}
+simulation: {duration: 20 ms, step: 0.1 ms}
+output: {every: 1 ms, sensors: {tip: {position: rod/end}}}
+"""
+PATH = "parameters.push"
+
+
+def table(count):
+    return {PATH: [0.001 * k for k in range(count)]}
+
+
+def seconds_in_a_loop(model, count, changes):
+    """The variants alone, in this process."""
+    rows = _core.VariantRows(str(model), changes, [PATH])
+    variants = [(str(k), [str(0.001 * k)]) for k in range(count)]
+    rows.run(variants[:6])
+    start = time.perf_counter()
+    for k in range(0, count, 6):
+        rows.run(variants[k:k + 6])
+    return time.perf_counter() - start
+
+
+def seconds_with(processes, model, count, folder, changes):
+    """By a pool that is already there: its start is the same for ten variants and ten thousand."""
+    import multiprocessing
+
+    with cf.ProcessPoolExecutor(processes, multiprocessing.get_context("forkserver")) as executor:
+        sweep(model, table(12 * processes), folder / f"warm{processes}", set=changes, executor=executor)
+        start = time.perf_counter()
+        answer = sweep(model, table(count), folder / f"out{processes}", set=changes, executor=executor)
+        passed = time.perf_counter() - start
+    assert all(variant["status"] == "done" for variant in answer["variants"])
+    return passed, sum(answer["workers"].values())
+
+
+def empty_task(study, task):
+    """What run_task would return if variants took no time; the row is as long as a real one."""
+    cells = [("name", "1"), (PATH, "1"), ("status", "done"), ("message", "")] + [
+        (f"tip.{axis} [m] {kind}", "0.12345678901234567") for axis in "xyz" for kind in ("last", "min", "max")]
+    rows = [{"key": key, "cells": cells, "seconds": 0.02} for wave in task.waves for key, _ in wave]
+    return Done(rows, [], "nobody", 0.0, 0)
+
+
+class Nobody(cf.Executor):
+    """Runs tasks at once, in the process itself."""
+
+    num_workers = 100
+
+    def submit(self, function, *arguments):
+        future = cf.Future()
+        future.set_result(function(*arguments))
+        return future
+
+
+def load_of_the_master(model, count, folder):
+    """Processor time per variant and per task of handing out, taking back and noting [s]."""
+    real, tasks = study_runs.run_task, []
+    study_runs.run_task = lambda study, task: tasks.append(1) or empty_task(study, task)
+    try:
+        start = time.process_time()
+        sweep(model, table(count), folder / "empty", executor=Nobody())
+        total = time.process_time() - start
+    finally:
+        study_runs.run_task = real
+    return total / count, total / len(tasks), count / len(tasks)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--variants", type=int, default=600)
+    arguments.add_argument("--duration", type=float, default=0.02, help="of a variant, simulated [s]")
+    arguments.add_argument("--processes", default="1,2,4,8,16")
+    given = arguments.parse_args()
+    changes = [f"simulation.duration={given.duration!r} s"]
+    processors = len(os.sched_getaffinity(0))
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        model = folder / "model.yaml"
+        model.write_text(MODEL)
+        print(f"{given.variants} variants, {processors} processors, load {os.getloadavg()[0]:.1f}")
+        alone = seconds_in_a_loop(model, given.variants, changes)
+        print(f"in a loop: {alone:.2f} s, {1e3 * alone / given.variants:.2f} ms each")
+        print("processes   wall [s]   efficiency   overhead per variant [ms]")
+        for processes in map(int, given.processes.split(",")):
+            wall, _ = seconds_with(processes, model, given.variants, folder, changes)
+            busy = min(processes, processors)
+            print(f"{processes:9}   {wall:8.2f}   {alone / busy / wall:10.2f}   {1e3 * (wall - alone / busy) / given.variants:10.2f}")
+        variant, task, each = load_of_the_master(model, max(given.variants, 100), folder)
+        print(f"handing out: {1e3 * variant:.3f} ms per variant, {1e3 * task:.2f} ms per task of {each:.0f}")
+        print(json.dumps({"workers_that_keep_it_busy": int(study_runs.TASK_SECONDS / task)}))
+
+
+if __name__ == "__main__":
+    main()
