@@ -251,6 +251,22 @@ def test_an_event_stops_the_run_and_a_switch_sets_a_load(sensors, tmp_path):
     assert out["t"][-1] == pytest.approx(summary["end_time"], abs=1e-12)
 
 
+def test_a_controller_that_diverges_is_named(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+planar: xy
+bodies: {arm: {rigid: {mass: 1, inertia: [0, 0, 0.01]}}}
+joints: {hinge: {revolute: {between: [ground, arm]}}}
+signals:
+  angle: {joint-angle: hinge}
+  error: "0.1 - angle"
+  u: {integral: {input: "60*u + error"}}
+loads: {motor: {hinge-motor: {joint: hinge, torque: "u"}}}
+simulation: {duration: 5 s, step: 1 ms}
+""")
+    buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:9:", "signal \"u\" has grown to", "diverges", "`limits`")
+
+
 def test_an_event_that_chatters_is_named(buckens, tmp_path):
     text = SWITCH.replace("low: \"up - 1.2\"", "low: \"sin(600*t)\"")
     (tmp_path / "model.yaml").write_text(text)

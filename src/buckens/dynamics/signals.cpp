@@ -24,6 +24,8 @@ constexpr double kSampleInstant = 1e-6;
 // Of differences for the tangent of states.
 constexpr double kDifference = 1e-6;
 constexpr int kMostIterations = 40;
+// No quantity of a machine in SI units comes near it.
+constexpr double kWithoutBound = 1e30;
 // Changes of states, relative to the largest of them, that end the iteration; what no longer falls
 // is rounding below the second.
 constexpr double kSettled = 1e-14;
@@ -212,6 +214,20 @@ bool take_samples(const model::Model& model, double t, SignalValues& s) {
   return took;
 }
 
+/// @throws NumericalError naming a signal whose states have left all bounds
+void require_bounded(const model::Model& model, const SignalValues& s) {
+  Eigen::Index worst = 0;
+  if (s.x.size() == 0 || s.x.cwiseAbs().maxCoeff(&worst) < kWithoutBound) return;
+  const Signal& signal = owner_of_state(model, worst);
+  throw NumericalError(
+      signal.where,
+      fmt::format(
+          "signal \"{}\" has grown to {:.3g} at t = {:.6g} s: what it controls diverges; "
+          "check the sign of its feedback and its gains, give it `limits`, or use a smaller "
+          "step",
+          signal.name, s.x[worst], s.values[0]));
+}
+
 void write_memory(const SignalValues& s, const Vector& method_rate, double h,
                   model::RowMemory& out) {
   const Eigen::Index n = s.x.size();
@@ -287,6 +303,7 @@ void advance_signals(const model::Model& model, const std::vector<BodyMotion>& m
     Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
     a += s.x_dot - before;  // what held values drive jumps with them
   }
+  require_bounded(model, s);
   write_memory(s, a, h, out);
 }
 
