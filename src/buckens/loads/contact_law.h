@@ -38,6 +38,11 @@ struct NormalForce {
   double elastic = 0;    ///< part that belongs to it [N]
   double stiffness = 0;  ///< derivative by the overlap [N/m]
   double damping = 0;    ///< derivative by its rate [N s/m]
+
+  NormalForce& operator*=(double share) {
+    for (double* value : {&force, &energy, &elastic, &stiffness, &damping}) *value *= share;
+    return *this;
+  }
 };
 /// @param overlap [m], @param rate of it [m/s], @param approach speed with which it began [m/s]
 NormalForce normal_force(const ContactData& data, double overlap, double rate, double approach);

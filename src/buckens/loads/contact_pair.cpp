@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/loads/box_manifold.h"
+
 namespace buckens::loads {
 
 using Eigen::Matrix3d;
@@ -88,7 +90,8 @@ std::span<const ContactPair::Kinds> ContactPair::all() {
   static constexpr Kinds kAll[] = {{plane, sphere}, {sphere, sphere},  {socket, sphere},
                                    {bore, sphere},  {capsule, sphere}, {cylinder, sphere},
                                    {box, sphere},   {plane, capsule},  {plane, cylinder},
-                                   {plane, box},    {bore, cylinder},  {capsule, capsule}};
+                                   {plane, box},    {bore, cylinder},  {capsule, capsule},
+                                   {box, box}};
   return kAll;
 }
 
@@ -104,7 +107,7 @@ ContactPair::ContactPair(const ContactShape& first, const ContactShape& second)
   const bool has_ends = second.kind == ShapeKind::cylinder ||
                         (second.kind == ShapeKind::capsule && first.kind != ShapeKind::capsule);
   if (second.kind == ShapeKind::box) {
-    num_spots_ = second.flat >= 0 ? 4 : 8;
+    num_spots_ = first.kind == ShapeKind::box || second.flat >= 0 ? 4 : 8;
   } else if (has_ends) {
     num_spots_ = on_rims ? 2 * kRimPoints : 2;
   }
@@ -198,6 +201,9 @@ double ContactPair::distance(const Vector3d& point, Vector3d& normal) const {
 }
 
 void ContactPair::find(const Vector3d& r, const Matrix3d& R, Spots& all) const {
+  if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box) {
+    return find_box_spots(first_, second_, r, R, std::span(all).first<4>());
+  }
   const std::span<ContactSpot> spots(all.data(), static_cast<std::size_t>(num_spots_));
   centres(r, R, spots);
   for (ContactSpot& spot : spots) {

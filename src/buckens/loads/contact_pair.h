@@ -28,12 +28,14 @@ struct ContactSpot {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit vector from the first to the second
   double gap = 0;                                     ///< negative: overlap [m]
+  double share = 1;                                   ///< of the law's stiffness
 };
 
 /// Two shapes that can touch. The first is a surface, given by the distance from it; the second is
 /// made of spheres, or of points where their radius is zero. So all pairs have exact distances:
 /// anything with a sphere; a plane with capsule, cylinder and box; a bore with a cylinder; two
-/// capsules. Theory: docs/theory/25-contact.md §1.
+/// capsules. Two boxes touch with areas (loads/box_manifold.h). Theory: docs/theory/25-contact.md
+/// §1.
 class ContactPair {
  public:
   static constexpr int kMostSpots = 8;
