@@ -124,6 +124,113 @@ inline std::string divided_tree(int levels) {
          "joints: {foot: {fixed: {between: [ground, tree/n0]}}}\n";
 }
 
+/// A driven four-bar with a flexible coupler.
+/// @param laws `loads:` of the model: friction in its joints, stops of the rocker; may be empty
+inline std::string four_bar(const std::string& laws) {
+  return R"(buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850 kg/m^3}}
+bodies:
+  crank: {rigid: {mass: 0.4, com: [0.05, 0, 0], inertia: [0, 0, 4e-4]}, markers: {o: {position: [0, 0, 0]}, a: {position: [0.1, 0, 0]}}}
+  coupler: {beam: {to: [0.18, 0.24, 0], elements: 8, section: {circle: {diameter: 12 mm}}, material: steel}, at: {position: [0.1, 0, 0]}}
+  rocker: {rigid: {mass: 0.8, com: [0.315, 0.12, 0], inertia: [0, 0, 4e-3]}, markers: {b: {position: [0.28, 0.24, 0]}, c: {position: [0.35, 0, 0]}}}
+joints:
+  o: {revolute: {between: [ground, crank/o]}}
+  drive: {prescribed-rotation: {between: [ground, crank/o], angle: "60*t rad"}}
+  a: {revolute: {between: [crank/a, coupler/start]}}
+  b: {revolute: {between: [coupler/end, rocker/b]}}
+  c: {revolute: {between: [{ground: [0.35, 0, 0]}, rocker/c]}}
+)" + laws;
+}
+
+inline std::string friction_and_stops() {
+  return R"(loads:
+  fo: {hinge-friction: {joint: o, static: 0.1, radius: 10 mm}}
+  fa: {hinge-friction: {joint: a, static: 0.1, radius: 8 mm}}
+  fb: {hinge-friction: {joint: b, static: 0.1, radius: 8 mm}}
+  fc: {hinge-friction: {joint: c, static: 0.1, radius: 10 mm}}
+  stop: {hinge-stop: {joint: c, from: -20 deg, to: 20 deg, stiffness: 20 N m/rad}}
+)";
+}
+
+/// Two gears with helical teeth, and a flywheel behind a flexible shaft.
+inline std::string gear_train() {
+  return R"(buckens: 1
+materials: {steel: {E: 206 GPa, nu: 0.3, rho: 7850 kg/m^3}}
+bodies:
+  motor: {rigid: {mass: 0.8 kg, inertia: [1e-3, 1e-3, 1.5e-3]}}
+  wheel: {rigid: {mass: 4 kg, inertia: [7e-3, 7e-3, 12e-3]}, at: {position: [105 mm, 0, 0]}}
+  shaft:
+    beam: {to: [0, 0, 600 mm], elements: 6, section: {circle: {diameter: 16 mm}}, material: steel}
+    at: {position: [105 mm, 0, 0]}
+  flywheel: {rigid: {mass: 10 kg, inertia: [0.03, 0.03, 0.05]}, at: {position: [105 mm, 0, 600 mm]}}
+joints:
+  motor_bearing: {revolute: {between: [ground, motor], axis: [0, 0, 1]}}
+  front_bearing: {revolute: {between: [{ground: [105 mm, 0, 0]}, wheel], axis: [0, 0, 1]}}
+  rear_bearing: {cylindrical: {between: [{ground: [105 mm, 0, 600 mm]}, flywheel], axis: [0, 0, 1]}}
+  key: {fixed: {between: [wheel, shaft/start]}}
+  flange: {fixed: {between: [shaft/end, flywheel]}}
+  teeth: {gear: {between: [motor, wheel], axis: [0, 0, 1], teeth: [20, 50], pressure-angle: 20 deg, helix-angle: 15 deg}}
+loads: {drive: {torque: {on: motor, value: [0, 0, 0.1 N m]}}}
+)";
+}
+
+/// A motor and a fan with an elastic belt, which slips.
+inline std::string belt_drive() {
+  return R"(buckens: 1
+planar: xy
+bodies:
+  driver: {rigid: {mass: 1.2 kg, inertia: [0, 0, 1.5e-3 kg m^2]}}
+  fan: {rigid: {mass: 4 kg, inertia: [0, 0, 20e-3 kg m^2]}, at: {position: [400 mm, 0, 0]}}
+joints:
+  motor_shaft: {revolute: {between: [ground, driver]}}
+  fan_shaft: {revolute: {between: [{ground: [400 mm, 0, 0]}, fan]}}
+loads:
+  motor: {hinge-motor: {joint: motor_shaft, speed: 1500 rpm, damping: 0.5 N m s/rad, torque-limit: 30 N m}}
+  duct: {hinge-brake: {joint: fan_shaft, torque: 20 N m}}
+  belt: {elastic-belt: {between: [driver, fan], radii: [50 mm, 100 mm], stiffness: 50 kN, damping-time: 1 ms, pretension: 200 N, friction: 0.3}}
+initial: {bodies: {driver: {angular-velocity: [0, 0, 1500 rpm]}, fan: {angular-velocity: [0, 0, 750 rpm]}}}
+)";
+}
+
+/// Steel-like balls of 20 mm in layers of a box of planes, slightly out of line.
+/// @param count 100: layers of 5 × 5; 1000: of 10 × 10
+inline model::ModelDescription spheres_in_a_box(int count) {
+  const int side = count > 300 ? 10 : 5;
+  const double pitch = 0.0215;
+  const double half = 0.5 * pitch * side;
+  std::string text = fmt::format(R"(buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  ball: {{rigid: {{mass: 30 g, inertia: [1.2e-6, 1.2e-6, 1.2e-6]}}}}
+loads:
+  heap:
+    contacts:
+      among:
+        - {{on: ground, plane: [0, 0, 1]}}
+        - {{on: {{ground: [{0}, 0, 0]}}, plane: [-1, 0, 0]}}
+        - {{on: {{ground: [-{0}, 0, 0]}}, plane: [1, 0, 0]}}
+        - {{on: {{ground: [0, {0}, 0]}}, plane: [0, -1, 0]}}
+        - {{on: {{ground: [0, -{0}, 0]}}, plane: [0, 1, 0]}}
+        - {{bodies: "ball*", sphere: 10 mm}}
+      stiffness: 2e4
+      restitution: 0.4
+      static: 0.3
+)",
+                                 half);
+  model::ModelDescription out = model_file::read_model_text(text, "bench.yaml", {});
+  const body::BodySpec ball = out.bodies.front();
+  out.bodies.clear();
+  for (int k = 0; k < count; ++k) {
+    const int layer = k / (side * side), row = k / side % side, column = k % side;
+    body::BodySpec& one = out.bodies.emplace_back(ball);
+    one.name = fmt::format("ball{}", k);
+    one.at.position = {(column + 0.5) * pitch - half + 2e-4 * (k % 3 - 1),
+                       (row + 0.5) * pitch - half + 2e-4 * (k % 5 - 2), 0.011 + pitch * layer};
+  }
+  return out;
+}
+
 /// Rigid links in space, each on a revolute joint, starting horizontally. The first two come from a
 /// model file, the others are copies: the text for ten thousand would exceed the size limit.
 inline model::ModelDescription rigid_chain(int links) {

@@ -140,6 +140,10 @@ def chains(programs):
     return programs.google("step_bench", "rigid_chain_step")
 
 
+def machines(programs):
+    return programs.google("machine_bench", "_step")
+
+
 def frames(programs):
     return programs.google("step_bench", "planar_beam_step|divided_beam_step|divided_tree_step")
 
@@ -210,7 +214,7 @@ for key in BLOCKS:
         SECTIONS[f"variants:{key}"] = lambda p, size=key: variants(p, size)
     if key in ("30000", "slender", "100000", "300000"):
         SECTIONS[f"memory:{key}"] = lambda p, size=key: memory(p, size)
-SECTIONS.update({"reduced": reduced, "chains": chains, "frames": frames, "beams": beams})
+SECTIONS.update({"reduced": reduced, "chains": chains, "machines": machines, "frames": frames, "beams": beams})
 
 
 def context():

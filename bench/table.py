@@ -181,6 +181,8 @@ def scaled(row, key):
         return 1e6 * row["seconds"] / row["frames"]
     if key == "per link":
         return 1e6 * row["seconds"] / int(row["name"].split("/")[1])
+    if key == "per sphere":
+        return 1e6 * row[key] if key in row else None
     return row.get(key)
 
 
@@ -237,6 +239,8 @@ def tables(results):
         *variant_table(results),
         *google_table("Rigid chains on revolute joints", results, "chains", "rigid_chain_step",
                       {"per link": "per link [µs]", "newton/step": "iterations"}),
+        *google_table("Machines: friction and stops, gears, belts, contact of many bodies", results, "machines", "",
+                      {"per sphere": "per sphere [µs]", "near pairs": "near pairs", "newton/step": "iterations"}),
         *google_table("Beams with a frame per element", results, "frames", "", frame),
         *google_table("Beams with one frame", results, "beams", "",
                       {"dof": "DOF", "solves/step": "solves", "newton/step": "iterations"}),

@@ -153,6 +153,21 @@ simulation: {duration: 0.4 s, step: 1 ms, STEP}
 output: {every: 7 ms, sensors: {way: {joint-coordinate: hole}, hole: {joint-force: hole}, disc: {position: disc}}}
 """
 
+# Six balls meet, hit a floor and one another.
+HEAP = """buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  b0: {rigid: {mass: 0.5, inertia: [5e-4, 5e-4, 5e-4]}, at: {position: [0.0, 0.0, 0.06]}}
+  b1: {rigid: {mass: 0.5, inertia: [5e-4, 5e-4, 5e-4]}, at: {position: [0.03, 0.01, 0.165]}}
+  b2: {rigid: {mass: 0.5, inertia: [5e-4, 5e-4, 5e-4]}, at: {position: [0.0, 0.02, 0.27]}}
+  b3: {rigid: {mass: 0.5, inertia: [5e-4, 5e-4, 5e-4]}, at: {position: [0.03, 0.0, 0.375]}}
+  b4: {rigid: {mass: 0.5, inertia: [5e-4, 5e-4, 5e-4]}, at: {position: [0.0, 0.01, 0.48]}}
+  b5: {rigid: {mass: 0.5, inertia: [5e-4, 5e-4, 5e-4]}, at: {position: [0.03, 0.02, 0.585]}}
+loads: {heap: {contacts: {among: [{on: ground, plane: {}}, {bodies: "b*", sphere: 50 mm}], stiffness: 2e4, restitution: 0.6, static: 0.3}}}
+simulation: {duration: 0.3 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {p: {position: b3}, v: {velocity: b5}, heap: {contact: heap}}}
+"""
+
 CASES = {
     "a slider and a wheel": (model(SLIDER), 0.2),
     "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
@@ -160,6 +175,8 @@ CASES = {
     "rigid rows, step control": (model(ELBOW), 1.31),
     "laws of joint coordinates": (model(LAWS), 0.0301),
     "contact": (model(CLEARANCE), 0.0301),
+    "contacts of many bodies": (model(HEAP), 0.151),
+    "contacts of many bodies, step control": (model(HEAP, step="tolerance: 1e-4"), 0.151),
     "blocks": (model(CONTROL), 0.03),
     "events": (model(EVENTS), 0.0301),
     "events, step control": (model(EVENTS, step="tolerance: 1e-4"), 0.0301),

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
@@ -152,6 +153,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     if (has_regimes(load)) out.regimes.push_back(action.regime);
     if (load.rigid_row >= 0) out.rigid.push_back(action.row);
   }
+  add_group_forces(model, motions, t, around, out);
 }
 
 void add_joint_forces(const Constraints& constraints, const linalg::Vector& lambda, Forces& out) {
@@ -227,6 +229,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
       out.is_closed.push_back(row.is_rigid ? 1 : 0);
     }
   }
+  append_group_tangents(model, motions, t, around, out);
 }
 
 }  // namespace buckens::dynamics

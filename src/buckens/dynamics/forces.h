@@ -51,6 +51,7 @@ struct SoftRows {
   std::vector<int> rigid;              ///< Load::rigid_row, −1 of rows that give way
   std::vector<char> is_closed;         ///< of rigid rows; false of rows that give way
   std::vector<int> regimes;            ///< as in Forces
+  int num_of_groups = 0;               ///< of the rows, the last ones: of contacts of many bodies
   std::vector<loads::SoftRow> of_one;  ///< scratch
   SignalValues signals, shifted;       ///< at the instant; scratch
 };

@@ -14,17 +14,25 @@ using Images = std::array<Vector6, RowBlocks::kMostRows>;
 // If a pivot keeps less of its diagonal entry, about eight digits are lost without exchanges.
 constexpr double kPoorPivot = 1e-8;
 
-std::vector<int> sizes_of(const RowBlocks& rows) {
+/// The blocks that are factorised come first.
+std::size_t num_blocks_before(const RowBlocks& rows, int end) {
+  std::size_t k = 0;
+  while (k < rows.blocks().size() && rows.blocks()[k].first_row < end) ++k;
+  return k;
+}
+
+std::vector<int> sizes_of(const RowBlocks& rows, std::size_t count) {
   std::vector<int> sizes;
-  for (const RowBlock& block : rows.blocks()) sizes.push_back(block.count);
+  for (std::size_t k = 0; k < count; ++k) sizes.push_back(rows.blocks()[k].count);
   return sizes;
 }
 
 /// Pairs of blocks that act on the same body, each once.
-std::vector<std::pair<int, int>> couples_of(const RowBlocks& rows, int num_bodies) {
+std::vector<std::pair<int, int>> couples_of(const RowBlocks& rows, std::size_t count,
+                                            int num_bodies) {
   std::vector<std::vector<int>> on_body(static_cast<std::size_t>(num_bodies));
   std::vector<std::pair<int, int>> out;
-  for (std::size_t k = 0; k < rows.blocks().size(); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     out.emplace_back(static_cast<int>(k), static_cast<int>(k));
     for (const RowBlock::Side& side : rows.sides(rows.blocks()[k])) {
       if (side.body == model::kGround) continue;
@@ -61,13 +69,16 @@ Vector6 interface_image(const linalg::Matrix& compliance, const RowBlock::Side& 
 
 }  // namespace
 
-MultiplierCondensation::MultiplierCondensation(int num_bodies, const std::vector<SystemRow>& rows)
-    : force_(rows),
+MultiplierCondensation::MultiplierCondensation(int num_bodies, const std::vector<SystemRow>& rows,
+                                               int num_loose)
+    : num_loose_(num_loose),
+      force_(rows, num_loose),
+      num_direct_blocks_(num_blocks_before(force_, force_.num_rows() - num_loose)),
       blocks_on_body_(static_cast<std::size_t>(num_bodies)),
-      couples_(couples_of(force_, num_bodies)),
-      block_lu_(sizes_of(force_), couples_) {
+      couples_(couples_of(force_, num_direct_blocks_, num_bodies)),
+      block_lu_(sizes_of(force_, num_direct_blocks_), couples_) {
   const auto& blocks = force_.blocks();
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
+  for (std::size_t k = 0; k < num_direct_blocks_; ++k) {
     const auto sides = force_.sides(blocks[k]);
     for (std::size_t side = 0; side < sides.size(); ++side) {
       const int b = sides[side].body;
@@ -146,7 +157,8 @@ void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& complia
     if (!blocks_on_body_[b].empty()) add_body(b, compliance[b]);
   }
   const int first_soft = size() - static_cast<int>(soft_compliance.size());
-  for (std::size_t k = 0; k < soft_compliance.size(); ++k) {
+  const std::size_t num_direct = soft_compliance.size() - static_cast<std::size_t>(num_loose_);
+  for (std::size_t k = 0; k < num_direct; ++k) {
     block_lu_.diagonal(first_soft + static_cast<int>(k)) += soft_compliance[k];
   }
 }
@@ -170,7 +182,7 @@ void MultiplierCondensation::for_entries(Take&& take) {
 void MultiplierCondensation::make_general() {
   std::vector<linalg::Triplet> entries;
   for_entries([&](int row, int column, double value) { entries.emplace_back(row, column, value); });
-  S_.resize(size(), size());
+  S_.resize(size() - num_loose_, size() - num_loose_);
   S_.setFromTriplets(entries.begin(), entries.end());
   general_.emplace(S_);
 }
@@ -200,6 +212,17 @@ void MultiplierCondensation::pivot_as(const std::vector<double>& values) {
 
 bool MultiplierCondensation::factorise(const std::vector<BodyCompliance>& compliance,
                                        const std::vector<double>& soft_compliance) {
+  if (num_loose_ > 0) {
+    compliance_ = compliance;
+    soft_compliance_ = soft_compliance;
+    set_loose_blocks();
+    if (num_direct_blocks_ == 0) return true;
+  }
+  return factorise_direct(compliance, soft_compliance);
+}
+
+bool MultiplierCondensation::factorise_direct(const std::vector<BodyCompliance>& compliance,
+                                              const std::vector<double>& soft_compliance) {
   assemble(compliance, soft_compliance);
   exchanges_rows_ = !(block_lu_.factorise() && block_lu_.pivot_ratio() > kPoorPivot);
   if (!exchanges_rows_) return true;
@@ -224,6 +247,14 @@ bool MultiplierCondensation::factorise(const std::vector<SystemRow>& test,
 }
 
 void MultiplierCondensation::solve_in_place(linalg::Vector& x) const {
+  if (num_loose_ > 0) {
+    iterate(x);
+  } else {
+    solve_direct(x);
+  }
+}
+
+void MultiplierCondensation::solve_direct(linalg::Vector& x) const {
   if (exchanges_rows_) {
     general_->solve_in_place(x);
   } else {

@@ -27,10 +27,15 @@ struct BodyCompliance {
 /// small dense blocks, so the matrix is sparse across joints; its pattern is found once. The blocks
 /// are eliminated without pivoting (linalg::BlockLu); if that gives poor pivots, rows are exchanged
 /// (linalg::SparseLu).
+///
+/// Contacts of many bodies change from step to step and would fill the factor. Their rows, the last
+/// ones, are left out of it: with them the system is solved by iteration, which their own give
+/// (1/k) makes short, preconditioned by the factor and by what each contact gives alone.
 class MultiplierCondensation {
  public:
   /// @param rows one entry per row, with body numbers and marker rows set; values are not read
-  MultiplierCondensation(int num_bodies, const std::vector<SystemRow>& rows);
+  /// @param num_loose rows at the end that are not factorised
+  MultiplierCondensation(int num_bodies, const std::vector<SystemRow>& rows, int num_loose = 0);
 
   /// Sets a row that is closed along the direction in which its multiplier acts.
   void set_row(int row, const SystemRow& values);
@@ -83,8 +88,18 @@ class MultiplierCondensation {
   void for_entries(Take&& take);
   void make_general();
   bool factorise_with_exchanges();
+  bool factorise_direct(const std::vector<BodyCompliance>& compliance,
+                        const std::vector<double>& soft_compliance);
+  void solve_direct(linalg::Vector& x) const;
+  void set_loose_blocks();
+  /// y ← S x, all rows.
+  void multiply(const linalg::Vector& x, linalg::Vector& y) const;
+  void precondition(const linalg::Vector& x, linalg::Vector& y) const;
+  void iterate(linalg::Vector& x) const;
 
+  int num_loose_ = 0;
   RowBlocks force_;
+  std::size_t num_direct_blocks_ = 0;
   std::optional<RowBlocks> test_;  // if closed directions differ from those of the multipliers
   std::vector<std::vector<BlockOnBody>> blocks_on_body_;
   std::vector<std::vector<int>> places_;      // in blocks_lu_, one per pair of blocks on a body
@@ -93,6 +108,15 @@ class MultiplierCondensation {
   bool exchanges_rows_ = false;  // the last factorisation is that of general_
   linalg::SparseMatrix S_;       // for general_, empty until it is needed
   std::optional<linalg::SparseLu> general_;
+
+  // Of loose rows only: what the bodies give, and the inverse of what each block gives alone.
+  std::vector<BodyCompliance> compliance_;
+  std::vector<double> soft_compliance_;
+  std::vector<Eigen::MatrixXd> loose_inverse_;
+  mutable std::vector<BodyResponse> responses_;
+  mutable std::vector<Eigen::Matrix<double, 6, 1>> moved_;
+  mutable std::vector<Eigen::VectorXd> moved_interface_;
+  mutable linalg::Vector direct_;
 };
 
 }  // namespace buckens::dynamics

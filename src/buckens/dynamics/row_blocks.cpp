@@ -22,10 +22,11 @@ bool touch_the_same(const SystemRow& row, std::span<const RowBlock::Side> sides)
 
 }  // namespace
 
-RowBlocks::RowBlocks(const std::vector<SystemRow>& pattern) {
+RowBlocks::RowBlocks(const std::vector<SystemRow>& pattern, int num_behind) {
+  const std::size_t first_behind = pattern.size() - static_cast<std::size_t>(num_behind);
   for (std::size_t r = 0; r < pattern.size(); ++r) {
     const SystemRow& row = pattern[r];
-    const bool fits = !blocks_.empty() && blocks_.back().count < kMostRows &&
+    const bool fits = !blocks_.empty() && blocks_.back().count < kMostRows && r != first_behind &&
                       row.travelling == blocks_.back().travelling &&
                       touch_the_same(row, sides(blocks_.back()));
     if (!fits) {

@@ -49,7 +49,8 @@ class RowBlocks {
   static constexpr int kMostRows = 6;
 
   /// @param pattern one entry per row with body numbers and marker rows set; values are not read
-  explicit RowBlocks(const std::vector<SystemRow>& pattern);
+  /// @param num_behind rows at the end that never share a block with those before them
+  explicit RowBlocks(const std::vector<SystemRow>& pattern, int num_behind = 0);
 
   const std::vector<RowBlock>& blocks() const { return blocks_; }
   std::span<const RowBlock::Side> sides(const RowBlock& block) const {

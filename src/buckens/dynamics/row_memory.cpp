@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/citing.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
 
@@ -118,6 +119,7 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
                                         ends.first.motion, ends.second.motion, ends.travels()),
                                out.laws.data() + load.first_state);
   }
+  start_near(model, motions, out);
   start_signals(model, motions, 0.0, out);
   return out;
 }
@@ -151,6 +153,7 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
         sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels()),
         out.laws.data() + load.first_state);
   }
+  advance_near(model, motions, t, around, out);
   advance_signals(model, motions, t, around, out);
 }
 

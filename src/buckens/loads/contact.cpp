@@ -101,6 +101,7 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, Points& memory
     }
     point.across =
         normal_force(data_, -point.gap, -point.gap_rate, own != nullptr ? own[kApproach] : 0.0);
+    if (spot.share != 1.0) point.across *= spot.share;
     if (!has_friction()) continue;
     Vector3d strain = Vector3d::Zero();
     if (own != nullptr) {
@@ -204,6 +205,14 @@ void Contact::start_states(const Sight& sight, double* states) const {
   Sight fresh = sight;
   fresh.states = nullptr;
   find_states(fresh, states);
+  // What overlaps as it is seen for the first time closes with its speed then.
+  Points memory;
+  const std::span<const Point> points = look(fresh, memory);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int first =
+        has_friction() ? kCommon + kOfPoint * static_cast<int>(k) : static_cast<int>(k);
+    states[first + kApproach] = std::max(0.0, -points[k].gap_rate);
+  }
 }
 
 void Contact::find_states(const Sight& sight, double* states) const {

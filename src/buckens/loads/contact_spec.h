@@ -3,50 +3,36 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
+#include "buckens/base/source_location.h"
 #include "buckens/loads/contact_shape_spec.h"
 
 namespace buckens::loads {
 
-/// Two bodies that touch: elastic with a stiffness or moduli, rigid without.
-struct ContactSpec {
-  static constexpr const char* kKey = "contact";
-  static constexpr const char* kDoc =
-      "contact between two shapes on markers: elastic with friction, or rigid with impacts";
-  std::array<base::MarkerRef, 2> between;
-  std::array<ShapeSpec, 2> shapes;
-  std::optional<double> stiffness;               ///< K [N/m^n]
-  std::optional<double> exponent;                ///< n
-  std::optional<std::array<double, 2>> modulus;  ///< [Pa]
-  std::optional<std::array<double, 2>> poisson;
+/// What elastic contacts resist with; what it is named by is the same for one pair and for many.
+struct ContactForceSpec {
+  std::optional<double> stiffness;    ///< K [N/m^n]
+  std::optional<double> exponent;     ///< n
   std::optional<double> restitution;  ///< 0 … 1
   std::optional<double> threshold;    ///< [m/s]
   double damping = 0;                 ///< [N s/m]
-  double coefficient = 0;             ///< of sticking, μ_s
-  std::optional<double> dynamic;      ///< of sliding, μ_d; default: the same
+  double coefficient = 0;             ///< of friction while it sticks
+  std::optional<double> dynamic;      ///< of friction while it slides
   std::optional<double> stribeck;     ///< [m/s]
   std::optional<double> tangential;   ///< stiffness of sticking [N/m]
 
+ protected:
   template <class Visitor>
-  void fields(Visitor& visit) {
-    visit(base::field("between", between, "the two markers that carry the shapes")
-              .required()
-              .like("[ground, ball]"));
-    visit(base::field("shapes", shapes, "the shape on the first marker and that on the second")
-              .required()
-              .like("[{plane: [0, 0, 1]}, {sphere: 50 mm}]"));
-    normal_fields(visit);
-    friction_fields(visit);
-  }
-
- private:
-  template <class Visitor>
-  void normal_fields(Visitor& visit) {
+  void stiffness_fields(Visitor& visit) {
     visit(base::field("stiffness", stiffness,
                       "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
-                      "of N/m^n; of each point of a box, capsule or cylinder that touches")
+                      "of N/m^n; of each point of a box, capsule or cylinder that touches; of two "
+                      "boxes of each "
+                      "quarter of an area like the mean face of the smaller one")
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")
@@ -55,17 +41,10 @@ struct ContactSpec {
               .positive()
               .like("1.5")
               .otherwise("1; with `modulus` 1.5"));
-    visit(base::field("modulus", modulus,
-                      "Young's moduli of both bodies, for the force by Hertz; for spheres on "
-                      "planes, spheres and in sockets")
-              .in(base::kStress)
-              .positive()
-              .like("[210 GPa, 70 GPa]")
-              .otherwise("none"));
-    visit(base::field("poisson-ratio", poisson, "Poisson's ratios that belong to `modulus`")
-              .within(base::Range::poisson)
-              .like("[0.3, 0.33]")
-              .otherwise("0.3 for both"));
+  }
+
+  template <class Visitor>
+  void loss_fields(Visitor& visit) {
     visit(base::field("restitution", restitution,
                       "share of the speed of approach with which the bodies part, 0 … 1; of an "
                       "elastic contact at least 0.01")
@@ -112,6 +91,100 @@ struct ContactSpec {
               .like("1e7 N/m")
               .otherwise("0.8 of the stiffness normal to the surface under the weight of the "
                          "lighter body"));
+  }
+};
+
+/// Two bodies that touch: elastic with a stiffness or moduli, rigid without.
+struct ContactSpec : ContactForceSpec {
+  static constexpr const char* kKey = "contact";
+  static constexpr const char* kDoc =
+      "contact between two shapes on markers: elastic with friction, or rigid with impacts";
+  std::array<base::MarkerRef, 2> between;
+  std::array<ShapeSpec, 2> shapes;
+  std::optional<std::array<double, 2>> modulus;  ///< [Pa]
+  std::optional<std::array<double, 2>> poisson;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("between", between, "the two markers that carry the shapes")
+              .required()
+              .like("[ground, ball]"));
+    visit(base::field("shapes", shapes, "the shape on the first marker and that on the second")
+              .required()
+              .like("[{plane: [0, 0, 1]}, {sphere: 50 mm}]"));
+    stiffness_fields(visit);
+    visit(base::field("modulus", modulus,
+                      "Young's moduli of both bodies, for the force by Hertz; for spheres on "
+                      "planes, spheres and in sockets")
+              .in(base::kStress)
+              .positive()
+              .like("[210 GPa, 70 GPa]")
+              .otherwise("none"));
+    visit(base::field("poisson-ratio", poisson, "Poisson's ratios that belong to `modulus`")
+              .within(base::Range::poisson)
+              .like("[0.3, 0.33]")
+              .otherwise("0.3 for both"));
+    loss_fields(visit);
+    friction_fields(visit);
+  }
+};
+
+/// One or several bodies of `contacts` that have the same shape.
+struct ContactMemberSpec {
+  SourceLocation where;
+  base::MarkerRef on;
+  std::vector<std::string> bodies;  ///< names, or patterns of names: "ball*"
+  ShapeSpec shape;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("on", on, "marker that carries the shape; or give `bodies`")
+              .like("ground")
+              .otherwise("`bodies`"));
+    visit(base::field("bodies", bodies,
+                      "bodies that carry the shape at their mass centres: names, or patterns in "
+                      "which * stands for any characters")
+              .like("\"ball*\"")
+              .otherwise("`on`"));
+    visit(base::inlined(shape.kind, "shape").required());
+  }
+};
+
+/// Many bodies that touch each other.
+struct ContactsSpec : ContactForceSpec {
+  static constexpr const char* kKey = "contacts";
+  static constexpr const char* kDoc =
+      "elastic contact among many bodies: whichever of them come near each other are found in "
+      "every step";
+  std::vector<ContactMemberSpec> among;
+  std::vector<ContactMemberSpec> against;
+  std::optional<double> modulus;  ///< [Pa]
+  std::optional<double> poisson;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("among", among,
+                      "what touches: every shape can touch every other, except of the same body "
+                      "and of bodies that a joint connects")
+              .required()
+              .like("[{on: ground, plane: [0, 0, 1]}, {bodies: \"ball*\", sphere: 50 mm}]"));
+    visit(base::field("against", against,
+                      "a second list: then only what is in different lists can touch")
+              .like("[{on: ground, plane: [0, 0, 1]}]"));
+    stiffness_fields(visit);
+    visit(base::field("modulus", modulus,
+                      "Young's modulus of all bodies, for the force by Hertz; for spheres and "
+                      "planes")
+              .in(base::kStress)
+              .positive()
+              .like("210 GPa")
+              .otherwise("none"));
+    visit(base::field("poisson-ratio", poisson, "Poisson's ratio that belongs to `modulus`")
+              .within(base::Range::poisson)
+              .like("0.3")
+              .otherwise("0.3"));
+    loss_fields(visit);
+    friction_fields(visit);
   }
 };
 

@@ -130,7 +130,7 @@ struct LoadSpec {
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
                RopeSpec, HingeMotorSpec, SlideMotorSpec, BallFrictionSpec, HingeBrakeSpec,
-               SlideBrakeSpec, ContactSpec, ElasticBeltSpec>
+               SlideBrakeSpec, ContactSpec, ContactsSpec, ElasticBeltSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -19,6 +19,8 @@
 
 namespace buckens::model {
 
+struct ContactGroup;
+
 /// A joint coordinate that a coupler takes part in.
 struct CoupledCoordinate {
   int coordinate = 0;  ///< index into Model::coordinates
@@ -105,6 +107,8 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Load> loads;
   std::vector<Coordinate> coordinates;
+  /// Of loads that are contacts among many bodies; see model/contact_group.h.
+  std::vector<std::shared_ptr<const ContactGroup>> contact_groups;
   SignalSet signals;
   /// Origin of the world of this model in that of the model file [m]: zero unless the mechanism is
   /// so far away that positions would lose digits. All positions in the library are relative to it;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/saved_state.h"
 
+#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
+
+#include "buckens/model/contact_group.h"
 
 namespace buckens::model {
 
@@ -11,6 +14,7 @@ namespace {
 
 constexpr long kMostBodies = 1L << 60;
 constexpr int kMostTurns = 1 << 30;
+constexpr int kMostMembers = 1 << 30;
 
 void visit_coupling(const base::SaveVisit& visit, Eigen::Index n, Coupling& coupling) {
   visit.number("t", coupling.t);
@@ -77,6 +81,51 @@ void visit_switches(const base::SaveVisit& visit, const std::string& name, std::
   for (const int k : which) off[static_cast<std::size_t>(k)] = 1;
 }
 
+/// @throws InputError unless the pairs are in order and each can be one
+void require_pairs(const base::SaveVisit& visit, const Model& model,
+                   const std::vector<NearPair>& near, Eigen::Index num_states) {
+  Eigen::Index needed = 0;
+  const NearPair* before = nullptr;
+  for (const NearPair& pair : near) {
+    if (before != nullptr && !(*before < pair)) visit.refuse("near", "its pairs are not in order");
+    before = &pair;
+    const ContactGroup& group = *model.contact_groups[static_cast<std::size_t>(pair.group)];
+    const auto first = static_cast<std::size_t>(pair.first);
+    const auto second = static_cast<std::size_t>(pair.second);
+    if (std::max(first, second) >= group.members.size() || !group.can_touch(first, second) ||
+        group.ordered(first, second).first != first) {
+      visit.refuse("near", "two bodies in it cannot touch");
+    }
+    needed += group.contact(first, second).num_states();
+  }
+  if (needed == num_states) return;
+  visit.refuse("near_states", fmt::format("it has {} values, its pairs {}", num_states, needed));
+}
+
+void visit_near(const base::SaveVisit& visit, const Model& model, RowMemory& memory) {
+  if (model.contact_groups.empty()) return;
+  std::vector<int> numbers;
+  for (const NearPair& pair : memory.near) {
+    numbers.insert(numbers.end(), {pair.group, pair.first, pair.second});
+  }
+  visit.counts("near", numbers, 0, kMostMembers);
+  std::vector<double> states(memory.near_states.begin(), memory.near_states.end());
+  visit.any_numbers("near_states", states);
+  visit.number("near_time", memory.near_time);
+  if (!visit.is_restoring()) return;
+  if (numbers.size() % 3 != 0) visit.refuse("near", "it is not a list of pairs");
+  memory.near.clear();
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+    if (static_cast<std::size_t>(numbers[k]) >= model.contact_groups.size()) {
+      visit.refuse("near", "there is no such group");
+    }
+    memory.near.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+  }
+  memory.near_states =
+      Eigen::Map<const linalg::Vector>(states.data(), static_cast<Eigen::Index>(states.size()));
+  require_pairs(visit, model, memory.near, memory.near_states.size());
+}
+
 void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& memory) {
   memory.coordinates.resize(model.coordinates.size());
   for (std::size_t k = 0; k < memory.coordinates.size(); ++k) {
@@ -93,6 +142,7 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
   }
   visit_switches(visit, "off", model.loads.size(), memory.off);
   visit_switches(visit, "released", model.joints.size(), memory.released);
+  visit_near(visit, model, memory);
   if (model.signals.empty()) return;
   visit.list("signals", memory.signals, model.signals.all.size() + 1);
   visit.vector("blocks", memory.blocks, 3 * model.signals.num_states);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,14 @@ struct BodyState {
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };
 
+/// Two members of a contact group that touch, or are near each other.
+struct NearPair {
+  int group = 0;  ///< index into Model::contact_groups
+  int first = 0;  ///< index into ContactGroup::members: the surface
+  int second = 0;
+  auto operator<=>(const NearPair&) const = default;
+};
+
 /// Memory of rows and force laws: part of the state because the next step depends on it.
 struct RowMemory {
   std::vector<joints::CountedValue> coordinates;  ///< one per Model::coordinates
@@ -39,7 +48,10 @@ struct RowMemory {
   std::vector<double> signals;  ///< t and the values of all signals then; empty without signals
   /// States of blocks, their rates, and the rates of the method, SignalSet::num_states each.
   linalg::Vector blocks;
-  double block_step = 0;  ///< to which the rates of the method belong [s]
+  double block_step = 0;       ///< to which the rates of the method belong [s]
+  std::vector<NearPair> near;  ///< ascending
+  linalg::Vector near_states;  ///< of their contacts, one after the other
+  double near_time = 0;        ///< when they were found [s]
   /// What events have switched off: one entry per Model::loads and Model::joints; empty: nothing.
   std::vector<char> off, released;
 

@@ -9,8 +9,10 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/rigid_law.h"
+#include "buckens/model/contact_group.h"
 
 namespace buckens::results {
 
@@ -45,6 +47,37 @@ class ContactSensor final : public Sensor {
   std::size_t load_;
 };
 
+class ContactsSensor final : public Sensor {
+ public:
+  ContactsSensor(std::vector<Channel> channels, std::size_t group)
+      : channels_(std::move(channels)), group_(group) {}
+
+  std::vector<Channel> channels() const override { return channels_; }
+  void append(const Observation& now, std::vector<double>& values) override {
+    const dynamics::GroupReading reading =
+        dynamics::read_group(now.model, group_, now.motions, now.state.t, circumstances_of(now));
+    values.insert(values.end(),
+                  {reading.normal, reading.friction, static_cast<double>(reading.touching)});
+  }
+
+ private:
+  std::vector<Channel> channels_;
+  std::size_t group_;
+};
+
+std::unique_ptr<Sensor> make_contacts_sensor(const model::Model& model, const std::string& path,
+                                             std::size_t load) {
+  const std::string& name = model.loads[load].name;
+  std::size_t group = 0;
+  while (model.contact_groups[group]->load != load) ++group;
+  return std::make_unique<ContactsSensor>(
+      std::vector<Channel>{
+          {path + ".normal", "N", {}, fmt::format("sum of the normal forces of {}", name), {}},
+          {path + ".friction", "N", {}, fmt::format("sum of the friction forces of {}", name), {}},
+          {path + ".touching", "", {}, fmt::format("number of pairs that touch in {}", name), {}}},
+      group);
+}
+
 }  // namespace
 
 std::unique_ptr<Sensor> make_contact_sensor(const model::BuiltModel& built,
@@ -52,8 +85,10 @@ std::unique_ptr<Sensor> make_contact_sensor(const model::BuiltModel& built,
                                             const std::string& contact) {
   for (std::size_t k = 0; k < built.model.loads.size(); ++k) {
     const model::Load& load = built.model.loads[k];
-    if (load.name != contact || load.kind != loads::ContactSpec::kKey) continue;
+    const bool is_group = load.kind == loads::ContactsSpec::kKey;
+    if (load.name != contact || !(is_group || load.kind == loads::ContactSpec::kKey)) continue;
     const std::string path = "sensors/" + spec.name;
+    if (is_group) return make_contacts_sensor(built.model, path, k);
     return std::make_unique<ContactSensor>(
         std::vector<Channel>{
             {path + ".normal", "N", {}, fmt::format("normal force of contact {}", contact), {}},

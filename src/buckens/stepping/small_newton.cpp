@@ -149,6 +149,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   }
   rounding_length_ = dynamics::rounding_length(model_, end_);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
+  follow_near();
   follow_released(t);
   bool is_closed = condense(t);
   const double pivots = condensation_->pivot_ratio();
@@ -239,7 +240,7 @@ std::vector<dynamics::SystemRow> SmallNewton::row_pattern(double t) {
 bool SmallNewton::condense(double t) {
   if (!condensation_) {
     condensation_ = std::make_unique<dynamics::MultiplierCondensation>(
-        static_cast<int>(model_.bodies.size()), row_pattern(t));
+        static_cast<int>(model_.bodies.size()), row_pattern(t), soft_.num_of_groups);
     condensation_->pivot_as(pivoted_);
     pivoted_.clear();
   }
@@ -308,6 +309,16 @@ void SmallNewton::follow_released(double t) {
   select_rows_anew(t, true);
   gave_up_rows_ = false;
   trusted_pivots_ = 0.0;
+}
+
+void SmallNewton::follow_near() {
+  const auto same_rows = [this] { return soft_.num_of_groups == num_of_groups_; };
+  if (around_.memory == nullptr || (around_.memory->near == near_ && same_rows())) return;
+  near_ = around_.memory->near;
+  num_of_groups_ = soft_.num_of_groups;
+  // Rows that were exchanged for their pivots are those of joints: they stay.
+  if (condensation_) pivoted_ = condensation_->pivoted_values();
+  condensation_.reset();
 }
 
 void SmallNewton::leave_to_rows_in_use(Vector& lambda) const {

@@ -116,6 +116,8 @@ class SmallNewton {
   bool select_rows_anew(double t, bool may_give_up);
   /// Determines them again where joints have let go since.
   void follow_released(double t);
+  /// Begins with a new condensation where others of many bodies are near each other.
+  void follow_near();
   /// Multipliers of dropped rows are zero.
   void leave_to_rows_in_use(linalg::Vector& lambda) const;
   /// Reports the residuals of rows, and notes a row not in use that no longer follows from the
@@ -151,6 +153,8 @@ class SmallNewton {
   dynamics::Forces forces_;
   /// Scratch: rows of couplers own memory.
   std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows_of_joint_, acting_of_joint_;
+  std::vector<model::NearPair> near_;  // that the condensation was made for
+  int num_of_groups_ = 0;
   dynamics::SoftRows soft_, soft_now_;  // at the predicted configuration; scratch
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff

@@ -10,6 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/loads/contact.h"
+#include "buckens/loads/elastic_contact.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/model/build/contact_shapes.h"
 
@@ -21,12 +22,6 @@ using ShapeKind = ContactShape::Kind;
 
 namespace {
 
-constexpr double kHertzExponent = 1.5;
-constexpr double kUsualPoisson = 0.3;
-// Of spheres that stick to each other (Mindlin): 2 (1 − ν)/(2 − ν), 0.82 with ν = 0.3.
-constexpr double kTangentialShare = 0.8;
-// Overlap at which the default is taken where nothing has a weight: a share of the shape's size.
-constexpr double kLightOverlap = 1e-4;
 // Share of m L² below which a body has no rotary inertia.
 constexpr double kNoRotaryInertia = 1e-12;
 // Rounding of places, as a share of the smaller shape.
@@ -98,7 +93,7 @@ class ContactBuilder {
 
   /// As placed, the shapes are beside each other and in the same plane.
   void require_place(const loads::ContactPair& pair) {
-    size_ = std::min(size_of(pair.first()), size_of(pair.second()));
+    size_ = std::min(loads::size_of(pair.first()), loads::size_of(pair.second()));
     const joints::Placement placed = find_.placement(load_.first, load_.second);
     if (find_.model().planar && pair.first().kind != ShapeKind::plane &&
         pair.first().kind != ShapeKind::bore) {
@@ -137,48 +132,14 @@ class ContactBuilder {
     return 1.0 / inverse;
   }
 
-  /// Across the surface, under the weight of the lighter body [N/m].
-  double usual_stiffness(const loads::ContactData& data) const {
-    const double weight = data.inertia * find_.model().gravity.norm();
-    const double overlap = weight > 0.0 ? std::pow(weight / data.stiffness, 1.0 / data.exponent)
-                                        : kLightOverlap * size_;
-    return data.exponent * data.stiffness * std::pow(overlap, data.exponent - 1.0);
-  }
-
   double rigid_threshold() const { return loads::RigidStop::kAtRest * size_; }
 
-  /// What comes slower than g √(m/k) is kept there by its weight, and would rest ever more slowly
-  /// if its losses rose further.
-  double elastic_threshold(const loads::ContactData& data) const {
-    const double held =
-        find_.model().gravity.norm() * std::sqrt(data.inertia / usual_stiffness(data));
-    return std::max(held, rigid_threshold());
-  }
-
   void set_elastic(const loads::ContactPair& pair) {
-    loads::ContactData data;
-    if (spec_.modulus) {
-      const double radius = pair.second().radius;
-      double curvature = 1.0 / radius;
-      if (pair.first().kind == ShapeKind::sphere) curvature += 1.0 / pair.first().radius;
-      if (pair.first().kind == ShapeKind::socket) curvature -= 1.0 / pair.first().radius;
-      data.stiffness = loads::hertz_stiffness(
-          *spec_.modulus, spec_.poisson.value_or(std::array{kUsualPoisson, kUsualPoisson}),
-          curvature);
-      data.exponent = kHertzExponent;
-    } else {
-      data.stiffness = *spec_.stiffness;
-      data.exponent = spec_.exponent.value_or(1.0);
-    }
-    data.loss = loads::loss_factor(spec_.restitution.value_or(1.0));
-    data.damping = spec_.damping;
-    data.static_coefficient = spec_.coefficient;
-    data.dynamic_coefficient = spec_.dynamic.value_or(spec_.coefficient);
-    data.stribeck_speed = spec_.stribeck.value_or(0.0);
-    data.inertia = reduced_mass();
-    data.threshold = spec_.threshold.value_or(elastic_threshold(data));
-    data.tangential_stiffness = spec_.tangential.value_or(kTangentialShare * usual_stiffness(data));
-    load_.element = std::make_shared<loads::Contact>(pair, data);
+    loads::ElasticContactLaw law = loads::elastic_law(spec_);
+    law.modulus = spec_.modulus;
+    if (spec_.poisson) law.poisson = *spec_.poisson;
+    load_.element = std::make_shared<loads::Contact>(
+        pair, loads::contact_data(law, pair, reduced_mass(), find_.model().gravity.norm()));
   }
 
   /// One-sided row: along the normal of a plane, or between two centres.

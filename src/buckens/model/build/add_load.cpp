@@ -16,6 +16,7 @@
 #include "buckens/loads/spring_damper.h"
 #include "buckens/model/build/add_belt.h"
 #include "buckens/model/build/add_contact.h"
+#include "buckens/model/build/add_contacts.h"
 
 namespace buckens::model {
 
@@ -53,6 +54,8 @@ class LoadBuilder {
       add_torsional(*torsional, load, spec.where);
     } else if (const auto* contact = std::get_if<loads::ContactSpec>(&spec.kind)) {
       set_contact(*contact, find_, load, spec.where);
+    } else if (const auto* contacts = std::get_if<loads::ContactsSpec>(&spec.kind)) {
+      set_contacts(*contacts, find_, load, spec.where);
     } else if (const auto* belt = std::get_if<loads::ElasticBeltSpec>(&spec.kind)) {
       set_belt(*belt, find_, load, spec.where);
     } else if (const auto* ball = std::get_if<loads::BallFrictionSpec>(&spec.kind)) {

@@ -26,6 +26,7 @@
 #include "buckens/model/build/reduce_bodies.h"
 #include "buckens/model/check/check_description.h"
 #include "buckens/model/check/flat_mesh.h"
+#include "buckens/model/contact_group.h"
 
 namespace buckens::model {
 
@@ -398,6 +399,11 @@ class Builder {
     for (Load& load : model_.loads) {
       move(load.first);
       move(load.second);
+    }
+    for (auto& group : model_.contact_groups) {
+      auto moved = std::make_shared<ContactGroup>(*group);
+      for (ContactMember& member : moved->members) move(member.marker);
+      group = std::move(moved);
     }
     for (Signal& signal : model_.signals.all) move(signal.marker);
     for (SensorPlace& place : out_->sensors) {

@@ -109,18 +109,4 @@ ContactShape contact_shape(const loads::ShapeSpec& spec, MarkerFinder& find, con
   return std::visit(ShapeBuilder(find, marker, what, where), spec.kind);
 }
 
-double size_of(const ContactShape& shape) {
-  switch (shape.kind) {
-    case ContactShape::Kind::plane:
-      return HUGE_VAL;
-    case ContactShape::Kind::box: {
-      Vector3d half = shape.half;
-      if (shape.flat >= 0) half[shape.flat] = HUGE_VAL;
-      return half.minCoeff();
-    }
-    default:
-      return shape.radius;
-  }
-}
-
 }  // namespace buckens::model

@@ -16,7 +16,4 @@ loads::ContactShape contact_shape(const loads::ShapeSpec& spec, MarkerFinder& fi
                                   const MarkerId& marker, const std::string& what,
                                   const SourceLocation& where);
 
-/// Half of its extent [m]; HUGE_VAL for planes.
-double size_of(const loads::ContactShape& shape);
-
 }  // namespace buckens::model

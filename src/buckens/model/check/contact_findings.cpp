@@ -106,6 +106,23 @@ Found rigid_problem(const loads::ContactSpec& spec, const ModelDescription& mode
                                        spec.shapes[0].kind_name(), spec.shapes[1].kind_name())};
 }
 
+Found restitution_problem(const loads::ContactForceSpec& spec) {
+  if (spec.restitution.value_or(0.0) <= 1.0) return std::nullopt;
+  return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no rebound is "
+                                            "faster than the approach",
+                                            *spec.restitution)};
+}
+
+Found elastic_loss_problem(const loads::ContactForceSpec& spec) {
+  if (spec.restitution && *spec.restitution < kLeastElasticRestitution) {
+    return Finding{"restitution",
+                   fmt::format("expected {:g} to 1 for an elastic contact, found {:g}; leave out "
+                               "`stiffness` and `modulus` for a rigid one, which may have 0",
+                               kLeastElasticRestitution, *spec.restitution)};
+  }
+  return std::nullopt;
+}
+
 Found elastic_problem(const loads::ContactSpec& spec) {
   if (spec.stiffness && spec.modulus) {
     return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
@@ -127,16 +144,10 @@ Found elastic_problem(const loads::ContactSpec& spec) {
                                           "`stiffness`",
                                           spec.shapes[0].kind_name(), spec.shapes[1].kind_name())};
   }
-  if (spec.restitution && *spec.restitution < kLeastElasticRestitution) {
-    return Finding{"restitution",
-                   fmt::format("expected {:g} to 1 for an elastic contact, found {:g}; leave out "
-                               "`stiffness` and `modulus` for a rigid one, which may have 0",
-                               kLeastElasticRestitution, *spec.restitution)};
-  }
-  return std::nullopt;
+  return elastic_loss_problem(spec);
 }
 
-Found contact_friction_problem(const loads::ContactSpec& spec) {
+Found contact_friction_problem(const loads::ContactForceSpec& spec) {
   if (spec.dynamic && *spec.dynamic > spec.coefficient) {
     return Finding{"dynamic",
                    fmt::format("friction is {:g} while it slides, more than {:g} while it sticks; "
@@ -156,6 +167,44 @@ Found contact_friction_problem(const loads::ContactSpec& spec) {
   return std::nullopt;
 }
 
+/// Whether two entries have shapes that can touch, where they can meet at all.
+Found kinds_problem(const loads::ContactMemberSpec& a, const loads::ContactMemberSpec& b,
+                    bool needs_hertz) {
+  const auto is_on_ground = [](const loads::ContactMemberSpec& one) { return one.on.is_ground(); };
+  if (is_on_ground(a) && is_on_ground(b)) return std::nullopt;
+  const std::string first = a.shape.kind_name(), second = b.shape.kind_name();
+  const auto all = loads::ContactPair::all();
+  const auto is_either = [&](const auto& kinds) {
+    const std::string one = loads::to_string(kinds[0]), other = loads::to_string(kinds[1]);
+    return (first == one && second == other) || (first == other && second == one);
+  };
+  if (std::none_of(all.begin(), all.end(), is_either)) {
+    return Finding{"among", fmt::format("a {} and a {} cannot touch; use other shapes, or "
+                                        "separate them by `against`",
+                                        first, second)};
+  }
+  const auto has = [&](const char* kind) { return first == kind || second == kind; };
+  if (needs_hertz && !(has("sphere") && (first == second || has("plane") || has("socket")))) {
+    return Finding{
+        "modulus",
+        fmt::format("Hertz has no force for a {} and a {}; give a `stiffness`", first, second)};
+  }
+  return std::nullopt;
+}
+
+Found kinds_problem(const loads::ContactsSpec& spec) {
+  const bool needs_hertz = spec.modulus.has_value();
+  const auto& others = spec.against.empty() ? spec.among : spec.against;
+  for (std::size_t i = 0; i < spec.among.size(); ++i) {
+    for (std::size_t j = spec.against.empty() ? i : 0; j < others.size(); ++j) {
+      // One body does not touch itself.
+      if (&spec.among[i] == &others[j] && spec.among[i].bodies.empty()) continue;
+      if (Found found = kinds_problem(spec.among[i], others[j], needs_hertz)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& model) {
@@ -163,11 +212,7 @@ Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& 
     if (Found found = direction_problem(shape)) return found;
   }
   if (Found found = pair_problem(spec)) return found;
-  if (spec.restitution.value_or(0.0) > 1.0) {
-    return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no rebound is "
-                                              "faster than the approach",
-                                              *spec.restitution)};
-  }
+  if (Found found = restitution_problem(spec)) return found;
   if (!spec.stiffness && !spec.modulus) {
     if (Found found = rigid_problem(spec, model)) return found;
   }
@@ -177,10 +222,48 @@ Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& 
   return contact_friction_problem(spec);
 }
 
+Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription& /*model*/) {
+  const auto problem_in = [](const std::vector<loads::ContactMemberSpec>& list,
+                             const char* key) -> Found {
+    for (const loads::ContactMemberSpec& member : list) {
+      if (Found found = direction_problem(member.shape)) return Finding{key, found->text};
+      if (member.bodies.empty() == member.on.body.empty()) {
+        return Finding{key,
+                       "each entry needs either `on`, a marker, or `bodies`, names of bodies; "
+                       "give exactly one of them"};
+      }
+    }
+    return std::nullopt;
+  };
+  if (Found found = problem_in(spec.among, "among")) return found;
+  if (Found found = problem_in(spec.against, "against")) return found;
+  if (Found found = kinds_problem(spec)) return found;
+  if (!spec.stiffness && !spec.modulus) {
+    return Finding{"", "contacts of many bodies are elastic; give a `stiffness` or a `modulus`"};
+  }
+  if (spec.stiffness && spec.modulus) {
+    return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
+  }
+  if (spec.poisson && !spec.modulus) {
+    return Finding{"poisson-ratio",
+                   "it belongs to `modulus`, which is missing; add it, or remove `poisson-ratio`"};
+  }
+  if (spec.modulus && spec.exponent) {
+    return Finding{"exponent",
+                   "by `modulus` the exponent is 1.5; remove `exponent`, or give a `stiffness` in "
+                   "place of `modulus`"};
+  }
+  if (Found found = restitution_problem(spec)) return found;
+  if (Found found = elastic_loss_problem(spec)) return found;
+  return contact_friction_problem(spec);
+}
+
 Found own_joint_problem(const ContactSensor& spec, const ModelDescription& model) {
   std::vector<std::string> known;
   for (const loads::LoadSpec& load : model.loads) {
-    if (std::holds_alternative<loads::ContactSpec>(load.kind)) known.push_back(load.name);
+    const bool is_one = std::holds_alternative<loads::ContactSpec>(load.kind) ||
+                        std::holds_alternative<loads::ContactsSpec>(load.kind);
+    if (is_one) known.push_back(load.name);
   }
   if (std::find(known.begin(), known.end(), spec.contact) != known.end()) return std::nullopt;
   return Finding{"contact", fmt::format("there is no contact \"{}\".{}", spec.contact,

@@ -8,6 +8,8 @@ namespace buckens::model {
 
 /// What is wrong with a contact beyond its markers.
 Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& model);
+/// What is wrong with contacts of many bodies.
+Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription& model);
 /// Whether the contact that a sensor names exists.
 Found own_joint_problem(const ContactSensor& spec, const ModelDescription& model);
 

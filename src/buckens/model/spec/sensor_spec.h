@@ -326,7 +326,9 @@ struct ContactSensor {
   static constexpr const char* kDoc =
       "of a contact: the sum of its forces across the surface (`normal`), the size of their "
       "resultant along it (`friction`) and the least distance of both shapes, negative where they "
-      "overlap (`gap`)";
+      "overlap (`gap`); of contacts of many bodies: the sums of all forces across and along, and "
+      "the "
+      "number of pairs that touch (`touching`)";
   std::string contact;
 
   template <class Visitor>

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/dynamics/contact_groups.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/near_pairs.h"
+#include "buckens/model/contact_group.h"
+
+namespace buckens::dynamics {
+
+using model::ContactGroup;
+using model::ContactMember;
+using model::NearPair;
+
+namespace {
+
+// How far around a shape others count as near, as a share of its size; and how much further than it
+// moves in a step of the present length.
+constexpr double kMargin = 0.02;
+constexpr double kStepsAhead = 2.0;
+// Nothing is looked for further away than this many times its size: what moves that far in a step
+// passes through others anyway.
+constexpr double kFarthest = 1.0;
+
+/// A near pair at one instant.
+struct PairAt {
+  const ContactGroup& group;
+  const ContactMember& first;
+  const ContactMember& second;
+  body::MarkerKinematics first_at, second_at;
+  loads::Contact contact;
+
+  PairAt(const model::Model& model, const NearPair& pair, const std::vector<BodyMotion>& motions)
+      : group(*model.contact_groups[static_cast<std::size_t>(pair.group)]),
+        first(group.members[static_cast<std::size_t>(pair.first)]),
+        second(group.members[static_cast<std::size_t>(pair.second)]),
+        first_at(evaluate_marker(model, first.marker, motions)),
+        second_at(evaluate_marker(model, second.marker, motions)),
+        contact(group.contact(static_cast<std::size_t>(pair.first),
+                              static_cast<std::size_t>(pair.second))) {}
+
+  loads::Sight sight(double t, const double* states) const {
+    return {t, first_at.motion, second_at.motion, {}, {}, states, {}};
+  }
+};
+
+/// Calls f(pair, its states or null) for all near pairs that are switched on.
+template <class F>
+void for_near_pairs(const model::Model& model, const std::vector<BodyMotion>& motions,
+                    const model::RowMemory* memory, F&& f) {
+  if (model.contact_groups.empty()) return;
+  if (memory == nullptr) {
+    for (const NearPair& pair : find_near(model, motions, 0.0)) {
+      f(PairAt(model, pair, motions), nullptr);
+    }
+    return;
+  }
+  const double* states = memory->near_states.data();
+  for (const NearPair& pair : memory->near) {
+    const PairAt at(model, pair, motions);
+    if (!memory->is_off(at.group.load)) f(at, states);
+    states += at.contact.num_states();
+  }
+}
+
+/// Speed of the fastest point of a shape [m/s]; of unbounded ones that of its marker.
+double fastest(const loads::ContactShape& shape, const spatial::MarkerMotion& at) {
+  const double reach = shape.kind == loads::ContactShape::Kind::plane
+                           ? 0.0
+                           : shape.radius + shape.half_length + shape.half.norm();
+  return at.v.norm() + reach * at.w.norm();
+}
+
+double least_gap(const loads::ContactPair& pair, const spatial::MarkerMotion& first,
+                 const spatial::MarkerMotion& second) {
+  loads::ContactPair::Spots spots;
+  const Eigen::Matrix3d R_FW = first.R.transpose();
+  pair.find(R_FW * (second.p - first.p), R_FW * second.R, spots);
+  double gap = HUGE_VAL;
+  for (int k = 0; k < pair.num_spots(); ++k) {
+    gap = std::min(gap, spots[static_cast<std::size_t>(k)].gap);
+  }
+  return gap;
+}
+
+void find_near_in(const model::Model& model, std::size_t number,
+                  const std::vector<BodyMotion>& motions, double ahead,
+                  std::vector<NearPair>& out) {
+  const ContactGroup& group = *model.contact_groups[number];
+  const std::size_t count = group.members.size();
+  std::vector<spatial::MarkerMotion> at(count);
+  std::vector<double> margin(count);
+  std::vector<Eigen::AlignedBox3d> boxes(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ContactMember& member = group.members[k];
+    at[k] = evaluate_marker(model, member.marker, motions).motion;
+    const double speed = fastest(member.shape, at[k]);
+    const double moves = speed > 0.0 ? kStepsAhead * ahead * speed : 0.0;
+    const double size = loads::size_of(member.shape);
+    margin[k] = ahead == 0.0       ? 0.0
+                : std::isinf(size) ? moves
+                                   : kMargin * size + std::min(moves, kFarthest * size);
+    boxes[k] = loads::bounding_box(member.shape, at[k]);
+    boxes[k].min().array() -= margin[k];
+    boxes[k].max().array() += margin[k];
+  }
+  std::vector<std::pair<int, int>> pairs;
+  loads::find_overlapping(boxes, pairs);
+  for (const auto& [a, b] : pairs) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    if (!group.can_touch(i, j)) continue;
+    const auto [first, second] = group.ordered(i, j);
+    const loads::ContactPair pair(group.members[first].shape, group.members[second].shape);
+    if (least_gap(pair, at[first], at[second]) > margin[i] + margin[j]) continue;
+    out.push_back({static_cast<int>(number), static_cast<int>(first), static_cast<int>(second)});
+  }
+}
+
+/// Finds pairs and room for their states.
+void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
+                const model::RowMemory& before, model::RowMemory& out) {
+  out.near = find_near(model, motions, ahead);
+  std::erase_if(out.near, [&](const NearPair& pair) {
+    return before.is_off(model.contact_groups[static_cast<std::size_t>(pair.group)]->load);
+  });
+}
+
+}  // namespace
+
+std::vector<NearPair> find_near(const model::Model& model, const std::vector<BodyMotion>& motions,
+                                double ahead) {
+  std::vector<NearPair> out;
+  for (std::size_t k = 0; k < model.contact_groups.size(); ++k) {
+    find_near_in(model, k, motions, ahead, out);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                      const Circumstances& around, Forces& out) {
+  for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
+    const loads::Action action = at.contact.respond(at.sight(t, states));
+    add_wrench(model, at.first.marker, at.first_at, action.on_first, out);
+    add_wrench(model, at.second.marker, at.second_at, action.on_second, out);
+    out.stored_energy += action.stored_energy;
+    out.active_power += action.active_power;
+    out.dissipation += action.dissipation;
+    out.regimes.push_back(action.regime);
+  });
+}
+
+void append_group_tangents(const model::Model& model, const std::vector<BodyMotion>& motions,
+                           double t, const Circumstances& around, SoftRows& out) {
+  const std::size_t before = out.rows.size();
+  for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
+    const loads::Sight sight = at.sight(t, states);
+    out.of_one.clear();
+    at.contact.append_tangent(sight, out.of_one);
+    out.regimes.push_back(at.contact.respond(sight).regime);
+    for (const loads::SoftRow& row : out.of_one) {
+      out.rows.push_back(
+          system_row(model, at.first.marker, at.first_at, at.second.marker, at.second_at, row.J));
+      out.stiffness.push_back(row.stiffness);
+      out.damping.push_back(row.damping);
+      out.rigid.push_back(-1);
+      out.is_closed.push_back(0);
+    }
+  });
+  out.num_of_groups = static_cast<int>(out.rows.size() - before);
+}
+
+void start_near(const model::Model& model, const std::vector<BodyMotion>& motions,
+                model::RowMemory& out) {
+  if (model.contact_groups.empty()) return;
+  const model::RowMemory nothing;
+  advance_near(model, motions, 0.0, {nullptr, &nothing, nullptr, nullptr}, out);
+}
+
+void advance_near(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                  const Circumstances& around, model::RowMemory& out) {
+  if (model.contact_groups.empty()) return;
+  const model::RowMemory& before = *around.memory;
+  // Beyond the first step its length is known; margins are limited by sizes in any case.
+  find_pairs(model, motions, t > before.near_time ? t - before.near_time : HUGE_VAL, before, out);
+  out.near_time = t;
+  std::vector<PairAt> pairs;
+  pairs.reserve(out.near.size());
+  Eigen::Index count = 0;
+  for (const NearPair& pair : out.near) {
+    count += pairs.emplace_back(model, pair, motions).contact.num_states();
+  }
+  out.near_states.setZero(count);
+  double* states = out.near_states.data();
+  auto known = before.near.begin();
+  const double* known_states = before.near_states.data();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    while (known != before.near.end() && *known < out.near[k]) {
+      known_states += PairAt(model, *known, motions).contact.num_states();
+      ++known;
+    }
+    const bool is_known = known != before.near.end() && *known == out.near[k];
+    if (is_known) {
+      pairs[k].contact.find_states(pairs[k].sight(t, known_states), states);
+    } else {
+      pairs[k].contact.start_states(pairs[k].sight(t, nullptr), states);
+    }
+    states += pairs[k].contact.num_states();
+  }
+}
+
+void refuse_contact_groups(const model::Model& model, const char* analysis) {
+  if (model.contact_groups.empty()) return;
+  throw ModelError(fmt::format(
+      "load \"{}\": {} does not see contacts of many bodies yet; give those that touch a `contact` "
+      "each, or let the model come to rest in a simulation",
+      model.loads[model.contact_groups.front()->load].name, analysis));
+}
+
+GroupReading read_group(const model::Model& model, std::size_t group,
+                        const std::vector<BodyMotion>& motions, double t,
+                        const Circumstances& around) {
+  GroupReading out;
+  const ContactGroup* const own = model.contact_groups[group].get();
+  for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
+    if (&at.group != own) return;
+    const loads::ContactReading one = at.contact.read(at.sight(t, states));
+    out.normal += one.normal;
+    out.friction += one.friction;
+    out.touching += one.gap < 0.0 ? 1 : 0;
+  });
+  return out;
+}
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/forces.h"
+
+namespace buckens::dynamics {
+
+/// Members of contact groups that touch or are near each other, ascending.
+/// @param ahead the time over which they are to be found in advance [s]
+std::vector<model::NearPair> find_near(const model::Model& model,
+                                       const std::vector<BodyMotion>& motions, double ahead);
+
+/// Adds the forces of all near pairs. Without a memory those that touch at the instant.
+void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                      const Circumstances& around, Forces& out);
+/// Appends their tangents, behind those of the loads.
+void append_group_tangents(const model::Model& model, const std::vector<BodyMotion>& motions,
+                           double t, const Circumstances& around, SoftRows& out);
+
+/// Finds near pairs and their states before the first step.
+void start_near(const model::Model& model, const std::vector<BodyMotion>& motions,
+                model::RowMemory& out);
+/// The same at the end of a step. @param around with the memory at its start
+void advance_near(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                  const Circumstances& around, model::RowMemory& out);
+
+/// @param analysis that does not know contacts of many bodies: "a static equilibrium"
+/// @throws ModelError if the model has any
+void refuse_contact_groups(const model::Model& model, const char* analysis);
+
+/// What the contacts of one group do at one instant.
+struct GroupReading {
+  double normal = 0;    ///< sum of the forces across all surfaces [N]
+  double friction = 0;  ///< sum of the sizes of those along them [N]
+  int touching = 0;     ///< number of pairs that touch
+};
+GroupReading read_group(const model::Model& model, std::size_t group,
+                        const std::vector<BodyMotion>& motions, double t,
+                        const Circumstances& around);
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contacts among many bodies: found by themselves, equal to contacts given one by one."""
+
+import itertools
+
+import numpy
+import pytest
+
+BALL = "  b{k}: {{rigid: {{mass: {m}, inertia: [{j}, {j}, {j}]}}, at: {{position: [{x}, {y}, {z}]}}}}\n"
+LAW = "stiffness: 2e4, restitution: 0.6, static: 0.3"
+WALLS = [("[0, 0, 0]", "[0, 0, 1]"), ("[-0.2, 0, 0]", "[1, 0, 0]"), ("[0.2, 0, 0]", "[-1, 0, 0]"),
+         ("[0, -0.2, 0]", "[0, 1, 0]"), ("[0, 0.2, 0]", "[0, -1, 0]")]
+
+
+def spheres(count, radius=0.05, spacing=0.11, height=0.06):
+    """Layers of nine, slightly out of line."""
+    out = ""
+    for k in range(count):
+        layer, place = divmod(k, 9)
+        row, column = divmod(place, 3)
+        out += BALL.format(k=k, m=0.5, j=0.4 * 0.5 * radius**2, x=round((column - 1) * spacing + 0.002 * (k % 4), 6),
+                           y=round((row - 1) * spacing + 0.0015 * (k % 3), 6), z=round(height + spacing * layer, 6))
+    return out
+
+
+def box_of(count, loads, step="0.5 ms", duration="0.3 s", sensors=""):
+    return (f"buckens: 1\ngravity: [0, 0, -9.81]\nbodies:\n{spheres(count)}loads:\n{loads}"
+            f"simulation: {{duration: {duration}, step: {step}}}\noutput: {{every: 10 ms, sensors: {{{sensors}}}}}\n")
+
+
+def group(law=LAW):
+    walls = ", ".join(f"{{on: {{ground: {point}}}, plane: {normal}}}" for point, normal in WALLS)
+    return f"  heap: {{contacts: {{among: [{walls}, {{bodies: \"b*\", sphere: 50 mm}}], {law}}}}}\n"
+
+
+def one_by_one(count):
+    out = ""
+    for k in range(count):
+        for w, (point, normal) in enumerate(WALLS):
+            out += f"  w{w}_{k}: {{contact: {{between: [{{ground: {point}}}, b{k}], shapes: [{{plane: {normal}}}, {{sphere: 50 mm}}], {LAW}}}}}\n"
+    for i, j in itertools.combinations(range(count), 2):
+        out += f"  c{i}_{j}: {{contact: {{between: [b{i}, b{j}], shapes: [{{sphere: 50 mm}}, {{sphere: 50 mm}}], {LAW}}}}}\n"
+    return out
+
+
+def test_a_group_is_what_its_pairs_are(sensors):
+    """Twelve balls fall into a box, bounce, roll and rub: 126 contacts given one by one, and one group."""
+    seen = ", ".join(f"p{k}: {{position: b{k}}}, r{k}: {{rotation: b{k}}}" for k in (0, 5, 11)) + ", lost: {energy: dissipated}"
+    separate = sensors(box_of(12, one_by_one(12), sensors=seen))
+    together = sensors(box_of(12, group(), sensors=seen))
+    assert (separate["lost"][-1]) > 0.1  # they have hit each other
+    for name in separate:
+        # Both solve the same equations, to the step's tolerance of 1e-10 of the motion; impacts spread differences.
+        assert together[name] == pytest.approx(separate[name], rel=1e-5, abs=1e-7), name
+
+
+def test_balls_come_to_rest_in_a_box(sensors):
+    out = sensors(box_of(27, group("stiffness: 2e4, restitution: 0.3, static: 0.3"), duration="1.2 s", step="1 ms",
+                         sensors="heap: {contact: heap}, balance: {energy: balance}, lost: {energy: dissipated}, all: {position: b26}"))
+    # The floor carries all, walls and balls press against each other in addition.
+    assert out["heap.normal"][-1] > 27 * 0.5 * 9.81
+    assert out["heap.touching"][-1] >= 3 * 9
+    assert out["all.z"][-1] > 0.05
+    assert numpy.abs(out["balance"]).max() < 0.02 * out["lost"][-1]
+
+
+def test_a_cradle_hands_its_impulse_on(sensors):
+    """Hertzian balls in a row, equal masses: the last leaves with (nearly) the speed of the first."""
+    bodies = "".join(BALL.format(k=k, m=0.1, j=1e-5, x=0.0201 * k, y=0, z=0) for k in range(5))
+    out = sensors(f"""
+buckens: 1
+bodies:
+{bodies}loads: {{row: {{contacts: {{among: [{{bodies: [b0, "b[1-4]"], sphere: 10 mm}}], modulus: 200 GPa}}}}}}
+initial: {{bodies: {{b0: {{velocity: [1, 0, 0]}}}}}}
+simulation: {{duration: 1.4 ms, step: 0.5 us}}
+output: {{every: 0.1 ms, sensors: {{first: {{velocity: b0}}, last: {{velocity: b4}}, kinetic: {{energy: kinetic}}}}}}
+""")
+    # Gaps of 0.1 mm: each impact is over before the next begins, so all of it is handed on. Second order: a thousandth.
+    assert out["last.x"][-1] == pytest.approx(1, abs=1e-3)
+    assert abs(out["first.x"][-1]) < 1e-3
+    assert out["kinetic"][-1] == pytest.approx(0.05, rel=2e-3)
+
+
+def test_lists_separate_what_touches(sensors):
+    """Balls of one list pass through each other and hit the floor of the other."""
+    bodies = "".join(BALL.format(k=k, m=1, j=1e-3, x=0.01 * k, y=0, z=0.12) for k in range(2))
+    out = sensors(f"""
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+{bodies}loads: {{row: {{contacts: {{among: [{{bodies: "b*", sphere: 0.1}}], against: [{{on: ground, plane: {{}}}}], stiffness: 1e5, damping: 300}}}}}}
+simulation: {{duration: 0.5 s, step: 1 ms}}
+output: {{every: 50 ms, sensors: {{p: {{position: b0}}, v: {{velocity: b0}}, c: {{contact: row}}}}}}
+""")
+    assert out["p.x"][-1] == 0  # exactly: nothing pushes across
+    assert out["p.z"][-1] == pytest.approx(0.1 - 9.81 / 1e5, abs=1e-6)
+    assert out["c.touching"][-1] == 2 and out["c.normal"][-1] == pytest.approx(2 * 9.81, rel=1e-4)
+
+
+def test_joined_bodies_do_not_touch_each_other(sensors):
+    out = sensors("""
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  a: {rigid: {mass: 1, inertia: [1e-2, 1e-2, 1e-2]}, at: {position: [0, 0, 0.3]}}
+  b: {rigid: {mass: 1, inertia: [1e-2, 1e-2, 1e-2]}, at: {position: [0.15, 0, 0.3]}}
+joints: {weld: {fixed: {between: [a, b]}}}
+loads: {c: {contacts: {among: [{on: ground, plane: {}}, {bodies: [a, b], sphere: 0.1}], stiffness: 1e5}}}
+simulation: {duration: 0.1 s, step: 1 ms}
+output: {every: 10 ms, sensors: {c: {contact: c}, force: {joint-force: weld}}}
+""")
+    assert (out["c.touching"] == 0).all()
+    assert numpy.abs(out["force.x"]).max() < 1e-9  # free fall
+
+
+MODEL = """
+buckens: 1
+BODIES
+loads: {c: {contacts: {SPEC}}}
+simulation: {duration: 1 s, step: 1 ms}
+"""
+TWO = ("bodies: {b0: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 0.1]}}, "
+       "b1: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 0.4]}}}")
+
+
+@pytest.mark.parametrize(("spec", "code", "words"), [
+    ("among: [{bodies: \"b*\", sphere: 0.1}]", 2, ["contacts of many bodies are elastic", "`stiffness` or a `modulus`"]),
+    ("among: [{sphere: 0.1}], stiffness: 1e5", 2, ["needs either `on`, a marker, or `bodies`"]),
+    ("among: [{on: b0, bodies: b1, sphere: 0.1}], stiffness: 1e5", 2, ["give exactly one of them"]),
+    ("among: [{bodies: \"bal*\", sphere: 0.1}], stiffness: 1e5", 2, ["there is no body \"bal*\""]),
+    ("among: [{bodies: \"b*\", cylinder: {radius: 0.1, length: 0.1}}], stiffness: 1e5", 2, ["a cylinder and a cylinder cannot touch", "`against`"]),
+    ("among: [{bodies: \"b*\", sphere: 0.4}], stiffness: 1e5", 2, ["b0 and b1 overlap by 0.5 m as placed"]),
+    ("among: [{on: ground, plane: [0, 0, -1]}, {bodies: \"b*\", sphere: 0.1}], stiffness: 1e5", 2, ["overlap by 0.2 m", "turn the plane's normal"]),
+    ("among: [{on: ground, plane: {}}, {bodies: \"b*\", box: [0.1, 0.1, 0.1]}], modulus: 1 GPa", 2, ["Hertz has no force for a plane and a box"]),
+    ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, modulus: 1 GPa", 2, ["remove one of them"]),
+    ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, restitution: 1.5", 2, ["no rebound is faster"]),
+    ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, dynamic: 0.2", 2, ["swap `static` and `dynamic`"]),
+])
+def test_wrong_contacts_are_refused(buckens, tmp_path, spec, code, words):
+    (tmp_path / "model.yaml").write_text(MODEL.replace("BODIES", TWO).replace("SPEC", spec))
+    buckens("check", "model.yaml").must(code, "model.yaml:", *words)
+
+
+def test_friction_needs_inertia_and_rigid_bodies(buckens, tmp_path):
+    text = MODEL.replace("SPEC", "among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, static: 0.3")
+    (tmp_path / "model.yaml").write_text(text.replace("BODIES", TWO.replace("[1, 1, 1]", "[0, 0, 0]")))
+    buckens("check", "model.yaml").must(3, "model.yaml:", "body \"b0\", which has no rotary inertia")
+    rod = ("materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}\nbodies: {b0: {beam: {to: [1, 0, 0], elements: 2, "
+           "section: {circle: {diameter: 8 mm}}, material: steel}}}")
+    (tmp_path / "model.yaml").write_text(text.replace("BODIES", rod).replace("bodies: \"b*\", sphere", "on: b0/mid, sphere"))
+    buckens("check", "model.yaml").must(3, "body \"b0\" is flexible", "give it a `contact`")
+
+
+def test_statics_refuse_many_contacts(buckens, tmp_path):
+    text = MODEL.replace("BODIES", TWO).replace("SPEC", "among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5")
+    (tmp_path / "model.yaml").write_text(text + "initial: {start: static}\n")
+    buckens("run", "model.yaml", "-o", "out").must(3, "does not see contacts of many bodies yet", "\"c\"")
