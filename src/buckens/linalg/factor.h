@@ -10,10 +10,18 @@
 
 namespace buckens::linalg {
 
+/// Work of a solver that iterates.
+struct IterationCounts {
+  long solves = 0, iterations = 0;
+  double seconds = 0;        ///< of all solves, wall time [s]
+  double setup_seconds = 0;  ///< before the first one [s]
+};
+
 /// Factor of a symmetric positive definite matrix A: computed once, used for many solves.
 ///
 /// All that code which solves needs to know. SparseCholesky keeps the factor in the memory of this
-/// process; another implementation may keep it on an accelerator or distribute it.
+/// process; IterativeSolver has none and iterates; another implementation may keep it on an
+/// accelerator or distribute it.
 class Factor {
  public:
   virtual ~Factor() = default;
@@ -30,6 +38,14 @@ class Factor {
   /// x ← A⁻¹ x for vectors of length size() anywhere in memory.
   virtual void solve_in_place(std::span<double* const> vectors, TaskPool* pool = nullptr) const = 0;
 
+  /// Whether answers are found by iteration: then an estimate of the answer spares work.
+  virtual bool iterates() const { return false; }
+  /// x ← A⁻¹ b. @param x on entry an estimate of the answer, used by solvers that iterate
+  /// @param energy √(yᵀA y) of a vector y beside which the error of x has to be negligible; 0: x
+  virtual void improve(const Vector& b, Vector& x, double energy) const;
+  /// Nothing but zeros of a factor that does not iterate.
+  virtual IterationCounts iteration_counts() const { return {}; }
+
   /// x ← A⁻¹ x. Cost: two passes over the factor.
   void solve_in_place(Vector& x, TaskPool* pool = nullptr) const {
     solve(x.data(), x.data(), 1, pool);
@@ -45,6 +61,11 @@ class Factor {
     return X;
   }
 };
+
+inline void Factor::improve(const Vector& b, Vector& x, double /*energy*/) const {
+  x = b;
+  solve_in_place(x);
+}
 
 /// Function that factorises A, symmetric with both triangles stored.
 /// @throws NumericalError if A is not positive definite

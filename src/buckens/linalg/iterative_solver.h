@@ -7,13 +7,6 @@
 
 namespace buckens::linalg {
 
-/// Work of a solver that iterates.
-struct IterationCounts {
-  long solves = 0, iterations = 0;
-  double seconds = 0;        ///< of all solves, wall time [s]
-  double setup_seconds = 0;  ///< before the first one [s]
-};
-
 struct IterationSettings {
   int block = 1;             ///< variables per node if all nodes have as many, node by node; else 1
   double tolerance = 1e-11;  ///< of an answer, in the norm of energy
@@ -24,9 +17,8 @@ struct IterationSettings {
 /// instead of a factor: memory and time of a solve grow like the size of A.
 ///
 /// The error e of an answer x satisfies √(eᵀA e) ≤ tolerance·√(xᵀA x), as the preconditioner
-/// estimates it, and is below 1e-8 of what the estimate of the answer lacked: for the extrapolated
-/// motion of a step, that is about its local error. Always the same bits, whatever the number of
-/// threads.
+/// estimates it, and is below 1e-8 of what the estimate of the answer lacked: in a step, that
+/// is about its local error. Always the same bits, whatever the number of threads.
 class IterativeSolver final : public Factor {
  public:
   /// @param A symmetric positive definite, both triangles stored; kept
@@ -49,10 +41,9 @@ class IterativeSolver final : public Factor {
   void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override;
   void solve_in_place(std::span<double* const> vectors, TaskPool* pool) const override;
 
-  /// x ← A⁻¹ b. @param x on entry an estimate of the answer
-  /// @param energy √(yᵀA y) of a vector y beside which the error of x has to be negligible; 0: x
-  void improve(const Vector& b, Vector& x, double energy) const;
-  IterationCounts iteration_counts() const;
+  bool iterates() const override { return true; }
+  void improve(const Vector& b, Vector& x, double energy) const override;
+  IterationCounts iteration_counts() const override;
 
  private:
   void iterate(const double* b, double* x, double energy) const;

@@ -71,6 +71,9 @@ class BodyStepOperator final : public BodyAnswer {
   /// Rows of the interface, then the six patterns.
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
 
+  /// G = Y K̂⁻¹ Nᵀ.
+  const linalg::Matrix& responses() const { return G_; }
+
   /// The vectors c_ab as columns, null if N has no rows of them.
   const linalg::Matrix* patterns() const {
     return N_.rows() > num_interface_rows() ? &part_->invariants.centrifugal_patterns() : nullptr;

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/stepping/step_failure.h"
+
 namespace buckens::stepping {
 
 namespace {
@@ -36,15 +41,29 @@ FactorGroup::FactorGroup(const linalg::Factor& factor, const linalg::Vector& inv
       left_(std::min(kLeftBySolve, kLeftPerTolerance * settings.outer_tolerance)),
       kept_(inverse_diagonal, most_pairs(factor, inverse_diagonal, settings)) {}
 
-void FactorGroup::add(FlexibleStep& body) {
+void FactorGroup::add(FlexibleStep& body, std::size_t index) {
+  body.index = index;
   bodies_.push_back(&body);
   active_.reserve(bodies_.size());
   sides_.reserve(bodies_.size());
   requests_.reserve(bodies_.size());
 }
 
-void FactorGroup::solve(TaskPool* pool) {
+void FactorGroup::iterate(const model::State& before) {
+  for (FlexibleStep* body : active_) {
+    ++body->solves;
+    try {
+      body->large.iterate(before.bodies[body->index], *factor_);
+    } catch (const NumericalError& error) {
+      throw StepFailure(fmt::format("step at t = {:.6g} s failed: body \"{}\": {}", before.t,
+                                    body->name, error.what()));
+    }
+  }
+}
+
+void FactorGroup::solve(const model::State& before, TaskPool* pool) {
   if (active_.empty()) return;
+  if (factor_->iterates()) return iterate(before);
   sides_.clear();
   for (FlexibleStep* body : active_) {
     sides_.push_back(body->large.side().data());
@@ -57,16 +76,20 @@ void FactorGroup::solve(TaskPool* pool) {
   }
 }
 
-void FactorGroup::solve_loads(TaskPool* pool) {
+void FactorGroup::solve_loads(const model::State& before, TaskPool* pool) {
   requests_.clear();
   active_.assign(bodies_.begin(), bodies_.end());
-  solve(pool);
+  if (factor_->iterates()) {
+    for (FlexibleStep* body : active_) body->large.sieve_side();
+  }
+  solve(before, pool);
 }
 
-void FactorGroup::answer_changes(bool recycles, TaskPool* pool) {
+void FactorGroup::answer_changes(const model::State& before, bool recycles, TaskPool* pool) {
   active_.clear();
   for (FlexibleStep* body : bodies_) {
     if (!body->coupling.load_changed()) continue;
+    if (factor_->iterates()) body->large.sieve_side();
     const double limit = left_ * body->large.op().scheme().force * body->coupling.load_size();
     if (recycles) requests_.push_back(&body->request);
     if (recycles && kept_.answer(body->large.side(), limit, body->request, pool)) {
@@ -75,7 +98,7 @@ void FactorGroup::answer_changes(bool recycles, TaskPool* pool) {
       active_.push_back(body);
     }
   }
-  solve(pool);
+  solve(before, pool);
   if (!recycles) return;
   for (FlexibleStep* body : active_) kept_.complete(body->request, body->large.side(), pool);
 }

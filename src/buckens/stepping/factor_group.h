@@ -24,13 +24,16 @@ class FactorGroup {
               const StepSettings& settings);
 
   const linalg::Factor& factor() const { return *factor_; }
-  void add(FlexibleStep& body);
+  /// @param index of the body in the model
+  void add(FlexibleStep& body, std::size_t index);
 
   /// Solves for the right-hand sides of all bodies.
-  void solve_loads(TaskPool* pool);
+  /// @param before start of the step
+  /// @throws StepFailure naming the body if an iteration does not converge
+  void solve_loads(const model::State& before, TaskPool* pool);
   /// The same for those whose coupling load has changed.
   /// @param recycles whether earlier solves may answer, and later ones learn
-  void answer_changes(bool recycles, TaskPool* pool);
+  void answer_changes(const model::State& before, bool recycles, TaskPool* pool);
   /// Keeps what answer_changes() found in the last step.
   void learn(TaskPool* pool);
   void forget();
@@ -38,7 +41,8 @@ class FactorGroup {
   void visit_saved(const base::SaveVisit& visit) { kept_.visit_saved(visit); }
 
  private:
-  void solve(TaskPool* pool);
+  void solve(const model::State& before, TaskPool* pool);
+  void iterate(const model::State& before);
 
   const linalg::Factor* factor_;
   linalg::SolveExchange* exchange_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "buckens/linalg/recycled_solves.h"
 #include "buckens/stepping/lagged_coupling.h"
 #include "buckens/stepping/large_step.h"
@@ -9,7 +11,11 @@ namespace buckens::stepping {
 
 /// The n-sized part of one flexible body in a step, its coupling, and its large solves so far.
 struct FlexibleStep {
-  FlexibleStep(const body::Body& body, BodyStepOperator& op) : large(op), coupling(body, op) {}
+  FlexibleStep(const body::Body& body, BodyStepOperator& op)
+      : name(body.name), large(op), coupling(body, op) {}
+
+  std::string name;       ///< of the body
+  std::size_t index = 0;  ///< in the model
 
   LargeStep large;
   LaggedCoupling coupling;

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/large_step.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include <Eigen/QR>
 
 namespace buckens::stepping {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 using linalg::Vector;
+
+namespace {
+// Rows along which the body yields less than this share of what they yield alone are combinations
+// of others.
+constexpr double kDependentRow = 1e-9;
+}  // namespace
 
 LargeStep::LargeStep(BodyStepOperator& op)
     : op_(&op),
@@ -34,6 +43,10 @@ LargeStep::LargeStep(BodyStepOperator& op)
   beside_solution_ = with_damping_ * inertial.share();
   from_start_ = Weights{1.0} + start * (-1.0 / scheme.weight);
 
+  // What take_solution() makes of the solution, turned round.
+  const Weights ahead{1.0, scheme.h, 0.5 * scheme.h * scheme.h};
+  estimate_ = (holds_at_end_ ? ahead : (ahead + from_start_ * -1.0) * scheme.weight) +
+              beside_solution_ * -1.0;
   carried_before_ = scheme.carried_acceleration(1.0, 0.0);
   carried_new_ = scheme.carried_acceleration(0.0, 1.0);
   algorithmic_before_ = scheme.algorithmic(1.0, 0.0, 0.0);
@@ -68,6 +81,44 @@ void LargeStep::form_right_side_of_change(const Vector& change, TaskPool* pool) 
   rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
     change_.segment(first, size) = op_->scheme().force * change.segment(first, size);
   });
+}
+
+void LargeStep::sieve_side() {
+  const Amplitudes amplitudes = op_->sieve().Phi().transpose() * side();
+  side().noalias() -= op_->sieve().P() * amplitudes;
+}
+
+void LargeStep::estimate_solution(const model::BodyState& before, Vector& x) {
+  x = combination(estimate_, before, 0, rows_.rows());
+  const linalg::Matrix& G = op_->responses();
+  if (G.cols() == 0) return;
+  if (loads_of_N_.size() == 0) {
+    // On a scale on which rows of any unit count alike.
+    const linalg::Matrix& compliance = op_->compliance();
+    const VectorXd scale = compliance.diagonal().unaryExpr(
+        [](double of_row) { return of_row > 0.0 ? 1.0 / std::sqrt(of_row) : 0.0; });
+    Eigen::CompleteOrthogonalDecomposition<linalg::Matrix> scaled(scale.size(), scale.size());
+    scaled.setThreshold(kDependentRow);
+    scaled.compute(scale.asDiagonal() * compliance * scale.asDiagonal());
+    loads_of_N_ = scale.asDiagonal() * scaled.pseudoInverse() * scale.asDiagonal();
+  }
+  // Least energy of the error: Gᵀ(b − K̂ (x + G a)) = 0 with K̂ G = Yᵀ Nᵀ.
+  const VectorXd misfit = G.transpose() * free_ - op_->N() * x;
+  const VectorXd load = loads_of_N_ * misfit;
+  x.noalias() += G * load;
+}
+
+void LargeStep::iterate(const model::BodyState& before, const linalg::Factor& factor) {
+  if (is_first_) {
+    estimate_solution(before, iterated_);
+    factor.improve(free_, iterated_, 0.0);
+    energy_ = std::sqrt(std::max(0.0, free_.dot(iterated_)));
+    free_.swap(iterated_);
+  } else {
+    iterated_.setZero(rows_.rows());
+    factor.improve(change_, iterated_, energy_);
+    change_.swap(iterated_);
+  }
 }
 
 void LargeStep::clear_sums() {

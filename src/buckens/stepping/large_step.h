@@ -35,6 +35,15 @@ class LargeStep {
   void form_right_side_of_change(const linalg::Vector& change, TaskPool* pool);
   /// The right-hand side, to be solved in place.
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
+  /// Sieves the right-hand side, for a solver that iterates: what K̂⁻¹ makes of rigid motion would
+  /// be sieved in any case, but counts in the error that a solve may have.
+  void sieve_side();
+  /// Solves for the sieved right-hand side by iteration.
+  ///
+  /// The first solve begins at the motion d + h ḋ + ½ h² d̈ with those loads along N that come
+  /// closest to K̂ x = b; so the estimate depends on the state only. A change begins at zero and has
+  /// an error that is negligible beside the whole motion.
+  void iterate(const model::BodyState& before, const linalg::Factor& factor);
   /// Makes the motion without loads along N of the solution in side(), sieved by FM (38), (39), and
   /// its row values.
   /// @param y_free N x⁺; zero for patterns that the body's terms do not use
@@ -88,6 +97,7 @@ class LargeStep {
            w.algorithmic * s.d_alg.segment(first, size);
   }
   void clear_sums();
+  void estimate_solution(const model::BodyState& before, linalg::Vector& x);
   void form_end(const model::BodyState& before, Eigen::Index first, Eigen::Index size,
                 model::BodyState& after);
 
@@ -106,6 +116,10 @@ class LargeStep {
   linalg::Vector free_;    // x⁺ without loads along N, Φ rigid_ still in it
   linalg::Vector change_;  // of it by a later solve
   linalg::Vector scratch_, damped_;
+  Weights estimate_;           // of the solution
+  linalg::Vector iterated_;    // solution by iteration
+  double energy_ = 0;          // √(xᵀK̂x) of the first one
+  linalg::Matrix loads_of_N_;  // from misfits along N to loads along N, (N G)⁻¹
   Amplitudes rigid_;
   std::vector<PartSums> sums_;
   linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty if the equations hold at the end

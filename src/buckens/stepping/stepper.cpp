@@ -119,7 +119,7 @@ void Stepper::group_factors() {
       groups_.emplace_back(*factor, flexible_[b]->coupling.inverse_diagonal(), settings_);
       group = groups_.end() - 1;
     }
-    group->add(*flexible_[b]);
+    group->add(*flexible_[b], b);
   }
 }
 
@@ -176,7 +176,8 @@ Stepper::Answers Stepper::free_responses(const model::State& state, int round) {
   TaskPool* across = settings_.exchange == nullptr ? pool_.get() : nullptr;
   run_tasks(across, static_cast<int>(groups_.size()), [&](int g) {
     FactorGroup& group = groups_[static_cast<std::size_t>(g)];
-    first_round ? group.solve_loads(pool_.get()) : group.answer_changes(round == 1, pool_.get());
+    first_round ? group.solve_loads(state, pool_.get())
+                : group.answer_changes(state, round == 1, pool_.get());
   });
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
