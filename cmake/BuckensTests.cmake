@@ -62,6 +62,11 @@ foreach(source IN LISTS kill_sources)
   target_link_libraries(${name} PRIVATE buckens buckens_common)
 endforeach()
 
+# What a loss of power leaves, for tests/test_power_loss.py.
+add_library(kept_by_disk MODULE "${PROJECT_SOURCE_DIR}/tests/power/kept_by_disk.cpp")
+set_target_properties(kept_by_disk PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+target_link_libraries(kept_by_disk PRIVATE buckens_common ${CMAKE_DL_LIBS})
+
 file(GLOB python_tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/test_*.py"
      "${PROJECT_SOURCE_DIR}/tests/*/test_*.py")
 foreach(source IN LISTS python_tests)

@@ -19,7 +19,8 @@ constexpr char kAside[] = ".earlier";
 
 /// Files that change their place; log.txt stays, because the lock of the directory is on it, and
 /// summary.json, because it marks the directory as that of a run. Both are copied.
-constexpr std::array kMoved = {kResultsName, kSensorsName, kModesName, kModelName, kCheckpointName};
+constexpr std::array kMoved = {kResultsName, kSensorsName,    kModesName,
+                               kModelName,   kCheckpointName, kUndoName};
 
 [[noreturn]] void fail(const fs::path& file, const char* verb, const std::error_code& error) {
   throw IoError(fmt::format("{}: cannot {} the file of an earlier run: {}.", file.string(), verb,

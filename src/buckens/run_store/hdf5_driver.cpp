@@ -20,16 +20,12 @@ namespace buckens::run_store {
 
 namespace {
 
-/// A write that did not reach the disk.
-struct HeldWrite {
-  haddr_t address;
-  std::vector<std::uint8_t> bytes;
-};
-
 /// What the property list of a file hands on to the driver.
 struct DriverSettings {
-  files::WriteProcess* writer;
+  files::WriteProcess* writer;  // null: the file is read
   Hdf5WriteFault* fault;
+  Hdf5Undo* undo;
+  const Undone* undone;
 };
 
 /// An open file. HDF5 knows it by its first member.
@@ -40,7 +36,8 @@ struct DriverFile {
   haddr_t end;        // HDF5: eof
   files::WriteProcess* writer;
   Hdf5WriteFault* fault;
-  std::vector<HeldWrite> held;
+  Hdf5Undo* undo;
+  std::vector<FileBytes> held;  // writes that wait, or did not reach the disk
 };
 
 DriverFile& file_of(H5FD_t* base) { return *reinterpret_cast<DriverFile*>(base); }
@@ -51,8 +48,30 @@ void end_writing(DriverFile& file, int error) {
   file.fault->ended = true;
 }
 
+/// Passes on what waits, once what it overwrites is on the disk.
+void commit(DriverFile& file) {
+  if (file.undo == nullptr || file.fault->ended || file.held.empty()) return;
+  int error = file.undo->sync();
+  for (std::size_t k = 0; k < file.held.size() && error == 0; ++k) {
+    const FileBytes& write = file.held[k];
+    error = file.writer->write(write.address, write.bytes.data(), write.bytes.size());
+  }
+  if (error != 0) return end_writing(file, error);
+  file.held.clear();
+}
+
+H5FD_t* open_undone(const char* name, const Undone& undone) {
+  const int descriptor = ::open(name, O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return nullptr;
+  auto* file = new (std::nothrow)
+      DriverFile{{}, descriptor, 0, undone.length, nullptr, nullptr, nullptr, undone.before};
+  if (file == nullptr) ::close(descriptor);
+  return file == nullptr ? nullptr : &file->base;
+}
+
 H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
   const DriverSettings settings = *static_cast<const DriverSettings*>(H5Pget_driver_info(access));
+  if (settings.undone != nullptr) return open_undone(name, *settings.undone);
   const int descriptor = files::open_anew(name, O_RDWR);
   if (descriptor < 0) {
     settings.fault->error = errno;
@@ -61,18 +80,23 @@ H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
   settings.fault->error = settings.writer->take_file(descriptor);
   auto* file = settings.fault->error != 0
                    ? nullptr
-                   : new (std::nothrow)
-                         DriverFile{{}, descriptor, 0, 0, settings.writer, settings.fault, {}};
+                   : new (std::nothrow) DriverFile{
+                         {}, descriptor, 0, 0, settings.writer, settings.fault, settings.undo, {}};
   if (file == nullptr) {
     ::close(descriptor);
     return nullptr;
   }
+  if (settings.undo != nullptr) settings.fault->commit = [file] { commit(*file); };
   return &file->base;
 }
 
 herr_t close_file(H5FD_t* base) {
   DriverFile& file = file_of(base);
-  if (::close(file.descriptor) != 0 && errno != EINTR) end_writing(file, errno);
+  commit(file);
+  if (file.fault != nullptr) file.fault->commit = nullptr;
+  if (::close(file.descriptor) != 0 && errno != EINTR && file.fault != nullptr) {
+    end_writing(file, errno);
+  }
   delete &file;
   return 0;
 }
@@ -106,7 +130,13 @@ haddr_t get_end(const H5FD_t* base, H5FD_mem_t) { return file_of(base).end; }
 herr_t read_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
   DriverFile& file = file_of(base);
   auto* bytes = static_cast<std::uint8_t*>(buffer);
+  const std::size_t wanted = size;
   std::size_t done = 0;
+  if (file.writer == nullptr && address + size > file.end) {
+    // What came after the checkpoint is not there.
+    size = address < file.end ? static_cast<std::size_t>(file.end - address) : 0;
+    std::memset(bytes + size, 0, wanted - size);
+  }
   while (done < size) {
     const ssize_t count =
         ::pread(file.descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
@@ -116,7 +146,7 @@ herr_t read_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t s
     done += static_cast<std::size_t>(count);
   }
   std::memset(bytes + done, 0, size - done);  // beyond the end of the file
-  for (const HeldWrite& write : file.held) {
+  for (const FileBytes& write : file.held) {
     const haddr_t from = std::max(address, write.address);
     const haddr_t to = std::min(address + size, write.address + write.bytes.size());
     if (from < to) {
@@ -126,16 +156,23 @@ herr_t read_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t s
   return 0;
 }
 
-herr_t write_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
+herr_t write_file(H5FD_t* base, H5FD_mem_t kind, hid_t, haddr_t address, std::size_t size,
                   const void* buffer) {
   DriverFile& file = file_of(base);
   const auto* bytes = static_cast<const std::uint8_t*>(buffer);
   file.end = std::max<haddr_t>(file.end, address + size);
-  if (!file.fault->ended) {
+  bool waits = false;
+  if (!file.fault->ended && file.undo != nullptr) {
+    // Where rows are added to a chunk, those before them stay as they are.
+    const int error = kind == H5FD_MEM_DRAW ? 0 : file.undo->keep(file.descriptor, address, size);
+    if (error != 0) end_writing(file, error);
+    waits = file.undo->is_waiting();
+  }
+  if (!file.fault->ended && !waits) {
     const int error = file.writer->write(address, bytes, size);
     if (error != 0) end_writing(file, error);
   }
-  if (file.fault->ended) {
+  if (file.fault->ended || waits) {
     try {
       file.held.push_back({address, {bytes, bytes + size}});
     } catch (const std::bad_alloc&) {
@@ -145,8 +182,15 @@ herr_t write_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
   return 0;
 }
 
+herr_t flush_file(H5FD_t* base, hid_t, hbool_t) {
+  commit(file_of(base));
+  return 0;
+}
+
 herr_t truncate_file(H5FD_t* base, hid_t, hbool_t) {
   DriverFile& file = file_of(base);
+  if (file.fault == nullptr) return 0;
+  commit(file);
   if (file.allocated == file.end) return 0;
   if (!file.fault->ended && ::ftruncate(file.descriptor, static_cast<off_t>(file.allocated)) != 0) {
     end_writing(file, errno);
@@ -183,6 +227,7 @@ H5FD_class_t driver_class() {
   driver.get_eof = get_end;
   driver.read = read_file;
   driver.write = write_file;
+  driver.flush = flush_file;
   driver.truncate = truncate_file;
   driver.lock = lock_file;
   driver.unlock = unlock_file;
@@ -203,9 +248,16 @@ hid_t driver_id() {
 
 }  // namespace
 
-bool set_write_driver(hid_t access, files::WriteProcess& writer, Hdf5WriteFault& fault) {
+bool set_write_driver(hid_t access, files::WriteProcess& writer, Hdf5WriteFault& fault,
+                      Hdf5Undo* undo) {
   const hid_t id = driver_id();
-  const DriverSettings settings{&writer, &fault};
+  const DriverSettings settings{&writer, &fault, undo, nullptr};
+  return id >= 0 && H5Pset_driver(access, id, &settings) >= 0;
+}
+
+bool set_undone_driver(hid_t access, const Undone& undone) {
+  const hid_t id = driver_id();
+  const DriverSettings settings{nullptr, nullptr, nullptr, &undone};
   return id >= 0 && H5Pset_driver(access, id, &settings) >= 0;
 }
 

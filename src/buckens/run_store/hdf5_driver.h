@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include <hdf5.h>
 
 #include "buckens/files/write_process.h"
+#include "buckens/run_store/hdf5_undo.h"
 
 namespace buckens::run_store {
 
@@ -11,6 +15,8 @@ namespace buckens::run_store {
 struct Hdf5WriteFault {
   int error = 0;       ///< errno of the first failed operation on the file; 0: none failed
   bool ended = false;  ///< true: nothing more reaches the disk; can also be set from outside
+  /// Passes on writes that wait until what they overwrite is kept (Hdf5Undo).
+  std::function<void()> commit;
 };
 
 /// Writes files through our own driver, which never reports a failed write to HDF5.
@@ -26,7 +32,13 @@ struct Hdf5WriteFault {
 /// @param access  file access property list
 /// @param writer  carries out the writes; must outlive the file
 /// @param fault   must outlive the file
+/// @param undo    keeps what is overwritten; must outlive the file; may be null
 /// @return false if HDF5 refuses
-bool set_write_driver(hid_t access, files::WriteProcess& writer, Hdf5WriteFault& fault);
+bool set_write_driver(hid_t access, files::WriteProcess& writer, Hdf5WriteFault& fault,
+                      Hdf5Undo* undo);
+
+/// Reads a file as it was at a checkpoint. @param undone must outlive the file
+/// @return false if HDF5 refuses
+bool set_undone_driver(hid_t access, const Undone& undone);
 
 }  // namespace buckens::run_store

@@ -79,25 +79,29 @@ std::string hdf5_reason() {
   return reason.empty() ? "unknown reason" : reason;
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path, files::WriteProcess& writer) {
+Hdf5File Hdf5File::create(const std::filesystem::path& path, files::WriteProcess& writer,
+                          Hdf5Undo* undo) {
   const Hdf5Quiet quiet;
   Hdf5File file;
   file.path_ = path;
   file.fault_ = std::make_unique<Hdf5WriteFault>();
   const Hdf5Handle access = access_settings();
-  if (!set_write_driver(access.get(), writer, *file.fault_)) file.fail("create the file");
+  if (!set_write_driver(access.get(), writer, *file.fault_, undo)) file.fail("create the file");
   const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
   file.file_ = Hdf5Handle(file.check(id, "create the file"), H5Fclose);
   return file;
 }
 
 Hdf5File Hdf5File::open_for_reading(const std::filesystem::path& path,
-                                    std::shared_ptr<Hdf5Texts> texts) {
+                                    std::shared_ptr<Hdf5Texts> texts,
+                                    std::shared_ptr<const Undone> undone) {
   const Hdf5Quiet quiet;
   Hdf5File file;
+  file.undone_ = std::move(undone);
   file.texts_ = std::move(texts);
   file.path_ = path;
   const Hdf5Handle access = access_settings();
+  if (file.undone_ && !set_undone_driver(access.get(), *file.undone_)) file.fail("open the file");
   H5Pset_metadata_read_attempts(access.get(), kReadAttempts);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   file.file_ = Hdf5Handle(file.check(id, "open the file"), H5Fclose);
@@ -122,6 +126,7 @@ void Hdf5File::flush() {
 }
 
 void Hdf5File::check_written() const {
+  if (fault_ && fault_->commit) fault_->commit();
   if (fault_ && fault_->error != 0) {
     throw IoError(fmt::format("{}: cannot write the file: {}", path_.string(),
                               files::system_reason(fault_->error)));

@@ -60,13 +60,17 @@ class Hdf5File {
   Hdf5File() = default;
   /// Creates the file anew (open_anew()). All writes go through `writer`, which must outlive the
   /// file. @throws IoError
-  static Hdf5File create(const std::filesystem::path& path, files::WriteProcess& writer);
+  /// @param undo null, or keeps what is overwritten after a checkpoint; must outlive the file
+  static Hdf5File create(const std::filesystem::path& path, files::WriteProcess& writer,
+                         Hdf5Undo* undo = nullptr);
   /// Opens a file that is complete, still being written by another process, or left by a killed
   /// one.
   /// @param texts where its texts are collected or taken from: read_texts_apart()
+  /// @param undone null, or what makes it the file that it was at a checkpoint
   /// @throws IoError
   static Hdf5File open_for_reading(const std::filesystem::path& path,
-                                   std::shared_ptr<Hdf5Texts> texts = nullptr);
+                                   std::shared_ptr<Hdf5Texts> texts = nullptr,
+                                   std::shared_ptr<const Undone> undone = nullptr);
   ~Hdf5File();
   Hdf5File(Hdf5File&&) = default;
   Hdf5File& operator=(Hdf5File&&) = default;
@@ -100,6 +104,7 @@ class Hdf5File {
  private:
   std::filesystem::path path_;
   std::shared_ptr<Hdf5Texts> texts_;
+  std::shared_ptr<const Undone> undone_;
   std::unique_ptr<Hdf5WriteFault> fault_;  // before file_, which uses it until the end
   Hdf5Handle file_;
 };

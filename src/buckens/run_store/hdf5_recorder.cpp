@@ -24,9 +24,9 @@ std::filesystem::path unfinished(std::filesystem::path path) {
 Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProcess& writer,
                            const results::RecordLayout& layout, const results::Geometry& geometry,
                            const results::FieldLayout* fields, const std::string& title,
-                           const std::string& version, const FlushRule& rule,
-                           const EarlierRows* earlier)
-    : rule_(rule), file_(Hdf5File::create(unfinished(path), writer)) {
+                           const std::string& version, const FlushRule& rule, Hdf5Undo* undo,
+                           const EarlierRows* earlier, const std::string& checkpoint)
+    : rule_(rule), undo_(undo), file_(Hdf5File::create(unfinished(path), writer, undo)) {
   try {
     write_attribute(file_, "/", "program", std::string("buckens"));
     write_attribute(file_, "/", "format", kResultsFormat);
@@ -41,8 +41,15 @@ Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProces
     if (earlier != nullptr) take_earlier(*earlier, fields != nullptr);
     file_.flush();  // SWMR starts from a file that is complete so far
     file_.start_swmr();
-    if (earlier != nullptr) files::sync_to_disk(file_.path());
+    if (earlier != nullptr) {
+      files::sync_to_disk(file_.path());
+      if (undo_ != nullptr) undo_->set_aside();  // it belongs to the file that is replaced now
+    }
     file_.rename(path);
+    if (earlier != nullptr && undo_ != nullptr) {
+      undo_->discard();
+      begin_undo(checkpoint);
+    }
   } catch (...) {
     file_.abandon();
     table_.close();
@@ -99,6 +106,11 @@ void Hdf5Recorder::write_extremes(const std::vector<double>& values) {
   rethrow_failure();
   guarded([&] { extremes_.write(file_, values); });
   rethrow_failure();
+}
+
+void Hdf5Recorder::begin_undo(const std::string& checkpoint) {
+  const std::lock_guard lock(mutex_);
+  if (undo_ != nullptr) undo_->begin(checkpoint, std::filesystem::file_size(file_.path()));
 }
 
 void Hdf5Recorder::flush() {

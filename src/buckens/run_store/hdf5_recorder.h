@@ -41,15 +41,17 @@ struct EarlierRows {
 class Hdf5Recorder {
  public:
   /// @param writer  carries out the writes; must outlive this
+  /// @param undo  keeps what is overwritten after a checkpoint; must outlive this; may be null
   /// @param title, version  attributes of the file
+  /// @param checkpoint  to which the earlier rows belong, for `undo`
   /// @param earlier  null: none; with them the file is on the disk before it replaces another one
   /// @param fields  null: the run has none
   /// @throws IoError
   Hdf5Recorder(const std::filesystem::path& path, files::WriteProcess& writer,
                const results::RecordLayout& layout, const results::Geometry& geometry,
                const results::FieldLayout* fields, const std::string& title,
-               const std::string& version, const FlushRule& rule,
-               const EarlierRows* earlier = nullptr);
+               const std::string& version, const FlushRule& rule, Hdf5Undo* undo = nullptr,
+               const EarlierRows* earlier = nullptr, const std::string& checkpoint = {});
   /// Writes what is waiting, as far as possible.
   ~Hdf5Recorder();
   Hdf5Recorder(const Hdf5Recorder&) = delete;
@@ -64,6 +66,8 @@ class Hdf5Recorder {
   void write_extremes(const std::vector<double>& values);
   /// Passes what is waiting to the system. @throws IoError as write()
   void flush();
+  /// To be called when the file is on the disk, and the checkpoint that goes with it.
+  void begin_undo(const std::string& checkpoint);
   /// Writes what is waiting and completes the file. @throws IoError
   void close();
 
@@ -77,6 +81,7 @@ class Hdf5Recorder {
   void rethrow_failure() const;
 
   FlushRule rule_;
+  Hdf5Undo* undo_;
   Hdf5File file_;
   Hdf5Table table_, fields_;
   Hdf5Extremes extremes_;

@@ -62,6 +62,11 @@ void copy_rows(const std::vector<double>& times, const results::RecordLayout& la
   }
 }
 
+AtCheckpoint at_checkpoint(const std::filesystem::path& directory, const Continuation& until) {
+  const std::string mark = checkpoint_mark(directory / kCheckpointName);
+  return {until.last_record, until.last_fields, read_undone(directory, mark)};
+}
+
 double number_in(const base::SavedValues& state, const std::string& name) {
   const auto found = state.numbers.find(name);
   if (found != state.numbers.end() && found->second.size() == 1) return found->second.front();
@@ -81,7 +86,7 @@ Continuation continuation_from(const base::SavedValues& checkpoint) {
 
 KeptRecords::KeptRecords(const std::filesystem::path& directory, const Continuation& until)
     : file_(directory / kResultsName),
-      reader_(directory),
+      reader_(directory, at_checkpoint(directory, until)),
       times_(up_to(reader_.times(), until.last_record, file_)),
       field_times_(up_to(reader_.field_times(), until.last_fields, file_)) {}
 

@@ -120,6 +120,7 @@ void RunDirectory::write_first_files() {
                                 (path_ / name).string(), error.message()));
     }
   }
+  undo_.discard();
   files::replace_text_file(path_ / kModelName, options_.model_text);
 }
 
@@ -148,7 +149,7 @@ void RunDirectory::begin(const results::RecordLayout& layout, const results::Geo
   } else {
     recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
                                                fields_ ? &*fields_ : nullptr, options_.title,
-                                               kVersion, options_.flush);
+                                               kVersion, options_.flush, &undo_);
     sensors_ = SensorsCsv(path_ / kSensorsName, layout);
   }
   write_status(status_json(RunStatus::running, options_.title, kVersion, started_));
@@ -159,6 +160,7 @@ void RunDirectory::begin(const results::RecordLayout& layout, const results::Geo
 /// results that hold all of them.
 void RunDirectory::go_on_recording(const results::RecordLayout& layout,
                                    const results::Geometry& geometry) {
+  undo_.take_back();
   const fs::path part = path_ / (std::string(kSensorsName) + ".part");
   SensorsCsv sensors(part, layout);
   EarlierRows earlier;
@@ -174,7 +176,8 @@ void RunDirectory::go_on_recording(const results::RecordLayout& layout,
   earlier.fields = [&](const AppendRows& append) { kept_->copy_fields(fields_->fields, append); };
   recorder_ = std::make_unique<Hdf5Recorder>(path_ / kResultsName, writer_, layout, geometry,
                                              fields_ ? &*fields_ : nullptr, options_.title,
-                                             kVersion, options_.flush, &earlier);
+                                             kVersion, options_.flush, &undo_, &earlier,
+                                             checkpoint_mark(path_ / kCheckpointName));
   std::error_code error;
   fs::rename(part, path_ / kSensorsName, error);
   if (error) {
@@ -230,8 +233,16 @@ void RunDirectory::write_checkpoint(const base::SavedValues& state) {
 
 void RunDirectory::try_checkpoint(const base::SavedValues& state) {
   try {
-    for (const char* name : {kResultsName, kSensorsName}) files::sync_to_disk(path_ / name);
+    // Model and summary as well: without them nothing goes on.
+    for (const char* name : {kModelName, kSummaryName, kResultsName, kSensorsName}) {
+      files::sync_to_disk(path_ / name);
+    }
     write_state(state, path_ / kCheckpointName);
+    if (recorder_) {
+      recorder_->begin_undo(checkpoint_mark(path_ / kCheckpointName));
+    } else {
+      undo_.discard();
+    }
   } catch (const IoError& error) {
     base::log(base::LogLevel::warning,
               fmt::format("no checkpoint at t = {:.6g} s: {}", last_time_, error.what()));

@@ -92,7 +92,8 @@ class RunDirectory : public results::RecordSink {
   std::string started_;
   files::OutputFile log_;  // its lock marks the directory as taken
   EarlierRun earlier_;
-  files::WriteProcess writer_;  // outlives the recorder
+  files::WriteProcess writer_;  // outlives the recorder, as does the next
+  Hdf5Undo undo_{path_};
   SensorsCsv sensors_;
   std::unique_ptr<Hdf5Recorder> recorder_;
   std::optional<results::FieldLayout> fields_;

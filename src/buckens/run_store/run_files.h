@@ -10,6 +10,7 @@ inline constexpr char kSummaryName[] = "summary.json";
 inline constexpr char kModelName[] = "model.yaml";
 inline constexpr char kLogName[] = "log.txt";
 inline constexpr char kCheckpointName[] = "checkpoint.h5";
-inline constexpr char kModesName[] = "modes.json";  ///< of `buckens modes` only
+inline constexpr char kUndoName[] = "results.undo";  ///< what changed since the checkpoint
+inline constexpr char kModesName[] = "modes.json";   ///< of `buckens modes` only
 
 }  // namespace buckens::run_store

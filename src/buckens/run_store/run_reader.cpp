@@ -12,6 +12,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
+#include "buckens/results/stored_size.h"
 #include "buckens/run_store/hdf5_geometry.h"
 #include "buckens/run_store/hdf5_reading.h"
 #include "buckens/run_store/run_channels.h"
@@ -19,7 +20,34 @@
 
 namespace buckens::run_store {
 
-RunReader::RunReader(const std::filesystem::path& directory) : directory_(directory) {
+namespace {
+
+/// The instants up to `last`; all if it is not among them. Later ones are not touched, but for
+/// those that lie in one piece of the file with it.
+std::vector<double> read_up_to(const Hdf5File& file, const std::string& path, double last) {
+  if (last < 0.0) return {};
+  const Hdf5Quiet quiet;
+  const Hdf5Dataset dataset = open_dataset(file, path, Hdf5Values::numbers, 0);
+  if (dataset.extents.size() != 1) return read_double_dataset(file, path);
+  const std::size_t piece = results::chunk_rows(1);
+  std::vector<double> times;
+  while (times.size() < dataset.extents[0]) {
+    const std::size_t first = times.size();
+    times.resize(std::min<std::size_t>(dataset.extents[0], first + piece));
+    read_rows(file, dataset, path, first, times.size() - first, times.data() + first);
+    const auto found =
+        std::find(times.begin() + static_cast<std::ptrdiff_t>(first), times.end(), last);
+    if (found == times.end()) continue;
+    times.erase(found + 1, times.end());
+    break;
+  }
+  return times;
+}
+
+}  // namespace
+
+RunReader::RunReader(const std::filesystem::path& directory, const AtCheckpoint& at)
+    : directory_(directory) {
   const std::filesystem::path summary = directory / kSummaryName;
   std::error_code ignored;
   if (!std::filesystem::exists(summary, ignored)) {
@@ -37,24 +65,25 @@ RunReader::RunReader(const std::filesystem::path& directory) : directory_(direct
                     directory.string(), kResultsName, kLogName));
   }
   const std::filesystem::path results = directory / kResultsName;
-  open(results, read_texts_apart(results, [&results](const std::shared_ptr<Hdf5Texts>& texts) {
-         RunReader trial;
-         trial.open(results, texts);
-         trial.touch_channels();
-       }));
+  const auto try_reading = [&](const std::shared_ptr<Hdf5Texts>& texts) {
+    RunReader trial;
+    trial.open(results, texts, at);
+    trial.touch_channels();
+  };
+  open(results, read_texts_apart(results, try_reading), at);
 }
 
-void RunReader::open(const std::filesystem::path& results,
-                     const std::shared_ptr<Hdf5Texts>& texts) {
-  file_ = Hdf5File::open_for_reading(results, texts);
+void RunReader::open(const std::filesystem::path& results, const std::shared_ptr<Hdf5Texts>& texts,
+                     const AtCheckpoint& at) {
+  file_ = Hdf5File::open_for_reading(results, texts, at.undone);
   title_ = read_string(file_, "/", "title");
   version_ = read_string(file_, "/", "version");
   geometry_ = read_geometry(file_);
   // A run that goes on writes the channels, then the time, then fields, then theirs. In reverse,
   // each instant of fields is one of the records, and every channel has rows for all of them.
   const bool has_fields = has_object(file_, "/fields/time");
-  if (has_fields) field_times_ = read_times("/fields/time");
-  times_ = read_times("/time");
+  if (has_fields) field_times_ = read_times("/fields/time", at.last_fields);
+  times_ = read_times("/time", at.last_record);
   for (const double t : field_times_) {
     if (!std::binary_search(times_.begin(), times_.end(), t)) {
       refuse(file_, "/fields/time", fmt::format("holds t = {} s, which is no record", t));
@@ -96,8 +125,9 @@ void RunReader::touch_channels() const {
   }
 }
 
-std::vector<double> RunReader::read_times(const std::string& path) const {
-  std::vector<double> times = read_double_dataset(file_, path);
+std::vector<double> RunReader::read_times(const std::string& path, double last) const {
+  std::vector<double> times =
+      last < HUGE_VAL ? read_up_to(file_, path, last) : read_double_dataset(file_, path);
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (!std::isfinite(times[k]) || (k > 0 && times[k] < times[k - 1])) {
       refuse(file_, path, fmt::format("holds {} as its instant number {}", times[k], k + 1));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,9 +13,17 @@
 #include "buckens/results/channel.h"
 #include "buckens/results/geometry.h"
 #include "buckens/run_store/hdf5_file.h"
+#include "buckens/run_store/hdf5_undo.h"
 #include "buckens/run_store/summary_json.h"
 
 namespace buckens::run_store {
+
+/// Results as they were at a checkpoint; what was written later may be damaged.
+struct AtCheckpoint {
+  double last_record = HUGE_VAL;  ///< [s]; negative: none
+  double last_fields = HUGE_VAL;  ///< of fields over meshes [s]
+  std::shared_ptr<const Undone> undone;
+};
 
 /// Reads a run directory: of a finished run, of one in progress in another process, or of one that
 /// was killed.
@@ -23,7 +33,9 @@ namespace buckens::run_store {
 class RunReader {
  public:
   /// @throws IoError if the directory contains no run, one without results yet, or a damaged one
-  explicit RunReader(const std::filesystem::path& directory);
+  /// @param at what comes after its instants is left out; if the file has no such instants, nothing
+  /// is
+  explicit RunReader(const std::filesystem::path& directory, const AtCheckpoint& at = {});
 
   RunStatus status() const { return status_; }
   /// The text of summary.json.
@@ -63,9 +75,10 @@ class RunReader {
 
  private:
   RunReader() = default;
-  void open(const std::filesystem::path& results, const std::shared_ptr<Hdf5Texts>& texts);
+  void open(const std::filesystem::path& results, const std::shared_ptr<Hdf5Texts>& texts,
+            const AtCheckpoint& at);
   void touch_channels() const;
-  std::vector<double> read_times(const std::string& path) const;
+  std::vector<double> read_times(const std::string& path, double last) const;
   std::vector<double> read_rows_of(const results::RecordLayout& layout, std::string_view path,
                                    std::span<const std::size_t> rows) const;
 
