@@ -6,12 +6,11 @@ usage: PYTHONPATH=build/release/python python3 bench/study_bench.py [--variants 
 
 Prints a table: processes, wall time, efficiency against one process that runs the same variants in a loop (as far as there are
 processors), and overhead per variant. Then the load of the process that hands out variants, measured with variants that do
-nothing, and from it the number of workers that keep it busy: a prediction, with the time that a task lasts.
+nothing, and from it how long variants have to last for 1000 workers: a prediction.
 """
 
 import argparse
 import concurrent.futures as cf
-import json
 import os
 import pathlib
 import tempfile
@@ -24,6 +23,7 @@ from buckens.verbs import sweep
 MODEL = """
 buckens: 1
 gravity: [0, -9.81 m/s^2, 0]
+planar: xy
 parameters: {push: 1 N}
 materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3}}
 bodies: {rod: {beam: {to: [1 m, 0, 0], elements: 8, section: {circle: {diameter: 8 mm}}, material: steel}}}
@@ -117,7 +117,8 @@ def main():
             print(f"{processes:9}   {wall:8.2f}   {alone / busy / wall:10.2f}   {1e3 * (wall - alone / busy) / given.variants:10.2f}")
         variant, task, each = load_of_the_master(model, max(given.variants, 100), folder)
         print(f"handing out: {1e3 * variant:.3f} ms per variant, {1e3 * task:.2f} ms per task of {each:.0f}")
-        print(json.dumps({"workers_that_keep_it_busy": int(study_runs.TASK_SECONDS / task)}))
+        print(f"prediction: with 1000 workers it is busy all the time if variants last {1000 * variant:.2f} s, a tenth of it if they "
+              f"last {10000 * variant:.1f} s")
 
 
 if __name__ == "__main__":
