@@ -50,7 +50,8 @@ class Cluster:
 
     def start_scheduler(self):
         host, port = self.address.split(":")
-        self.start("scheduler", "distributed.cli.dask_scheduler", "--host", host, "--port", port, "--no-dashboard")
+        self.start("scheduler", "distributed.cli.dask_scheduler", "--host", host, "--port", port, "--no-dashboard",
+                   "--idle-timeout", "120")  # should the tests be killed: workers end with it
 
     def start_worker(self, number):
         self.start(f"worker{number}", "distributed.cli.dask_worker", self.address, "--nthreads", "1", "--no-nanny",
