@@ -64,13 +64,19 @@ def test_power_goes(buckens, start, tmp_path, name, loss, seed):
     buckens("run", "model.yaml", "-q", "-o", "whole", *FREQUENT).must(0)
     length = time.monotonic() - began
     kept, out = tmp_path / "kept", tmp_path / "out"
-    kept.mkdir()
-    process = start("run", "model.yaml", "-q", "-o", "out", *FREQUENT,
-                    env=os.environ | {"LD_PRELOAD": str(SHADOW), "DISK_KEEPS": str(kept)})
-    wait_for(kept / "checkpoint.h5", process)
-    time.sleep(chance.uniform(0, length / 2))
-    process.send_signal(signal.SIGKILL)
-    process.communicate(timeout=60)
+    delay = chance.uniform(0, length / 2)
+    for _ in range(10):
+        shutil.rmtree(kept, ignore_errors=True)
+        kept.mkdir()
+        process = start("run", "model.yaml", "-q", "-o", "out", *FREQUENT,
+                        env=os.environ | {"LD_PRELOAD": str(SHADOW), "DISK_KEEPS": str(kept)})
+        wait_for(kept / "checkpoint.h5", process)
+        time.sleep(delay)
+        process.send_signal(signal.SIGKILL)
+        process.communicate(timeout=60)
+        if process.returncode == -signal.SIGKILL:
+            break
+        delay *= 0.5  # it was at its end already
     assert process.returncode == -signal.SIGKILL
     lose_power(out, kept, loss, chance, tmp_path / "lost")
     shutil.rmtree(out)
