@@ -54,11 +54,17 @@ Eigen::Map<const Vector6> six(const double* values) { return Eigen::Map<const Ve
 /// Values at the interface rows of `at` by row forces along `force` of another block's side.
 Vector6 interface_image(const linalg::Matrix& compliance, const RowBlock::Side& at,
                         const RowBlock::Side& from, const double* force) {
+  // Written out: products of blocks are not inlined.
   const auto part = [&](int row) -> Eigen::Vector3d {
-    Eigen::Vector3d out = compliance.block<3, 3>(row, from.translation_row) * six(force).head<3>();
-    if (from.rotation_row >= 0) {
-      out.noalias() += compliance.block<3, 3>(row, from.rotation_row) * six(force).tail<3>();
-    }
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    const auto add = [&](int first, const double* f) {
+      for (int k = 0; k < 3; ++k) {
+        const double* const column = &compliance(row, first + k);
+        for (int i = 0; i < 3; ++i) out[i] += column[i] * f[k];
+      }
+    };
+    add(from.translation_row, force);
+    if (from.rotation_row >= 0) add(from.rotation_row, force + 3);
     return out;
   };
   Vector6 image = Vector6::Zero();
@@ -127,8 +133,12 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
     const int columns = count_of(j);
     for (int m = 0; m < columns; ++m) {
       Vector6& image = images[static_cast<std::size_t>(m)];
-      image.head<3>().noalias() = rotation * six(force_.frame(acting, m)).head<3>();
-      image.tail<3>().noalias() = translation * six(force_.frame(acting, m)).tail<3>();
+      const double* const f = force_.frame(acting, m);
+      for (int i = 0; i < 3; ++i) {
+        image[i] = rotation(i, 0) * f[0] + rotation(i, 1) * f[1] + rotation(i, 2) * f[2];
+        image[3 + i] =
+            translation(i, 0) * f[3] + translation(i, 1) * f[4] + translation(i, 2) * f[5];
+      }
     }
     const bool on_interface = compliance.interface != nullptr && acting.follows_mesh();
     for (const BlockOnBody& i : list) {
