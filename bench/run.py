@@ -58,7 +58,7 @@ class Programs:
             sys.exit(f"{out['command']}: {out['error']}")
         best = {}
         for entry in out["benchmarks"]:
-            if entry["run_type"] == "aggregate":
+            if entry["run_type"] == "aggregate" or entry.get("error_occurred"):
                 continue
             scale = {"us": 1e-6, "ms": 1e-3, "ns": 1e-9, "s": 1.0}[entry["time_unit"]]
             row = {key: value for key, value in entry.items()

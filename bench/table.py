@@ -170,6 +170,8 @@ def mode_table(results):
 
 def google_table(title, results, section, pattern, extra):
     rows = [row for row in of_section(results, section) if row["name"].startswith(pattern)]
+    if not rows:
+        return []
     head = ["what", "per step [µs]", *extra.values()]
     cells = [[f"`{row['name']}`", number(1e6 * row["seconds"]),
               *(number(scaled(row, key)) for key in extra)] for row in rows]
