@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python module as it is delivered: the example, an installation, and a wheel."""
 
+import importlib.util
+import json
 import os
 import pathlib
 import re
@@ -70,3 +72,42 @@ def test_a_wheel_is_packed_without_a_network(tmp_path):
     done = call(PYTHON, "-c", "import buckens; print(buckens.Model(bodies={'b': buckens.Rigid(mass=1, "
                 "inertia=[1, 1, 1])}))", path=tmp_path / "site", cwd=tmp_path)
     assert done.returncode == 0 and "1 body" in done.stdout, done.stderr
+
+
+USE = """
+import buckens, buckens.program, json, pathlib, sys
+model = buckens.load(sys.argv[1], set={"simulation.duration": "2 ms"})
+summary = buckens.Simulation(model, out="out").run()
+run = buckens.open("out")
+page = buckens.view("out")
+print(json.dumps({"module": buckens.__file__, "program": buckens.program.find_program(), "steps": summary["steps"],
+                  "records": len(run.time), "shown": "<iframe" in run.view()._repr_html_()}))
+"""
+
+
+def test_pip_installs_the_source_tree(tmp_path):
+    """`pip install .` as docs/tutorials/install.md has it, without a network; the build tree is used again."""
+    if importlib.util.find_spec("ensurepip") is None:
+        pytest.skip("python3-venv is not installed")
+    environment = tmp_path / "env"
+    made = call(PYTHON, "-m", "venv", "--system-site-packages", environment, path="")
+    if made.returncode != 0:
+        pytest.skip(f"no environment can be made here: {made.stdout}{made.stderr}")
+    python = environment / "bin" / "python"
+    done = subprocess.run([environment / "bin" / "pip", "install", "--no-build-isolation", "--no-index", SOURCE],
+                          env={**os.environ, "BUCKENS_BUILD_DIR": str(BINARY), "PIP_CONFIG_FILE": os.devnull},
+                          capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "Successfully installed buckens" in done.stdout
+    done = call(python, "-c", USE, SOURCE / "examples" / "slider_crank" / "slider_crank.yaml", path="", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout.splitlines()[-1])
+    assert told["module"].startswith(str(environment)) and told["program"] == str(environment / "bin" / "buckens")
+    assert told["steps"] > 0 and told["records"] > 1 and told["shown"]
+    page = (tmp_path / "out" / "view.html").read_text(encoding="utf-8")
+    assert len(page) > 500_000 and "Flexible slider-crank" in page
+    # And away again.
+    gone = call(environment / "bin" / "pip", "uninstall", "-y", "buckens", path="")
+    assert gone.returncode == 0, gone.stderr
+    left = [file for file in environment.rglob("*") if "buckens" in file.name]
+    assert left == []
