@@ -18,7 +18,7 @@ buckens_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format-14 clang-14 libclang-rt-14-dev
   python3 python3-pytest python3-numpy python3-h5py python3-vtk9
-  python3-dev pybind11-dev mypy
+  python3-dev python3-venv pybind11-dev mypy
   python3-matplotlib python3-pandas python3-scipy python3-distributed python3-nbclient python3-ipykernel python3-yaml python3-jsonschema
 )
 # Whether a browser belongs to them: pages are tested with it.
