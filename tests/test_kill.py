@@ -74,8 +74,9 @@ def check_results(out):
     """Reads every value of results.h5; returns the times and the data sets."""
     refuse_torn_file(out)
     file = h5py.File(out / "results.h5", "r", swmr=True)
+    # Of a record the time is written last. Sizes are those at which a data set was opened, so it is opened first.
+    times = file["time"][:]
     found = datasets(file)
-    times = found["time"][:]
     assert numpy.all(numpy.diff(times) > 0), "time increases strictly"
     for name, dataset in found.items():
         assert dataset.shape[0] >= len(times), f"{name} has fewer rows than time"
