@@ -153,6 +153,35 @@ inline std::string friction_and_stops() {
 )";
 }
 
+/// A slider-crank with an elastic rod, driven at 150 rad/s.
+/// @param laws `loads:` of the model; may be empty
+inline std::string slider_crank(const std::string& laws) {
+  return R"(buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {stiffness: 1e-6 s}}}
+bodies:
+  crank: {rigid: {mass: 0.36, com: [0.075, 0, 0], inertia: [0, 0, 2.727e-3]}, markers: {shaft: {position: [0, 0, 0]}, pin: {position: [0.15, 0, 0]}}}
+  rod: {beam: {to: [0.3, 0, 0], elements: 8, section: {circle: {diameter: 8 mm}}, material: steel}, at: {position: [0.15, 0, 0]}}
+  slider: {rigid: {mass: 0.033, inertia: [0, 0, 1e-6]}, at: {position: [0.45, 0, 0]}}
+joints:
+  shaft: {revolute: {between: [ground, crank/shaft]}}
+  motor: {prescribed-rotation: {between: [ground, crank/shaft], angle: "150*t rad"}}
+  big_end: {revolute: {between: [crank/pin, rod/start]}}
+  small_end: {revolute: {between: [rod/end, slider]}}
+  guide: {prismatic: {between: [ground, slider], axis: [1, 0, 0]}}
+)" + laws;
+}
+
+/// Friction in all joints of the slider-crank.
+inline std::string friction_in_all_joints() {
+  return R"(loads:
+  f_shaft: {hinge-friction: {joint: shaft, static: 0.1, radius: 10 mm}}
+  f_big: {hinge-friction: {joint: big_end, static: 0.1, radius: 8 mm}}
+  f_small: {hinge-friction: {joint: small_end, static: 0.1, radius: 8 mm}}
+  f_guide: {slide-friction: {joint: guide, static: 0.1}}
+)";
+}
+
 /// Two gears with helical teeth, and a flywheel behind a flexible shaft.
 inline std::string gear_train() {
   return R"(buckens: 1

@@ -63,6 +63,14 @@ std::vector<Case> cases() {
   out.push_back({"reduced block, 8 modes, full",
                  [] { return buckens::bench::start(reduced_block(8, "full"), kStep); }});
   out.push_back(
+      {"flexible slider-crank", [] { return buckens::bench::start(slider_crank(""), kStep); }});
+  out.push_back({"flexible slider-crank, friction in all joints", [] {
+                   return buckens::bench::start(slider_crank(friction_in_all_joints()), kStep);
+                 }});
+  out.push_back({"four-bar", [] { return buckens::bench::start(four_bar(""), kStep); }});
+  out.push_back({"four-bar with friction and stops",
+                 [] { return buckens::bench::start(four_bar(friction_and_stops()), kStep); }});
+  out.push_back(
       {"rigid chain, 100 links", [] { return buckens::bench::start(rigid_chain(100), kStep); }});
   return out;
 }

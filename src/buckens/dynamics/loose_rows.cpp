@@ -49,7 +49,7 @@ void MultiplierCondensation::set_loose_blocks() {
   }
 }
 
-void MultiplierCondensation::multiply(const Vector& x, Vector& y) const {
+void MultiplierCondensation::multiply(const Vector& x, Vector& y, Slopes slopes) const {
   const std::size_t bodies = compliance_.size();
   responses_.resize(bodies);
   moved_.resize(bodies);
@@ -71,13 +71,19 @@ void MultiplierCondensation::multiply(const Vector& x, Vector& y) const {
   const auto soft = static_cast<Eigen::Index>(soft_compliance_.size());
   y.tail(soft) +=
       Eigen::Map<const Vector>(soft_compliance_.data(), soft).cwiseProduct(x.tail(soft));
+  if (slopes == Slopes::left_out || !has_sloped_) return;
+  const Eigen::Index first_soft = size() - soft;
+  for (const MultiplierSlope& slope : slopes_) {
+    y[slope.soft_row] -= soft_compliance_[static_cast<std::size_t>(slope.soft_row - first_soft)] *
+                         slope.value * x[slope.row];
+  }
 }
 
-void MultiplierCondensation::precondition(const Vector& x, Vector& y) const {
+void MultiplierCondensation::precondition(const Vector& x, Vector& y, Slopes slopes) const {
   y.resize(x.size());
   if (num_direct_blocks_ > 0) {
     direct_ = x.head(size() - num_loose_);
-    solve_direct(direct_);
+    solve_direct(direct_, slopes);
     y.head(direct_.size()) = direct_;
   }
   for (std::size_t n = num_direct_blocks_; n < force_.blocks().size(); ++n) {
@@ -89,7 +95,7 @@ void MultiplierCondensation::precondition(const Vector& x, Vector& y) const {
 
 // Stabilised biconjugate gradients (van der Vorst 1992): S is symmetric only where rows are closed
 // in the directions in which their multipliers act.
-void MultiplierCondensation::iterate(Vector& x) const {
+void MultiplierCondensation::iterate(Vector& x, Slopes slopes) const {
   const Vector b = x;
   const double enough = kSolved * b.norm();
   x.setZero();
@@ -98,15 +104,15 @@ void MultiplierCondensation::iterate(Vector& x) const {
   const Vector r0 = b;
   double rho = r0.squaredNorm();
   for (int k = 0; k < kMostSweeps; ++k) {
-    precondition(p, p_hat);
-    multiply(p_hat, v);
+    precondition(p, p_hat, slopes);
+    multiply(p_hat, v, slopes);
     const double alpha = rho / r0.dot(v);
     if (!std::isfinite(alpha)) return;
     x += alpha * p_hat;
     r -= alpha * v;
     if (r.norm() <= enough) return;
-    precondition(r, s_hat);
-    multiply(s_hat, t);
+    precondition(r, s_hat, slopes);
+    multiply(s_hat, t, slopes);
     const double omega = t.dot(r) / t.squaredNorm();
     if (!std::isfinite(omega)) return;
     x += omega * s_hat;

@@ -234,8 +234,10 @@ bool MultiplierCondensation::factorise(const std::vector<BodyCompliance>& compli
 bool MultiplierCondensation::factorise_direct(const std::vector<BodyCompliance>& compliance,
                                               const std::vector<double>& soft_compliance) {
   assemble(compliance, soft_compliance);
+  factorise_with_slopes(soft_compliance);
   exchanges_rows_ = !(block_lu_.factorise() && block_lu_.pivot_ratio() > kPoorPivot);
   if (!exchanges_rows_) return true;
+  has_sloped_ = false;
   assemble(compliance, soft_compliance);
   return factorise_with_exchanges();
 }
@@ -256,16 +258,40 @@ bool MultiplierCondensation::factorise(const std::vector<SystemRow>& test,
   return factorise(compliance, soft_compliance);
 }
 
-void MultiplierCondensation::solve_in_place(linalg::Vector& x) const {
-  if (num_loose_ > 0) {
-    iterate(x);
+void MultiplierCondensation::factorise_with_slopes(const std::vector<double>& soft_compliance) {
+  has_sloped_ = false;
+  if (slopes_.empty()) return;
+  if (sloped_) {
+    sloped_->take_values(block_lu_);
   } else {
-    solve_direct(x);
+    sloped_ = block_lu_;
+  }
+  const int first_soft = size() - static_cast<int>(soft_compliance.size());
+  for (const MultiplierSlope& slope : slopes_) {
+    const int i = force_.block_of(slope.soft_row), j = force_.block_of(slope.row);
+    const int place = sloped_->place(i, j);
+    const auto offset = [&](int row, int block) {
+      return row - force_.blocks()[static_cast<std::size_t>(block)].first_row;
+    };
+    sloped_->block(
+        place)[offset(slope.row, j) * sloped_->stride(place) + offset(slope.soft_row, i)] -=
+        soft_compliance[static_cast<std::size_t>(slope.soft_row - first_soft)] * slope.value;
+  }
+  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+}
+
+void MultiplierCondensation::solve(linalg::Vector& x, Slopes slopes) const {
+  if (num_loose_ > 0) {
+    iterate(x, slopes);
+  } else {
+    solve_direct(x, slopes);
   }
 }
 
-void MultiplierCondensation::solve_direct(linalg::Vector& x) const {
-  if (exchanges_rows_) {
+void MultiplierCondensation::solve_direct(linalg::Vector& x, Slopes slopes) const {
+  if (slopes == Slopes::counted && has_sloped_) {
+    sloped_->solve_in_place(x);
+  } else if (exchanges_rows_) {
     general_->solve_in_place(x);
   } else {
     block_lu_.solve_in_place(x);

@@ -19,6 +19,12 @@ struct BodyCompliance {
   const linalg::Matrix* interface = nullptr;
 };
 
+/// Growth of the force of a soft row with a multiplier.
+struct MultiplierSlope {
+  int soft_row = 0, row = 0;  ///< of the condensed system
+  double value = 0;
+};
+
 /// The condensed system of all joint equations, FM (42), (43):
 ///
 ///     S = Σ_bodies a ᵀ W⁻¹ a + Aᵀ (Y K̂⁻¹) A  (+ 1/k on the diagonal of soft rows)
@@ -31,6 +37,13 @@ struct BodyCompliance {
 /// Contacts of many bodies change from step to step and would fill the factor. Their rows, the last
 /// ones, are left out of it: with them the system is solved by iteration, which their own give
 /// (1/k) makes short, preconditioned by the factor and by what each contact gives alone.
+///
+/// Forces of soft rows that grow with multipliers, friction above all, make a second matrix
+///
+///     S′ = S − Σ b_s w_sj e_s e_jᵀ,   b_s the soft row's entry on the diagonal, w_sj its slope
+///
+/// whose unknown of the soft row is the whole of its force. Multipliers are found with S′,
+/// corrections of positions with S: they are no forces that could rub.
 class MultiplierCondensation {
  public:
   /// @param rows one entry per row, with body numbers and marker rows set; values are not read
@@ -52,8 +65,13 @@ class MultiplierCondensation {
                  const std::vector<BodyCompliance>& compliance,
                  const std::vector<double>& soft_compliance);
 
+  /// Slopes for the next factorisations; their rows and soft rows must act on a common body.
+  void set_slopes(const std::vector<MultiplierSlope>& slopes) { slopes_ = slopes; }
+
   /// x ← S⁻¹ x.
-  void solve_in_place(linalg::Vector& x) const;
+  void solve_in_place(linalg::Vector& x) const { solve(x, Slopes::left_out); }
+  /// x ← S′⁻¹ x; with S where pivots of S′ are poor, as near the jamming of a joint by friction.
+  void solve_with_slopes(linalg::Vector& x) const { solve(x, Slopes::counted); }
 
   /// Sums the row forces x along the directions of the multipliers for each body.
   void gather(const linalg::Vector& x, std::vector<BodyResponse>& responses) const {
@@ -76,6 +94,7 @@ class MultiplierCondensation {
   double pivot_ratio() const { return block_lu_.pivot_ratio(); }
 
  private:
+  enum class Slopes { left_out, counted };
   struct BlockOnBody {
     int block;
     int side;
@@ -90,12 +109,14 @@ class MultiplierCondensation {
   bool factorise_with_exchanges();
   bool factorise_direct(const std::vector<BodyCompliance>& compliance,
                         const std::vector<double>& soft_compliance);
-  void solve_direct(linalg::Vector& x) const;
+  void factorise_with_slopes(const std::vector<double>& soft_compliance);
+  void solve(linalg::Vector& x, Slopes slopes) const;
+  void solve_direct(linalg::Vector& x, Slopes slopes) const;
   void set_loose_blocks();
   /// y ← S x, all rows.
-  void multiply(const linalg::Vector& x, linalg::Vector& y) const;
-  void precondition(const linalg::Vector& x, linalg::Vector& y) const;
-  void iterate(linalg::Vector& x) const;
+  void multiply(const linalg::Vector& x, linalg::Vector& y, Slopes slopes) const;
+  void precondition(const linalg::Vector& x, linalg::Vector& y, Slopes slopes) const;
+  void iterate(linalg::Vector& x, Slopes slopes) const;
 
   int num_loose_ = 0;
   RowBlocks force_;
@@ -108,6 +129,9 @@ class MultiplierCondensation {
   bool exchanges_rows_ = false;  // the last factorisation is that of general_
   linalg::SparseMatrix S_;       // for general_, empty until it is needed
   std::optional<linalg::SparseLu> general_;
+  std::vector<MultiplierSlope> slopes_;
+  std::optional<linalg::BlockLu> sloped_;  // S′, empty until it is needed
+  bool has_sloped_ = false;                // of the last factorisation
 
   // Of loose rows only: what the bodies give, and the inverse of what each block gives alone.
   std::vector<BodyCompliance> compliance_;

@@ -57,6 +57,7 @@ class RowBlocks {
     return {&sides_[block.first_side], block.num_sides};
   }
   int num_rows() const { return static_cast<int>(block_of_row_.size()); }
+  int block_of(int row) const { return block_of_row_[static_cast<std::size_t>(row)]; }
 
   /// Stores the numbers of a row. Its bodies are those of the pattern, and its marker rows unless
   /// it travels; an empty row is zero.

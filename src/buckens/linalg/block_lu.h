@@ -28,6 +28,8 @@ class BlockLu {
   /// @param couples pairs of blocks with entries off the diagonal; any order, repetitions allowed
   BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples);
 
+  /// Takes the values of another matrix with the same pattern, before they are factorised.
+  void take_values(const BlockLu& other) { values_ = other.values_; }
   /// Where a block of the pattern is stored. @param i,j equal, or a pair of the constructor
   int place(int i, int j) const;
   /// Starts a new matrix: all values become zero.

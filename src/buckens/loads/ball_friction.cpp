@@ -42,6 +42,9 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
   out.strain = before + out.along.transpose() * (sight.first.R * turned);
   const double load = data.radius * sight.reaction.force.norm();
   out.stiffness = (data.static_coefficient * load + data.preload) / data.slip;
+  if (out.stiffness > 0.0) {
+    out.bound_per_load = data.static_coefficient / (data.static_coefficient * load + data.preload);
+  }
   out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
   const Vector3d trial = -out.stiffness * out.strain - out.damping * out.rate;
   const auto cut = [&](int first, int count) {
@@ -101,6 +104,18 @@ void BallFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& rows
     row.stiffness = sticks ? s.stiffness : 0.0;
     row.damping = (sticks ? s.damping : 0.0) + (is_held ? bound_.data().viscous : 0.0);
     rows.push_back(row);
+  }
+}
+
+void BallFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const {
+  const Stand s = look(sight);
+  const Vector3d pressed = bound_.data().radius * sight.reaction.force.normalized();
+  for (int k = 0; k < 3; ++k) {
+    // All of the torque but the viscous part grows with the bound, whether it sticks (nearly: its
+    // damper with the root) or slides.
+    const bool is_held = !(arms_ && k == 2);
+    const double dry = is_held ? s.torque[k] + bound_.data().viscous * s.rate[k] : 0.0;
+    slopes.push_back({Vector3d::Zero(), dry * s.bound_per_load * pressed});
   }
 }
 

@@ -14,7 +14,7 @@ namespace buckens::loads {
 /// In a ball the bound holds for the whole vector of the torque; in a cross joint for each of its
 /// two arms. States: the rotation of the second marker in the first, and the strain: a vector in
 /// axes of the first marker, or one number per arm. Theory: docs/theory/22-rows.md §4.
-class BallFriction final : public ForceElement {
+class BallFriction final : public ForceElement, public ReactionFollower {
  public:
   /// Arms of a cross joint: unit vectors in the first and in the second marker.
   struct Arms {
@@ -30,6 +30,7 @@ class BallFriction final : public ForceElement {
   Action respond(const Sight& sight) const override;
   int num_soft_rows() const override { return 3; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
   int num_states() const override { return 7; }
   void start_states(const Sight& sight, double* states) const override;
   void find_states(const Sight& sight, double* states) const override;
@@ -43,6 +44,7 @@ class BallFriction final : public ForceElement {
     Eigen::Vector3d rate;    // [rad/s]
     std::array<bool, 3> slides{};
     double stiffness = 0, damping = 0;
+    double bound_per_load = 0;  // relative growth of the bound with N [1/(N m)]
   };
   Stand look(const Sight& sight) const;
 

@@ -92,6 +92,12 @@ void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& row
   rows.push_back(row);
 }
 
+int CoordinateLaw::limited_to(const ProjectedForce& law, double rate) {
+  const Projected f = project(law, rate);
+  if (!f.is_cut || f.bounded == 0.0) return 0;
+  return f.bounded > 0.0 ? 1 : -1;
+}
+
 void CoordinateLaw::find_states(const Sight& sight, double* states) const {
   if (is_yielding()) states[0] = project(force(sight), sight.coordinate.rate).strain;
 }

@@ -34,6 +34,25 @@ double FrictionBound::load(const Sight& sight) const {
   return out;
 }
 
+spatial::Wrench FrictionBound::load_slope(const Sight& sight, double factor) const {
+  const Vector3d axis = sight.first.R * axis_F_;
+  const auto along = [&](const Vector3d& v) -> Vector3d {
+    return v.dot(axis) < 0.0 ? Vector3d(-axis) : axis;
+  };
+  const auto across = [&](const Vector3d& v) -> Vector3d {
+    return Vector3d(v - axis * v.dot(axis)).normalized();  // zero remains zero
+  };
+  const Vector3d& force = sight.reaction.force;
+  const Vector3d& torque = sight.reaction.torque;
+  spatial::Wrench out;
+  out.force = factor * (data_.radius * across(force) + data_.axial_radius * along(force));
+  if (data_.bearing_length > 0.0) {
+    out.torque += factor * data_.radius / (0.5 * data_.bearing_length) * across(torque);
+  }
+  if (data_.torque_radius > 0.0) out.torque += factor / data_.torque_radius * along(torque);
+  return out;
+}
+
 double FrictionBound::coefficient(double rate) const {
   const double slowness = data_.stribeck_rate > 0.0 ? std::abs(rate) / data_.stribeck_rate : 0.0;
   return data_.dynamic_coefficient +
@@ -53,6 +72,18 @@ ProjectedForce JointFriction::force(const Sight& sight) const {
   out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
   out.outer_damping = data.viscous;
   return out;
+}
+
+void JointFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
+  const ProjectedForce law = force(sight);
+  const double rate = sight.coordinate.rate;
+  double growth = limited_to(law, rate) * bound_.coefficient(rate);
+  if (growth == 0.0 && law.stiffness > 0.0) {
+    // The spring grows with the bound, its damper with the root of it.
+    const double share = bound_.data().static_coefficient / bound_.data().slip / law.stiffness;
+    growth = -share * (law.stiffness * law.strain + 0.5 * law.damping * rate);
+  }
+  out.push_back(bound_.load_slope(sight, growth));
 }
 
 namespace {
@@ -143,6 +174,13 @@ void BristleFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& r
   rows.push_back(row);
 }
 
+void BristleFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
+  const double slope = std::clamp(bend(sight).slope, 0.0, 1.0);
+  // Bent fully, they carry the mean of f_s at both ends of the step.
+  const double bent = std::copysign(0.5 * (1.0 - slope), sight.coordinate.rate);
+  out.push_back(bound_.load_slope(sight, -bent * bound_.coefficient(sight.coordinate.rate)));
+}
+
 void BristleFriction::find_states(const Sight& sight, double* states) const {
   const Bend now = bend(sight);
   states[0] = now.z;
@@ -172,6 +210,13 @@ RigidRow RigidFriction::row(const Sight& sight) const {
   out.given = -direction * bound_.at(load, rate) - bound_.data().viscous * rate;
   if (direction * rate < 0.0) out.next = {1, out.given};
   return out;
+}
+
+void RigidFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
+  // A row that is closed has whatever force keeps it closed.
+  const int regime = sight.stand.regime;
+  const double direction = regime == 2 ? 1.0 : regime == 3 ? -1.0 : 0.0;
+  out.push_back(bound_.load_slope(sight, -direction * bound_.coefficient(sight.coordinate.rate)));
 }
 
 }  // namespace buckens::loads

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "buckens/loads/coordinate_law.h"
+#include "buckens/loads/reaction_follower.h"
 #include "buckens/loads/rigid_law.h"
 
 namespace buckens::loads {
@@ -31,6 +32,9 @@ class FrictionBound {
 
   /// Resistance that the reaction causes per unit of the coefficient [N] or [N m].
   double load(const Sight& sight) const;
+  /// Its derivatives by torque and force of the reaction, times a factor; zero where a part of the
+  /// reaction vanishes.
+  spatial::Wrench load_slope(const Sight& sight, double factor) const;
   /// μ(ξ̇): from the coefficient of sticking down to that of sliding.
   double coefficient(double rate) const;
   /// b = μ N + b₀ at this load and rate [N] or [N m].
@@ -47,13 +51,15 @@ class FrictionBound {
 /// Within the bound b = μ N + b₀ the joint sticks by a spring that breaks away at the given slip;
 /// beyond, it slides with b. It does not creep under constant loads below the bound. N comes from
 /// the reaction of the joint. Theory: docs/theory/22-rows.md §4.
-class JointFriction final : public CoordinateLaw {
+class JointFriction final : public CoordinateLaw, public ReactionFollower {
  public:
   /// @param axis_F unit vector of the joint in the first marker
   JointFriction(const FrictionData& data, const Eigen::Vector3d& axis_F) : bound_(data, axis_F) {}
 
   /// A joint that covers its slip within a millisecond slides from the start.
   void start_states(const Sight& sight, double* states) const override;
+
+  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
 
   double load(const Sight& sight) const { return bound_.load(sight); }
 
@@ -79,7 +85,7 @@ struct BristleData {
 /// α is zero up to the share κ of the deflection f_s/σ₀ at which it slides, and rises to one there:
 /// nothing creeps below. κ = 0 is LuGre's own law, α = 1. States: z and f_s.
 /// Theory: docs/theory/22-rows.md §4.
-class BristleFriction final : public ForceElement {
+class BristleFriction final : public ForceElement, public ReactionFollower {
  public:
   /// @param axis_F unit vector of the joint in the first marker
   BristleFriction(const FrictionData& data, const BristleData& bristles,
@@ -92,6 +98,7 @@ class BristleFriction final : public ForceElement {
   Action respond(const Sight& sight) const override;
   int num_soft_rows() const override { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
   int num_states() const override { return 2; }
   void find_states(const Sight& sight, double* states) const override;
 
@@ -109,13 +116,14 @@ class BristleFriction final : public ForceElement {
 
 /// Dry friction that sticks rigidly: a row that closes the rate of its coordinate as long as the
 /// bound admits the force. Regimes: 1 sticks; 2 and 3 slide forwards and backwards.
-class RigidFriction final : public RigidLaw {
+class RigidFriction final : public RigidLaw, public ReactionFollower {
  public:
   /// @param axis_F unit vector of the joint in the first marker
   RigidFriction(const FrictionData& data, const Eigen::Vector3d& axis_F) : bound_(data, axis_F) {}
 
   /// Sticks at rest, slides where it moves.
   void start_states(const Sight& sight, double* states) const override;
+  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
 
  private:
   RigidRow row(const Sight& sight) const override;

@@ -69,7 +69,8 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       rigid_(model),
       rounding_length_(model.length),
       joints_(model),
-      rates_only_(dynamics::rate_only_rows(model)) {
+      rates_only_(dynamics::rate_only_rows(model)),
+      reaction_slopes_(model) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
   const std::size_t count = model.bodies.size();
@@ -149,6 +150,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   }
   rounding_length_ = dynamics::rounding_length(model_, end_);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
+  reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
   follow_near();
   follow_released(t);
   bool is_closed = condense(t);
@@ -220,6 +222,25 @@ void SmallNewton::set_soft_rows() {
     soft_compliance_.push_back(k_eff > 0.0 ? 1.0 / (scheme_.force * k_eff) : 1.0);
     soft_stiffness_share_.push_back(k_eff > 0.0 ? elastic / k_eff : 0.0);
   }
+  set_slopes();
+}
+
+void SmallNewton::set_slopes() {
+  const int in_use = static_cast<int>(rows_in_use_.size());
+  slopes_in_use_.clear();
+  int sliding = -1;
+  for (const dynamics::ReactionSlope& slope : slopes_) {
+    const auto soft = static_cast<std::size_t>(slope.soft);
+    const int place = place_in_use_[static_cast<std::size_t>(slope.row)];
+    if (place < 0 || soft_.is_closed[soft]) continue;
+    slopes_in_use_.push_back({in_use + slope.soft, place, slope.value});
+    // Where a force only follows multipliers, bodies move by it all the same.
+    const bool gives_way = soft_.stiffness[soft] != 0.0 || soft_.damping[soft] != 0.0;
+    if (gives_way || slope.soft == sliding) continue;
+    sliding = slope.soft;
+    condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
+  }
+  condensation_->set_slopes(slopes_in_use_);
 }
 
 std::vector<dynamics::SystemRow> SmallNewton::row_pattern(double t) {
@@ -272,6 +293,7 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   std::swap(soft_.damping, soft_now_.damping);
   std::swap(soft_.regimes, soft_now_.regimes);
   std::swap(soft_.is_closed, soft_now_.is_closed);
+  reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
   set_soft_rows();
   for (BodyStep& body : bodies) body.drop_correction();
   if (!condensation_->factorise(compliance_, soft_compliance_)) {
@@ -382,7 +404,7 @@ void SmallNewton::solve_multipliers() {
     const loads::RigidRow* row = closed_row(k);
     if (row != nullptr) X_[in_use + static_cast<Eigen::Index>(k)] -= row->slip / scheme_.end_rate;
   }
-  condensation_->solve_in_place(X_);
+  condensation_->solve_with_slopes(X_);
   condensation_->gather(X_, response_);
 }
 

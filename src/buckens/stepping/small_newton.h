@@ -9,6 +9,7 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/dynamics/reaction_slopes.h"
 #include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/row_watch.h"
@@ -101,6 +102,8 @@ class SmallNewton {
   /// Passes the derivatives at this configuration to the condensation, soft rows last.
   void set_joint_rows(double t);
   void set_soft_rows();
+  /// Passes on how friction grows with multipliers, after the soft rows.
+  void set_slopes();
   /// The rigid row at a place among the soft ones if it is closed, else null.
   const loads::RigidRow* closed_row(std::size_t soft) const;
   /// Moves rigid rows to where their sets put them, once all else is settled. @return whether any
@@ -158,6 +161,9 @@ class SmallNewton {
   dynamics::SoftRows soft_, soft_now_;  // at the predicted configuration; scratch
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
+  dynamics::ReactionSlopes reaction_slopes_;
+  std::vector<dynamics::ReactionSlope> slopes_;  // as the soft rows are
+  std::vector<dynamics::MultiplierSlope> slopes_in_use_;
   std::vector<dynamics::BodyCompliance> compliance_;
 
   std::vector<BodyIteration> shares_;                          // per body

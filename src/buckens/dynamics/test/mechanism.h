@@ -208,6 +208,13 @@ class Mechanism {
     model_.coordinates.push_back({load.joint, joint.first, joint.second, std::move(coordinate)});
   }
 
+  /// Law that acts on both markers of the joint added last and sees its reaction.
+  void add_law_of_joint(std::unique_ptr<loads::ForceElement> element) {
+    const model::Joint& joint = model_.joints.back();
+    add_load(std::move(element), joint.first, joint.second);
+    model_.loads.back().joint = static_cast<int>(model_.joints.size()) - 1;
+  }
+
   /// Pose of an undeformed marker as placed.
   spatial::Pose world_pose(const model::MarkerId& marker) const {
     if (marker.body == model::kGround) return marker.X_WF;

@@ -176,8 +176,42 @@ Matrix dense(const model::Model& model, const std::vector<SystemRow>& rows) {
   return J;
 }
 
+/// Solutions with slopes are those of the matrix S′, eq. (R21).
+void expect_slopes(const MultiplierCondensation& condensation, Matrix S,
+                   const std::vector<double>& soft, const std::vector<MultiplierSlope>& slopes,
+                   const Vector& x, double accuracy) {
+  for (const MultiplierSlope& slope : slopes) {
+    const auto own = static_cast<std::size_t>(slope.soft_row - (S.rows() - 2));
+    S(slope.soft_row, slope.row) -= soft[own] * slope.value;
+  }
+  Vector found = S * x;
+  condensation.solve_with_slopes(found);
+  EXPECT_LE((found - x).norm(), accuracy * x.norm());
+}
+
+/// @param expected loads on the coordinates of all bodies by multipliers x
+void expect_gathered(const model::Model& model, const MultiplierCondensation& condensation,
+                     const Vector& expected, const Vector& x) {
+  std::vector<BodyResponse> loads(model.bodies.size());
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    loads[k].interface_load = VectorXd::Zero(model.bodies[k].num_interface_rows());
+  }
+  condensation.gather(x, loads);
+  Eigen::Index at = 0;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    EXPECT_LE((loads[k].frame_load - expected.segment<6>(at)).norm(), 1e-13 * expected.norm());
+    at += 6;
+    const Eigen::Index rows = loads[k].interface_load.size();
+    EXPECT_LE((loads[k].interface_load - expected.segment(at, rows)).norm(),
+              1e-13 * expected.norm());
+    at += rows;
+  }
+}
+
 /// @param sign of the frames' compliance: −1 leaves no matrix that is nearly positive definite
-void expect_the_dense_matrix(double sign, int num_loose = 0, double accuracy = 1e-14) {
+/// @param slopes of soft rows with multipliers
+void expect_the_dense_matrix(double sign, int num_loose = 0, double accuracy = 1e-14,
+                             const std::vector<MultiplierSlope>& slopes = {}) {
   const model::Model model = test::slider_crank(2);
   const Motions path(model);
   Constraints closed, acting;
@@ -207,6 +241,7 @@ void expect_the_dense_matrix(double sign, int num_loose = 0, double accuracy = 1
 
   MultiplierCondensation condensation(static_cast<int>(model.bodies.size()), closed.rows,
                                       num_loose);
+  condensation.set_slopes(slopes);
   ASSERT_TRUE(condensation.factorise(closed.rows, acting.rows, compliance, soft));
   // A second time into the same memory.
   ASSERT_TRUE(condensation.factorise(closed.rows, acting.rows, compliance, soft));
@@ -221,24 +256,22 @@ void expect_the_dense_matrix(double sign, int num_loose = 0, double accuracy = 1
   const double condition = singular[0] / singular[singular.size() - 1];
   EXPECT_LE((found - x).norm(), accuracy * condition * x.norm());
 
-  std::vector<BodyResponse> loads(model.bodies.size());
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    loads[k].interface_load = VectorXd::Zero(model.bodies[k].num_interface_rows());
-  }
-  condensation.gather(x, loads);
-  const Vector expected = dense(model, acting.rows).transpose() * x;
-  at = 0;
-  for (std::size_t k = 0; k < loads.size(); ++k) {
-    EXPECT_LE((loads[k].frame_load - expected.segment<6>(at)).norm(), 1e-13 * expected.norm());
-    at += 6;
-    const Eigen::Index rows = loads[k].interface_load.size();
-    EXPECT_LE((loads[k].interface_load - expected.segment(at, rows)).norm(),
-              1e-13 * expected.norm());
-    at += rows;
-  }
+  expect_slopes(condensation, S, soft, slopes, x, accuracy * condition);
+  expect_gathered(model, condensation, dense(model, acting.rows).transpose() * x, x);
 }
 
 TEST(MultiplierCondensation, EqualsTheDenseMatrix) { expect_the_dense_matrix(1.0); }
+
+TEST(MultiplierCondensation, CountsHowSoftRowsGrowWithMultipliers) {
+  // The two rows of the guide as soft ones, growing with those of the pin of the slider.
+  const int rows = test::slider_crank(2).num_constraint_rows();
+  const std::vector<MultiplierSlope> of_first = {{rows - 2, rows - 4, 0.4},
+                                                 {rows - 2, rows - 3, 0.2}};
+  std::vector<MultiplierSlope> of_both = of_first;
+  of_both.push_back({rows - 1, rows - 3, -0.3});
+  expect_the_dense_matrix(1.0, 0, 1e-14, of_both);
+  expect_the_dense_matrix(1.0, 1, 1e-10, of_first);
+}
 
 TEST(MultiplierCondensation, IteratesWithRowsThatAreNotFactorised) {
   // The residual at which the iteration ends.

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/dynamics/reaction_slopes.h"
+
+#include "buckens/dynamics/travel.h"
+
+namespace buckens::dynamics {
+
+namespace {
+
+/// Appends the derivatives of the force of one soft row.
+/// @param slope derivatives by the joint's reaction, @param sight as the law sees it
+void append_slopes_of_row(const model::Joint& joint, int soft, const spatial::Wrench& slope,
+                          const loads::Sight& sight, const double* states, const Travel* travel,
+                          std::vector<ReactionSlope>& out) {
+  if (slope.force.isZero(0.0) && slope.torque.isZero(0.0)) return;
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    const joints::ConstraintRow& row = joint.rows[k];
+    double value = 0.0;
+    if (travel != nullptr) {
+      value = slope.force.dot(travel->row(row, sight.t).e);
+    } else {
+      const spatial::PairRow J = row.evaluate(sight.first, sight.second, sight.t, states).J;
+      value = J.segment<3>(6).dot(slope.torque) + J.segment<3>(9).dot(slope.force);
+      if (states != nullptr) states += row.num_states();
+    }
+    if (value != 0.0) out.push_back({soft, joint.first_row + static_cast<int>(k), value});
+  }
+}
+
+}  // namespace
+
+ReactionSlopes::ReactionSlopes(const model::Model& model) : model_(model) {
+  int soft = 0;
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    const auto* law = dynamic_cast<const loads::ReactionFollower*>(load.element.get());
+    if (law != nullptr && load.joint >= 0) followers_.push_back({k, soft, law});
+    soft += load.element->num_soft_rows();
+  }
+}
+
+void ReactionSlopes::evaluate(const std::vector<BodyMotion>& motions, double t,
+                              const Circumstances& around, std::vector<ReactionSlope>& out) const {
+  out.clear();
+  thread_local std::vector<spatial::Wrench> slopes;  // kept, so that steps allocate nothing
+  for (const Follower& follower : followers_) {
+    if (around.memory != nullptr && around.memory->is_off(follower.load)) continue;
+    const model::Load& load = model_.loads[follower.load];
+    const model::Joint& joint = model_.joints[static_cast<std::size_t>(load.joint)];
+    const LoadEnds ends = ends_of(model_, load, motions, around.memory);
+    const loads::Sight sight = sight_of(model_, follower.load, t, around, ends.first.motion,
+                                        ends.second.motion, ends.travels());
+    slopes.clear();
+    follower.law->append_slopes(sight, slopes);
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      append_slopes_of_row(joint, follower.soft + static_cast<int>(k), slopes[k], sight,
+                           states_of(joint, around.memory), ends.travels(), out);
+    }
+  }
+}
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/loads/force_element.h"
+
+namespace buckens::loads {
+
+/// A force law whose force grows with the reaction of its joint: friction.
+class ReactionFollower {
+ public:
+  virtual ~ReactionFollower() = default;
+
+  /// Appends, for each soft row of the law, the derivatives of the force along it by torque and
+  /// force of the reaction. Used only for the tangent of the step's iteration.
+  virtual void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const = 0;
+};
+
+}  // namespace buckens::loads
