@@ -29,6 +29,29 @@ FRICTION = """loads:
   f_small: {hinge-friction: {joint: small_end, static: 0.1, radius: 8 mm}}
   f_guide: {slide-friction: {joint: guide, static: 0.1}}"""
 
+FOUR_BAR = """buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850 kg/m^3}}
+bodies:
+  crank: {rigid: {mass: 0.4, com: [0.05, 0, 0], inertia: [0, 0, 4e-4]}, markers: {o: {position: [0, 0, 0]}, a: {position: [0.1, 0, 0]}}}
+  coupler: {beam: {to: [0.18, 0.24, 0], elements: 8, section: {circle: {diameter: 12 mm}}, material: steel}, at: {position: [0.1, 0, 0]}}
+  rocker: {rigid: {mass: 0.8, com: [0.315, 0.12, 0], inertia: [0, 0, 4e-3]}, markers: {b: {position: [0.28, 0.24, 0]}, c: {position: [0.35, 0, 0]}}}
+joints:
+  o: {revolute: {between: [ground, crank/o]}}
+  drive: {prescribed-rotation: {between: [ground, crank/o], angle: "ANGLE"}}
+  a: {revolute: {between: [crank/a, coupler/start]}}
+  b: {revolute: {between: [coupler/end, rocker/b]}}
+  c: {revolute: {between: [{ground: [0.35, 0, 0]}, rocker/c]}}
+loads:
+  fo: {hinge-friction: {joint: o, static: 0.1, radius: 10 mm}}
+  fa: {hinge-friction: {joint: a, static: 0.1, radius: 8 mm}}
+  fb: {hinge-friction: {joint: b, static: 0.1, radius: 8 mm}}
+  fc: {hinge-friction: {joint: c, static: 0.1, radius: 10 mm}}
+simulation: {duration: 0.2 s, step: 0.1 ms}
+output: {every: 1 ms, sensors: {work: {energy: work}, lost: {energy: dissipated}, balance: {energy: balance}}}
+"""
+
+
 @pytest.fixture
 def summary(buckens, tmp_path):
     def run(text, name):
@@ -45,3 +68,10 @@ def test_friction_in_all_joints_costs_few_iterations(summary):
     assert rubbed["steps"] == without["steps"] == 840
     # The goal of friction in a flexible mechanism: at most 1.3 times the work of a step.
     assert rubbed["newton_iterations"]["total"] <= 1.3 * without["newton_iterations"]["total"]
+
+
+@pytest.mark.parametrize("angle", ["60*t rad", "60*(t - 0.01*(1 - exp(-t/0.01))) rad"])
+def test_a_four_bar_with_friction_runs_without_shortened_steps(summary, angle):
+    run = summary(FOUR_BAR.replace("ANGLE", angle), "run")
+    assert run["step_control"]["failed"] == 0
+    assert [size["step"] for size in run["step_control"]["sizes"]] == [1e-4]

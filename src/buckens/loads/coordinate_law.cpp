@@ -92,6 +92,18 @@ void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& row
   rows.push_back(row);
 }
 
+UnlimitedForce CoordinateLaw::unlimited(const Sight& sight) const {
+  const ProjectedForce law = force(sight);
+  UnlimitedForce out;
+  if (!law.is_on || law.is_damper_limited) return out;
+  const double rate = sight.coordinate.rate;
+  out.excess =
+      law.drive - law.stiffness * law.strain - law.damping * rate - project(law, rate).bounded;
+  out.stiffness = law.stiffness;
+  out.damping = law.damping + law.outer_damping;
+  return out;
+}
+
 int CoordinateLaw::limited_to(const ProjectedForce& law, double rate) {
   const Projected f = project(law, rate);
   if (!f.is_cut || f.bounded == 0.0) return 0;

@@ -31,6 +31,12 @@ struct ProjectedForce {
   bool is_source = false;
 };
 
+/// A projected force without its set.
+struct UnlimitedForce {
+  double excess = 0;                  ///< what the set keeps back [N] or [N m]
+  double stiffness = 0, damping = 0;  ///< of all of it
+};
+
 /// What a force along a joint coordinate does to both markers.
 Action along_coordinate(const CoordinateMotion& coordinate, double force);
 
@@ -45,6 +51,7 @@ class CoordinateLaw : public ForceElement {
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const final;
   int num_states() const final { return is_yielding() ? 1 : 0; }
   void find_states(const Sight& sight, double* states) const final;
+  UnlimitedForce unlimited(const Sight& sight) const;
 
  protected:
   /// Whether the set limits the force: its sign, 0 if not.

@@ -67,6 +67,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       rows_in_use_(std::move(rows_in_use)),
       watch_(model),
       rigid_(model),
+      held_(model),
       rounding_length_(model.length),
       joints_(model),
       rates_only_(dynamics::rate_only_rows(model)),
@@ -90,6 +91,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
 
 void SmallNewton::use(const dynamics::Circumstances& around) {
   around_ = around;
+  held_.release();
   if (rigid_.empty()) return;
   rigid_.start(*around.memory);
   around_.stands = &rigid_.stands();
@@ -232,7 +234,7 @@ void SmallNewton::set_slopes() {
   for (const dynamics::ReactionSlope& slope : slopes_) {
     const auto soft = static_cast<std::size_t>(slope.soft);
     const int place = place_in_use_[static_cast<std::size_t>(slope.row)];
-    if (place < 0 || soft_.is_closed[soft]) continue;
+    if (place < 0 || soft_.is_closed[soft] || held_.holds(slope.soft)) continue;
     slopes_in_use_.push_back({in_use + slope.soft, place, slope.value});
     // Where a force only follows multipliers, bodies move by it all the same.
     const bool gives_way = soft_.stiffness[soft] != 0.0 || soft_.damping[soft] != 0.0;
@@ -293,6 +295,8 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   std::swap(soft_.damping, soft_now_.damping);
   std::swap(soft_.regimes, soft_now_.regimes);
   std::swap(soft_.is_closed, soft_now_.is_closed);
+  held_.hold_reversed(soft_now_.regimes, at_evaluation(), scheme_.evaluation_time(t), around_,
+                      soft_);
   reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
   set_soft_rows();
   for (BodyStep& body : bodies) body.drop_correction();
@@ -379,7 +383,7 @@ void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
   }
 }
 
-void SmallNewton::solve_multipliers() {
+void SmallNewton::solve_multipliers(double t) {
   const auto in_use = static_cast<Eigen::Index>(rows_in_use_.size());
   const dynamics::RowBlocks& rows = condensation_->test_rows();
   rows.changes(X_, [&](int b) {
@@ -404,6 +408,11 @@ void SmallNewton::solve_multipliers() {
     const loads::RigidRow* row = closed_row(k);
     if (row != nullptr) X_[in_use + static_cast<Eigen::Index>(k)] -= row->slip / scheme_.end_rate;
   }
+  held_.for_excess(
+      at_evaluation(), scheme_.evaluation_time(t), around_, [&](int soft, double excess) {
+        const Eigen::Index row = in_use + soft;
+        X_[row] += scheme_.force * excess * soft_compliance_[static_cast<std::size_t>(soft)];
+      });
   condensation_->solve_with_slopes(X_);
   condensation_->gather(X_, response_);
 }
@@ -464,7 +473,8 @@ double SmallNewton::find_residuals(const std::vector<BodyStep>& bodies) {
 SmallNewton::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                                       StepReport& report) {
   solve_correction(bodies);
-  solve_multipliers();
+  solve_multipliers(t);
+  held_.release();
   const Change change = update(bodies, lambda);
   ++report.newton_iterations;
   if (!(change.size < HUGE_VAL)) fail(t, report, "the motion has diverged");

@@ -11,6 +11,7 @@
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/dynamics/reaction_slopes.h"
 #include "buckens/stepping/body_iteration.h"
+#include "buckens/stepping/held_laws.h"
 #include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
@@ -78,7 +79,7 @@ class SmallNewton {
   void settle(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, Change change,
               StepReport& report);
   void solve_correction(const std::vector<BodyStep>& bodies);
-  void solve_multipliers();
+  void solve_multipliers(double t);
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
   bool settled(const Change& change, const Change& before) const;
   /// Below this a change that no longer falls is rounding.
@@ -142,6 +143,7 @@ class SmallNewton {
   bool has_quasi_static_ = false;
   dynamics::Circumstances around_;
   RigidRows rigid_;
+  HeldLaws held_;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()

@@ -125,6 +125,32 @@ TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
   EXPECT_NEAR(friction.respond(sight).along_coordinate, -0.5 * bound, 1e-12);
 }
 
+TEST(JointFriction, WithoutItsSetItWouldStick) {
+  FrictionData data;
+  data.static_coefficient = data.dynamic_coefficient = 0.3;
+  data.preload = 2;
+  data.slip = 1e-3;
+  data.radius = 1;
+  data.inertia = 0.5;
+  data.viscous = 0.1;
+  const JointFriction friction(data, Vector3d::UnitX());
+  Sled sled;
+  for (const double change : {4e-4, -7e-3}) {  // sticks, slides
+    auto sight = sled.at(0, 0.2, change);
+    sight.reaction.force = Vector3d(0, 6, 8);
+    const double stiffness = (0.3 * 10 + 2) / 1e-3;
+    const double damping = 2 * std::sqrt(stiffness * 0.5);
+    const UnlimitedForce whole = friction.unlimited(sight);
+    EXPECT_DOUBLE_EQ(whole.stiffness, stiffness);
+    EXPECT_DOUBLE_EQ(whole.damping, damping + 0.1);
+    EXPECT_NEAR(friction.respond(sight).along_coordinate + whole.excess,
+                -stiffness * change - whole.damping * 0.2, 1e-12 * stiffness);
+  }
+  // A stop is not held: its damper is limited by its spring.
+  const CoordinateStop stop(-0.1, 0.2, 1000, 50);
+  EXPECT_EQ(stop.unlimited(sled.at(0.21, -1)).stiffness, 0);
+}
+
 TEST(JointFriction, WeighsForcesAndMomentsByTheirLevers) {
   FrictionData data;
   data.static_coefficient = 0.2;
