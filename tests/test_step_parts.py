@@ -97,7 +97,7 @@ def test_gaps_are_sewn_or_told(buckens, bad):
 
 def test_solids_that_overlap_or_touch_are_one_body(buckens, bad):
     overlap = info(buckens, bad["overlap"])
-    assert "solids overlap" in notes(overlap) and overlap["pieces"] == 1
+    assert re.search(r'solids overlap \(".+" and ".+"\): what they have in common', notes(overlap)) and overlap["pieces"] == 1
     assert overlap["volume"] == pytest.approx(1.9 * BOX, rel=1e-9)
     touching = info(buckens, bad["touching"])
     assert touching["notes"] == [] and touching["pieces"] == 1 and touching["duplicate_nodes"] == []
@@ -227,3 +227,16 @@ def test_the_log_says_what_took_how_long(buckens, tmp_path):
         assert re.search(rf"STEP, meshed by Gmsh.*[;,] {phase} \d+\.\d\d s", log), phase
     assert re.search(r"assembling \d{5} variables: \d+\.\d\d s", log)
     assert re.search(r"factorising \d{5} equations \(factor of 0\.\d+ GB\): \d+\.\d\d s", log)
+
+
+def test_solids_are_glued_once_for_all_ways(buckens, bad):
+    """Five ways are tried: the solids are glued in metres and in millimetres, not each time."""
+    code, shown = told_on_terminal(PROGRAM, "mesh-info", bad["capped_tube"], "--size", "12 mm")
+    assert code == 0
+    ways = {int(number) for number in re.findall(r"way (\d+): ", shown)}
+    glued = set(re.findall(r"(?:way (\d+): )?gluing 2 solids", shown))
+    assert max(ways) >= 4 and glued == {"", "3"}
+    told = info(buckens, bad["capped_tube"], "--size", "12 mm")
+    assert "for the usual way failed: Gmsh:" in notes(told)
+    exact = math.pi * (0.0103**2 - 0.01**2) * 0.06 + math.pi * 0.0103**2 * 0.01
+    assert told["pieces"] == 1 and told["volume"] == pytest.approx(exact, rel=5e-3)

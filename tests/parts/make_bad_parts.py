@@ -119,6 +119,15 @@ def tube(wall):
     return build
 
 
+def capped_tube(wall):
+    """The tube on a disc: two solids that touch."""
+    def build(kernel):
+        tube(wall)(kernel)
+        kernel.call("gmshModelOccAddCylinder", *map(ctypes.c_double, (0, 0, 0, 0, 0, -10, 10 + wall)), -1,
+                    ctypes.c_double(2 * math.pi))
+    return build
+
+
 def sieve(columns, rows):
     """A plate of 2 mm with square holes of 1 mm, 3 mm apart: four faces each."""
     def loop(kernel, corner, side_x, side_y):
@@ -142,6 +151,7 @@ def sieve(columns, rows):
 PARTS = {
     "tube": tube(0.6),
     "thin_tube": tube(0.3),
+    "capped_tube": capped_tube(0.3),
     "gap_small": shell_with_gap(0.01),
     "gap_wide": shell_with_gap(1.0),
     "overlap": boxes(((0, 0, 0), BOX), ((90, 0, 0), BOX)),

@@ -108,7 +108,7 @@ void GmshLibrary::import_shapes(const std::string& file) {
   check(error);
 }
 
-void GmshLibrary::fragment(const std::vector<GmshEntity>& volumes) {
+std::vector<std::vector<GmshEntity>> GmshLibrary::fragment(const std::vector<GmshEntity>& volumes) {
   int error = 0;
   std::vector<int> objects = flat({volumes.begin(), volumes.begin() + 1});
   std::vector<int> tools = flat({volumes.begin() + 1, volumes.end()});
@@ -122,6 +122,9 @@ void GmshLibrary::fragment(const std::vector<GmshEntity>& volumes) {
   check(error);
   BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
   check(error);
+  std::vector<std::vector<GmshEntity>> pieces;
+  for (std::size_t k = 0; k < maps; ++k) pieces.push_back(pairs(map[k], map_sizes[k]));
+  return pieces;
 }
 
 void GmshLibrary::remove(const std::vector<GmshEntity>& volumes) {

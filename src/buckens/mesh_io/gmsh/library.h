@@ -29,7 +29,8 @@ class GmshLibrary {
   /// Solids and faces of a STEP file, with their colours and labels.
   void import_shapes(const std::string& file);
   /// Cuts volumes that overlap or touch, so that they share faces.
-  void fragment(const std::vector<GmshEntity>& volumes);
+  /// @return what each of them became
+  std::vector<std::vector<GmshEntity>> fragment(const std::vector<GmshEntity>& volumes);
   /// Removes volumes with the faces that nothing else uses.
   void remove(const std::vector<GmshEntity>& volumes);
   /// Repairs wires and small faces, sews faces whose edges are within the tolerance, and makes a

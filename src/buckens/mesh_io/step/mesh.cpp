@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -17,7 +17,6 @@
 #include "buckens/base/stopwatch.h"
 #include "buckens/fem/mesh/cell_measure.h"
 #include "buckens/fem/mesh/straighten.h"
-#include "buckens/files/isolated_work.h"
 #include "buckens/files/output_file.h"
 #include "buckens/files/text_file.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
@@ -26,6 +25,7 @@
 #include "buckens/mesh_io/step/quick_settings.h"
 #include "buckens/mesh_io/step/text.h"
 #include "buckens/mesh_io/step/trial.h"
+#include "buckens/mesh_io/step/unit_trials.h"
 
 namespace buckens::mesh_io {
 
@@ -58,8 +58,7 @@ class TemporaryDirectory {
   fs::path path_;
 };
 
-constexpr unsigned kSeconds = 120;  // of computing, to read the file and glue its solids
-constexpr int kMostTimeouts = 2;    // after which no further trial begins
+constexpr int kMostTimeouts = 2;  // after which no further trial begins
 // Chords of coarse meshes lose volume at curved faces, a third at four elements per circle; edges
 // on the true surface lose almost nothing, but straightened ones can reach into a bore.
 constexpr double kLeastFlat = 0.6, kLeastCurved = 0.97, kMostVolume = 1.03;
@@ -144,22 +143,17 @@ class Trials {
   double in_vain() const { return in_vain_; }
   /// @return the lines of the first that came to a mesh
   std::string run() {
-    for (const StepTrial& trial : step_trials()) {
-      if (!try_it(trial)) continue;
-      return *trial.what == '\0' ? output_
-                                 : output_ + fmt::format(
-                                                 "note meshed {}, for the usual way failed: "
-                                                 "{}\n",
-                                                 trial.what, first_);
+    for (const bool in_millimetres : {false, true}) {
+      const auto lines = try_all(step_trials(), in_millimetres, "meshed");
+      if (lines) return *lines;
     }
     if (is_open_) {
-      for (const StepTrial& trial : sewing_trials()) {
-        if (try_it(trial)) return output_;
-      }
-      refuse(fmt::format(
-          "{}. Gaps of up to {:g} of the part's diagonal are closed by sewing, after "
-          "which {}. Close it in the CAD program, or export the part as a solid",
-          first_, sewing_trials().back().tolerance, output_.substr(output_.find(' ') + 1)));
+      const auto lines = try_all(sewing_trials(), true, "");
+      if (lines) return *lines;
+      refuse(
+          fmt::format("{}. Gaps of up to {:g} of the part's diagonal are closed by sewing, after "
+                      "which {}. Close it in the CAD program, or export the part as a solid",
+                      first_, sewing_trials().back().tolerance, last_));
     }
     refuse(
         fmt::format("{}. {} other ways were tried, smaller elements among them. Look at this "
@@ -179,42 +173,57 @@ class Trials {
     throw InputError({file_, 0, 0}, "cannot be meshed: " + reason);
   }
 
-  bool try_it(const StepTrial& trial) {
-    if (has_no_solid_ && trial.tolerance == 0) return false;
-    if (timeouts_ == kMostTimeouts) return false;
-    progress_.trial(++count_);
-    const base::Stopwatch watch;
-    const files::IsolatedResult result = files::do_isolated(
-        [&] { return mesh_in_trial(task_, trial); }, kSeconds, progress_.listener());
-    output_ = result.output;
-    if (!result.is_complete && result.signal == SIGXCPU) {
-      if (!progress_.has_read()) {
-        refuse(
-            fmt::format("it was not read within {} s of computing, whatever its size; make the "
-                        "part simpler in the CAD program: leave out threads, letters and "
-                        "patterns of many holes",
-                        kSeconds));
-      }
-      output_ = "failed Gmsh did not finish within minutes of computing";
-      ++timeouts_;
-    } else if (!result.is_complete) {
-      output_ = fmt::format(
-          "failed Gmsh's library crashed on this file (signal {}), whose geometry may be broken",
-          result.signal);
+  /// Those of the trials with the given unit that can be of use.
+  /// @param done for the note on how it was done; "": none is made
+  std::optional<std::string> try_all(const std::vector<StepTrial>& trials, bool in_millimetres,
+                                     const std::string& done) {
+    UnitTrials wanted{{}, count_ + 1, kMostTimeouts - timeouts_};
+    for (const StepTrial& trial : trials) {
+      const bool is_of_use = trial.tolerance > 0 || !has_no_solid_;
+      if (trial.in_millimetres == in_millimetres && is_of_use) wanted.trials.push_back(trial);
     }
-    const std::size_t word = output_.find(' ');
-    const std::string kind = output_.substr(0, word);
-    if (kind == "error") refuse(output_.substr(word + 1));
-    if (kind != "failed" && kind != "open") return true;
-    in_vain_ += watch.seconds();
-    is_open_ = is_open_ || kind == "open";
-    has_no_solid_ = has_no_solid_ || output_.starts_with("open there is no solid");
-    if (first_.empty()) first_ = output_.substr(word + 1);
-    return false;
+    if (wanted.trials.empty() || wanted.most_timeouts <= 0) return std::nullopt;
+    for (const TrialOutcome& one : try_in_one_unit(task_, wanted, progress_.listener())) {
+      ++count_;
+      if (!one.has_mesh()) {
+        take_failure(one);
+        continue;
+      }
+      const char* what = wanted.trials[one.trial].what;
+      if (done.empty() || *what == '\0') return one.lines;
+      return one.lines +
+             fmt::format("note {} {}, for the usual way failed: {}\n", done, what, first_);
+    }
+    return std::nullopt;
+  }
+
+  void take_failure(const TrialOutcome& one) {
+    if (!one.was_read) refuse_slow();
+    if (one.kind() == "error") refuse(one.reason());
+    in_vain_ += one.seconds;
+    if (one.timed_out) ++timeouts_;
+    is_open_ = is_open_ || one.kind() == "open";
+    has_no_solid_ = has_no_solid_ || is_without_solid(one);
+    last_ = one.reason();
+    if (first_.empty()) first_ = last_;
+  }
+
+  [[noreturn]] void refuse_slow() const {
+    if (progress_.being_glued() > 0) {
+      refuse(fmt::format(
+          "its {} solids were not glued where they touch within {} s of computing, whatever the "
+          "size; choose one of them by `solid`, or join them in the CAD program",
+          progress_.being_glued(), kSecondsToRead));
+    }
+    refuse(
+        fmt::format("it was not read within {} s of computing, whatever its size; make the "
+                    "part simpler in the CAD program: leave out threads, letters and "
+                    "patterns of many holes",
+                    kSecondsToRead));
   }
 
   const StepTask& task_;
-  std::string file_, doubt_, output_, first_;
+  std::string file_, doubt_, first_, last_;
   MeshingProgress& progress_;
   int count_ = 0, timeouts_ = 0;
   double in_vain_ = 0;  // seconds

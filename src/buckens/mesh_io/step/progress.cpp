@@ -30,6 +30,12 @@ void say_stage(const char* stage) {
   files::say_to_listener(fmt::format("{}stage {}", kOwn, stage));
 }
 
+void say_trial(int number) { files::say_to_listener(fmt::format("{}trial {}", kOwn, number)); }
+
+void say_gluing(std::size_t num_solids) {
+  files::say_to_listener(fmt::format("{}gluing {}", kOwn, num_solids));
+}
+
 void say_outlook(const MeshOutlook& outlook, std::size_t num_faces) {
   files::say_to_listener(
       fmt::format("{}outlook {} {} {}", kOwn, num_faces, outlook.elements, outlook.nodes));
@@ -52,7 +58,7 @@ void MeshingProgress::stage(const std::string& name) {
 }
 
 void MeshingProgress::trial(int number) {
-  has_read_ = false;
+  being_glued_ = 0;
   way_ = number > 1 ? fmt::format("way {}: ", number) : "";
   stage("reading");
 }
@@ -77,9 +83,13 @@ void MeshingProgress::hear(const std::string& line) {
     std::getline(words >> std::ws, word);
     return stage(word);
   }
+  if (int number = 0; word == "trial" && words >> number) return trial(number);
+  if (word == "gluing" && words >> being_glued_) {
+    return stage(fmt::format("gluing {} solids", being_glued_));
+  }
   double elements = 0, nodes = 0;
   if (word == "outlook" && words >> num_faces_ >> elements >> nodes) {
-    has_read_ = true;
+    being_glued_ = 0;
     // Another way to mesh is no news to whoever waits, as long as it is about as much.
     if (elements > kWrong * elements_) set_outlook(elements, nodes);
     stage("edges");

@@ -11,6 +11,8 @@ namespace buckens::mesh_io {
 
 /// For the process that meshes: tells the other one where it is.
 void say_stage(const char* stage);
+void say_trial(int number);
+void say_gluing(std::size_t num_solids);
 void say_outlook(const MeshOutlook& outlook, std::size_t num_faces);
 
 /// Reports to base::report_work() how far the meshing of a part is, from what the other process and
@@ -24,22 +26,22 @@ class MeshingProgress {
   MeshingProgress& operator=(const MeshingProgress&) = delete;
 
   void stage(const std::string& name);
-  /// Another trial begins, counted from 1.
-  void trial(int number);
   files::IsolatedListener listener();
-  /// Whether the trial has come to meshing.
-  bool has_read() const { return has_read_; }
+  /// How many solids are being glued, as last heard; 0: none.
+  int being_glued() const { return being_glued_; }
 
  private:
   void hear(const std::string& line);
   void hear_gmsh(const std::string& line);
+  /// Another trial begins, counted from 1.
+  void trial(int number);
   void set_outlook(double elements, double nodes);
 
   base::Work work_;
   std::string way_;  // "" or "way 2: "
   long num_faces_ = 0;
   double elements_ = 0;  // expected
-  bool has_read_ = false;
+  int being_glued_ = 0;  // solids
 };
 
 }  // namespace buckens::mesh_io

@@ -50,9 +50,20 @@ std::vector<Face> faces_of(const GmshLibrary& gmsh) {
   return out;
 }
 
+bool are_one(const Face& a, const Face& b) {
+  if (!a.lies_in(b) || !b.lies_in(a) || std::abs(a.area - b.area) > kSame * b.area) return false;
+  const double apart =
+      std::hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1], a.centre[2] - b.centre[2]);
+  return apart <= kSame * b.width();
+}
+
 /// The faces that are together what `whole` was; none if they cannot be found.
 std::vector<const Face*> pieces_of(const Face& whole, const std::vector<Face>& faces) {
   std::vector<const Face*> out;
+  // The box of an uncut face, bent around others, holds these, too.
+  for (const Face& face : faces) {
+    if (are_one(face, whole)) return {&face};
+  }
   double area = 0;
   std::array<double, 3> moment{};
   for (const Face& face : faces) {
@@ -67,6 +78,39 @@ std::vector<const Face*> pieces_of(const Face& whole, const std::vector<Face>& f
                                kSame * whole.area * whole.width();
   }
   return is_whole ? out : std::vector<const Face*>();
+}
+
+void add_color(GluedShapes& out, int face, const GmshLibrary::Color& color) {
+  const bool is_known =
+      std::any_of(out.colors.begin(), out.colors.end(), [&](const ColoredShape& known) {
+        return known.face == face && same_color(known.color, color);
+      });
+  if (color.alpha > 0 && !is_known) out.colors.push_back({face, color});
+}
+
+/// The colours of faces on the pieces that they were cut into.
+void color_pieces(GluedShapes& out, const std::vector<Face>& before,
+                  const std::vector<Face>& after) {
+  for (const Face& face : before) {
+    if (face.color.alpha == 0) continue;
+    const auto pieces = pieces_of(face, after);
+    if (pieces.empty()) ++out.lost;
+    for (const Face* piece : pieces) add_color(out, piece->number, face.color);
+  }
+}
+
+/// @param pieces what each solid became
+std::vector<std::pair<std::string, std::string>> common_pieces(
+    const std::vector<std::vector<GmshEntity>>& pieces, const std::vector<std::string>& labels) {
+  std::vector<std::pair<std::string, std::string>> out;
+  std::map<GmshEntity, std::size_t> owner;
+  for (std::size_t k = 0; k < std::min(pieces.size(), labels.size()); ++k) {
+    for (const GmshEntity& piece : pieces[k]) {
+      const auto [known, is_new] = owner.emplace(piece, k);
+      if (!is_new) out.emplace_back(labels[known->second], labels[k]);
+    }
+  }
+  return out;
 }
 
 /// Takes away all solids but one. @return what is wrong; empty: nothing
@@ -94,36 +138,44 @@ std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid) {
   return out.empty() ? fmt::format("volume_{}", solid.second) : out;
 }
 
-GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file,
-                       const std::string& solid) {
+std::string load_part(GmshLibrary& gmsh, const char* model, const std::string& file,
+                      const std::string& solid) {
   gmsh.new_model(model);
   gmsh.import_shapes(file);
+  return solid.empty() ? std::string() : keep_only(gmsh, solid);
+}
+
+GluedShapes glue_solids(GmshLibrary& gmsh) {
   GluedShapes out;
-  if (!solid.empty()) out.problem = keep_only(gmsh, solid);
-  if (!out.problem.empty()) return out;
-  const auto add = [&out](int face, const GmshLibrary::Color& color) {
-    const bool is_known =
-        std::any_of(out.colors.begin(), out.colors.end(), [&](const ColoredShape& known) {
-          return known.face == face && same_color(known.color, color);
-        });
-    if (color.alpha > 0 && !is_known) out.colors.push_back({face, color});
-  };
   const auto solids = gmsh.entities(3);
+  out.num_faces = gmsh.entities(2).size();
   if (solids.size() < 2) {
-    for (const GmshEntity& face : gmsh.entities(2)) add(face.second, gmsh.color(face));
+    for (const GmshEntity& face : gmsh.entities(2)) add_color(out, face.second, gmsh.color(face));
     return out;
   }
   const std::vector<Face> before = faces_of(gmsh);
-  gmsh.fragment(solids);
+  std::vector<std::string> labels;
+  for (const GmshEntity& solid : solids) labels.push_back(label_of_solid(gmsh, solid));
+  out.overlaps = common_pieces(gmsh.fragment(solids), labels);
   const std::vector<Face> after = faces_of(gmsh);
-  out.overlap = gmsh.entities(3).size() != solids.size();
-  for (const Face& face : after) add(face.number, face.color);
-  for (const Face& face : before) {
-    if (face.color.alpha == 0) continue;
-    const auto pieces = pieces_of(face, after);
-    if (pieces.empty()) ++out.lost;
-    for (const Face* piece : pieces) add(piece->number, face.color);
+  for (const Face& face : after) add_color(out, face.number, face.color);
+  color_pieces(out, before, after);
+  return out;
+}
+
+GluedShapes colors_of_copy(GmshLibrary& gmsh, const char* part, const GluedShapes& glued,
+                           const std::string& copy, const std::string& solid) {
+  GluedShapes out;
+  const std::vector<Face> after = faces_of(gmsh);
+  const bool is_cut = gmsh.entities(3).size() > 1;
+  load_part(gmsh, "copy", copy, solid);
+  out.num_faces = gmsh.entities(2).size();
+  if (out.num_faces == glued.num_faces && !is_cut) {
+    for (const GmshEntity& face : gmsh.entities(2)) add_color(out, face.second, gmsh.color(face));
+  } else if (out.num_faces == glued.num_faces) {
+    color_pieces(out, faces_of(gmsh), after);
   }
+  gmsh.use_model(part);
   return out;
 }
 

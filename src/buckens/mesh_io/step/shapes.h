@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "buckens/mesh_io/gmsh/library.h"
@@ -15,25 +16,35 @@ struct ColoredShape {
   GmshLibrary::Color color = {0, 0, 0, 0};
 };
 
-/// Result of gluing the touching solids of a STEP file.
+/// What gluing the touching solids of a STEP file does to its faces.
 struct GluedShapes {
   std::vector<ColoredShape> colors;  ///< a face between two solids may have two
   int lost = 0;                      ///< coloured faces of which no pieces could be found
-  bool overlap = false;              ///< solids have volume in common
-  std::string problem;               ///< why there is nothing to mesh; empty: there is
+  /// Labels of two solids that have volume in common, for each piece of it.
+  std::vector<std::pair<std::string, std::string>> overlaps;
+  std::size_t num_faces = 0;  ///< of the file, before they were cut
 };
 
 /// The last part of a name such as "Shapes/assembly/rod", or volume_<number>.
 std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid);
 
-/// Loads a file into a new model and gives touching solids common faces.
+/// Loads a file into a new model.
+/// @param solid name or number (by their order in the file) of the one to keep; empty: all
+/// @return what is wrong; empty: nothing
+std::string load_part(GmshLibrary& gmsh, const char* model, const std::string& file,
+                      const std::string& solid);
+
+/// Gives touching solids common faces.
 ///
 /// The library loses the colours of faces that it cuts. Their pieces are found by position: they
 /// are inside the bounding box of the face and together have its area and its centre.
-///
-/// @param solid name or number (by their order in the file) of the one to keep; empty: all
-GluedShapes load_glued(GmshLibrary& gmsh, const char* model, const std::string& file,
-                       const std::string& solid);
+GluedShapes glue_solids(GmshLibrary& gmsh);
+
+/// Colours of a copy of the file on the faces of the glued part: the copy is not glued itself.
+/// @param glued the part, which is the present model
+/// @return no colours if the copy has other faces
+GluedShapes colors_of_copy(GmshLibrary& gmsh, const char* part, const GluedShapes& glued,
+                           const std::string& copy, const std::string& solid);
 
 /// A curve that two solids have in common, which no chain of common faces connects.
 struct SharedEdge {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -19,9 +18,9 @@
 #include "buckens/mesh_io/gmsh/library.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/step/estimate.h"
+#include "buckens/mesh_io/step/glued_part.h"
 #include "buckens/mesh_io/step/progress.h"
 #include "buckens/mesh_io/step/shapes.h"
-#include "buckens/mesh_io/step/text.h"
 
 namespace buckens::mesh_io {
 
@@ -40,10 +39,6 @@ constexpr int kMostMoved = 300;
 // never ends.
 constexpr double kMeshSeconds = 100, kSecondsPerElement = 1e-3;
 
-std::string time_line(const char* what, double seconds) {
-  return fmt::format("time {} {:.3f}\n", what, seconds);
-}
-
 /// What the file holds, in metres.
 struct Extent {
   double diagonal = 0, volume = 0, area = 0;
@@ -57,15 +52,16 @@ std::string one_line(std::string text) {
 /// Meshes one part in one way.
 class Trial {
  public:
-  Trial(const StepTask& task, const StepTrial& trial)
-      : task_(task), trial_(trial), metre_(trial.in_millimetres ? 1e3 : 1.0) {}
+  Trial(GluedPart& part, const StepTask& task, const StepTrial& trial)
+      : glued_(part),
+        task_(task),
+        trial_(trial),
+        metre_(part.in_millimetres() ? 1e3 : 1.0),
+        gmsh_(part.gmsh()) {}
 
   std::string run() {
-    gmsh_.be_heard();
-    gmsh_.set_text("Geometry.OCCTargetUnit", trial_.in_millimetres ? "MM" : "M");
-    const GluedShapes shapes = load_glued(gmsh_, "part", task_.step, task_.request.solid);
-    if (!shapes.problem.empty()) return "error " + shapes.problem;
-    std::string out = time_line("read", watch_.lap());
+    if (!glued_.problem().empty()) return "error " + glued_.problem();
+    std::string out = glued_.times();
     if (trial_.tolerance > 0) {
       out += sew();
       out += time_line("mending", watch_.lap());
@@ -73,9 +69,8 @@ class Trial {
     std::string open = gap();
     if (gmsh_.entities(3).empty()) return open;
     measure();
-    if (trial_.tolerance == 0) out += told(shapes);
+    if (trial_.tolerance == 0) out += glued_.faces();
     out += loose_faces() + hinges();
-    out += time_line("names", watch_.lap());
     const double wanted = task_.request.size ? *task_.request.size : chosen();
     const double used = trial_.size * (trial_.size < 1 ? std::min(wanted, chosen()) : wanted);
     const MeshOutlook outlook = expected(used);
@@ -244,45 +239,6 @@ class Trial {
     }
   }
 
-  static std::string lost(const GluedShapes& shapes, const char* what) {
-    if (shapes.lost == 0) return {};
-    return fmt::format(
-        "note {} of {} faces are lost where solids cut them; choose these faces by "
-        "numbers or place\n",
-        what, shapes.lost);
-  }
-
-  /// Notes on solids that overlap, colours and labels of faces.
-  std::string told(const GluedShapes& shapes) {
-    std::string out = lost(shapes, "colours");
-    if (shapes.overlap) {
-      out +=
-          "note solids overlap: what they have in common is counted once and is a solid of its "
-          "own, named after one of them or volume_<number>\n";
-    }
-    for (const auto& [face, color] : shapes.colors) {
-      out += fmt::format("color {} {} {} {}\n", face, color.red, color.green, color.blue);
-    }
-    if (task_.num_names > 0) out += labels();
-    return out;
-  }
-
-  /// Colours of the copy in which they stand for names.
-  std::string labels() {
-    const std::size_t num_faces = gmsh_.entities(2).size();
-    const GluedShapes shapes = load_glued(gmsh_, "names", task_.named_copy, task_.request.solid);
-    std::string out;
-    if (gmsh_.entities(2).size() == num_faces) {
-      for (const ColoredShape& face : shapes.colors) {
-        const auto& color = face.color;
-        const int name = name_of_color({color.red, color.green, color.blue}, task_.num_names);
-        if (name >= 0) out += fmt::format("label {} {}\n", face.face, name);
-      }
-    }
-    gmsh_.use_model("part");
-    return out + lost(shapes, "names");
-  }
-
   void set_options(double size) {
     gmsh_.set_number("Mesh.MeshSizeMax", size);
     gmsh_.set_number("Mesh.MeshSizeMin", trial_.smallest * size);
@@ -328,6 +284,12 @@ class Trial {
     std::string out = "Gmsh: " + one_line(error->substr(error->find(':') + 2));
     if (trial_.in_millimetres) out += " (in mm)";
     if (!places.empty()) out += fmt::format("; {}", fmt::join(places, ", "));
+    if (!glued_.overlap().empty()) {
+      out += fmt::format(
+          ". Solids overlap {}: where they are cut, slivers remain. Leave out in the CAD program "
+          "what is screwed or pressed into others, such as drawn threads",
+          glued_.overlap());
+    }
     return out;
   }
 
@@ -362,26 +324,33 @@ class Trial {
     std::filesystem::rename(moved, task_.mesh);
   }
 
+  GluedPart& glued_;
   const StepTask& task_;
   const StepTrial& trial_;
   double metre_;
-  GmshLibrary gmsh_;
+  GmshLibrary& gmsh_;
   base::Stopwatch watch_;
   Extent part_;
 };
 
 }  // namespace
 
-std::string mesh_in_trial(const StepTask& task, const StepTrial& trial) {
-  // Heeded when the kernel is loaded.
-  if (!task.settings.empty()) ::setenv("CSF_STEPDefaults", task.settings.c_str(), 1);
+std::string time_line(const char* what, double seconds) {
+  return fmt::format("time {} {:.3f}\n", what, seconds);
+}
+
+std::string outcome_of(const std::exception& error) {
+  const std::string text = one_line(error.what());
+  const bool is_hopeless =
+      text.starts_with("Could not read file") || text.find("library") != std::string::npos;
+  return (is_hopeless ? "error " : "failed ") + text;
+}
+
+std::string mesh_in_trial(GluedPart& part, const StepTask& task, const StepTrial& trial) {
   try {
-    return Trial(task, trial).run();
+    return Trial(part, task, trial).run();
   } catch (const std::exception& error) {
-    const std::string text = one_line(error.what());
-    const bool is_hopeless =
-        text.starts_with("Could not read file") || text.find("library") != std::string::npos;
-    return (is_hopeless ? "error " : "failed ") + text;
+    return outcome_of(error);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <string>
 
 #include "buckens/mesh_io/step/mesh.h"
@@ -18,11 +19,19 @@ struct StepTask {
   std::string settings = {};
 };
 
+class GluedPart;
+
+/// A line that says how long something took.
+std::string time_line(const char* what, double seconds);
+
 /// Meshes the part with the library of Gmsh and writes the mesh, in metres. To be called in a
-/// separate process.
+/// separate process, since it changes the part.
 /// @return one line per message, colour, label, time and size; a first line that begins with
 /// `error ` (no trial can help), `open ` (the surface is not closed, or seems so) or `failed ` if
 /// there is no mesh
-std::string mesh_in_trial(const StepTask& task, const StepTrial& trial);
+std::string mesh_in_trial(GluedPart& part, const StepTask& task, const StepTrial& trial);
+
+/// What to say of an exception, in the same form.
+std::string outcome_of(const std::exception& error);
 
 }  // namespace buckens::mesh_io

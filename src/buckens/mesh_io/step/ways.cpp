@@ -8,8 +8,8 @@ namespace buckens::mesh_io {
 const std::vector<StepTrial>& step_trials() {
   static const std::vector<StepTrial> trials = {
       {},
-      {"in millimetres", true},
       {"faces by another algorithm (MeshAdapt)", false, 1},
+      {"in millimetres", true},
       {"with elements that fit the walls", true, 5, 0.9, 0.25},
       {"with smaller elements, on faces by another algorithm (Delaunay)", true, 5, 0.6, 0.15},
       {"with smaller elements, 32 to a turn of curved faces", true, 6, 0.5, 0.02, 32},

@@ -18,7 +18,8 @@ struct StepTrial {
   double tolerance = 0;   ///< for sewing, as a fraction of the diagonal; 0: as the file is
 };
 
-/// The methods tried in this order until one produces a mesh.
+/// The methods tried in this order until one produces a mesh: first those in metres, for the part
+/// is read once in each unit.
 const std::vector<StepTrial>& step_trials();
 /// Those for parts whose surface is not closed; gaps above 4e-4 of the part's size stay open.
 const std::vector<StepTrial>& sewing_trials();
