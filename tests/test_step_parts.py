@@ -240,3 +240,31 @@ def test_solids_are_glued_once_for_all_ways(buckens, bad):
     assert "for the usual way failed: Gmsh:" in notes(told)
     exact = math.pi * (0.0103**2 - 0.01**2) * 0.06 + math.pi * 0.0103**2 * 0.01
     assert told["pieces"] == 1 and told["volume"] == pytest.approx(exact, rel=5e-3)
+
+
+def test_the_default_size_follows_thin_walls(buckens, tmp_path, bad):
+    """One flat element through 0.25 mm: smaller ones, until shells of another kind have the same frequencies."""
+    told = info(buckens, bad["sheet"])
+    assert "elements of down to 2 mm in place of 3.89 mm follow walls of down to 0.25 mm (2 faces)" in notes(told)
+    assert told["volume"] == pytest.approx(100 * 60 * 0.25e-9, rel=1e-9) and told["elements"] < 40000
+    assert "follow walls" not in notes(info(buckens, bad["sheet"], "--size", "3.89 mm")), "a given size is kept"
+
+    def frequencies(body):
+        (tmp_path / "sheet.yaml").write_text("buckens: 1\nmaterials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}\n"
+                                             f"bodies: {{sheet: {body}}}\n")
+        report = buckens("modes", "sheet.yaml", "--count", 4, "--json", timeout=300).must(0).json
+        return [mode["frequency"] for mode in report["analyses"][0]["modes"]]
+
+    shells = frequencies("{mesh: {plate: {size: [100 mm, 60 mm], divisions: [20, 12], thickness: 0.25 mm, element: quad8}, "
+                         "material: steel}}")
+    # Two per cent: what elements of eight thicknesses are known to be too stiff.
+    followed = frequencies(f"{{geometry: {{step: {bad['sheet']}, material: steel}}}}")
+    assert all(-0.003 < a / b - 1 < 0.02 for a, b in zip(followed, shells))
+
+
+def test_only_faces_with_thin_walls_get_smaller_elements(buckens, bad):
+    told = info(buckens, bad["block_with_sheet"])
+    assert "follow walls of down to 0.3 mm (2 faces)" in notes(told) and told["pieces"] == 1
+    assert told["volume"] == pytest.approx((60 * 60 * 40 + 40 * 60 * 0.3) * 1e-9, rel=1e-9)
+    everywhere = info(buckens, bad["block_with_sheet"], "--size", "2.4 mm")
+    assert 4000 < told["elements"] < everywhere["elements"] / 4

@@ -160,6 +160,8 @@ PARTS = {
     "in_metres": boxes(((0, 0, 0), (140e3, 60e3, 40e3))),
     "fin": solid_with_fin,
     "foil": boxes(((0, 0, 0), (100, 60, 1e-4))),
+    "sheet": boxes(((0, 0, 0), (100, 60, 0.25))),
+    "block_with_sheet": boxes(((0, 0, 0), (60, 60, 40)), ((60, 0, 20), (40, 60, 0.3))),
     "three_sheets": three_sheets,
     "two_chambers": two_chambers,
     "pinched": pinched,

@@ -249,6 +249,47 @@ void GmshLibrary::mesh(int dimension) {
   check(error);
 }
 
+void GmshLibrary::clear_mesh() {
+  int error = 0;
+  BUCKENS_GMSH(gmshModelMeshClear)(nullptr, 0, &error);
+  check(error);
+  BUCKENS_GMSH(gmshLoggerStop)(&error);
+  BUCKENS_GMSH(gmshLoggerStart)(&error);
+  check(error);
+}
+
+std::pair<std::vector<std::size_t>, std::vector<double>> GmshLibrary::nodes() const {
+  int error = 0;
+  std::size_t *tags = nullptr, num_tags = 0, num_places = 0, num_ignored = 0;
+  double *places = nullptr, *ignored = nullptr;
+  BUCKENS_GMSH(gmshModelMeshGetNodes)
+  (&tags, &num_tags, &places, &num_places, &ignored, &num_ignored, -1, -1, 0, 0, &error);
+  check(error);
+  return {{tags, tags + num_tags}, {places, places + num_places}};
+}
+
+std::vector<std::size_t> GmshLibrary::element_nodes(int type, int entity) const {
+  int error = 0;
+  std::size_t *tags = nullptr, *nodes = nullptr, num_tags = 0, num_nodes = 0;
+  BUCKENS_GMSH(gmshModelMeshGetElementsByType)
+  (type, &tags, &num_tags, &nodes, &num_nodes, entity, 0, 1, &error);
+  check(error);
+  return {nodes, nodes + num_nodes};
+}
+
+void GmshLibrary::bound_sizes(const SizeOf* size) {
+  int error = 0;
+  if (size == nullptr) {
+    BUCKENS_GMSH(gmshModelMeshRemoveSizeCallback)(&error);
+    return check(error);
+  }
+  const auto ask = [](int dimension, int entity, double, double, double, void* data) {
+    return (*static_cast<const SizeOf*>(data))(dimension, entity);
+  };
+  BUCKENS_GMSH(gmshModelMeshSetSizeCallback)(ask, const_cast<SizeOf*>(size), &error);
+  check(error);
+}
+
 void GmshLibrary::set_order(int order) {
   int error = 0;
   BUCKENS_GMSH(gmshModelMeshSetOrder)(order, &error);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +56,16 @@ class GmshLibrary {
   std::array<double, 6> box(const GmshEntity& entity) const;
   void add_group(int dimension, std::vector<int> entities, const std::string& name);
   void mesh(int dimension);
+  /// Forgets the mesh, and what was said so far.
+  void clear_mesh();
+  /// Numbers of the nodes and x, y, z of each.
+  std::pair<std::vector<std::size_t>, std::vector<double>> nodes() const;
+  /// The nodes of elements of one of Gmsh's types (2: triangles, 4: tetrahedra).
+  /// @param entity number of a curve, face or volume; −1: all
+  std::vector<std::size_t> element_nodes(int type, int entity) const;
+  /// An upper bound for sizes on an entity; empty: none. To be kept until the mesh is made.
+  using SizeOf = std::function<double(int dimension, int entity)>;
+  void bound_sizes(const SizeOf* size);
   /// Nodes in the middle of edges, on the true surface; 2 for the second order.
   void set_order(int order);
   /// Moves nodes of badly shaped elements of higher order.

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,6 +23,7 @@
 #include "buckens/mesh_io/step/glued_part.h"
 #include "buckens/mesh_io/step/progress.h"
 #include "buckens/mesh_io/step/shapes.h"
+#include "buckens/mesh_io/step/walls.h"
 
 namespace buckens::mesh_io {
 
@@ -34,6 +37,10 @@ constexpr int kPasses = 2;
 // Elements turned inside out for which Gmsh moves nodes at all: 1059 in a thin tube took it a
 // minute on a busy machine, and all stayed as they were.
 constexpr int kMostMoved = 300;
+// Elements up to which a mesh is made again to follow thin walls, and about as many as it then has.
+constexpr std::size_t kMostAtWalls = 40000;
+constexpr unsigned kWallSeconds = 60;           // of processor time for it
+constexpr int kTriangles = 2, kTetrahedra = 4;  // Gmsh's types
 // Of processor time, for the mesh and again for its second order. Parts take up to 1e-4 s per
 // element; 350 000 elements instead of a few thousand took 20 s. What takes much longer usually
 // never ends.
@@ -83,21 +90,18 @@ class Trial {
     say_outlook(outlook, gmsh_.entities(2).size());
     const double seconds = kMeshSeconds + outlook.elements * kSecondsPerElement;
     files::limit_time_from_now(seconds);
-    out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume) + thin_walls(used);
+    out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume);
     set_options(used * metre_);
     add_groups();
     gmsh_.mesh(3);
     if (const std::string reason = failure(); !reason.empty()) {
       return open.empty() ? "failed " + reason : fmt::format("{}; {}", open, reason);
     }
-    out += messages() + mesh_times();
-    files::limit_time_from_now(seconds);
-    if (task_.request.order == 2) {
-      curve();
-    } else {
-      gmsh_.write(task_.mesh);
+    out += mesh_times();
+    if (!task_.request.size) {
+      if (const auto followed = follow_walls(used, seconds)) return out + *followed;
     }
-    return out + time_line("second-order", watch_.lap());
+    return out + thin_walls(used) + finished(seconds);
   }
 
  private:
@@ -107,6 +111,76 @@ class Trial {
     const double triangles = expected_triangles(face_extents(gmsh_), size * metre_,
                                                 trial_.smallest * size * metre_, trial_.in_a_turn);
     return expected_mesh(part_.volume, size, triangles, task_.request.order);
+  }
+
+  PartMesh part_mesh() const {
+    PartMesh out;
+    const auto [numbers, places] = gmsh_.nodes();
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      out.positions[numbers[k]] = Eigen::Vector3d::Map(&places[3 * k]);
+    }
+    for (const GmshEntity& face : gmsh_.entities(2)) {
+      out.faces.push_back({face.second, gmsh_.element_nodes(kTriangles, face.second)});
+    }
+    out.tetrahedra = gmsh_.element_nodes(kTetrahedra, -1);
+    return out;
+  }
+
+  /// Writes the mesh, in the wanted order.
+  std::string finished(double seconds) {
+    std::string out = messages();
+    files::limit_time_from_now(seconds);
+    if (task_.request.order == 2) {
+      curve();
+    } else {
+      gmsh_.write(task_.mesh);
+    }
+    return out + time_line("second-order", watch_.lap());
+  }
+
+  /// Meshes anew, with smaller elements where one flat element fills a wall, if there are few. In a
+  /// copy of this process, which keeps the mesh that there is.
+  /// @return what it says of its mesh; nothing if it came to none
+  std::optional<std::string> follow_walls(double size, double seconds) {
+    if (gmsh_.element_nodes(kTetrahedra, -1).size() > 4 * kMostAtWalls) return std::nullopt;
+    const auto flat = flat_faces(part_mesh());
+    const auto sizes = sizes_for_walls(flat, trial_.smallest * size * metre_, size * metre_,
+                                       static_cast<double>(kMostAtWalls));
+    if (sizes.empty()) return std::nullopt;
+    std::map<GmshEntity, double> bounds;
+    double least = size * metre_, wall = least;
+    for (const auto& [face, own] : sizes) {
+      bounds[{2, face}] = own;
+      least = std::min(least, own);
+      for (const GmshEntity& curve : gmsh_.boundary({{2, face}})) {
+        double& bound = bounds.try_emplace({1, std::abs(curve.second)}, own).first->second;
+        bound = std::min(bound, own);
+      }
+    }
+    for (const FlatFace& face : flat) wall = std::min(wall, face.wall);
+    const GmshLibrary::SizeOf bound = [&bounds](int dimension, int entity) {
+      const auto found = bounds.find({dimension, entity});
+      return found == bounds.end() ? 1e22 : found->second;
+    };
+    const std::string note = fmt::format(
+        "note elements of down to {:.3g} mm in place of {:.3g} mm follow walls of down to {:.2g} "
+        "mm "
+        "({} faces), which flat ones would make too stiff\n",
+        least / metre_ * 1e3, size * 1e3, wall / metre_ * 1e3, sizes.size());
+    const auto work = [&] {
+      gmsh_.clear_mesh();
+      gmsh_.bound_sizes(&bound);
+      gmsh_.mesh(3);
+      if (!failure().empty()) return std::string();
+      const std::string time = time_line("walls", watch_.lap());
+      return time + note + thin_walls(least / metre_) + finished(seconds);
+    };
+    const files::IsolatedResult result =
+        files::do_isolated(work, kWallSeconds, [](const std::string& line) {
+          if (!line.empty()) files::say_to_listener(line);
+        });
+    if (!result.is_complete || result.output.empty()) return std::nullopt;
+    return result.output;
   }
 
   std::string mesh_times() {
