@@ -147,6 +147,25 @@ def test_point_masses_and_links_of_the_model(frequencies, tmp_path):
     assert beside == pytest.approx(linked, rel=1e-9)
 
 
+def test_shells_and_lines_in_no_group(frequencies, buckens, tmp_path):
+    """A plate with a beam behind it, without and with groups: the same body; without sections each is asked for."""
+    nodes, elements, _ = plate(2, 2, (1.0, 0.6), "quad4", 1)
+    corner = max(range(len(nodes)), key=lambda k: nodes[k][0] + nodes[k][1]) + 1
+    nodes += [(1.0 + 0.25 * k, 0.6 + 0.1 * k, 0.1) for k in (1, 2)]
+    lines = [(1, (corner, len(nodes) - 1)), (1, (len(nodes) - 1, len(nodes)))]
+    named = elements + [(kind, 7, ends) for kind, ends in lines]
+    (tmp_path / "named.msh").write_text(msh(nodes, named, [(2, 1, "skin"), (1, 7, "spar")]))
+    (tmp_path / "bare.msh").write_text(msh(nodes, [(kind, 0, ends) for kind, _, ends in named], []))
+    mesh = "    mesh: {file: %s, material: steel, %s}\n"
+    beam = "{beam: {rectangle: {width: 20 mm, height: 30 mm}}}"
+    wanted = frequencies(mesh % ("named.msh", "sections: {skin: {thickness: 5 mm}, spar: %s}" % beam))
+    bare = frequencies(mesh % ("bare.msh", "section: {thickness: 5 mm}, sections: {lines: %s}" % beam))
+    assert bare == pytest.approx(wanted, rel=1e-9)
+    (tmp_path / "model.yaml").write_text("buckens: 1\n" + MATERIALS + "bodies: {part: {mesh: {file: bare.msh, material: "
+                                         "steel, section: {thickness: 5 mm}}}}\n")
+    buckens("check", "model.yaml").must(2, 'of "lines" have no cross-section', 'sections: {"lines": {beam:')
+
+
 WRONG = [
     ("material: steel", ["plate.msh", 'the quadrangle elements of "skin" have no thickness',
                          'sections: {"skin": {thickness: 2 mm}}']),

@@ -88,6 +88,7 @@ class GroupMesh {
   void drop_nodes();
   void check_numbers() const;
   int property(int group, fem::PropertyKind kind);
+  int property_of_lines();
   const CellGroup& group(int number) const {
     return tagged_.groups[static_cast<std::size_t>(number)];
   }
@@ -166,6 +167,21 @@ int GroupMesh::property(int number, fem::PropertyKind kind) {
     mesh_.properties.push_back(std::move(out));
   }
   return found->second;
+}
+
+/// Of lines in no group beside other elements: a name, since shells in no group have the section
+/// without one. −1 if a group has taken the name.
+int GroupMesh::property_of_lines() {
+  static constexpr const char kName[] = "lines";
+  const auto is_so_called = [](const auto& known) { return known.name == kName; };
+  if (std::any_of(tagged_.groups.begin(), tagged_.groups.end(), is_so_called)) return -1;
+  const auto known = std::find_if(mesh_.properties.begin(), mesh_.properties.end(), is_so_called);
+  if (known != mesh_.properties.end()) return static_cast<int>(known - mesh_.properties.begin());
+  fem::ImportedProperty out;
+  out.name = kName;
+  out.kind = fem::PropertyKind::beam;
+  mesh_.properties.push_back(std::move(out));
+  return static_cast<int>(mesh_.properties.size()) - 1;
 }
 
 void GroupMesh::add_elements(const TaggedCells& cells, fem::PropertyKind kind) {
@@ -361,9 +377,10 @@ void GroupMesh::add_lines() {
     const TaggedCells joining = cells.groups.empty() ? joining_lines(cells) : TaggedCells();
     if (!joining.ids.empty()) {
       add_elements(joining, fem::PropertyKind::beam);
+      mesh_.blocks.back().property = property_of_lines();
       mesh_.notes.push_back(
           {"lines in no group that hang on nodes of other elements are beams or bars; the model "
-           "file gives their `section`",
+           "file gives their cross-section: `sections: {lines: …}`",
            0, static_cast<int>(joining.ids.size())});
     }
     note_left_out(cells, cells.ids.size() - edges - joining.ids.size());
