@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Elements of decks against closed forms, or against those that they stand for."""
 
+import csv
 import math
 
 import pytest
@@ -106,3 +107,69 @@ def test_solids_with_temperature_or_pore_pressure_vibrate_as_those_without(bucke
     wave = math.sqrt(E / RHO) / 2
     more = frequencies(buckens, tmp_path, brick(kind), 12, "deck.inp")
     assert min(abs(f / wave - 1) for f in more) < 0.5 * (math.pi * NU)**2 * 0.13 / 12 + (math.pi / 8)**2 / 24
+
+
+TAPERED = """buckens: 1
+gravity: [0, 0, 0]
+bodies:
+  arm:
+    mesh: {{file: arm.inp, length-unit: m, mass-unit: kg}}
+joints:
+  wall: {{fixed: {{between: [ground, arm/n1]}}}}
+loads:
+  push: {{force: {{on: arm/n41, value: {force}}}}}
+initial: {{start: static}}
+simulation: {{duration: 1 us, step: 1 us}}
+output:
+  every: 1 us
+  sensors: {{tip: {{position: arm/n41}}}}
+"""
+
+
+@pytest.mark.parametrize("force, width, height", [("[0, 0, 100 N]", 0, 1), ("[0, 100 N, 0]", 1, 0)])
+def test_a_tapered_arm_bends_as_its_nodal_thicknesses_say(buckens, tmp_path, force, width, height):
+    """Two measures at each node: the deflection of Euler and Timoshenko with I(x), by quadrature."""
+    length, count = 1.0, 40
+    measures = [lambda x: 0.04 - 0.02 * x / length, lambda x: 0.06 - 0.04 * x / length]
+    nodes = [k * length / count for k in range(count + 1)]
+    deck = "*NODE\n" + "".join(f"{k + 1}, {x!r}, 0, 0\n" for k, x in enumerate(nodes))
+    deck += "*ELEMENT, TYPE=B31, ELSET=E\n" + "".join(f"{k}, {k}, {k + 1}\n" for k in range(1, count + 1))
+    deck += f"*MATERIAL, NAME=M\n*ELASTIC\n{E}, {NU}\n*DENSITY\n{RHO}\n"
+    # Direction 1 along y; the line of measures is empty.
+    deck += "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT, NODAL THICKNESS\n,\n0, 1, 0\n*NODAL THICKNESS\n"
+    deck += "".join(f"{k + 1}, {measures[0](x)!r}, {measures[1](x)!r}\n" for k, x in enumerate(nodes))
+    (tmp_path / "arm.inp").write_text(deck)
+    (tmp_path / "model.yaml").write_text(TAPERED.format(force=force))
+    body = buckens("check", "model.yaml", "--json").must(0).json["bodies"]["arm"]
+    means = [[(m(a) + m(b)) / 2 for m in measures] for a, b in zip(nodes, nodes[1:])]
+    assert body["mass"] == pytest.approx(RHO * length / count * sum(b * h for b, h in means), rel=1e-9)
+    # Of a volume without steps: 1 − (Δb Δh) / (12 n² b h) at most.
+    exact = RHO * length * (0.04 * 0.06 - (0.04 * 0.04 + 0.02 * 0.06) / 2 + 0.02 * 0.04 / 3)
+    assert body["mass"] == pytest.approx(exact, rel=1e-4)
+    buckens("run", "model.yaml", "-o", "out", "-q").must(0)
+    rows = list(csv.DictReader((tmp_path / "out" / "sensors.csv").open()))
+    axis = "z" if height else "y"
+    moved = float(next(value for key, value in rows[-1].items() if key.startswith(f"tip.{axis}")))
+    fine = 20000
+    deflection = 0.0
+    for k in range(fine):
+        x = (k + 0.5) * length / fine
+        along, across = (measures[1](x), measures[0](x)) if height else (measures[0](x), measures[1](x))
+        deflection += ((length - x)**2 / (E * across * along**3 / 12) + 1.2 / (E / (2 + 2 * NU) * along * across)) * length / fine
+    # Steps in place of a slope: an error of (Δh/h)²/12 per element, largest 0.05²/12 near the tip.
+    assert moved == pytest.approx(100 * deflection, rel=1e-3)
+
+
+def test_each_shell_has_its_thickness_by_distribution(buckens, tmp_path):
+    """A strip of two thicknesses, by *DISTRIBUTION and by two sections: the same body."""
+    nodes = "*NODE\n" + "".join(f"{1 + i + 9 * j}, {0.1 * i}, {0.1 * j}, 0\n" for j in (0, 1) for i in range(9))
+    quads = "".join(f"{i + 1}, {i + 1}, {i + 2}, {i + 11}, {i + 10}\n" for i in range(8))
+    sets = "*ELSET, ELSET=THIN, GENERATE\n1, 4\n*ELSET, ELSET=THICK, GENERATE\n5, 8\n"
+    deck = nodes + "*ELEMENT, TYPE=S4, ELSET=E\n" + quads + sets + f"*MATERIAL, NAME=M\n*ELASTIC\n{E}, {NU}\n*DENSITY\n{RHO}\n"
+    two = deck + "*SHELL SECTION, ELSET=THIN, MATERIAL=M\n0.004\n*SHELL SECTION, ELSET=THICK, MATERIAL=M\n0.01\n"
+    own = deck + ("*SHELL SECTION, ELSET=E, MATERIAL=M, SHELL THICKNESS=T\n0.02\n"
+                  "*DISTRIBUTION, NAME=T, LOCATION=ELEMENT, TABLE=TT\n, 0.004\nTHICK, 0.01\n")
+    wanted = frequencies(buckens, tmp_path, two, 6, "two.inp")
+    assert frequencies(buckens, tmp_path, own, 6, "own.inp") == pytest.approx(wanted, rel=1e-9)
+    body = buckens("check", "model.yaml", "--json").must(0).json["bodies"]["b"]
+    assert body["mass"] == pytest.approx(RHO * 0.04 * (0.004 + 0.01), rel=1e-9)

@@ -13,9 +13,6 @@ namespace buckens::mesh_io {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-namespace {
-
-/// Orthonormal axes 1, 2, 3 from a point on axis 1 and one in the plane of axes 1 and 2.
 std::optional<Matrix3d> axes_from(const Vector3d& a, const Vector3d& b) {
   const Vector3d normal = a.cross(b);
   if (!(normal.norm() > 1e-10 * a.norm() * b.norm()) || a.norm() == 0.0) return std::nullopt;
@@ -25,6 +22,10 @@ std::optional<Matrix3d> axes_from(const Vector3d& a, const Vector3d& b) {
   out.col(1) = out.col(2).cross(out.col(0));
   return out;
 }
+
+namespace {
+
+constexpr const char kDistribution[] = "a distribution";
 
 /// Whether the first value is a name in place of a number.
 bool is_by_distribution(AbaqusReading& in) {
@@ -86,8 +87,18 @@ void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
   const bool from_z = out.system == "Z RECTANGULAR";
   if (from_z) out.system = "RECTANGULAR";
   if (!definition.empty() && definition != "COORDINATES") out.system = "DEFINITION=" + definition;
-  if (out.system == "RECTANGULAR" && is_by_distribution(in)) out.system = "a distribution";
-  if (out.system == "RECTANGULAR") {
+  if (out.system == "RECTANGULAR" && is_by_distribution(in)) {
+    out.system = kDistribution;
+    DeckRow row;
+    in.lines.next_row(row);
+    out.distribution = row.cell(0);
+    if (from_z) {
+      in.lines.fail(row.place,
+                    "SYSTEM=Z RECTANGULAR with a distribution is not supported; give points on "
+                    "axes 1 and 2, SYSTEM=RECTANGULAR");
+    }
+    read_additional_rotation(in, out);
+  } else if (out.system == "RECTANGULAR") {
     out.axes = read_axes(in, keyword, from_z);
     read_additional_rotation(in, out);
   } else {
@@ -99,6 +110,30 @@ void read_orientation(AbaqusReading& in, const DeckKeyword& keyword) {
                                        out.system));
   }
   in.scope->orientations[upper(out.name)] = out;
+}
+
+void read_distribution(AbaqusReading& in, const DeckKeyword& keyword) {
+  if (const std::string file = in.optional_parameter(keyword, "INPUT"); !file.empty()) {
+    in.lines.include(file, keyword.place);
+  }
+  AbaqusDistribution out;
+  out.place = keyword.place;
+  const std::string location = upper(in.optional_parameter(keyword, "LOCATION"));
+  out.is_of_elements = location.empty() || location == "ELEMENT";
+  DeckRow row;
+  while (in.lines.next_row(row)) {
+    std::vector<double> values;
+    for (std::size_t k = 1; k < row.cells.size(); ++k) {
+      if (k + 1 == row.cells.size() && row.cell(k).empty()) break;  // behind a last comma
+      values.push_back(in.lines.number_or(row, k, 0.0, "value of the distribution"));
+    }
+    if (row.cell(0).empty()) {
+      out.otherwise = std::move(values);
+    } else {
+      out.entries.push_back({std::string(row.cell(0)), std::move(values), row.place});
+    }
+  }
+  in.scope->distributions[upper(in.parameter(keyword, "NAME"))] = std::move(out);
 }
 
 void read_system(AbaqusReading& in, const DeckKeyword& keyword) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "buckens/mesh_io/abaqus/lines.h"
@@ -63,6 +64,7 @@ void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword);
 void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword);
 void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword);
 void read_nodal_thickness(AbaqusReading& in, const DeckKeyword& keyword);
+void read_distribution(AbaqusReading& in, const DeckKeyword& keyword);
 void read_spring(AbaqusReading& in, const DeckKeyword& keyword);
 void read_mass(AbaqusReading& in, const DeckKeyword& keyword);
 void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword);
@@ -94,6 +96,10 @@ void read_distributing_coupling(AbaqusReading& in, const DeckKeyword& keyword);
 
 /// The set with this name in a map of sets, created if missing.
 AbaqusSet& set_called(std::map<std::string, AbaqusSet>& sets, const std::string& name);
+
+/// Orthonormal axes 1, 2, 3 as columns from a point on axis 1 and one in the plane of axes 1 and 2;
+/// none if these lie on one line.
+std::optional<Eigen::Matrix3d> axes_from(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 /// Three numbers of a row; empty cells are 0.
 Eigen::Vector3d read_vector(const AbaqusLines& lines, const DeckRow& row, std::size_t first,

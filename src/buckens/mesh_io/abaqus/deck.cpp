@@ -63,6 +63,7 @@ constexpr NamedCard kCards[] = {
     {"SURFACEBEHAVIOR", read_surface_behavior},
     {"CONTACTPAIR", read_contact_pair},
     {"NODALTHICKNESS", read_nodal_thickness},
+    {"DISTRIBUTION", read_distribution},
     {"DISTRIBUTINGCOUPLING", read_distributing_coupling},
 };
 

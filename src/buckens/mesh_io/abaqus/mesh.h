@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -36,12 +37,31 @@ class AbaqusMesh {
   /// section beside solids and shells are left-over edges of a mesh generator.
   AbaqusRole role_of(int scope, int element) const;
   void refuse_without_elements() const;
-  double mean_thickness(int scope, int element);
+  /// What an element has of its own, where its section leaves this to nodes and distributions.
+  struct OwnValues {
+    double thickness = 0;  ///< of a shell, or of a beam in direction 1; 0: the section's
+    double second = 0;     ///< of a beam in direction 2
+    std::optional<Eigen::Matrix3d> axes;  ///< in which those of the orientation are
+
+    std::vector<double> key() const;
+  };
+  OwnValues own_values(int scope, const AbaqusSection& section, int element);
+  void set_mean_measures(int scope, const AbaqusSection& section, int element, OwnValues& out);
+  /// The values of an element by a *DISTRIBUTION.
+  /// @throws InputError if there are none, or not so many
+  const std::vector<double>& distributed(int scope, const std::string& name, int element,
+                                         std::size_t count, DeckPlace place);
+  void set_own_measures(const AbaqusSection& section, const OwnValues& own,
+                        fem::ImportedProperty& property);
+  /// Whether material axes make no difference.
+  bool has_no_directions(const AbaqusSection& section) const;
+  std::string free_property_name(int scope, const AbaqusSection& section);
   void add_nodes();
   void add_materials();
   void assign_sections(int scope);
   int property_for(int scope, const AbaqusSection& section, int element);
-  void fill_property(int scope, const AbaqusSection& section, fem::ImportedProperty& property);
+  void fill_property(int scope, const AbaqusSection& section, const OwnValues& own_values,
+                     fem::ImportedProperty& property);
   std::string material_called(const std::string& name, DeckPlace place);
   const AbaqusOrientation* orientation_called(int scope, const std::string& name,
                                               DeckPlace place) const;
@@ -66,10 +86,14 @@ class AbaqusMesh {
   fem::ImportedMesh out_;
   /// Per placed scope and element: the section, −1: none.
   std::vector<std::vector<int>> section_of_;
-  /// By file and line of the section, placed scope, kind, whether beams shear, thickness.
-  std::map<std::tuple<int, int, int, fem::PropertyKind, bool, double>, int> properties_;
-  std::map<int, std::map<int, double>> thicknesses_;  ///< of nodes, by placed scope
-  std::set<int> thicknesses_noted_;                   ///< lines of sections
+  /// By file and line of the section, placed scope, kind, whether beams shear, own values.
+  std::map<std::tuple<int, int, int, fem::PropertyKind, bool, std::vector<double>>, int>
+      properties_;
+  std::map<std::string, int> property_numbers_;  ///< the last used, by element set
+  std::map<int, std::map<int, const AbaqusThickness*>> thicknesses_;  ///< of nodes, by placed scope
+  /// Values of elements, by placed scope and name of the distribution.
+  std::map<std::pair<int, std::string>, std::map<int, const std::vector<double>*>> distributions_;
+  std::set<int> thicknesses_noted_;  ///< lines of sections
   bool has_bodies_ = false;
   std::set<std::string> property_names_;          ///< in capitals
   std::map<std::string, std::string> materials_;  ///< names as written by names in capitals

@@ -66,8 +66,12 @@ void check_count(AbaqusReading& in, const AbaqusElementType& type, std::size_t g
                                type.name, needed));
     return;
   }
+  const bool is_straight = type.kind == fem::CellKind::line3 && given == 2;
   in.lines.fail(
-      place, fmt::format("an element of type {} has {} nodes, found {}", type.name, needed, given));
+      place, fmt::format("an element of type {} has {} nodes, found {}{}", type.name, needed, given,
+                         is_straight ? "; a beam between two nodes is a B31, a bar a T3D2: "
+                                       "write that as TYPE="
+                                     : ""));
 }
 
 /// Elements that the model file wants left out keep their numbers, for the sets.

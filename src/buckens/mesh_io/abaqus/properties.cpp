@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
-#include "buckens/files/deck_number.h"
 #include "buckens/mesh_io/abaqus/mesh.h"
 #include "buckens/mesh_io/skip_list.h"
 
@@ -114,77 +113,45 @@ void AbaqusMesh::assign_sections(int scope) {
       note_at(where, "elements with two sections: the one that comes last is taken", replaced));
 }
 
-/// Of the nodes of an element, by *NODAL THICKNESS; nodes without one have that of the section.
-double AbaqusMesh::mean_thickness(int scope, int element) {
-  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
-  const auto [known, is_new] = thicknesses_.try_emplace(scope);
-  if (is_new) {
-    for (const AbaqusThickness& entry : placed.scope->thicknesses) {
-      for (const int node : names_.nodes(scope, entry.reference, entry.place)) {
-        known->second[node] = entry.thickness;
-      }
-    }
-  }
-  const int number =
-      section_of_[static_cast<std::size_t>(scope)][static_cast<std::size_t>(element)];
-  const AbaqusSection& section = placed.scope->sections[static_cast<std::size_t>(number)];
-  const std::vector<int> nodes = names_.element_nodes({scope, element});
-  double sum = 0;
-  for (const int node : nodes) {
-    const auto found = known->second.find(node);
-    if (found == known->second.end() && !section.thickness) {
-      lines_.fail(section.place,
-                  fmt::format("node {} has no *NODAL THICKNESS, and its section no thickness",
-                              names_.labels()[static_cast<std::size_t>(node)]));
-    }
-    sum += found == known->second.end() ? *section.thickness : found->second;
-  }
-  // Ten digits, so that equal ones make one property whatever the order of the sum.
-  return *files::deck_number(fmt::format("{:.10g}", sum / static_cast<double>(nodes.size())));
-}
-
 int AbaqusMesh::property_for(int scope, const AbaqusSection& section, int element) {
   const AbaqusElementType& type =
       *names_.scopes()[static_cast<std::size_t>(scope)].at(element).first->type;
-  const double thickness = section.has_nodal_thickness ? mean_thickness(scope, element) : 0.0;
+  const OwnValues own = own_values(scope, section, element);
   PropertyKind kind;
   fits(type.role, section.kind, kind);
   // Axes turn with an instance; other properties are shared by those of a part.
   const bool is_own = !section.orientation.empty();
   const auto key = std::make_tuple(section.place.file, section.place.line, is_own ? scope : 0, kind,
-                                   type.shear_flexible, thickness);
+                                   type.shear_flexible, own.key());
   const auto known = properties_.find(key);
   if (known != properties_.end()) return known->second;
   fem::ImportedProperty property;
   property.kind = kind;
   property.line = section.place.line;
   if (kind == PropertyKind::beam) property.shear_flexible = type.shear_flexible;
-  property.name = section.element_set;
-  const auto is_taken = [this](const std::string& name) {
-    return property_names_.contains(upper(name));
-  };
-  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
-  if (is_taken(property.name) && !placed.instance.empty()) {
-    property.name = placed.instance + "." + section.element_set;
-  }
-  for (int k = 2; is_taken(property.name); ++k) {
-    property.name = fmt::format("{} ({})", section.element_set, k);
-  }
-  fill_property(scope, section, property);
-  if (section.has_nodal_thickness) {
-    property.thickness = thickness;
-    property.offset = -section.offset * thickness;
-    if (thicknesses_noted_.insert(section.place.line).second) {
-      out_.notes.push_back(note_at(
-          section.place, "NODAL THICKNESS: each shell has the mean thickness of its nodes", 1));
-    }
-  }
+  property.name = free_property_name(scope, section);
+  fill_property(scope, section, own, property);
   property_names_.insert(upper(property.name));
   out_.properties.push_back(std::move(property));
   return properties_[key] = static_cast<int>(out_.properties.size()) - 1;
 }
 
-void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
+/// The name of the section's set, with the instance or a number if it is taken.
+std::string AbaqusMesh::free_property_name(int scope, const AbaqusSection& section) {
+  std::string out = section.element_set;
+  const auto is_taken = [this](const std::string& name) {
+    return property_names_.contains(upper(name));
+  };
+  const AbaqusPlaced& placed = names_.scopes()[static_cast<std::size_t>(scope)];
+  if (is_taken(out) && !placed.instance.empty()) out = placed.instance + "." + section.element_set;
+  int& number = property_numbers_[section.element_set];
+  for (number = std::max(number, 1); is_taken(out);) {
+    out = fmt::format("{} ({})", section.element_set, ++number);
+  }
+  return out;
+}
+
+void AbaqusMesh::fill_property(int scope, const AbaqusSection& section, const OwnValues& own_values,
                                fem::ImportedProperty& property) {
   property.material = material_called(section.material, section.place);
   if (property.kind != PropertyKind::shell && deck_.laminae.contains(upper(section.material))) {
@@ -208,6 +175,7 @@ void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
   // Abaqus counts from the middle to the nodes, we count from the nodes to the middle.
   property.offset = -section.offset * thickness;
   property.section = section.shape;
+  set_own_measures(section, own_values, property);
   if (property.kind == PropertyKind::bar) {
     fem::SectionSpec bar;
     bar.where = lines_.where(section.place);
@@ -216,11 +184,10 @@ void AbaqusMesh::fill_property(int scope, const AbaqusSection& section,
   }
   const AbaqusOrientation* axes = orientation_called(scope, section.orientation, section.place);
   if (axes == nullptr) return;
-  const auto material = deck_.materials.find(upper(section.material));
-  const bool is_isotropic =
-      material != deck_.materials.end() && !material->second.orthotropic && section.layers.empty();
-  if (axes->system == "RECTANGULAR") {
-    Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation * axes->axes;
+  const bool is_isotropic = has_no_directions(section);
+  if (axes->system == "RECTANGULAR" || own_values.axes) {
+    Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation *
+                   own_values.axes.value_or(Matrix3d::Identity()) * axes->axes;
     if (section.kind == PropertyKind::shell) {
       if (!axes->normal && is_isotropic) return;
       if (!axes->normal) {

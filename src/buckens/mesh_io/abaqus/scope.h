@@ -89,10 +89,12 @@ struct AbaqusSection {
   double area = 1;  ///< of bars
   std::optional<double> thickness;
   bool has_nodal_thickness = false;  ///< that of *NODAL THICKNESS takes precedence
+  std::string thicknesses;           ///< SHELL THICKNESS=, the name of a *DISTRIBUTION
   double offset = 0;                 ///< of the nodes' surface from the middle one, in thicknesses
   std::vector<Layer> layers;
   std::optional<fem::SectionSpec> shape;
   Eigen::Vector2d measures = Eigen::Vector2d::Zero();  ///< of the shape along 1 and 2; 0: unknown
+  bool is_round = false;                               ///< SECTION=CIRC
   /// From the nodes of beams to the centres of their sections, along directions 1 and 2.
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   Eigen::Vector3d n1 = -Eigen::Vector3d::UnitZ();
@@ -102,8 +104,9 @@ struct AbaqusSection {
 struct AbaqusOrientation {
   std::string name;
   std::string system;  ///< "RECTANGULAR" or one that is not supported
-  /// Columns 1, 2, 3, after the additional rotation.
+  /// Columns 1, 2, 3, after the additional rotation; with a distribution in the axes of this.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  std::string distribution;  ///< name of the *DISTRIBUTION of points a and b; empty: none
   /// Axis of the additional rotation, 0…2, close to the normal of shells; none: not given.
   std::optional<int> normal;
   bool is_cylindrical = false;  ///< about the line from a to b
@@ -150,10 +153,24 @@ struct AbaqusSpring {
   DeckPlace place;
 };
 
+/// A *DISTRIBUTION: numbers that each element has of its own.
+struct AbaqusDistribution {
+  struct Entry {
+    std::string reference;
+    std::vector<double> values;
+    DeckPlace place;
+  };
+  bool is_of_elements = true;
+  std::vector<double> otherwise;  ///< for elements without an entry; empty: none
+  std::vector<Entry> entries;
+  DeckPlace place;
+};
+
 /// A line of *NODAL THICKNESS.
 struct AbaqusThickness {
   std::string reference;
   double thickness = 0;
+  double second = 0;  ///< of a beam, in direction 2
   DeckPlace place;
 };
 
@@ -214,6 +231,7 @@ struct AbaqusScope {
   std::vector<AbaqusContact> contacts;
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusThickness> thicknesses;
+  std::map<std::string, AbaqusDistribution> distributions;  ///< by name in capitals
 };
 
 /// A part placed in the assembly: first translated, then rotated.

@@ -9,6 +9,7 @@
 
 #include "buckens/files/deck_number.h"
 #include "buckens/mesh_io/abaqus/cards.h"
+#include "buckens/mesh_io/abaqus/full_section.h"
 #include "buckens/mesh_io/box_section.h"
 #include "buckens/mesh_io/nastran/section_shapes.h"
 
@@ -69,20 +70,19 @@ void read_layers(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSection& s
   for (std::size_t k = half; k-- > 0;) section.layers.push_back(section.layers[k]);
 }
 
-/// Thicknesses and stiffnesses that are not those of the data lines.
-void refuse_other_thickness(AbaqusReading& in, const DeckKeyword& keyword) {
-  if (keyword.has("SHELLTHICKNESS")) {
-    in.lines.fail(keyword.place, fmt::format("{} with SHELL THICKNESS: thicknesses by a table are "
-                                             "not supported; give each thickness a section, or "
-                                             "write NODAL THICKNESS",
-                                             keyword.written));
-  }
+/// Stiffnesses in place of a thickness.
+void refuse_stiffnesses(AbaqusReading& in, const DeckKeyword& keyword) {
   const bool is_general = keyword.name == "SHELLGENERALSECTION";
   if (is_general && !keyword.has("COMPOSITE") && !keyword.has("MATERIAL")) {
     in.lines.fail(keyword.place,
                   "a shell by its stiffnesses is not supported; give MATERIAL and a thickness, or "
                   "layers with COMPOSITE");
   }
+}
+
+void read_n1(AbaqusReading& in, const DeckRow& row, AbaqusSection& section) {
+  section.n1 = read_vector(in.lines, row, 0, "direction n1");
+  if (section.n1.norm() == 0.0) in.lines.fail(row.place, "direction n1 cannot be zero");
 }
 
 /// OFFSET1 and OFFSET2 of CalculiX: where the nodes lie, seen from the centre of the section, in
@@ -108,11 +108,32 @@ void read_beam_offset(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSecti
   }
 }
 
-void refuse_nodal_measures(AbaqusReading& in, const DeckKeyword& keyword) {
-  if (!keyword.has("NODALTHICKNESS")) return;
-  in.lines.fail(keyword.place,
-                "*BEAM SECTION with NODAL THICKNESS: measures that vary over a section are not "
-                "supported; give each a section");
+/// The line of measures, which the nodes' ones overrule and which may be empty, and direction n1.
+void read_nodal_measures(AbaqusReading& in, const DeckKeyword& keyword, const std::string& shape,
+                         AbaqusSection& section) {
+  section.has_nodal_thickness = true;
+  section.is_round = shape.starts_with("CIRC");
+  if (!section.is_round && !shape.starts_with("RECT")) {
+    in.lines.fail(keyword.place, fmt::format("NODAL THICKNESS with SECTION={}: it is for RECT and "
+                                             "CIRC; give each other shape a section of its own",
+                                             shape));
+  }
+  for (const char* offset : {"OFFSET1", "OFFSET2"}) {
+    if (!keyword.has(offset)) continue;
+    in.lines.fail(keyword.place,
+                  fmt::format("{} with NODAL THICKNESS is not supported; give the beams nodes of "
+                              "their own and join these by *MPC, BEAM",
+                              offset));
+  }
+  DeckRow row;
+  if (!in.lines.next_row_or_blank(row)) return;
+  if (!row.cell(0).empty()) {
+    section.measures[0] = positive(in, row, 0, "first measure of the section");
+    section.measures[1] =
+        row.cell(1).empty() ? section.measures[0] : positive(in, row, 1, "second measure");
+  }
+  if (!in.lines.next_row_or_blank(row) || row.cells.empty()) return;
+  read_n1(in, row, section);
 }
 
 fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
@@ -178,25 +199,6 @@ fem::SectionSpec read_general(AbaqusReading& in, const DeckRow& row) {
   return out;
 }
 
-/// With diameters a along y and b along z; shear factors by Cowper (1966) at ν = 0.
-fem::GeneralSectionSpec ellipse(double a, double b) {
-  constexpr double kPi = std::numbers::pi;
-  constexpr int kPoints = 16;  // between two of them the ellipse is higher by 2 %
-  const double aa = a * a, bb = b * b;
-  fem::GeneralSectionSpec out;
-  out.A = kPi * a * b / 4;
-  out.Iy = kPi * a * b * bb / 64;
-  out.Iz = kPi * a * aa * b / 64;
-  out.J = kPi * std::pow(a * b, 3) / (16 * (aa + bb));
-  out.shear_factor_y = 12 * (3 * aa + bb) / (40 * aa + 16 * bb);
-  out.shear_factor_z = 12 * (3 * bb + aa) / (40 * bb + 16 * aa);
-  for (int k = 0; k < kPoints; ++k) {
-    const double angle = 2 * kPi * k / kPoints;
-    out.stress_points.push_back({a / 2 * std::cos(angle), b / 2 * std::sin(angle)});
-  }
-  return out;
-}
-
 /// One value is the radius, as Abaqus has it; two are the diameters of CalculiX.
 fem::SectionSpec read_circle(AbaqusReading& in, const DeckRow& row) {
   fem::SectionSpec out;
@@ -210,12 +212,7 @@ fem::SectionSpec read_circle(AbaqusReading& in, const DeckRow& row) {
   }
   const double second = positive(in, row, 1, "second diameter of the circle");
   in.note(row.place, "SECTION=CIRC: two values are the diameters, as in CalculiX");
-  if (second == first) {
-    out.shape = fem::CircleSpec{first};
-  } else {
-    out.shape = ellipse(first, second);
-  }
-  return out;
+  return full_section(true, first, second);
 }
 
 /// One value is the side of a square, as CalculiX has it.
@@ -277,8 +274,7 @@ void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& 
   section.shape->where = in.lines.where(row.place);
   section.measures = outer_measures(in, name, row);
   if (!in.lines.next_row_or_blank(row) || row.cells.empty()) return;
-  section.n1 = read_vector(in.lines, row, 0, "direction n1");
-  if (section.n1.norm() == 0.0) in.lines.fail(row.place, "direction n1 cannot be zero");
+  read_n1(in, row, section);
 }
 
 }  // namespace
@@ -298,12 +294,17 @@ void read_solid_section(AbaqusReading& in, const DeckKeyword& keyword) {
 void read_shell_section(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::shell);
   section.offset = read_offset(in, keyword);
-  refuse_other_thickness(in, keyword);
-  if (keyword.has("COMPOSITE")) return read_layers(in, keyword, section);
+  refuse_stiffnesses(in, keyword);
+  section.thicknesses = in.optional_parameter(keyword, "SHELLTHICKNESS");
+  if (keyword.has("COMPOSITE")) {
+    if (section.thicknesses.empty()) return read_layers(in, keyword, section);
+    in.lines.fail(keyword.place,
+                  "layers with SHELL THICKNESS are not supported; give each thickness a section");
+  }
   section.has_nodal_thickness = keyword.has("NODALTHICKNESS");
   DeckRow row;
   if (!in.lines.next_row(row)) {
-    if (section.has_nodal_thickness) return;
+    if (section.has_nodal_thickness || !section.thicknesses.empty()) return;
     in.lines.fail(keyword.place, "the thickness of the shell is missing on the next line");
   }
   section.thickness = positive(in, row, 0, "thickness of the shell");
@@ -315,14 +316,17 @@ void read_nodal_thickness(AbaqusReading& in, const DeckKeyword& /*keyword*/) {
     AbaqusThickness& entry = in.scope->thicknesses.emplace_back();
     entry.reference = row.cell(0);
     entry.thickness = positive(in, row, 1, "thickness at the node");
+    entry.second = row.cell(2).empty() ? entry.thickness
+                                       : in.lines.number(row, 2, "second thickness at the node");
     entry.place = row.place;
   }
 }
 
 void read_beam_section(AbaqusReading& in, const DeckKeyword& keyword) {
   AbaqusSection& section = add_section(in, keyword, fem::PropertyKind::beam);
-  refuse_nodal_measures(in, keyword);
-  read_shape_rows(in, upper(in.parameter(keyword, "SECTION")), section);
+  const std::string shape = upper(in.parameter(keyword, "SECTION"));
+  if (keyword.has("NODALTHICKNESS")) return read_nodal_measures(in, keyword, shape, section);
+  read_shape_rows(in, shape, section);
   read_beam_offset(in, keyword, section);
 }
 

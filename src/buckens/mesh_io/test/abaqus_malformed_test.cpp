@@ -133,6 +133,8 @@ TEST_F(AbaqusMalformed, ElementsThatAreNone) {
   refuses(with_nodes("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7\n"),
           {"deck.inp:11:1", "C3D8 has 8 nodes", "found 7"});
   refuses(with_nodes("*ELEMENT, TYPE=B31\n1, 1,2,3,4\n"), {"B31 has 2 nodes", "found 4"});
+  refuses(with_nodes("*ELEMENT, TYPE=B32\n1, 1,2\n"),
+          {"deck.inp:11:1", "B32 has 3 nodes", "found 2", "is a B31"});
   refuses(with_nodes("*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,\n5,6,\n"), {"the data end here", "6 of"});
   refuses(with_nodes("*ELEMENT, TYPE=C3D4\n7, 1,2,3,99\n"),
           {"deck.inp:11:1", "element 7", "node 99", "not defined"});
@@ -235,6 +237,23 @@ TEST_F(AbaqusMalformed, WhatIsCutOffOrNestedWrongly) {
       {"deck.inp:5:1", "the same"});
 }
 
+TEST_F(AbaqusMalformed, MeasuresOfNodesAndElementsThatCannotBe) {
+  const std::string shell = with_nodes("*ELEMENT, TYPE=S4, ELSET=E\n1, 1,2,3,4\n");
+  const std::string beam = with_nodes("*ELEMENT, TYPE=B31, ELSET=E\n1, 1,2\n");
+  const std::string nodal = beam + "*BEAM SECTION, ELSET=E, NODAL THICKNESS, SECTION=";
+  refuses(nodal + "RECT\n", {"deck.inp:12:1", "node 1 has no *NODAL THICKNESS"});
+  refuses(nodal + "PIPE\n", {"deck.inp:12:1", "it is for RECT and CIRC"});
+  refuses(nodal + "RECT, OFFSET1=0.5\n", {"OFFSET1 with NODAL THICKNESS", "*MPC, BEAM"});
+  refuses(nodal + "RECT\n*NODAL THICKNESS\n1, 1, 2\n2, 1, -2\n",
+          {"deck.inp:15:1", "second thickness"});
+  refuses(shell + "*SHELL SECTION, ELSET=E, SHELL THICKNESS=D\n1\n", {"no *DISTRIBUTION \"D\""});
+  const std::string own = shell + "*SHELL SECTION, ELSET=E, SHELL THICKNESS=D\n";
+  refuses(own + "1\n*DISTRIBUTION, NAME=D\n, -1\n", {"deck.inp:12:1", "must be positive"});
+  refuses(own + "1\n*DISTRIBUTION, NAME=D\n7, 1\n", {"element 7"});
+  refuses(shell + "*SHELL SECTION, ELSET=E, SHELL THICKNESS=D, COMPOSITE\n1, 3, P, 0.\n",
+          {"layers with SHELL THICKNESS"});
+}
+
 TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   const std::string shell = with_nodes("*ELEMENT, TYPE=S4, ELSET=E\n1, 1,2,3,4\n");
   const std::string beam = with_nodes("*ELEMENT, TYPE=B31, ELSET=E\n1, 1,2\n");
@@ -266,7 +285,6 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
           {"deck.inp:12:1", "OFFSET2=0.5", "need a section of type RECT", "*MPC, BEAM"});
   refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, OFFSET1=SPOS\n1, 2\n",
           {"deck.inp:12:1", "OFFSET1=SPOS", "expected a number"});
-  refuses(beam + "*BEAM SECTION, ELSET=E, SECTION=RECT, NODAL THICKNESS\n", {"NODAL THICKNESS"});
   refuses(beam + "*BEAM GENERAL SECTION, ELSET=E\n1,1,0.5,1,1\n", {"I12 must be zero"});
   refuses(with_nodes("*ELASTIC\n1,0\n"), {"belongs below a *MATERIAL"});
   refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC\n1\n"), {"expected 2 constants, found 1"});
@@ -280,7 +298,6 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
   refuses(with_nodes(steel + steel), {"defined twice"});
   refuses(with_nodes("*ORIENTATION, NAME=O\n1,0,0,2,0,0\n"), {"on one line"});
   refuses(shell + "*SHELL GENERAL SECTION, ELSET=E\n1e5,1e4,1e5\n", {"by its stiffnesses"});
-  refuses(shell + "*SHELL SECTION, ELSET=E, SHELL THICKNESS=D\n1\n", {"by a table"});
   refuses(shell + "*SHELL SECTION, ELSET=E, NODAL THICKNESS\n*NODAL THICKNESS\n1,1\n",
           {"deck.inp:12:1", "node 2 has no *NODAL THICKNESS"});
   const std::string tet = with_nodes("*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1,2,3,5\n");

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -267,8 +268,24 @@ TEST(AbaqusDirections, OrientationsTurnWithTheirInstance) {
   expect_at_30_degrees(read_abaqus(deck), anywhere(), kThick);
 }
 
-TEST(AbaqusDirections, OrientationTurnsSolids) {
-  const Matrix3d R = anywhere();
+/// Directions by angles from x of the plate; the last for all elements that have no entry.
+std::string distribution(const Matrix3d& R, const std::string& written, double otherwise,
+                         const std::vector<double>& angles, const std::string& second) {
+  const auto points = [&R](double angle) {
+    const Vector3d a(std::cos(angle * kDegrees), std::sin(angle * kDegrees), 0);
+    // Any point in the plane of axes 1 and 2 will do for b.
+    return numbers_of(R * a) + ", " + numbers_of(R * (0.3 * a + Vector3d::UnitZ().cross(a)));
+  };
+  std::string out = "*DISTRIBUTION TABLE, NAME=T\nCOORD3D, COORD3D\n" +
+                    fmt::format("*DISTRIBUTION, NAME={}, LOCATION=ELEMENT, TABLE=T\n, {}\n",
+                                written, points(otherwise));
+  for (std::size_t e = 0; e < angles.size(); ++e) {
+    out += fmt::format("{}, {}\n", e + 1, points(angles[e]));
+  }
+  return out + fmt::format("*ORIENTATION, NAME=O\n{}\n{}\n", written, second);
+}
+
+std::string abaqus_solids(const Matrix3d& R) {
   std::string deck = abaqus_nodes(R, 2) + "*ELEMENT, TYPE=C3D8I, ELSET=E\n";
   for (int e = 0; e < 4; ++e) {
     const auto& q = kQuads[static_cast<std::size_t>(e)];
@@ -280,8 +297,47 @@ TEST(AbaqusDirections, OrientationTurnsSolids) {
       "*MATERIAL, NAME=P\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
       "{}, {}, {}, {}, {}, {}, {}, {}\n{}\n*DENSITY\n1\n",
       E1, E2, E3, nu12, nu13, nu23, G12, G13, G23);
-  deck += orientation(R.col(0), R.col(1), "3, 30.");
-  expect_at_30_degrees(read_abaqus(deck), R, 1.0);
+  return deck;
+}
+
+TEST(AbaqusDirections, OrientationTurnsSolids) {
+  const Matrix3d R = anywhere();
+  expect_at_30_degrees(read_abaqus(abaqus_solids(R) + orientation(R.col(0), R.col(1), "3, 30.")), R,
+                       1.0);
+}
+
+TEST(AbaqusDirections, EachElementHasItsOwnByDistribution) {
+  const Matrix3d R = anywhere();
+  const std::string solids = abaqus_solids(R);
+  expect_at_30_degrees(read_abaqus(solids + distribution(R, "D", -30, {30, 30, 30, 30}, "3, 0.")),
+                       R, 1.0);
+  expect_at_30_degrees(read_abaqus(solids + distribution(R, "D", 30, {}, "3, 0.")), R, 1.0);
+  // The second line turns all of them.
+  expect_at_30_degrees(read_abaqus(solids + distribution(R, "D", 20, {20, 20}, "3, 10.")), R, 1.0);
+  const auto shells = [&R](const std::string& rest) { return abaqus_plate(R, kShell + rest); };
+  expect_at_30_degrees(shells(distribution(R, "D", 30, {30, 30}, "3, 0.")), R, kThick);
+  expect_at_30_degrees(shells(distribution(R, "D", 10, {}, "3, 20.")), R, kThick);
+  // Two of four elements are told otherwise: two properties.
+  EXPECT_EQ(shells(distribution(R, "D", 30, {15, 15}, "3, 0.")).properties.size(), 2u);
+  const auto refusal = [&](const std::string& rest) -> std::string {
+    try {
+      read_abaqus(solids + rest);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing was refused";
+  };
+  EXPECT_NE(refusal("*ORIENTATION, NAME=O\nX\n").find("no *DISTRIBUTION \"X\""), std::string::npos);
+  const std::string short_row =
+      refusal("*DISTRIBUTION, NAME=D, LOCATION=ELEMENT\n, 1, 0, 0\n*ORIENTATION, NAME=O\nD\n");
+  EXPECT_NE(short_row.find("gives an element 3 values; 6 are needed"), std::string::npos)
+      << short_row;
+  const std::string on_line = refusal(
+      "*DISTRIBUTION, NAME=D, LOCATION=ELEMENT\n, 1, 0, 0, 2, 0, 0\n*ORIENTATION, NAME=O\nD\n");
+  EXPECT_NE(on_line.find("lie on one line"), std::string::npos) << on_line;
+  const std::string of_nodes = refusal(
+      "*DISTRIBUTION, NAME=D, LOCATION=NODE\n, 1, 0, 0, 0, 1, 0\n*ORIENTATION, NAME=O\nD\n");
+  EXPECT_NE(of_nodes.find("LOCATION=ELEMENT"), std::string::npos) << of_nodes;
 }
 
 TEST(AbaqusDirections, AShellMustBeToldWhichAxisIsItsNormal) {
