@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/checksum.h"
 #include "buckens/base/errors.h"
 
 namespace buckens::files {
@@ -27,9 +28,7 @@ FilesRead::FilesRead() : outer_(files_read) { files_read = this; }
 FilesRead::~FilesRead() { files_read = outer_; }
 
 void FilesRead::add(const std::filesystem::path& path, std::string_view content) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  hashes_[path] = hash;
+  hashes_[path] = base::checksum(content);
   if (outer_ != nullptr) outer_->add(path, content);
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "buckens/base/checksum.h"
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/run_store/run_files.h"
@@ -26,15 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kUndoMark = "buckens undo 1\n";
 
-std::uint64_t undo_checksum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325U;  // FNV-1a
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  return sum;
-}
-
 std::string undo_head(const std::string& checkpoint, std::uint64_t length) {
   const std::string text = fmt::format("{}{}length {:020}\n", kUndoMark, checkpoint, length);
-  return text + fmt::format("checksum {:016x}\n", undo_checksum(text));
+  return text + fmt::format("checksum {:016x}\n", base::checksum(text));
 }
 
 void append_number(std::string& out, std::uint64_t number) {
@@ -109,7 +104,7 @@ void Hdf5Undo::take_up(std::uint64_t address, std::vector<std::uint8_t> bytes) {
   append_number(record, address);
   append_number(record, bytes.size());
   record.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  append_number(record, undo_checksum(record));
+  append_number(record, base::checksum(record));
   waiting_ += record;
 }
 
@@ -182,7 +177,7 @@ std::shared_ptr<const Undone> read_undone(const fs::path& directory,
     const std::uint64_t count = undo_number_at(text, at + kNumber);
     if (count > text.size() - at - 3 * kNumber) break;
     const std::string_view record = std::string_view(text).substr(at, 2 * kNumber + count);
-    if (undo_checksum(record) != undo_number_at(text, at + record.size())) break;
+    if (base::checksum(record) != undo_number_at(text, at + record.size())) break;
     FileBytes bytes;
     bytes.address = undo_number_at(text, at);
     bytes.bytes.assign(record.begin() + 2 * kNumber, record.end());

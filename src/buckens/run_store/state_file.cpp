@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/checksum.h"
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/run_store/hdf5_file.h"
@@ -21,18 +22,9 @@ constexpr std::string_view kMark = "\nbuckens state\n";
 constexpr std::string_view kHdf5Mark = "\x89HDF";
 constexpr std::size_t kIncrement = 1 << 20;  // by which a file in memory grows
 
-/// FNV-1a, 64 bits.
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  }
-  return hash;
-}
-
 std::string trailer(std::string_view bytes) {
   std::string out = fmt::format("{}format {}\nbytes {}\nchecksum {:016x}\n", kMark, kStateFormat,
-                                bytes.size(), checksum(bytes));
+                                bytes.size(), base::checksum(bytes));
   out.insert(out.size() - 1, kStateTrailer - out.size(), ' ');
   return out;
 }
