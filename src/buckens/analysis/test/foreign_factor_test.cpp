@@ -16,10 +16,10 @@
 namespace buckens::analysis {
 namespace {
 
-/// A factor supplied from outside: SparseCholesky with a counter.
-class CountedFactor final : public linalg::Factor {
+/// A factor supplied from outside, which SparseCholesky stands behind.
+class ForeignFactor : public linalg::Factor {
  public:
-  CountedFactor(const linalg::SparseMatrix& A, long& columns) : factor_(A), columns_(columns) {}
+  explicit ForeignFactor(const linalg::SparseMatrix& A) : factor_(A) {}
 
   Eigen::Index size() const override { return factor_.size(); }
   double num_factor_entries() const override { return factor_.num_factor_entries(); }
@@ -27,41 +27,48 @@ class CountedFactor final : public linalg::Factor {
   using Factor::solve;
   using Factor::solve_in_place;
   void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override {
-    columns_ += columns;
     factor_.solve(B, X, columns, pool);
   }
   void solve_in_place(std::span<double* const> vectors, TaskPool* pool) const override {
-    columns_ += static_cast<long>(vectors.size());
     factor_.solve_in_place(vectors, pool);
   }
 
  private:
   linalg::SparseCholesky factor_;
+};
+
+/// Counts the columns solved for.
+class CountedFactor final : public ForeignFactor {
+ public:
+  CountedFactor(const linalg::SparseMatrix& A, long& columns)
+      : ForeignFactor(A), columns_(columns) {}
+
+  using Factor::solve;
+  using Factor::solve_in_place;
+  void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override {
+    columns_ += columns;
+    ForeignFactor::solve(B, X, columns, pool);
+  }
+  void solve_in_place(std::span<double* const> vectors, TaskPool* pool) const override {
+    columns_ += static_cast<long>(vectors.size());
+    ForeignFactor::solve_in_place(vectors, pool);
+  }
+
+ private:
   long& columns_;
 };
 
 /// A solver that iterates, as the step sees it: exact, but it looks at the estimates.
-class EstimatedFactor final : public linalg::Factor {
+class EstimatedFactor final : public ForeignFactor {
  public:
   EstimatedFactor(const linalg::SparseMatrix& A, double& largest_error, long& changes)
-      : A_(A), factor_(A), largest_error_(largest_error), changes_(changes) {}
+      : ForeignFactor(A), A_(A), largest_error_(largest_error), changes_(changes) {}
 
-  Eigen::Index size() const override { return factor_.size(); }
-  double num_factor_entries() const override { return factor_.num_factor_entries(); }
-  double bytes() const override { return factor_.bytes(); }
-  using Factor::solve;
-  using Factor::solve_in_place;
-  void solve(const double* B, double* X, Eigen::Index columns, TaskPool* pool) const override {
-    factor_.solve(B, X, columns, pool);
-  }
-  void solve_in_place(std::span<double* const> vectors, TaskPool* pool) const override {
-    factor_.solve_in_place(vectors, pool);
-  }
   bool iterates() const override { return true; }
   void improve(const linalg::Vector& b, linalg::Vector& x, double energy) const override {
     const linalg::Vector estimate = x;
     x = b;
-    factor_.solve_in_place(x);
+    Factor::solve_in_place(x);
     if (energy > 0.0) {  // of the motion, for a change of it
       EXPECT_LE(std::sqrt(b.dot(x)), energy);
       ++changes_;
@@ -76,7 +83,6 @@ class EstimatedFactor final : public linalg::Factor {
 
  private:
   linalg::SparseMatrix A_;
-  linalg::SparseCholesky factor_;
   double& largest_error_;
   long& changes_;
   mutable int calls_ = 0;
