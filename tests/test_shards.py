@@ -9,16 +9,6 @@ import time
 import pytest
 
 RANGES = ("--vary", "gravity.1=[-9.81 m/s^2, -1.62 m/s^2, 0]", "--vary", "simulation.duration=[10 ms, 20 ms]")
-# Too large for a dense inverse.
-BLOCK = """
-buckens: 1
-parameters: {E: 1e8 Pa, g: 9.81 m/s^2}
-gravity: [0, "-g", 0]
-materials: {soft: {E: E, nu: 0.3, rho: 1000 kg/m^3}}
-bodies: {block: {mesh: {box: {size: [1 m, 0.1 m, 0.1 m], divisions: [8, 4, 4]}, material: soft}}}
-joints: {pin: {spherical: {between: [ground, block/face_x0]}}}
-simulation: {duration: 0.4 ms, step: 0.2 ms}
-"""
 
 
 def test_parts_make_the_table_of_the_whole(buckens, models, tmp_path):
@@ -53,13 +43,12 @@ def test_the_table_is_there_as_hdf5_too(buckens, models, tmp_path):
         assert [name.decode() for name in file["name"][:]] == [row["name"] for row in rows]
 
 
-def test_variants_with_one_factor_share_a_shard(buckens, tmp_path):
+def test_variants_with_one_factor_share_a_shard(buckens, models, tmp_path):
     """The table alternates between two materials; each shard makes one factor."""
-    (tmp_path / "block.yaml").write_text(BLOCK)
     ranges = ("--vary", "parameters.g=[9.81 m/s^2, 0, 1]", "--vary", "parameters.E=[1e8 Pa, 2e8 Pa]")
     names = []
     for shard in ("1/2", "2/2"):
-        told = buckens("sweep", "block.yaml", *ranges, "-o", "out", "--shard", shard, "--json").must(0)
+        told = buckens("sweep", models / "soft_block.yaml", *ranges, "-o", "out", "--shard", shard, "--json").must(0)
         names.append([variant["name"] for variant in told.json["variants"]])
         assert told.json["factorisations"] == 1
     assert names == [["001", "003", "005"], ["002", "004", "006"]]

@@ -21,18 +21,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 from python_module import PACKAGES, buckens, source  # noqa: E402 (found after the path is set)
 
 MODEL = source("tests/models/pendulum.yaml")
+BLOCK = source("tests/models/soft_block.yaml")
 TABLE = {"gravity.1": ["-9.81 m/s^2", "-1.62 m/s^2", 0, 2.5], "simulation.duration": ["10 ms", "20 ms", "30 ms"]}
 MANY = {"gravity.1": [-0.01 * k for k in range(400)]}
-BLOCK = """
-buckens: 1
-parameters: {E: 1e8 Pa, g: 9.81 m/s^2}
-gravity: [0, "-g", 0]
-materials: {soft: {E: E, nu: 0.3, rho: 1000 kg/m^3}}
-bodies: {block: {mesh: {box: {size: [1 m, 0.1 m, 0.1 m], divisions: [8, 4, 4]}, material: soft}}}
-joints: {pin: {spherical: {between: [ground, block/face_x0]}}}
-simulation: {duration: 0.4 ms, step: 0.2 ms}
-output: {sensors: {tip: {position: block/face_x1}}}
-"""  # too large for a dense inverse
 SHORT = {"simulation.duration": "20 ms"}
 
 
@@ -99,11 +90,10 @@ def test_models_and_tables_of_all_kinds(tmp_path):
 
 
 def test_factors_are_made_once_per_worker(tmp_path):
-    (tmp_path / "block.yaml").write_text(BLOCK)
     table = {"parameters.g": [-9.81, -1, 0, 1, 2, 3, 4, 5], "parameters.E": [1e8, 2e8]}
     with cf.ThreadPoolExecutor(1) as executor:
-        answer = buckens.sweep(tmp_path / "block.yaml", table, tmp_path / "one", executor=executor, together=1)
-    buckens.sweep(tmp_path / "block.yaml", table, tmp_path / "serial", together=1)
+        answer = buckens.sweep(BLOCK, table, tmp_path / "one", executor=executor, together=1)
+    buckens.sweep(BLOCK, table, tmp_path / "serial", together=1)
     assert text_of(tmp_path / "one") == text_of(tmp_path / "serial")
     assert answer["factorisations"] == 2  # sixteen variants with two materials, in turn in the table
 
