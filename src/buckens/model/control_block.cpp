@@ -149,7 +149,7 @@ class SampleHold final : public ControlBlock {
   double sample_;
 };
 
-/// y = x, and only events change x.
+/// y = x, which stays until it is set.
 class Setting final : public ControlBlock {
  public:
   explicit Setting(double start) : start_(start) {}

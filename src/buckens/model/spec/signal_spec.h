@@ -191,12 +191,12 @@ struct SwitchSpec : BlockInput {
   }
 };
 
-/// A number that only events change.
+/// A number that stays until it is set: by an event, or from Python or C++ between steps.
 struct SettingSpec {
   double start = 0;
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("start", start, "value until an event sets another")
+    visit(base::field("start", start, "value until another is set")
               .of_any_dimension()
               .required()
               .shorthand()
@@ -240,7 +240,9 @@ struct SignalSpec {
     visit(base::field("switch", switched,
                       "1 or 0 by the level of a signal, from the end of the step in which it is "
                       "reached"));
-    visit(base::field("setting", setting, "a number that only events change, with their `set`"));
+    visit(base::field("setting", setting,
+                      "a number that stays until an event changes it with `set`, or Python or C++ "
+                      "between steps"));
   }
 
  private:
