@@ -162,17 +162,14 @@ def _good(values: Array) -> Array:
 def picture(samples: Samples, values: Any, label: str = "result", file: Optional[PathLike] = None) -> Any:
     """A figure of matplotlib: how often values occur, with mean and quantiles; each quantity against the result, with its
     main effect; and Sobol indices, if the design allows them."""
-    import matplotlib
-    matplotlib.use("agg") if file is not None else None
-    import matplotlib.pyplot as plt
-
     results_ = _rows(samples, values)
     told = statistics(results_)
     has_indices = samples.kind == "sensitivity"
     count = 1 + len(samples.columns) + has_indices
     columns = min(count, 3)
     rows = -(-count // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(4.2 * columns, 3.2 * rows), squeeze=False, layout="constrained")
+    figure = _figure(file is not None, figsize=(4.2 * columns, 3.2 * rows), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False)
     places = list(axes.ravel())
     _draw_distribution(places[0], _good(results_), told, label)
     for place, (path, effect) in zip(places[1:], main_effects(samples, results_).items()):
@@ -187,8 +184,16 @@ def picture(samples: Samples, values: Any, label: str = "result", file: Optional
         place.set_axis_off()
     if file is not None:
         figure.savefig(os.fspath(file))
-        plt.close(figure)
     return figure
+
+
+def _figure(for_a_file: bool, **options: Any) -> Any:
+    """For a file without a window, whatever back end the caller has chosen for others."""
+    if for_a_file:
+        from matplotlib.figure import Figure
+        return Figure(**options)
+    import matplotlib.pyplot as plt
+    return plt.figure(**options)
 
 
 def _draw_distribution(place: Any, good: Array, told: Statistics, label: str) -> None:

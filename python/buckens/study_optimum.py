@@ -44,7 +44,8 @@ def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callabl
     out
         Directory; a folder per generation. The same call later goes through the finished ones at once.
     population, generations, tolerance
-        Variants per generation, at most so many generations, and the spread of results (relative) at which it ends.
+        Variants per generation, at least five per quantity; at most so many generations; and the spread of results (relative)
+        at which it ends.
     """
     from scipy.optimize import differential_evolution
 
