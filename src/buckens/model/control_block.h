@@ -63,7 +63,8 @@ std::shared_ptr<const ControlBlock> make_pid(const PidData& data);
 /// @param off none: it stays on
 std::shared_ptr<const ControlBlock> make_switch(double on, std::optional<double> off, bool start);
 
-/// y is its one state, which nothing moves but whoever sets it between steps. @param start its value at t = 0
+/// y is its one state, which nothing moves but whoever sets it between steps. @param start its
+/// value at t = 0
 std::shared_ptr<const ControlBlock> make_setting(double start);
 
 /// y is the input at the last sample. @param sample [s]

@@ -64,6 +64,15 @@ constexpr std::array<const char*, 2> choice_names(AssemblyRule) { return {"adjus
 /// The contents of a model file, in SI units, with names resolved and checked as far as possible
 /// without building the model.
 struct ModelDescription {
+  // In model_description.cpp, because they reach through all members: two to five seconds of
+  // compiling each.
+  ModelDescription();
+  ModelDescription(const ModelDescription&);
+  ModelDescription(ModelDescription&&) noexcept;
+  ModelDescription& operator=(const ModelDescription&);
+  ModelDescription& operator=(ModelDescription&&) noexcept;
+  ~ModelDescription();
+
   int format = 1;
   std::string title;
   std::string base;  ///< as `directory`, as written: relative to the model file, or empty
