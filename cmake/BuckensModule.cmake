@@ -110,5 +110,7 @@ function(buckens_header_checks)
   get_property(third_party GLOBAL PROPERTY BUCKENS_THIRD_PARTY)
   add_library(buckens_headers OBJECT EXCLUDE_FROM_ALL ${checks})
   target_compile_options(buckens_headers PRIVATE -O0 -g0)
+  # Read once, not a hundred times; that a header forgets to include these goes unnoticed here.
+  target_precompile_headers(buckens_headers PRIVATE <Eigen/Dense> <Eigen/Sparse> <fmt/format.h>)
   target_link_libraries(buckens_headers PRIVATE buckens_common ${third_party})
 endfunction()

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kWholeSteps = 1e-9;
 
-void require_run(const fs::path& directory) {
+void require_run_to_continue(const fs::path& directory) {
   std::error_code error;
   if (!fs::is_regular_file(directory / run_store::kSummaryName, error)) {
     throw IoError(
@@ -52,7 +52,7 @@ void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments) 
 }
 
 Continuation::Continuation(fs::path directory) : directory_(std::move(directory)) {
-  require_run(directory_);
+  require_run_to_continue(directory_);
   const base::SavedValues state = run_store::read_state(checkpoint());
   try {
     kept_ = run_store::continuation_from(state);

@@ -103,7 +103,7 @@ std::string random_token() {
   return token;
 }
 
-void require_run(const fs::path& directory) {
+void require_run_to_show(const fs::path& directory) {
   std::error_code error;
   if (fs::is_regular_file(directory / run_store::kSummaryName, error)) return;
   throw IoError(
@@ -196,7 +196,7 @@ struct LivePage::Server {
 LivePage::LivePage(std::vector<fs::path> runs, fs::path template_html,
                    page::ViewPageOptions options)
     : server_(std::make_unique<Server>()) {
-  for (const fs::path& run : runs) require_run(run);
+  for (const fs::path& run : runs) require_run_to_show(run);
   server_->runs = std::move(runs);
   server_->template_html = std::move(template_html);
   server_->options = std::move(options);

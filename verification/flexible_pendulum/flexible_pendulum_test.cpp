@@ -16,7 +16,7 @@ namespace {
 
 using stepping::Method;
 
-nlohmann::json read_reference() {
+nlohmann::json pendulum_reference() {
   std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                      "/verification/flexible_pendulum/reference.json");
   return nlohmann::json::parse(file);
@@ -50,7 +50,7 @@ double tip_error(const nlohmann::json& reference, int elements,
 }
 
 TEST(FlexiblePendulum, TipConvergesToTheReference) {
-  const auto reference = read_reference();
+  const auto reference = pendulum_reference();
   for (const int elements : {4, 8}) {
     for (const Method method : {Method::generalized_alpha, Method::newmark}) {
       // Default tolerances. Axial waves (EA = 1e6 N) need steps of 5e-5 s; measured 0.3 and 0.42
@@ -68,7 +68,7 @@ TEST(FlexiblePendulum, TipConvergesToTheReference) {
 TEST(FlexiblePendulum, FinerStepsComeCloser) {
   // The order is not regular where axial waves are barely resolved. Measured 13 µm and 0.12 µm; at
   // h = 6.25e-6 s it is 0.014 µm.
-  const auto reference = read_reference();
+  const auto reference = pendulum_reference();
   stepping::StepSettings settings;
   settings.step = 4e-4;
   EXPECT_GT(tip_error(reference, 8, settings), 5e-6);

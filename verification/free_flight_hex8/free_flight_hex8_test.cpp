@@ -28,11 +28,11 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-const std::string kFolder =
+const std::string kFlightFolder =
     std::string(buckens::test::kSourceDirectory) + "/verification/free_flight_hex8/";
 
 nlohmann::json read_reference() {
-  std::ifstream file(kFolder + "reference.json");
+  std::ifstream file(kFlightFolder + "reference.json");
   return nlohmann::json::parse(file);
 }
 
@@ -41,13 +41,13 @@ Vector3d vector_of(const nlohmann::json& list) {
   return Vector3d(values[0], values[1], values[2]);
 }
 
-std::unique_ptr<model::BuiltModel> block(const std::vector<std::string>& changes) {
-  return model::build_model(model_file::read_model_file(kFolder + "model.yaml", changes));
+std::unique_ptr<model::BuiltModel> flying_block(const std::vector<std::string>& changes) {
+  return model::build_model(model_file::read_model_file(kFlightFolder + "model.yaml", changes));
 }
 
 TEST(FreeFlightHex8, StartsAsTheReference) {
   const auto reference = read_reference();
-  const auto built = block({});
+  const auto built = flying_block({});
   const body::Body& body = built->model.bodies[0];
   EXPECT_NEAR(body.mass, reference["model"]["m"], 1e-13 * body.mass);
   const Vector3d J0 = vector_of(reference["model"]["J0"]);
@@ -70,7 +70,7 @@ struct Miss {
 
 Miss miss(double step) {
   const auto reference = read_reference();
-  const auto built = block({fmt::format("simulation.step={}", step)});
+  const auto built = flying_block({fmt::format("simulation.step={}", step)});
   results::Table table;
   analysis::simulate(*built, table, {});
   const Eigen::MatrixXd pose = table.values("bodies/block/pose");
@@ -118,7 +118,7 @@ struct Drift {
 };
 
 Drift drift(const std::string& level, double step) {
-  const auto built = block({"bodies.block.coupling=" + level});
+  const auto built = flying_block({"bodies.block.coupling=" + level});
   const dynamics::MassMetric metric(built->model);
   const analysis::Prepared start = analysis::prepare(*built, metric);
   stepping::StepSettings settings = test::settings(stepping::Method::generalized_alpha, step);

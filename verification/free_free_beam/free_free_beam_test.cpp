@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-json read_reference() {
+json beam_reference() {
   std::ifstream file(std::string(buckens::test::kSourceDirectory) +
                      "/verification/free_free_beam/reference.json");
   return json::parse(file);
@@ -68,7 +68,7 @@ std::map<std::string, std::vector<double>> frequencies(const fem::FeModel& fe) {
 }
 
 TEST(FreeFreeBeam, SectionConstantsAreThoseOfTheReference) {
-  const json params = read_reference()["params"];
+  const json params = beam_reference()["params"];
   const fem::Section section = fem::Section::rectangle(params["h"], params["b"]);
   EXPECT_NEAR(section.J, params["It"], 1e-15 * section.J);
   EXPECT_NEAR(section.polar_moment(), params["Ip"], 1e-15 * section.polar_moment());
@@ -77,7 +77,7 @@ TEST(FreeFreeBeam, SectionConstantsAreThoseOfTheReference) {
 }
 
 TEST(FreeFreeBeam, AnalyticValuesAreEulerBernoulliWithoutRotaryInertia) {
-  const json reference = read_reference();
+  const json reference = beam_reference();
   const json& p = reference["params"];
   const double c = std::sqrt(p["E"].get<double>() * p["Iz"].get<double>() /
                              (p["rho"].get<double>() * p["A"].get<double>()));
@@ -89,7 +89,7 @@ TEST(FreeFreeBeam, AnalyticValuesAreEulerBernoulliWithoutRotaryInertia) {
 }
 
 TEST(FreeFreeBeam, FrequenciesEqualTheReferenceFor1To16Elements) {
-  const json reference = read_reference();
+  const json reference = beam_reference();
   for (const int n : {1, 2, 3, 4, 8, 16}) {
     const auto found = frequencies(beam(reference["params"], n));
     const json& expected = reference["FE_Hz"]["n" + std::to_string(n)];
@@ -106,7 +106,7 @@ TEST(FreeFreeBeam, FrequenciesEqualTheReferenceFor1To16Elements) {
 }
 
 TEST(FreeFreeBeam, FrequenciesConvergeWithTheFourthPowerOfTheElementLength) {
-  const json reference = read_reference();
+  const json reference = beam_reference();
   const auto& analytic = reference["analytic_Hz"];
   const std::map<std::string, std::string> names = {{"bending_z", "bending_z(weak,I=b h^3/12)"},
                                                     {"bending_y", "bending_y(strong)"}};

@@ -37,7 +37,7 @@ body::FlexiblePart beam(const json& params, int divisions) {
   return {"beam", fem::assemble(structure), body::CouplingLevel::full};
 }
 
-body::FlexiblePart block(const json& given) {
+body::FlexiblePart block_of_case(const json& given) {
   fem::Box box;
   for (std::size_t k = 0; k < 3; ++k) {
     box.size[static_cast<Eigen::Index>(k)] = given["L"][k];
@@ -95,8 +95,8 @@ TEST_P(FreeFreeMethods, BlocksOfSolidsWithSevenfoldFrequencies) {
   for (const auto& [name, given] : reference["blocks"].items()) {
     SCOPED_TRACE(name);
     // All 18 of the cube: 2, 5, 3, 1, 7 equal ones. Rounding of K: 1e-14.
-    expect_frequencies(block(given), GetParam(), given["freq_Hz"].get<std::vector<double>>(),
-                       1e-10);
+    expect_frequencies(block_of_case(given), GetParam(),
+                       given["freq_Hz"].get<std::vector<double>>(), 1e-10);
   }
 }
 

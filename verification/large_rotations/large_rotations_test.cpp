@@ -42,7 +42,7 @@ struct Traced {
   results::RunSummary summary;
 };
 
-std::unique_ptr<Traced> trace(const std::string& text) {
+std::unique_ptr<Traced> traced_run(const std::string& text) {
   auto out = std::make_unique<Traced>();
   const auto built = model::build_model(model_file::read_model_text(text, "chain.yaml"));
   out->summary = analysis::trace_static_path(*built, out->table);
@@ -65,7 +65,7 @@ Circle circle(int frames) {
   const double EI = 1e4 / 12 * 1e-4;
   std::vector<Vector3d> points;
   for (int k = 0; k <= frames; ++k) points.emplace_back(L * k / frames, 0, 0);
-  const auto traced = trace(fmt::format(
+  const auto traced = traced_run(fmt::format(
       R"(buckens: 1
 planar: xy
 materials: {{soft: {{E: 1e4, nu: 0, rho: 1}}}}
@@ -107,7 +107,7 @@ TEST(Bend, ReachesThePublishedTip) {
       const double phi = 0.25 * pi * k / frames;
       points.emplace_back(R * std::sin(phi), R * (1 - std::cos(phi)), 0);
     }
-    const auto traced = trace(fmt::format(
+    const auto traced = traced_run(fmt::format(
         R"(buckens: 1
 materials: {{soft: {{E: 1e7, nu: 0, rho: 1}}}}
 sections: {{square: {{general: {{A: 1, Iy: 8.3333333333333333e-2, Iz: 8.3333333333333333e-2, J: 0.140577}}}}}}

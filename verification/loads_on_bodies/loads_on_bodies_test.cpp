@@ -19,7 +19,7 @@ using stepping::Method;
 using stepping::MonolithicStepper;
 using stepping::Stepper;
 
-constexpr int kSteps = 20;
+constexpr int kLoadSteps = 20;
 
 loads::BodyPart part(const std::string& text) { return {model::test::at_line(61), text}; }
 
@@ -73,7 +73,7 @@ TEST(LoadsOnBodies, StepAsTheMonolithicRoute) {
     MonolithicStepper slow(built->model, settings, start.rows_in_use);
     model::State a = start.state, b = start.state;
     double difference[2] = {0, 0}, size[2] = {0, 0};
-    for (int k = 0; k < kSteps; ++k) {
+    for (int k = 0; k < kLoadSteps; ++k) {
       fast.step(a);
       slow.step(b);
       for (std::size_t body = 0; body < 2; ++body) {

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
+
+#include "buckens/analysis/simulation/turn.h"
 
 namespace buckens::analysis {
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // Longest way at once: as angle [rad], and as a share of the model's length.
 constexpr double kStageAngle = 0.3;
 constexpr double kStageShare = 0.05;

@@ -83,12 +83,13 @@ void check_orthotropic(const std::string& where, const Orthotropy& o) {
                     "G23 = {:g}, {:g}, {:g} Pa; all must be positive",
                     where, o.E[0], o.E[1], o.E[2], o.G12, o.G13, o.G23));
   }
-  struct Pair {
+  struct Contraction {
     const char* name;
     double nu, first, second;
   };
-  for (const Pair& p : {Pair{"12", o.nu12, o.E[0], o.E[1]}, Pair{"13", o.nu13, o.E[0], o.E[2]},
-                        Pair{"23", o.nu23, o.E[1], o.E[2]}}) {
+  for (const Contraction& p :
+       {Contraction{"12", o.nu12, o.E[0], o.E[1]}, Contraction{"13", o.nu13, o.E[0], o.E[2]},
+        Contraction{"23", o.nu23, o.E[1], o.E[2]}}) {
     const double most = std::sqrt(p.first / p.second);
     if (std::abs(p.nu) < most) continue;
     throw ModelError(fmt::format(

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using linalg::Matrix;
 using linalg::Vector;
 
-constexpr double kE = 2e11;
+constexpr double kYoung = 2e11;
 
 /// Beam of 1 m from the origin along `direction`.
 Structure beam_along(const Vector3d& direction, int elements) {
@@ -25,7 +25,7 @@ Structure beam_along(const Vector3d& direction, int elements) {
   const int a = add_node(s, "a", Vector3d::Zero());
   const int b = add_node(s, "b", direction.normalized());
   add_beam(s, a, b, elements,
-           BeamProperties::of({kE, 0.3, 8e10, 7800, 0, 0}, Section::rectangle(0.01, 0.02),
+           BeamProperties::of({kYoung, 0.3, 8e10, 7800, 0, 0}, Section::rectangle(0.01, 0.02),
                               BeamTheory::euler_bernoulli));
   return s;
 }
@@ -33,7 +33,7 @@ Structure beam_along(const Vector3d& direction, int elements) {
 TEST(GeometricStiffness, FindsTheBucklingLoadOfACantilever) {
   // Euler: π²EI/(4L²) about the weak axis; eight cubic elements are within 1e-5 of it.
   const double I = 0.02 * 0.01 * 0.01 * 0.01 / 12.0;
-  const double expected = 0.25 * std::numbers::pi * std::numbers::pi * kE * I;
+  const double expected = 0.25 * std::numbers::pi * std::numbers::pi * kYoung * I;
   for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(1, -2, 3), Vector3d(0, 0, 1)}) {
     const FeModel fe = assemble(beam_along(direction, 8));
     const GeometricStiffness geometric(fe);
@@ -62,7 +62,7 @@ TEST(GeometricStiffness, TheForceIsThatOfTheAxialForceAtHand) {
     for (int k = 0; k < 3; ++k) d[fe.dofs.node_dofs[n][static_cast<std::size_t>(k)]] = u[k];
   }
   const Vector forces = geometric.axial_forces(d);
-  for (int e = 0; e < 3; ++e) EXPECT_NEAR(forces[e], kE * 2e-4 * 1e-4, 1e-6 * forces[e]);
+  for (int e = 0; e < 3; ++e) EXPECT_NEAR(forces[e], kYoung * 2e-4 * 1e-4, 1e-6 * forces[e]);
   EXPECT_LT(geometric.load(d).norm(), 1e-12 * forces[0]) << "a straight line is not turned";
 }
 
@@ -70,7 +70,7 @@ TEST(GeometricStiffness, BarsResistBeingTurned) {
   Structure s;
   const int a = add_node(s, "a", Vector3d::Zero());
   const int b = add_node(s, "b", {0, 2, 0});
-  s.bars.add(a, b, {kE, 0.3, 8e10, 7800, 0, 0}, Section::area(1e-4));
+  s.bars.add(a, b, {kYoung, 0.3, 8e10, 7800, 0, 0}, Section::area(1e-4));
   const FeModel fe = assemble(s);
   const Matrix G = Matrix(GeometricStiffness(fe).matrix(Vector::Ones(1)));
   EXPECT_NEAR(G(0, 0), 0.5, 1e-15);

@@ -17,7 +17,7 @@
 namespace buckens::linalg {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
+std::size_t slot(int k) { return static_cast<std::size_t>(k); }
 
 /// L as a full matrix.
 Matrix factor_of(const SparseMatrix& A, const SupernodeTree& tree, TaskPool* pool) {
@@ -27,7 +27,7 @@ Matrix factor_of(const SparseMatrix& A, const SupernodeTree& tree, TaskPool* poo
       A, tree,
       [&](int s, int begin, int end, const double* corner, std::ptrdiff_t stride) {
         const std::scoped_lock lock(turn);
-        const int first = tree.first_column[at(s)];
+        const int first = tree.first_column[slot(s)];
         const int own = tree.columns(s);
         for (int c = begin; c < end; ++c) {
           const double* values = corner + (c - begin) * stride;

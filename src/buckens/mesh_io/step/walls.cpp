@@ -17,9 +17,9 @@ namespace {
 constexpr double kShare = 1.0 / 3;
 // A wall of one element: four tetrahedra stand on each triangle of either side and its opposite
 // one together, or lie between such.
-constexpr double kOnTriangle = 1.5;
-constexpr double kTriangle = 0.433;   // area of a regular one with sides of length 1
-constexpr double kHardlyOther = 0.8;  // a size in place of 1
+constexpr double kOnWallTriangle = 1.5;
+constexpr double kUnitTriangle = 0.433;  // area of a regular one with sides of length 1
+constexpr double kHardlyOther = 0.8;     // a size in place of 1
 
 using Corners = std::array<std::size_t, 3>;
 
@@ -79,7 +79,7 @@ class WallMeasurement {
     const Vector3d &a = at(base[0]), &b = at(base[1]), &c = at(base[2]);
     const double height = std::abs((b - a).cross(c - a).dot(at(tip) - a)) / (2 * own);
     // The side of a regular triangle of this area.
-    if (std::sqrt(own / kTriangle) < kFlat * height) return;
+    if (std::sqrt(own / kUnitTriangle) < kFlat * height) return;
     Measured& measured = measured_[face->second];
     measured.flat_area += own;
     measured.walls += own * height;
@@ -104,7 +104,7 @@ std::unordered_map<int, double> sizes_for_walls(const std::vector<FlatFace>& fac
   };
   double elements = 0;
   for (const FlatFace& face : faces) {
-    elements += kOnTriangle * face.area / (kTriangle * std::pow(wanted(face), 2));
+    elements += kOnWallTriangle * face.area / (kUnitTriangle * std::pow(wanted(face), 2));
   }
   const double coarser = std::max(1.0, std::sqrt(elements / most));
   std::unordered_map<int, double> out;
