@@ -32,7 +32,7 @@ def bad(tmp_path_factory):
 
 
 def info(buckens, file, *options):
-    return buckens("mesh-info", file, *options, "--json", timeout=120).must(0).json
+    return buckens("mesh-info", file, *options, "--json").must(0).json
 
 
 def notes(told):
