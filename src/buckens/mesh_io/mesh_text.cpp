@@ -103,6 +103,12 @@ std::string MeshText::quoted(std::string_view what) {
 
 std::int64_t MeshText::integer(std::string_view what, std::int64_t least, std::int64_t most) {
   std::string_view text = word(what);
+  // Some programs write no blank between a number and a name in quotation marks.
+  const std::size_t quote = text.find('"');
+  if (quote != std::string_view::npos && quote > 0) {
+    place_ -= text.size() - quote;
+    text = text.substr(0, quote);
+  }
   const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
   std::int64_t out = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), out);

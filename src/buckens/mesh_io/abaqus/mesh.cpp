@@ -15,7 +15,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 AbaqusMesh::AbaqusMesh(const AbaqusDeck& deck, const AbaqusLines& lines)
-    : deck_(deck), lines_(lines), names_(deck, lines), has_bodies_(has_bodies()) {}
+    : deck_(deck),
+      lines_(lines),
+      names_(deck, lines),
+      has_bodies_(has_any({AbaqusRole::solid, AbaqusRole::shell, AbaqusRole::beam})),
+      has_planes_(has_any({AbaqusRole::plane})) {}
 
 fem::ImportedMesh AbaqusMesh::run() {
   out_.file = lines_.where({0, 0}).file;
@@ -98,12 +102,12 @@ void AbaqusMesh::add_nodes() {
   }
 }
 
-bool AbaqusMesh::has_bodies() const {
+bool AbaqusMesh::has_any(std::initializer_list<AbaqusRole> roles) const {
   for (const AbaqusPlaced& placed : names_.scopes()) {
     for (const AbaqusElements& block : placed.scope->elements) {
-      const AbaqusRole role = block.type->role;
-      const bool fills = role == AbaqusRole::solid || role == AbaqusRole::shell;
-      if ((fills || role == AbaqusRole::beam) && !block.ids.empty()) return true;
+      const bool is_of_these =
+          std::find(roles.begin(), roles.end(), block.type->role) != roles.end();
+      if (is_of_these && !block.ids.empty()) return true;
     }
   }
   return false;
@@ -114,7 +118,9 @@ AbaqusRole AbaqusMesh::role_of(int scope, int element) const {
   const AbaqusRole role = names_.scopes()[s].at(element).first->type->role;
   const bool has_section = section_of_[s][static_cast<std::size_t>(element)] >= 0;
   if (role == AbaqusRole::plane) return has_bodies_ ? AbaqusRole::left_out : AbaqusRole::shell;
-  if (role == AbaqusRole::bar && !has_section && has_bodies_) return AbaqusRole::left_out;
+  if (role == AbaqusRole::bar && !has_section && (has_bodies_ || has_planes_)) {
+    return AbaqusRole::left_out;
+  }
   return role;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,10 +32,10 @@ class AbaqusMesh {
   };
 
   bool labels_meet() const;
-  /// Whether a scope has volume or surface elements.
-  bool has_bodies() const;
+  /// Whether a scope has elements of one of these roles.
+  bool has_any(std::initializer_list<AbaqusRole> roles) const;
   /// What an element becomes: plane ones are shells if there is nothing else, and bars without a
-  /// section beside solids and shells are left-over edges of a mesh generator.
+  /// section beside others are left-over edges of a mesh generator.
   AbaqusRole role_of(int scope, int element) const;
   void refuse_without_elements() const;
   /// What an element has of its own, where its section leaves this to nodes and distributions.
@@ -94,7 +95,7 @@ class AbaqusMesh {
   /// Values of elements, by placed scope and name of the distribution.
   std::map<std::pair<int, std::string>, std::map<int, const std::vector<double>*>> distributions_;
   std::set<int> thicknesses_noted_;  ///< lines of sections
-  bool has_bodies_ = false;
+  bool has_bodies_ = false, has_planes_ = false;
   std::set<std::string> property_names_;          ///< in capitals
   std::map<std::string, std::string> materials_;  ///< names as written by names in capitals
   std::map<std::pair<const AbaqusElementType*, int>, std::size_t> block_of_;

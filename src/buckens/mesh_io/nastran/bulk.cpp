@@ -17,14 +17,14 @@ using Names = std::set<std::string_view>;
 
 const Names& kept_names() {
   static const Names names = {
-      "CORD1R", "CORD1C",  "CORD1S", "CORD2R",  "CORD2C",  "CORD2S", "PSOLID", "PSHELL", "PCOMP",
-      "PCOMPG", "PBAR",    "PBARL",  "PBEAM",   "PBEAML",  "PROD",   "PTUBE",  "PBUSH",  "PIHEX",
-      "PQUAD1", "PQUAD2",  "PQDMEM", "PQDMEM1", "PQDMEM2", "PTRIA1", "PTRIA2", "PTRMEM", "MAT1",
-      "MAT2",   "MAT3",    "MAT8",   "MAT9",    "MAT10",   "CONM1",  "SPOINT", "CELAS1", "CELAS2",
-      "CELAS3", "CELAS4",  "PELAS",  "CMASS1",  "CMASS2",  "CMASS3", "CMASS4", "PMASS",  "CONM2",
-      "CBUSH",  "RBE2",    "RBE3",   "RBAR",    "RBE1",    "RTRPLT", "RROD",   "CRIGD1", "CRIGD2",
-      "CRIGD3", "MPC",     "MPCADD", "SET1",    "SET3",    "NSM",    "NSM1",   "NSML",   "NSML1",
-      "NSMADD", "CBUSH1D", "PBUSH1D"};
+      "CORD1R", "CORD1C", "CORD1S",  "CORD2R",  "CORD2C",  "CORD2S", "PSOLID", "PSHELL", "PCOMP",
+      "PCOMPG", "PBAR",   "PBARL",   "PBEAM",   "PBEAML",  "PROD",   "PTUBE",  "PBUSH",  "PIHEX",
+      "PQUAD1", "PQUAD2", "PQDMEM",  "PQDMEM1", "PQDMEM2", "PTRIA1", "PTRIA2", "PTRMEM", "MAT1",
+      "MAT2",   "MAT3",   "MAT8",    "MAT9",    "MAT10",   "CONM1",  "SPOINT", "CELAS1", "CELAS2",
+      "CELAS3", "CELAS4", "PELAS",   "CMASS1",  "CMASS2",  "CMASS3", "CMASS4", "PMASS",  "CONM2",
+      "CBUSH",  "RBE2",   "RBE3",    "RBAR",    "RBE1",    "RTRPLT", "RROD",   "CRIGD1", "CRIGD2",
+      "CRIGD3", "CRIGDR", "MPC",     "MPCADD",  "SET1",    "SET3",   "NSM",    "NSM1",   "NSML",
+      "NSML1",  "NSMADD", "CBUSH1D", "PBUSH1D"};
   return names;
 }
 

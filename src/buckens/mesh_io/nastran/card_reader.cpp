@@ -146,7 +146,7 @@ std::optional<NastranLine> NastranCardReader::continuation_of(const NastranCard&
 NastranRow NastranCardReader::first_row(const NastranLine& line) {
   NastranRow row = split_nastran_line(line);
   if (!row.repeats()) {
-    replication_.remember(row);
+    replication_.take(row);
     return row;
   }
   replication_.begin(row, line);

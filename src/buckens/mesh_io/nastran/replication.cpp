@@ -37,6 +37,15 @@ std::string_view NastranReplication::keep(std::string text) {
   return texts_.emplace_back(std::move(text));
 }
 
+void NastranReplication::take(NastranRow& row) {
+  bool copies_rest = false;
+  for (std::size_t i = 0; i < NastranRow::kSize && !before_.head.empty(); ++i) {
+    copies_rest = copies_rest || row.data[i] == "==";
+    if (copies_rest) row.data[i] = before_.data[i];
+  }
+  before_ = row;
+}
+
 void NastranReplication::begin(const NastranRow& row, const NastranLine& line) {
   if (before_.head.empty()) refuse_copy(line, "\"=\" repeats the line before, but there is none");
   const std::string_view count = in_brackets(row.head.substr(1));

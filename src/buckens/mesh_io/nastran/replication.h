@@ -14,8 +14,9 @@ namespace buckens::mesh_io {
 /// equal steps; `=3` or `=(3)` in the first field repeats the whole three times.
 class NastranReplication {
  public:
-  /// Stores a line that others may repeat.
-  void remember(const NastranRow& row) { before_ = row; }
+  /// Takes a line with a name, which others may repeat; in NASTRAN-95 `==` in it, too, takes the
+  /// rest from the line before.
+  void take(NastranRow& row);
 
   /// Whether there are more copies to make.
   bool is_going_on() const { return copies_left_ > 0; }

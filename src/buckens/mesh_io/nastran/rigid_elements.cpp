@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/nastran/hinges.h"
+#include "buckens/mesh_io/nastran/scattered_leads.h"
 
 namespace buckens::mesh_io {
 
@@ -47,6 +48,7 @@ class RigidBuilder {
     check_nastran_axes(card, variables, node, coordinates_);
   }
   void add_body(const NastranCard& card, std::vector<Member> members);
+  void add_led_body(const NastranCard& card, const std::vector<Member>& members);
   void add_link(const NastranCard& card, int reference, int follower, const Variables& variables);
   bool tie_in_own_axes(const NastranCard& card, int reference, int follower,
                        const Variables& variables);
@@ -138,10 +140,7 @@ void RigidBuilder::add_body(const NastranCard& card, std::vector<Member> members
                             [](const Member& member) { return member.leads == kAll; });
   if (first == members.end()) {
     for (const Member& member : members) {
-      if (is_complete(member) || count_of(member.leads) == 0) continue;
-      card.fail(
-          "independent components at several nodes are supported only if all components of these "
-          "nodes belong to the rigid body");
+      if (!is_complete(member) && count_of(member.leads) > 0) return add_led_body(card, members);
     }
     first = std::find_if(members.begin(), members.end(), is_complete);
     if (first == members.end()) card.fail("no node follows the rigid body in all components");
@@ -152,6 +151,29 @@ void RigidBuilder::add_body(const NastranCard& card, std::vector<Member> members
     for (std::size_t i = 0; i < 6; ++i) variables[i] = variables[i] || members[k].leads[i];
     if (!says_followers) variables = kAll;
     if (count_of(variables) > 0) add_link(card, members[0].node, members[k].node, variables);
+  }
+}
+
+/// Leading components of nodes that are free in others.
+void RigidBuilder::add_led_body(const NastranCard& card, const std::vector<Member>& members) {
+  std::vector<NodeComponent> leads, followers;
+  for (const Member& member : members) {
+    const Eigen::Matrix3d axes = coordinates_.displacement_axes(member.node);
+    // A node whose components all follow does so in any axes.
+    const bool follows_whole = is_whole(member.follows, 0) && is_whole(member.follows, 3);
+    if (!follows_whole && count_of(member.follows) > 0) {
+      check_axes(card, member.follows, member.node);
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto k = static_cast<Eigen::Index>(i % 3);
+      if (member.leads[i]) leads.push_back({member.node, i > 2, axes.col(k)});
+      if (member.follows[i]) {
+        followers.push_back({member.node, i > 2, Eigen::Vector3d::Unit(k)});
+      }
+    }
+  }
+  if (!add_led_components(leads, followers, coordinates_.positions(), card.line, mesh_)) {
+    card.fail("the six independent components do not hold the rigid body in place");
   }
 }
 
@@ -235,7 +257,8 @@ void RigidBuilder::add_crigd2(const NastranCard& card) {
   }
 }
 
-/// The distance of two nodes does not change: what they move along their line is equal.
+/// The distance of two nodes does not change: what they move along their line is equal. CRIGDR of
+/// NASTRAN-95 names the component that follows; which it is makes no difference.
 void RigidBuilder::add_rrod(const NastranCard& card) {
   card.id(0);
   const std::array<int, 2> ends = {node(card, 1), node(card, 2)};
@@ -244,7 +267,7 @@ void RigidBuilder::add_rrod(const NastranCard& card) {
   };
   const Eigen::Vector3d along = place(1) - place(0);
   if (!(along.norm() > 0)) card.fail(2, "both ends are at one place");
-  const std::size_t follower = card.blank(3) ? 1 : 0;
+  const std::size_t follower = card.name == "CRIGDR" || card.blank(3) ? 1 : 0;
   const Eigen::Vector3d direction = along.normalized();
   int largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -302,6 +325,7 @@ void add_nastran_rigid_elements(const NastranBulk& bulk, const NastranCoordinate
   for (const NastranCard& card : bulk.cards_named("CRIGD1")) builder.add_crigd1(card);
   for (const NastranCard& card : bulk.cards_named("CRIGD2")) builder.add_crigd2(card);
   for (const NastranCard& card : bulk.cards_named("RROD")) builder.add_rrod(card);
+  for (const NastranCard& card : bulk.cards_named("CRIGDR")) builder.add_rrod(card);
 }
 
 }  // namespace buckens::mesh_io

@@ -43,12 +43,12 @@ TEST(GmshVersions, one) {
 
 TEST(GmshVersions, two_with_names_without_dimension_and_comments) {
   for (const char* version : {"2", "2.0", "2.1"}) {
-    const auto mesh =
-        read_mesh_text(std::string("$Comments\nby hand\n$EndComments\n$MeshFormat\n") + version +
-                       " 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n8 \"solid\"\n"
-                       "-1 7 \"floor\" of another program\n$EndPhysicalNames\n"
-                       "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
-                       "$Elements\n2\n1 2 2 7 1 1 3 2\n2 4 2 8 1 1 2 3 4\n$EndElements\n");
+    const auto mesh = read_mesh_text(
+        std::string("$Comments\nby hand\n$EndComments\n$MeshFormat\n") + version +
+        " 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n8\"solid\"\n"  // as in some of Elmer
+        "-1 7 \"floor\" of another program\n$EndPhysicalNames\n"
+        "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+        "$Elements\n2\n1 2 2 7 1 1 3 2\n2 4 2 8 1 1 2 3 4\n$EndElements\n");
     expect_tetrahedron(mesh, "solid");
     EXPECT_EQ(mesh.face_sets.at(0).name, "floor");
   }

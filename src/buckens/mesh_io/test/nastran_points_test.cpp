@@ -90,6 +90,39 @@ TEST(NastranRigid, six_components_lead_whichever_they_are) {
   EXPECT_EQ(read_deck(kTetra + "CRIGD1,9,1,2,THRU,4\n").rigid_links.size(), 3u);
 }
 
+TEST(NastranRepetition, two_equals_signs_take_the_rest_of_the_line_before) {
+  const auto mesh =
+      read_deck(kTetra + "GRID,8,,1.,2.,3.\nGRID,9,,1.,==\nCONM2,7,8,,2.\nCONM2,6,9,==\n");
+  EXPECT_EQ(mesh.positions.at(5), Vector3d(1, 2, 3));
+  ASSERT_EQ(mesh.masses.size(), 2u);
+  EXPECT_EQ(mesh.masses[1].mass, 2.0);
+}
+
+TEST(NastranRigid, components_of_several_nodes_lead_a_body_that_is_rigid) {
+  // Three, two and one: the other components of these nodes are free.
+  const auto mesh =
+      read_deck(kTetra + "GRID,9,,3.,4.,5.\nCRIGD3,9,1,123,2,23,3,3\n,MSET,9,123456\n");
+  ASSERT_EQ(mesh.equations.size(), 6u);
+  const Vector3d shift(0.3, -0.2, 0.7), turn(0.11, 0.5, -0.4);
+  for (const auto& equation : mesh.equations) {
+    EXPECT_EQ(equation.terms[0].node, 4);
+    double sum = 0, largest = 0;
+    for (const auto& term : equation.terms) {
+      const Vector3d& place = mesh.positions[static_cast<std::size_t>(term.node)];
+      const double moved =
+          term.variable < 3 ? (shift + turn.cross(place))[term.variable] : turn[term.variable - 3];
+      sum += term.coefficient * moved;
+      largest = std::max(largest, std::abs(term.coefficient));
+      EXPECT_TRUE(term.node == 4 || term.variable < 3);
+    }
+    EXPECT_NEAR(sum, 0.0, 1e-13 * largest);  // rounding of a system of six
+  }
+  // Nothing keeps the body from turning about the line between two nodes.
+  test::expect_words(
+      test::refusal(kTetra + "GRID,9,,3.,4.,5.\nCRIGD3,9,1,123,2,123\n,MSET,9,123456\n"),
+      {"CRIGD3", "do not hold the rigid body in place"});
+}
+
 TEST(NastranRigid, a_rigid_rod_keeps_its_length) {
   const auto mesh = read_deck(kTetra + "GRID,9,,3.,4.\nRROD,5,1,9,,1\n");
   const auto& terms = mesh.equations.at(0).terms;

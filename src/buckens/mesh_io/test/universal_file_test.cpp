@@ -128,6 +128,23 @@ std::string line_of(const std::string& elements, const std::string& groups = "")
   return groups.empty() ? text : text + "    -1\n  2467\n" + groups + "    -1\n";
 }
 
+TEST(UniversalFile, NodesOfVibrationTestsAndFunctionsInBytes) {
+  // Data set 15 has a node on one line; 58b is followed by bytes, which may look like lines.
+  const std::string bytes("\x01\n-1\n\0\xff", 7);
+  const ImportedMesh mesh = read_gmsh_bytes(
+      "    -1\n    58b     1     2          11\nNONE\n" + bytes +
+          "\n    -1\n    -1\n    15\n         3         1         0         1  3.65000E+01"
+          " -6.32200E+01 -5.00000E+01\n         4         1         0         1  1.0E+00  0.0  "
+          "0.0\n"
+          "    -1\n    -1\n  2412\n7 11 1 1 7 2\n3 4\n    -1\n",
+      "part.unv");
+  ASSERT_EQ(mesh.positions.size(), 2u);
+  EXPECT_EQ(mesh.positions[0], Eigen::Vector3d(36.5, -63.22, -50));
+  EXPECT_EQ(mesh.num_elements(), 1);
+  EXPECT_THAT(mesh.notes.at(0).text, HasSubstr("58b is ignored"));
+  EXPECT_THAT(universal_message("    -1\n   58b  1  2\nNONE\n"), HasSubstr("58b has no end"));
+}
+
 TEST(UniversalFile, WhatHasNoShapeIsLeftOutAndCounted) {
   const ImportedMesh mesh =
       read_gmsh_bytes(line_of("7 11 1 1 7 2\n1 3\n8 161 3 1 1 1\n2\n9 161 3 1 1 1\n3\n"

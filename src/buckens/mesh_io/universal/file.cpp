@@ -62,6 +62,8 @@ const UniversalElement* element_of(std::int64_t descriptor, std::size_t nodes) {
 }
 
 constexpr std::int64_t kRod = 11;
+// Data set of nodes in files of vibration tests, on one line each.
+constexpr std::int64_t kNodesOfTests = 15;
 
 /// What a mesh cannot hold and the file describes but half: without the tables of properties there
 /// is neither a mass nor a stiffness. Null for elements that have a shape.
@@ -117,6 +119,7 @@ class UniversalReader {
   void read_groups();
   void read_group_members(std::int64_t number, const std::string& name, std::size_t count);
   void read_units();
+  bool skip_binary();
   int named_group(int dimension, std::int64_t number, const std::string& name);
 
   MeshText& text_;
@@ -246,6 +249,19 @@ void UniversalReader::read_units() {
                          text_.line(), 1});
 }
 
+/// Measured functions as bytes: 58b.
+bool UniversalReader::skip_binary() {
+  const std::string_view head = trimmed(text_.peek_line());
+  const std::size_t length = head.find_first_not_of("0123456789");
+  if (length == 0 || length == std::string_view::npos || head[length] != 'b') return false;
+  const std::string name(head.substr(0, length + 1));
+  if (!text_.skip_to("    -1", true)) {
+    text_.fail(fmt::format("the data set {} has no end; the file seems to be truncated", name));
+  }
+  mesh_.notes.push_back({fmt::format("the data set {} is ignored", name), text_.line(), 1});
+  return true;
+}
+
 void UniversalReader::read() {
   bool found_nodes = false;
   while (!text_.at_end()) {
@@ -255,9 +271,10 @@ void UniversalReader::read() {
       text_.fail("expected -1, which begins a data set; is this a universal file?");
     }
     if (text_.at_end()) break;
+    if (skip_binary()) continue;
     const std::int64_t set = text_.integer("the number of a data set", 0);
     text_.next_line("a data set");
-    if (set == 2411 || set == 781) {
+    if (set == 2411 || set == 781 || set == kNodesOfTests) {
       read_nodes();
       found_nodes = true;
     } else if (set == 2412) {
@@ -273,7 +290,7 @@ void UniversalReader::read() {
     }
     text_.next_line("-1, the end of the data set,");
   }
-  if (!found_nodes) text_.fail("the file has no nodes (data set 2411)");
+  if (!found_nodes) text_.fail("the file has no nodes (data sets 2411, 781, 15)");
   if (unknown_members_ > 0) {
     mesh_.notes.push_back(
         {"members of groups that the file does not have are left out", 0, unknown_members_});
