@@ -104,6 +104,19 @@ def test_solids_that_overlap_or_touch_are_one_body(buckens, bad):
     assert touching["volume"] == pytest.approx(2 * BOX, rel=1e-9)
 
 
+def test_small_solids_that_nothing_meshes_with_others_are_left_out(buckens, bad):
+    """A bolt that cuts its bore in slivers: the block is meshed without it, and each of them alone; a note says how much is missing."""
+    block, bolt = 60 * 60 * 40 - math.pi * 5**2 * 40, math.pi * 5**2 * 50  # mm³
+    told = info(buckens, bad["screwed"])
+    # Elements on the true surface, some of them straight.
+    assert told["volume"] == pytest.approx(block * 1e-9, rel=3e-4) and told["pieces"] == 1
+    assert "cannot be meshed with them were left out: " in notes(told)
+    assert f", {100 * bolt / (block + bolt):.2g} % of the volume" in notes(told)
+    assert info(buckens, bad["screwed"], "--solid", "2")["volume"] == pytest.approx(bolt * 1e-9, rel=3e-4)
+    # A fifth of the volume is too much to leave out.
+    buckens("mesh-info", bad["pressed"]).must(2, "Solids overlap (", "make a body of each solid by `solid`")
+
+
 def test_walls_without_thickness_are_told(buckens, bad):
     told = info(buckens, bad["fin"])
     assert "1 faces bound no solid" in notes(told) and "face_7, near (0.05, 0.03, 0.055) m" in notes(told)

@@ -21,11 +21,11 @@
 #include "buckens/files/text_file.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/step/faces.h"
+#include "buckens/mesh_io/step/part_trials.h"
 #include "buckens/mesh_io/step/progress.h"
 #include "buckens/mesh_io/step/quick_settings.h"
 #include "buckens/mesh_io/step/text.h"
 #include "buckens/mesh_io/step/trial.h"
-#include "buckens/mesh_io/step/unit_trials.h"
 
 namespace buckens::mesh_io {
 
@@ -58,7 +58,6 @@ class TemporaryDirectory {
   fs::path path_;
 };
 
-constexpr int kMostTimeouts = 2;  // after which no further trial begins
 // Chords of coarse meshes lose volume at curved faces, a third at four elements per circle; edges
 // on the true surface lose almost nothing, but straightened ones can reach into a bore.
 constexpr double kLeastFlat = 0.6, kLeastCurved = 0.97, kMostVolume = 1.03;
@@ -132,104 +131,6 @@ class Told {
   std::string times_;
 };
 
-/// The trials of one part.
-class Trials {
- public:
-  /// @param doubt on the file itself, for messages
-  Trials(const StepTask& task, std::string file, std::string doubt, MeshingProgress& progress)
-      : task_(task), file_(std::move(file)), doubt_(std::move(doubt)), progress_(progress) {}
-
-  /// Seconds of the trials that came to no mesh.
-  double in_vain() const { return in_vain_; }
-  /// @return the lines of the first that came to a mesh
-  std::string run() {
-    for (const bool in_millimetres : {false, true}) {
-      const auto lines = try_all(step_trials(), in_millimetres, "meshed");
-      if (lines) return *lines;
-    }
-    if (is_open_) {
-      const auto lines = try_all(sewing_trials(), true, "");
-      if (lines) return *lines;
-      refuse(
-          fmt::format("{}. Gaps of up to {:g} of the part's diagonal are closed by sewing, after "
-                      "which {}. Close it in the CAD program, or export the part as a solid",
-                      first_, sewing_trials().back().tolerance, last_));
-    }
-    refuse(
-        fmt::format("{}. {} other ways were tried, smaller elements among them. Look at this "
-                    "place in the CAD program: faces that touch or cut each other, slivers; or "
-                    "try another size{}",
-                    first_, count_ - 1,
-                    task_.request.solid.empty() ? ", or one solid of several by `solid`" : ""));
-  }
-
- private:
-  [[noreturn]] void refuse(std::string reason) const {
-    const std::size_t at = reason.find(task_.step);  // the copy is of no interest to the user
-    if (at != std::string::npos) {
-      reason.replace(at, task_.step.size(), fs::path(file_).filename().string());
-    }
-    if (!doubt_.empty()) reason += ". Also, " + doubt_;
-    throw InputError({file_, 0, 0}, "cannot be meshed: " + reason);
-  }
-
-  /// Those of the trials with the given unit that can be of use.
-  /// @param done for the note on how it was done; "": none is made
-  std::optional<std::string> try_all(const std::vector<StepTrial>& trials, bool in_millimetres,
-                                     const std::string& done) {
-    UnitTrials wanted{{}, count_ + 1, kMostTimeouts - timeouts_};
-    for (const StepTrial& trial : trials) {
-      const bool is_of_use = trial.tolerance > 0 || !has_no_solid_;
-      if (trial.in_millimetres == in_millimetres && is_of_use) wanted.trials.push_back(trial);
-    }
-    if (wanted.trials.empty() || wanted.most_timeouts <= 0) return std::nullopt;
-    for (const TrialOutcome& one : try_in_one_unit(task_, wanted, progress_.listener())) {
-      ++count_;
-      if (!one.has_mesh()) {
-        take_failure(one);
-        continue;
-      }
-      const char* what = wanted.trials[one.trial].what;
-      if (done.empty() || *what == '\0') return one.lines;
-      return one.lines +
-             fmt::format("note {} {}, for the usual way failed: {}\n", done, what, first_);
-    }
-    return std::nullopt;
-  }
-
-  void take_failure(const TrialOutcome& one) {
-    if (!one.was_read) refuse_slow();
-    if (one.kind() == "error") refuse(one.reason());
-    in_vain_ += one.seconds;
-    if (one.timed_out) ++timeouts_;
-    is_open_ = is_open_ || one.kind() == "open";
-    has_no_solid_ = has_no_solid_ || is_without_solid(one);
-    last_ = one.reason();
-    if (first_.empty()) first_ = last_;
-  }
-
-  [[noreturn]] void refuse_slow() const {
-    if (progress_.being_glued() > 0) {
-      refuse(fmt::format(
-          "its {} solids were not glued where they touch within {} s of computing, whatever the "
-          "size; choose one of them by `solid`, or join them in the CAD program",
-          progress_.being_glued(), kSecondsToRead));
-    }
-    refuse(
-        fmt::format("it was not read within {} s of computing, whatever its size; make the "
-                    "part simpler in the CAD program: leave out threads, letters and "
-                    "patterns of many holes",
-                    kSecondsToRead));
-  }
-
-  const StepTask& task_;
-  std::string file_, doubt_, first_, last_;
-  MeshingProgress& progress_;
-  int count_ = 0, timeouts_ = 0;
-  double in_vain_ = 0;  // seconds
-  bool is_open_ = false, has_no_solid_ = false;
-};
-
 double volume_of(const fem::ImportedMesh& mesh) {
   double out = 0;
   std::vector<Eigen::Vector3d> x;
@@ -289,7 +190,7 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequ
     task.settings = directory.path().string();
   }
   const std::string doubt = missing_entities(text);
-  Trials trials(task, file, doubt, progress);
+  PartTrials trials(task, file, doubt, progress);
   const std::string lines = trials.run();
   progress.stage("straightening");
   const base::Stopwatch watch;

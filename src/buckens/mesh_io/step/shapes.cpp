@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -100,14 +101,14 @@ void color_pieces(GluedShapes& out, const std::vector<Face>& before,
 }
 
 /// @param pieces what each solid became
-std::vector<std::pair<std::string, std::string>> common_pieces(
-    const std::vector<std::vector<GmshEntity>>& pieces, const std::vector<std::string>& labels) {
-  std::vector<std::pair<std::string, std::string>> out;
+std::vector<std::pair<std::size_t, std::size_t>> common_pieces(
+    const std::vector<std::vector<GmshEntity>>& pieces) {
+  std::vector<std::pair<std::size_t, std::size_t>> out;
   std::map<GmshEntity, std::size_t> owner;
-  for (std::size_t k = 0; k < std::min(pieces.size(), labels.size()); ++k) {
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
     for (const GmshEntity& piece : pieces[k]) {
       const auto [known, is_new] = owner.emplace(piece, k);
-      if (!is_new) out.emplace_back(labels[known->second], labels[k]);
+      if (!is_new) out.emplace_back(known->second, k);
     }
   }
   return out;
@@ -139,10 +140,15 @@ std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid) {
 }
 
 std::string load_part(GmshLibrary& gmsh, const char* model, const std::string& file,
-                      const std::string& solid) {
+                      const SolidChoice& choice) {
   gmsh.new_model(model);
   gmsh.import_shapes(file);
-  return solid.empty() ? std::string() : keep_only(gmsh, solid);
+  if (!choice.only.empty()) return keep_only(gmsh, choice.only);
+  const auto solids = gmsh.entities(3);
+  std::vector<GmshEntity> others;
+  for (const std::size_t place : choice.without) others.push_back(solids.at(place));
+  if (!others.empty()) gmsh.remove(others);
+  return {};
 }
 
 GluedShapes glue_solids(GmshLibrary& gmsh) {
@@ -154,9 +160,11 @@ GluedShapes glue_solids(GmshLibrary& gmsh) {
     return out;
   }
   const std::vector<Face> before = faces_of(gmsh);
-  std::vector<std::string> labels;
-  for (const GmshEntity& solid : solids) labels.push_back(label_of_solid(gmsh, solid));
-  out.overlaps = common_pieces(gmsh.fragment(solids), labels);
+  for (const GmshEntity& solid : solids) {
+    out.labels.push_back(label_of_solid(gmsh, solid));
+    out.volumes.push_back(std::abs(gmsh.size(solid)));
+  }
+  out.overlaps = common_pieces(gmsh.fragment(solids));
   const std::vector<Face> after = faces_of(gmsh);
   for (const Face& face : after) add_color(out, face.number, face.color);
   color_pieces(out, before, after);
@@ -164,11 +172,11 @@ GluedShapes glue_solids(GmshLibrary& gmsh) {
 }
 
 GluedShapes colors_of_copy(GmshLibrary& gmsh, const char* part, const GluedShapes& glued,
-                           const std::string& copy, const std::string& solid) {
+                           const std::string& copy, const SolidChoice& choice) {
   GluedShapes out;
   const std::vector<Face> after = faces_of(gmsh);
   const bool is_cut = gmsh.entities(3).size() > 1;
-  load_part(gmsh, "copy", copy, solid);
+  load_part(gmsh, "copy", copy, choice);
   out.num_faces = gmsh.entities(2).size();
   if (out.num_faces == glued.num_faces && !is_cut) {
     for (const GmshEntity& face : gmsh.entities(2)) add_color(out, face.second, gmsh.color(face));
@@ -177,6 +185,14 @@ GluedShapes colors_of_copy(GmshLibrary& gmsh, const char* part, const GluedShape
   }
   gmsh.use_model(part);
   return out;
+}
+
+std::vector<std::size_t> smaller_of_overlapping(const GluedShapes& glued) {
+  std::set<std::size_t> out;
+  for (const auto& [first, second] : glued.overlaps) {
+    out.insert(glued.volumes.at(first) < glued.volumes.at(second) ? first : second);
+  }
+  return {out.begin(), out.end()};
 }
 
 std::vector<SharedEdge> edges_without_faces(const GmshLibrary& gmsh) {

@@ -20,19 +20,26 @@ struct ColoredShape {
 struct GluedShapes {
   std::vector<ColoredShape> colors;  ///< a face between two solids may have two
   int lost = 0;                      ///< coloured faces of which no pieces could be found
-  /// Labels of two solids that have volume in common, for each piece of it.
-  std::vector<std::pair<std::string, std::string>> overlaps;
+  std::vector<std::string> labels;   ///< of the solids, before they were cut
+  std::vector<double> volumes;       ///< likewise
+  /// Two solids that have volume in common, for each piece of it.
+  std::vector<std::pair<std::size_t, std::size_t>> overlaps;
   std::size_t num_faces = 0;  ///< of the file, before they were cut
 };
 
 /// The last part of a name such as "Shapes/assembly/rod", or volume_<number>.
 std::string label_of_solid(const GmshLibrary& gmsh, const GmshEntity& solid);
 
+/// Which solids of a file are used.
+struct SolidChoice {
+  std::string only;                  ///< name or number (by their order in the file); empty: all
+  std::vector<std::size_t> without;  ///< of these, by place from 0: left out
+};
+
 /// Loads a file into a new model.
-/// @param solid name or number (by their order in the file) of the one to keep; empty: all
 /// @return what is wrong; empty: nothing
 std::string load_part(GmshLibrary& gmsh, const char* model, const std::string& file,
-                      const std::string& solid);
+                      const SolidChoice& choice);
 
 /// Gives touching solids common faces.
 ///
@@ -44,7 +51,11 @@ GluedShapes glue_solids(GmshLibrary& gmsh);
 /// @param glued the part, which is the present model
 /// @return no colours if the copy has other faces
 GluedShapes colors_of_copy(GmshLibrary& gmsh, const char* part, const GluedShapes& glued,
-                           const std::string& copy, const std::string& solid);
+                           const std::string& copy, const SolidChoice& choice);
+
+/// Of each two solids that overlap the smaller one: screws in their holes.
+/// @return places of these solids, in order
+std::vector<std::size_t> smaller_of_overlapping(const GluedShapes& glued);
 
 /// A curve that two solids have in common, which no chain of common faces connects.
 struct SharedEdge {

@@ -20,6 +20,7 @@
 #include "buckens/mesh_io/gmsh/library.h"
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/step/estimate.h"
+#include "buckens/mesh_io/step/faults.h"
 #include "buckens/mesh_io/step/glued_part.h"
 #include "buckens/mesh_io/step/progress.h"
 #include "buckens/mesh_io/step/shapes.h"
@@ -39,7 +40,9 @@ constexpr int kPasses = 2;
 constexpr int kMostMoved = 300;
 // Elements up to which a mesh is made again to follow thin walls, and about as many as it then has.
 constexpr std::size_t kMostAtWalls = 40000;
-constexpr unsigned kWallSeconds = 60;           // of processor time for it
+// Of processor time for it and again for its second order, beyond that of the first mesh: 40 000
+// elements take five seconds.
+constexpr double kWallSeconds = 15;
 constexpr int kTriangles = 2, kTetrahedra = 4;  // Gmsh's types
 // Of processor time, for the mesh and again for its second order. Parts take up to 1e-4 s per
 // element; 350 000 elements instead of a few thousand took 20 s. What takes much longer usually
@@ -64,7 +67,8 @@ class Trial {
         task_(task),
         trial_(trial),
         metre_(part.in_millimetres() ? 1e3 : 1.0),
-        gmsh_(part.gmsh()) {}
+        gmsh_(part.gmsh()),
+        faults_(gmsh_, metre_) {}
 
   std::string run() {
     if (!glued_.problem().empty()) return "error " + glued_.problem();
@@ -73,11 +77,11 @@ class Trial {
       out += sew();
       out += time_line("mending", watch_.lap());
     }
-    std::string open = gap();
+    std::string open = faults_.gap();
     if (gmsh_.entities(3).empty()) return open;
     measure();
     if (trial_.tolerance == 0) out += glued_.faces();
-    out += loose_faces() + hinges();
+    out += faults_.loose_faces() + faults_.hinges();
     const double wanted = task_.request.size ? *task_.request.size : chosen();
     const double used = trial_.size * (trial_.size < 1 ? std::min(wanted, chosen()) : wanted);
     const MeshOutlook outlook = expected(used);
@@ -99,7 +103,7 @@ class Trial {
     }
     out += mesh_times();
     if (!task_.request.size) {
-      if (const auto followed = follow_walls(used, seconds)) return out + *followed;
+      if (const auto followed = follow_walls(used)) return out + *followed;
     }
     return out + thin_walls(used) + finished(seconds);
   }
@@ -141,7 +145,7 @@ class Trial {
   /// Meshes anew, with smaller elements where one flat element fills a wall, if there are few. In a
   /// copy of this process, which keeps the mesh that there is.
   /// @return what it says of its mesh; nothing if it came to none
-  std::optional<std::string> follow_walls(double size, double seconds) {
+  std::optional<std::string> follow_walls(double size) {
     if (gmsh_.element_nodes(kTetrahedra, -1).size() > 4 * kMostAtWalls) return std::nullopt;
     const auto flat = flat_faces(part_mesh());
     const auto sizes = sizes_for_walls(flat, trial_.smallest * size * metre_, size * metre_,
@@ -173,26 +177,25 @@ class Trial {
       gmsh_.mesh(3);
       if (!failure().empty()) return std::string();
       const std::string time = time_line("walls", watch_.lap());
-      return time + note + thin_walls(least / metre_) + finished(seconds);
+      return time + note + thin_walls(least / metre_) + finished(wall_seconds());
     };
     const files::IsolatedResult result =
-        files::do_isolated(work, kWallSeconds, [](const std::string& line) {
+        files::do_isolated(work, wall_seconds(), [](const std::string& line) {
           if (!line.empty()) files::say_to_listener(line);
         });
     if (!result.is_complete || result.output.empty()) return std::nullopt;
     return result.output;
   }
 
+  /// So that it cannot take many times what the part takes anyway.
+  unsigned wall_seconds() const { return static_cast<unsigned>(kWallSeconds + 2 * first_seconds_); }
+
   std::string mesh_times() {
     const double whole = watch_.lap();
+    first_seconds_ = whole;
     const auto [edges, faces, volumes] = gmsh_.mesh_seconds();
     const double surface = edges + faces;
     return time_line("surface", surface) + time_line("volume", std::max(0.0, whole - surface));
-  }
-
-  std::string place(const std::array<double, 6>& box) const {
-    return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", (box[0] + box[3]) / (2 * metre_),
-                       (box[1] + box[4]) / (2 * metre_), (box[2] + box[5]) / (2 * metre_));
   }
 
   double diagonal() const {
@@ -202,7 +205,7 @@ class Trial {
 
   std::string sew() {
     say_stage("mending");
-    const bool was_open = !gap().empty();
+    const bool was_open = !faults_.gap().empty();
     const std::size_t before = gmsh_.entities(2).size();
     const double tolerance = trial_.tolerance * diagonal();
     gmsh_.heal(tolerance);
@@ -226,67 +229,13 @@ class Trial {
     gmsh_.fragment(faces);
     const std::vector<GmshEntity> walls = surface_faults(gmsh_).walls;
     if (walls.empty()) return {};
-    const std::string first = place(gmsh_.box(walls.front()));
+    const std::string first = faults_.place(walls.front());
     gmsh_.remove(walls);
     gmsh_.heal(tolerance);
     return fmt::format(
         "note walls without thickness inside the part were left out ({} faces, the first near {}), "
         "since the others enclose it\n",
         walls.size(), first);
-  }
-
-  /// Why elements may have nothing that bounds them; empty if they have. Seams and edges of more
-  /// than two faces can look like gaps: with solids this is a suspicion only.
-  std::string gap() const {
-    const auto solids = gmsh_.entities(3);
-    const auto faces = gmsh_.entities(2);
-    if (faces.empty())
-      return "error the file has no solid and no faces; export the part as a solid";
-    const auto told = [this](const char* sign, const std::vector<GmshEntity>& edges,
-                             const char* number) -> std::string {
-      if (edges.empty()) return {};
-      return fmt::format("{} {} edges belong to {}, the first near {}", sign, edges.size(), number,
-                         place(gmsh_.box(edges.front())));
-    };
-    if (solids.empty()) {
-      const SurfaceFaults faults = surface_faults(gmsh_);
-      return fmt::format(
-          "open there is no solid, only {} faces{}{}", faces.size(),
-          told(":", faults.free, "one face only"),
-          told(faults.free.empty() ? ":" : ";", faults.crowded, "three faces or more"));
-    }
-    std::vector<GmshEntity> free;
-    for (const GmshEntity& solid : solids) {
-      const auto edges = gmsh_.boundary(gmsh_.boundary({solid}));
-      free.insert(free.end(), edges.begin(), edges.end());
-    }
-    if (free.empty()) return {};
-    return "open the surface of the part is not closed" + told(":", free, "one face only");
-  }
-
-  /// Walls without thickness and the like.
-  std::string loose_faces() const {
-    std::set<GmshEntity> loose;
-    for (const GmshEntity& face : gmsh_.entities(2)) loose.insert(face);
-    for (const GmshEntity& solid : gmsh_.entities(3)) {
-      for (const GmshEntity& face : gmsh_.boundary({solid})) loose.erase(face);
-    }
-    if (loose.empty()) return {};
-    return fmt::format(
-        "note {} faces bound no solid and get no elements (walls without thickness?), the first, "
-        "face_{}, near {}\n",
-        loose.size(), loose.begin()->second, place(gmsh_.box(*loose.begin())));
-  }
-
-  /// Where solids meet along an edge only.
-  std::string hinges() const {
-    const std::vector<SharedEdge> found = edges_without_faces(gmsh_);
-    if (found.empty()) return {};
-    return fmt::format(
-        "note solids \"{}\" and \"{}\" meet along an edge only, near {}, and could turn about it; "
-        "let them share a face or overlap{}\n",
-        found.front().first, found.front().second, place(gmsh_.box({1, found.front().curve})),
-        found.size() > 1 ? fmt::format(" ({} such edges)", found.size()) : "");
   }
 
   /// Of plates of 0.1 m × 0.06 m with elements of 4 mm, second order: the four lowest frequencies
@@ -351,8 +300,7 @@ class Trial {
     std::vector<std::string> places;
     for (const GmshEntity& entity : gmsh_.entities_at_fault()) {
       const char* kind = entity.first == 2 ? "face" : entity.first == 1 ? "curve" : "solid";
-      places.push_back(
-          fmt::format("{} {} around {}", kind, entity.second, place(gmsh_.box(entity))));
+      places.push_back(fmt::format("{} {} around {}", kind, entity.second, faults_.place(entity)));
       if (places.size() == 4) break;
     }
     std::string out = "Gmsh: " + one_line(error->substr(error->find(':') + 2));
@@ -361,7 +309,8 @@ class Trial {
     if (!glued_.overlap().empty()) {
       out += fmt::format(
           ". Solids overlap {}: where they are cut, slivers remain. Leave out in the CAD program "
-          "what is screwed or pressed into others, such as drawn threads",
+          "what is screwed or pressed into others, such as drawn threads, or make a body of each "
+          "solid by `solid` and join them",
           glued_.overlap());
     }
     return out;
@@ -403,7 +352,9 @@ class Trial {
   const StepTrial& trial_;
   double metre_;
   GmshLibrary& gmsh_;
+  PartFaults faults_;
   base::Stopwatch watch_;
+  double first_seconds_ = 0;  // for the mesh of first order
   Extent part_;
 };
 

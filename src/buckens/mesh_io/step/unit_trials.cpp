@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "buckens/base/stopwatch.h"
 #include "buckens/mesh_io/step/glued_part.h"
@@ -19,7 +20,8 @@ namespace {
 std::string packed(const std::vector<TrialOutcome>& outcomes) {
   std::string out;
   for (const TrialOutcome& one : outcomes) {
-    out += fmt::format("{} {} {} {}\n", one.trial, one.seconds, one.timed_out ? 1 : 0,
+    out += fmt::format("{} {} {} {} {} {} {}\n", one.trial, one.seconds, one.timed_out ? 1 : 0,
+                       one.smaller_share, one.smaller.size(), fmt::join(one.smaller, " "),
                        one.lines.size());
     out += one.lines;
   }
@@ -30,8 +32,11 @@ std::vector<TrialOutcome> unpacked(const std::string& text) {
   std::vector<TrialOutcome> out;
   std::istringstream stream(text);
   TrialOutcome one;
-  std::size_t length = 0;
-  while (stream >> one.trial >> one.seconds >> one.timed_out >> length) {
+  std::size_t count = 0, length = 0;
+  while (stream >> one.trial >> one.seconds >> one.timed_out >> one.smaller_share >> count) {
+    one.smaller.resize(count);
+    for (std::size_t& place : one.smaller) stream >> place;
+    stream >> length;
     stream.ignore();  // the end of the line
     one.lines.resize(length);
     stream.read(one.lines.data(), static_cast<std::streamsize>(length));
@@ -61,7 +66,7 @@ std::vector<TrialOutcome> try_all(const StepTask& task, const UnitTrials& wanted
   if (!task.settings.empty()) ::setenv("CSF_STEPDefaults", task.settings.c_str(), 1);
   say_trial(wanted.first_number);
   base::Stopwatch watch;
-  GluedPart part(task, wanted.trials.front().in_millimetres);
+  GluedPart part(task, wanted.trials.front().in_millimetres, wanted.without);
   std::vector<TrialOutcome> out;
   int timeouts = 0;
   bool has_solid = true;
@@ -76,6 +81,8 @@ std::vector<TrialOutcome> try_all(const StepTask& task, const UnitTrials& wanted
                                                 })));
     out.back().trial = k;
     out.back().seconds = watch.lap();
+    out.back().smaller = part.smaller();
+    out.back().smaller_share = part.smaller_share();
     if (out.back().has_mesh() || out.back().kind() == "error") break;
     if (out.back().timed_out) ++timeouts;
     has_solid = has_solid && !is_without_solid(out.back());

@@ -21,6 +21,9 @@ struct TrialOutcome {
   double seconds = 0;
   bool timed_out = false;
   bool was_read = true;  ///< the part was read and glued in time
+  /// As those of GluedPart.
+  std::vector<std::size_t> smaller = {};
+  double smaller_share = 0;
 
   /// "error", "open" or "failed"; the first word of other lines if there is a mesh.
   std::string kind() const { return lines.substr(0, lines.find(' ')); }
@@ -34,9 +37,10 @@ bool is_without_solid(const TrialOutcome& outcome);
 
 /// What is to be tried in one unit of length.
 struct UnitTrials {
-  std::vector<StepTrial> trials;  ///< all of the same unit
-  int first_number = 1;           ///< of the first, for reports of progress
-  int most_timeouts = 1;          ///< after which no further trial begins
+  std::vector<StepTrial> trials;          ///< all of the same unit
+  int first_number = 1;                   ///< of the first, for reports of progress
+  int most_timeouts = 1;                  ///< after which no further trial begins
+  std::vector<std::size_t> without = {};  ///< places of solids that are left out
 };
 
 /// Reads the part and glues its solids once, in a process of its own, and meshes it in copies of
