@@ -68,7 +68,7 @@ bool is_universal_name(std::string_view file) {
   });
 }
 
-TaggedMesh read_msh(MeshText& text, const std::string& file) {
+TaggedMesh read_msh(MeshText& text, const std::string& file, const std::string& surface) {
   TaggedMesh mesh;
   mesh.file = file;
   const MshVersion version = read_version(text);
@@ -76,7 +76,7 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
   mesh.repeats_elements = version.major != 4;
   GmshReader reader(text, mesh, version.is_binary);
   if (version.major != 1) reader.expect_end("$MeshFormat");
-  GmshSections4 sections(reader, version.is_4_0);
+  GmshSections4 sections(reader, version.is_4_0, surface);
   std::set<std::string> seen;
   const std::string nodes = version.major == 1 ? "$NOD" : "$Nodes";
   const std::string elements = version.major == 1 ? "$ELM" : "$Elements";
@@ -116,18 +116,21 @@ TaggedMesh read_msh(MeshText& text, const std::string& file) {
 }  // namespace
 
 fem::ImportedMesh read_gmsh_bytes(std::string_view bytes, const std::string& file,
-                                  const std::vector<std::string>& members) {
+                                  const std::vector<std::string>& members,
+                                  const std::string& surface) {
   MeshText text(bytes, file);
   TaggedMesh mesh =
-      is_universal_name(file) ? read_universal_file(text, file) : read_msh(text, file);
+      is_universal_name(file) ? read_universal_file(text, file) : read_msh(text, file, surface);
   fem::ImportedMesh out = mesh_of_groups(std::move(mesh), members);
   if (out.num_elements() == 0) text.fail("the mesh has no elements");
   return out;
 }
 
 fem::ImportedMesh read_gmsh_mesh(const std::filesystem::path& path,
-                                 const std::vector<std::string>& members) {
-  return read_gmsh_bytes(files::read_text_file(path, "mesh", kLargestMesh), path.string(), members);
+                                 const std::vector<std::string>& members,
+                                 const std::string& surface) {
+  return read_gmsh_bytes(files::read_text_file(path, "mesh", kLargestMesh), path.string(), members,
+                         surface);
 }
 
 }  // namespace buckens::mesh_io

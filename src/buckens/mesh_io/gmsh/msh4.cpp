@@ -10,6 +10,8 @@ namespace buckens::mesh_io {
 namespace {
 
 constexpr std::int64_t kAny = std::numeric_limits<std::int32_t>::min();
+// Numbers of groups that no physical group has.
+constexpr std::int64_t kSurfaces = std::int64_t{1} << 33;
 
 }  // namespace
 
@@ -59,9 +61,17 @@ void GmshSections4::read_entities() {
     for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
       const std::int64_t tag = reader_.int32("the number of an entity", kAny);
       skip_box(dimension);
-      read_groups(dimension, groups_[{dimension, tag}]);
+      std::vector<int>& groups = groups_[{dimension, tag}];
+      read_groups(dimension, groups);
+      if (dimension == 2 && !surface_.empty()) groups = {group_of_surface(tag)};
     }
   }
+}
+
+int GmshSections4::group_of_surface(std::int64_t tag) {
+  const int out = reader_.mesh().group(2, kSurfaces + tag);
+  reader_.mesh().groups[static_cast<std::size_t>(out)].name = fmt::format("{}{}", surface_, tag);
+  return out;
 }
 
 /// Parts of a divided mesh: entities with groups of their own, beside those that they come from.

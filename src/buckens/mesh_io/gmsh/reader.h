@@ -57,12 +57,15 @@ bool read_section_1(GmshReader& reader, const std::string& section);
 /// Entities of version 4 carry the physical groups of their elements.
 class GmshSections4 {
  public:
-  GmshSections4(GmshReader& reader, bool is_4_0) : reader_(reader), is_4_0_(is_4_0) {}
+  /// @param surface as for read_gmsh_mesh()
+  GmshSections4(GmshReader& reader, bool is_4_0, std::string surface)
+      : reader_(reader), is_4_0_(is_4_0), surface_(std::move(surface)) {}
   bool read(const std::string& section);
 
  private:
   void skip_box(int dimension);
   void read_groups(int dimension, std::vector<int>& groups);
+  int group_of_surface(std::int64_t tag);
   std::pair<int, std::int64_t> read_entity();
   void add_node(std::int64_t id, bool is_parametric, int dimension);
   void read_entities();
@@ -72,6 +75,7 @@ class GmshSections4 {
 
   GmshReader& reader_;
   bool is_4_0_;
+  std::string surface_;
   std::map<std::pair<int, std::int64_t>, std::vector<int>> groups_;  // by dimension and tag
 };
 

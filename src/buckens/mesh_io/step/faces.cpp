@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -29,17 +32,47 @@ const Set* find_set(const std::vector<Set>& sets, const std::string& name) {
   return found == sets.end() ? nullptr : &*found;
 }
 
-std::string set_name(int number) { return fmt::format("face_{}", number); }
+/// Finds the sets `face_<number>`, thousands of them.
+template <class Set>
+class SetsOfFaces {
+ public:
+  explicit SetsOfFaces(const std::vector<Set>& sets) : sets_(sets) {
+    const std::string_view prefix = kFaceName;
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+      if (!sets[k].name.starts_with(prefix)) continue;
+      places_.emplace(std::atoi(sets[k].name.c_str() + prefix.size()), k);
+    }
+  }
 
-void add_sets(fem::ImportedMesh& mesh, const std::string& name, const Numbers& numbers) {
+  /// nullptr: there is none.
+  const Set* of(int number) const {
+    const auto found = places_.find(number);
+    return found == places_.end() ? nullptr : &sets_[found->second];
+  }
+
+ private:
+  const std::vector<Set>& sets_;
+  std::unordered_map<int, std::size_t> places_;
+};
+
+struct MeshFaces {
+  explicit MeshFaces(const fem::ImportedMesh& mesh)
+      : faces(mesh.face_sets), nodes(mesh.node_sets) {}
+
+  SetsOfFaces<fem::ImportedFaceSet> faces;
+  SetsOfFaces<fem::ImportedNodeSet> nodes;
+};
+
+void add_sets(fem::ImportedMesh& mesh, const MeshFaces& own, const std::string& name,
+              const Numbers& numbers) {
   fem::ImportedFaceSet faces{name, {}};
   std::set<int> nodes;
   for (const int number : numbers) {
-    if (const auto* own = find_set(mesh.face_sets, set_name(number))) {
-      faces.faces.insert(faces.faces.end(), own->faces.begin(), own->faces.end());
+    if (const auto* set = own.faces.of(number)) {
+      faces.faces.insert(faces.faces.end(), set->faces.begin(), set->faces.end());
     }
-    if (const auto* own = find_set(mesh.node_sets, set_name(number))) {
-      nodes.insert(own->nodes.begin(), own->nodes.end());
+    if (const auto* set = own.nodes.of(number)) {
+      nodes.insert(set->nodes.begin(), set->nodes.end());
     }
   }
   std::sort(faces.faces.begin(), faces.faces.end(), [](const auto& a, const auto& b) {
@@ -125,9 +158,10 @@ class FaceSelection {
     Numbers out;
     double nearest = std::numeric_limits<double>::infinity();
     int nearest_face = 0;
+    const SetsOfFaces<fem::ImportedNodeSet> own(mesh_.node_sets);
     for (const StepFace& face : faces_) {
       double farthest = 0;
-      const auto* nodes = find_set(mesh_.node_sets, set_name(face.number));
+      const auto* nodes = own.of(face.number);
       if (nodes == nullptr) continue;
       for (const int node : nodes->nodes) {
         farthest = std::max(farthest,
@@ -158,7 +192,8 @@ void add_face_names(fem::ImportedMesh& mesh, const std::vector<StepFace>& faces)
     for (const auto& color : face.colors) named[color_name(color)].push_back(face.number);
     for (const std::string& label : face.labels) named[label].push_back(face.number);
   }
-  for (const auto& [name, numbers] : named) add_sets(mesh, name, numbers);
+  const MeshFaces own(mesh);
+  for (const auto& [name, numbers] : named) add_sets(mesh, own, name, numbers);
 }
 
 void name_faces(fem::ImportedMesh& mesh, const std::vector<StepFace>& faces,
@@ -170,7 +205,7 @@ void name_faces(fem::ImportedMesh& mesh, const std::vector<StepFace>& faces,
                                  "another",
                                  spec.name));
   }
-  add_sets(mesh, spec.name, numbers);
+  add_sets(mesh, MeshFaces(mesh), spec.name, numbers);
 }
 
 }  // namespace buckens::mesh_io

@@ -10,6 +10,9 @@
 
 namespace buckens::mesh_io {
 
+/// What the names of the sets of faces begin with.
+inline constexpr const char* kFaceName = "face_";
+
 /// Data of a STEP file about a face. The mesh has its nodes and its element faces as the sets
 /// `face_<number>`.
 struct StepFace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -78,7 +79,7 @@ class Told {
   Told(const std::string& lines, const std::vector<std::string>& names, StepMesh& out)
       : names_(names), out_(out) {
     for (const fem::ImportedFaceSet& set : out.mesh.face_sets) {
-      const int number = std::atoi(set.name.c_str() + 5);  // face_12
+      const int number = std::atoi(set.name.c_str() + std::strlen(kFaceName));
       faces_[number].number = number;
     }
     std::istringstream stream(lines);
@@ -194,7 +195,7 @@ StepMesh mesh_step(const fs::path& path, const std::string& text, const StepRequ
   const std::string lines = trials.run();
   progress.stage("straightening");
   const base::Stopwatch watch;
-  StepMesh out{read_gmsh_mesh(mesh), {}};
+  StepMesh out{read_gmsh_mesh(mesh, {}, kFaceName), {}};
   out.mesh.file = file;
   out.mesh.format = "STEP, meshed by Gmsh";
   const Told told(lines, copy.names, out);

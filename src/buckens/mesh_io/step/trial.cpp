@@ -285,9 +285,9 @@ class Trial {
       solids[label_of_solid(gmsh_, solid)].push_back(solid.second);
     }
     for (const auto& [name, tags] : solids) gmsh_.add_group(3, tags, name);
-    for (const GmshEntity& face : gmsh_.entities(2)) {
-      gmsh_.add_group(2, {face.second}, fmt::format("face_{}", face.second));
-    }
+    std::vector<int> faces;
+    for (const GmshEntity& face : gmsh_.entities(2)) faces.push_back(face.second);
+    gmsh_.add_group(2, std::move(faces), "faces");  // the file has the number of each
   }
 
   /// The first error says what happened, later ones are consequences.
