@@ -21,6 +21,7 @@ import pathlib
 import re
 import resource
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -31,7 +32,8 @@ MESHES = {".msh", ".unv"}
 STEPS = {".step", ".stp", ".p21"}
 MATERIAL = "steel"
 MATERIALS = {MATERIAL: {"E": "210 GPa", "nu": 0.3, "rho": "7850 kg/m^3"}}
-MOST_ATTEMPTS = 8
+MOST_ATTEMPTS = 30
+A_MINUTE = 60  # of processor time, what a part of a usual size may take
 
 # Messages without a remedy: the file contains no body, or only part of one.
 RIGHT = [re.compile(text) for text in (
@@ -44,7 +46,7 @@ RIGHT = [re.compile(text) for text in (
     r"the (mass|stiffness) \S+ is negative",
     r"turned inside out", r"is a mechanism in itself",
     r"no element of this deck can be part of a flexible body", r"plane and no part of a body in space",
-    r"and there is no \*NODE|the file has no \*NODE",
+    r"and there is no \*NODE|the file has no \*NODE", r"the file has no nodes \(data sets",
     r"there is no solid, only", r"has no solid and no faces",
 )]
 
@@ -58,11 +60,15 @@ def limited(memory):
 
 
 class Runner:
-    def __init__(self, program, seconds, memory):
+    def __init__(self, program, seconds, memory, is_alone):
         self.program, self.seconds, self.memory = str(pathlib.Path(program).resolve()), seconds, memory
+        self.is_alone = is_alone  # no other call at the same time, so processor times can be told apart
+        self.processor = None
 
     def run(self, *words):
         """(exit code or "time" or "signal n", message in one line, seconds, output)."""
+        self.processor = None
+        began = resource.getrusage(resource.RUSAGE_CHILDREN)
         begin = time.monotonic()
         with subprocess.Popen([self.program, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               errors="replace", preexec_fn=limited(self.memory)) as process:
@@ -72,6 +78,9 @@ class Runner:
                 os.killpg(process.pid, signal.SIGKILL)
                 process.communicate()
                 return "time", f"more than {self.seconds:g} s", time.monotonic() - begin, ""
+        ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if self.is_alone:
+            self.processor = ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
         code = process.returncode if process.returncode >= 0 else f"signal {-process.returncode}"
         text = next((line for line in err.splitlines() if "error:" in line), err.strip().split("\n")[0])
         return code, text.split("error:", 1)[-1].strip() if code else "", time.monotonic() - begin, out
@@ -166,7 +175,7 @@ def examine(runner, path):
             file.write_text(model.text(), encoding="utf-8")
             code, text, seconds, _ = runner.run("check", str(file))
             text = text.replace(str(file), "model.yaml")
-            out.update(code=code, reason=text, check_seconds=seconds, helped=code == 0)
+            out.update(code=code, reason=text, check_seconds=seconds, processor=runner.processor, helped=code == 0)
             if attempt == 0:
                 if ending in STEPS:
                     out["read"] = code in (0, 3)
@@ -197,6 +206,17 @@ def table(entries):
         lines.append(f"| `{form}` | {len(own)} | {sum(e['read'] for e in own)} | {sum(e['body'] for e in own)}"
                      f" | {sum(e['helped'] for e in own)} | {sum(e['helped'] and bool(e.get('skipped')) for e in own)} | {len(right)} |"
                      f" {len(bad) - len(right) - len(late) - len(crash)} | {len(late)} | {len(crash)} | {slowest:.1f} s |")
+    return "\n".join(lines)
+
+
+def processor_times(entries):
+    """Of the program with all that it starts; only one file after the other can be measured this way."""
+    lines = []
+    for form in sorted({entry["format"] for entry in entries}):
+        taken = [entry["processor"] for entry in entries if entry["format"] == form and entry["read"] and entry.get("processor")]
+        if taken:
+            lines.append(f"processor time of `check`, {form}: median {statistics.median(taken):.1f} s, most {max(taken):.1f} s, "
+                         f"{sum(t <= A_MINUTE for t in taken)} of {len(taken)} within {A_MINUTE} s")
     return "\n".join(lines)
 
 
@@ -234,12 +254,13 @@ def main():
              if path.is_file() and path.suffix.lower() in known]
     if not files:
         sys.exit("no files with one of the endings " + ", ".join(sorted(known)))
-    runner = Runner(args.program, args.seconds, args.memory)
+    runner = Runner(args.program, args.seconds, args.memory, args.jobs == 1)
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         entries = list(pool.map(lambda path: examine(runner, path.resolve()), files))
     if args.json:
         args.json.write_text(json.dumps(entries, indent=1), encoding="utf-8")
     print(table(entries))
+    print(processor_times(entries))
     print(reasons(entries, args.list))
     return 1 if any(has_crashed(entry) for entry in entries) else 0
 
