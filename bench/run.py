@@ -87,6 +87,11 @@ def solves(programs, size):
     return [programs.bench("solve_bench", block, "--budget", budget) for block in BLOCKS[size]]
 
 
+def tree(programs, size):
+    budget = 0.3 if size in SMALL else 1.0
+    return [programs.bench("tree_bench", block, "--budget", budget) for block in BLOCKS[size]]
+
+
 def steps(programs, size):
     budget = 0.5 if size in SMALL else 2.0
     options = ["--budget", budget]
@@ -206,6 +211,7 @@ def memory(programs, size):
 SECTIONS = {}
 for key in BLOCKS:
     SECTIONS[f"solves:{key}"] = lambda p, size=key: solves(p, size)
+    SECTIONS[f"tree:{key}"] = lambda p, size=key: tree(p, size)
     SECTIONS[f"steps:{key}"] = lambda p, size=key: steps(p, size)
     if key != "300000":
         SECTIONS[f"setup:{key}"] = lambda p, size=key: setup(p, size)

@@ -6,7 +6,6 @@
 //
 // Prints one JSON object. Times are the shortest of several [s].
 
-#include <array>
 #include <cstring>
 #include <iostream>
 #include <string>
@@ -14,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "process_memory.h"
+#include "read_bandwidth.h"
 #include "solid_block.h"
 #include "stopwatch.h"
 
@@ -21,11 +21,11 @@
 #include "buckens/linalg/blas_kernels.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
-#include "buckens/linalg/streaming_memory.h"
 
 namespace {
 
 using buckens::TaskPool;
+using buckens::bench::read_bandwidth;
 using buckens::bench::shortest;
 using buckens::bench::SolidBlock;
 using buckens::bench::Stopwatch;
@@ -34,29 +34,6 @@ using buckens::linalg::SolveRoute;
 using buckens::linalg::SparseCholesky;
 using buckens::linalg::SparseMatrix;
 using nlohmann::json;
-
-/// Bytes per second read by `threads` threads from memory that no cache holds.
-double read_bandwidth(int threads, double budget) {
-  constexpr std::size_t kCount = std::size_t{1} << 27U;  // 1 GiB
-  static buckens::linalg::StreamingMemory memory(kCount);
-  static const bool is_filled = (std::fill(memory.data(), memory.data() + kCount, 1.0), true);
-  TaskPool pool(threads);
-  std::array<double, 16> sums{};
-  const auto read = [&](int k) {
-    const std::size_t share = kCount / static_cast<std::size_t>(threads);
-    const double* values = memory.data() + share * static_cast<std::size_t>(k);
-    std::array<double, 32> sum{};
-    for (std::size_t i = 0; i < share; i += sum.size()) {
-      for (std::size_t j = 0; j < sum.size(); j += 8) __builtin_prefetch(values + i + j + 512);
-      for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += values[i + j];
-    }
-    for (const double part : sum) sums[static_cast<std::size_t>(k)] += part;
-  };
-  const double seconds = shortest(budget, [&] { pool.run(threads, read); });
-  volatile double keep = sums[0] + static_cast<double>(is_filled);
-  static_cast<void>(keep);
-  return 8.0 * static_cast<double>(kCount) / seconds;
-}
 
 /// Times of solves with 1, 6, 32 right-hand sides on one or two threads.
 json solve_times(const SparseCholesky& solver, int threads, double budget) {

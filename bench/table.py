@@ -112,6 +112,31 @@ def factor_table(results):
             *lines_of(head, cells)]
 
 
+def tree_table(results):
+    """Efficiency of threads: by the structure of the factor, and as measured."""
+    rows = list(of_section(results, "tree"))
+    counts = [2, 4, 8, 16, 32]
+    head = ["block", "DOF", "panels [MB]", "parts",
+            *[text for n in counts for text in (f"{n}: balance", f"{n}: efficiency")]]
+    cells = []
+    for row in rows:
+        if "error" in row:
+            continue
+        by_threads = {entry["threads"]: entry for entry in row["by_threads"]}
+        cells.append([shape(row), dofs(row["dof"]), number(1e-6 * row["bytes"]), str(row["parts"])])
+        for n in counts:
+            entry, one = by_threads[n], by_threads[1]
+            cells[-1].append(number(1.0 / (n * entry["share"]), 2))
+            cells[-1].append(number(one["seconds"] / (n * entry["seconds"]), 2)
+                             if "seconds" in entry else "–")
+    if not cells:
+        return []
+    return ["### Threads of a solve", "",
+            "`balance`: 1 ÷ (threads × share of the factor that the busiest thread reads), the efficiency that the tree "
+            "allows if memory keeps up. `efficiency`: time on one thread ÷ (threads × time), measured where this machine "
+            "has as many processors.", "", *lines_of(head, cells), *failures(rows)]
+
+
 def step_table(results):
     head = ["block", "DOF", "coupling", "solves per step", "1 thread [ms]", "CHOLMOD's solve [ms]",
             "step ÷ CHOLMOD", "2 threads [ms]", "÷ 1 thread"]
@@ -234,7 +259,7 @@ def origin(results):
 def tables(results):
     frame = {"frames": "frames", "per frame": "per frame [µs]", "newton/step": "iterations"}
     return [
-        origin(results), "", *factor_table(results), *solve_table(results), *step_table(results), *setup_table(results),
+        origin(results), "", *factor_table(results), *solve_table(results), *tree_table(results), *step_table(results), *setup_table(results),
         *mode_table(results),
         *google_table("Reduced body on a ball joint", results, "reduced", "reduced_step",
                       {"solves/step": "divisions by K̂", "newton/step": "iterations"}),

@@ -12,6 +12,7 @@ set(instrumented
     linalg/multifrontal.cpp
     linalg/panel_factor.cpp
     linalg/panel_kernels_portable.cpp
+    linalg/panel_solve.cpp
     linalg/solve_exchange.cpp
     linalg/sparse_cholesky.cpp
     linalg/test/solve_exchange_test.cpp)

@@ -49,6 +49,16 @@ TEST(TwoThreads, ReadOneFactor) {
   }
 }
 
+TEST(TwoThreads, SolveTogether) {
+  const SparseMatrix A = grid(12);  // large enough for parts, and for panels that are shared
+  const SparseCholesky factor(A, {SolveRoute::panels});
+  ASSERT_GE(factor.num_parts(), 2);
+  const Matrix B = Matrix::Ones(A.rows(), 4);
+  TaskPool pool(2);
+  EXPECT_EQ(factor.solve(B, &pool), factor.solve(B));
+  EXPECT_EQ(factor.solve(B.leftCols(1), &pool), factor.solve(B.leftCols(1)));
+}
+
 TEST(TwoThreads, MakeOneFactor) {
   const SparseMatrix A = grid(8);
   const Matrix B = Matrix::Ones(A.rows(), 1);

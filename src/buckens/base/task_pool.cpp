@@ -88,6 +88,8 @@ TaskPool::~TaskPool() { shared_->stop(); }
 
 int TaskPool::threads() const { return static_cast<int>(shared_->threads.size()) + 1; }
 
+int TaskPool::available() const { return is_inside_task ? 1 : threads(); }
+
 void TaskPool::run_each(int count, Function function, void* context) {
   if (count <= 0) return;
   if (is_inside_task || shared_->threads.empty() || count == 1) {

@@ -19,6 +19,9 @@ class TaskPool {
   TaskPool& operator=(const TaskPool&) = delete;
 
   int threads() const;
+  /// Threads that a call of run() from here uses: 1 inside a task. Only so many tasks may wait for
+  /// each other.
+  int available() const;
 
   /// Runs task(0) … task(count − 1), each once, and returns when all have finished. A call from
   /// inside a task runs its tasks one after the other.

@@ -2,7 +2,6 @@
 #include "buckens/linalg/panel_factor.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include <Eigen/Dense>
@@ -81,10 +80,9 @@ class PanelFactor::Layout {
   /// f(supernode, first, end of its columns) in the order of memory.
   template <class F>
   void for_all_panels(F&& f) {
-    for (int g = 0; g <= groups_.count; ++g) {
-      const int wanted = g < groups_.count ? g : SubtreeGroups::kTop;
+    for (int g = 0; g < groups_.count(); ++g) {
       for (int s = 0; s < tree_.count; ++s) {
-        if (group_of_supernode(s) != wanted) continue;
+        if (group_of_supernode(s) != g) continue;
         for (int begin = 0; begin < tree_.columns(s); begin += kPanelColumns) {
           f(s, begin, std::min(begin + kPanelColumns, tree_.columns(s)));
         }
@@ -103,32 +101,47 @@ class PanelFactor::Layout {
   }
 
   void place_columns() {
-    factor_.groups_.resize(static_cast<std::size_t>(groups_.count));
+    factor_.groups_.resize(static_cast<std::size_t>(groups_.count()));
     for_all_columns([this](int g, int c) {
-      int& columns = g == SubtreeGroups::kTop ? factor_.top_columns_ : group(g).columns;
-      place_[static_cast<std::size_t>(c)] = columns++;
+      place_[static_cast<std::size_t>(c)] = group(g).columns++;
       group_of_[static_cast<std::size_t>(c)] = g;
     });
+    connect_groups();
     for (Group& g : factor_.groups_) {
+      if (!g.is_leaf()) {
+        g.first = group(g.below[0]).first + group(g.below[0]).columns;
+        continue;
+      }
       g.first = factor_.num_places_;
-      factor_.num_places_ += g.columns + factor_.top_columns_ + 1;
+      factor_.num_places_ += g.size() + 1;
     }
     factor_.origin_.assign(static_cast<std::size_t>(factor_.num_places_), -1);
     for_all_columns([this](int g, int c) {
-      factor_.origin_[static_cast<std::size_t>(place(c, std::max(0, g)))] =
+      factor_.origin_[static_cast<std::size_t>(place(c, g))] =
           tree_.permutation[static_cast<std::size_t>(c)];
     });
   }
 
+  void connect_groups() {
+    for (int g = groups_.count(); g-- > 0;) {  // parents first
+      group(g).parent = groups_.parent[static_cast<std::size_t>(g)];
+      if (group(g).parent != kNone) group(g).above = group(group(g).parent).size();
+    }
+    for (int g = 0; g < groups_.count(); ++g) {
+      if (group(g).parent == kNone) continue;
+      int* below = group(group(g).parent).below;
+      below[below[0] == kNone ? 0 : 1] = g;
+    }
+  }
+
   Group& group(int g) { return factor_.groups_[static_cast<std::size_t>(g)]; }
   int group_of_supernode(int s) const { return groups_.group[static_cast<std::size_t>(s)]; }
-  /// Where group g finds a column of its own or of the top.
+  /// Where group g finds a column of its own or of a group above it.
   int place(int column, int g) {
     const auto c = static_cast<std::size_t>(column);
-    return group_of_[c] == SubtreeGroups::kTop ? factor_.top_place(g) + place_[c]
-                                               : group(g).first + place_[c];
+    return group(g).first + group(g).size() - group(group_of_[c]).size() + place_[c];
   }
-  int missing_place(int g) { return factor_.top_place(g) + factor_.top_columns_; }
+  int missing_place(int g) { return group(g).first + group(g).size(); }
 
   void count() {
     std::ptrdiff_t lines = 0;
@@ -137,7 +150,7 @@ class PanelFactor::Layout {
       const int g = group_of_supernode(s);
       Panel panel{};
       const int first = tree_.first_column[static_cast<std::size_t>(s)];
-      panel.first = place(first + begin, std::max(0, g));
+      panel.first = place(first + begin, g);
       panel.columns = end - begin;
       const int below = tree_.columns(s) + tree_.rows_below(s) - end;
       panel.row_blocks = (below + kPanelRows - 1) / kPanelRows;
@@ -146,11 +159,13 @@ class PanelFactor::Layout {
       const int before = static_cast<int>(factor_.panels_.size());
       if (begin == 0) first_panel_[static_cast<std::size_t>(s)] = before;
       factor_.panels_.push_back(panel);
-      if (g == SubtreeGroups::kTop) return;
-      group(g).panels_end = before + 1;
-      if (g + 1 < groups_.count) group(g + 1).panels_begin = group(g + 1).panels_end = before + 1;
-      factor_.top_begin_ = before + 1;
+      ++group(g).panels_end;  // counts them until all are there
     });
+    int end = 0;
+    for (Group& g : factor_.groups_) {
+      g.panels_begin = end;
+      g.panels_end = end += g.panels_end;
+    }
     factor_.values_ = StreamingMemory(static_cast<std::size_t>(kPanelRows * lines));
     factor_.rows_.reserve(rows);  // panels keep pointers into it
   }
@@ -159,7 +174,7 @@ class PanelFactor::Layout {
     std::size_t next = 0;
     const double* values = factor_.values_.data();
     for_all_panels([&](int s, int begin, int end) {
-      const int g = std::max(0, group_of_supernode(s));
+      const int g = group_of_supernode(s);
       Panel& panel = factor_.panels_[next++];
       panel.values = values;
       values += kPanelRows * panel.num_lines();
@@ -236,94 +251,17 @@ PanelFactor::PanelFactor(const Supernodes& source, SimdLevel level)
   }
 }
 
-int PanelFactor::top_place(int group) const {
-  const Group& g = groups_[static_cast<std::size_t>(group)];
-  return g.first + g.columns;
-}
-
-void PanelFactor::solve(const double* B, double* X, Eigen::Index columns, Eigen::Index stride,
-                        Workspace& work, TaskPool* pool) const {
-  std::array<const double*, kMostSides> from{};
-  std::array<double*, kMostSides> to{};
-  for (Eigen::Index done = 0; done < columns; done += kMostSides) {
-    const Eigen::Index some = std::min<Eigen::Index>(kMostSides, columns - done);
-    for (Eigen::Index k = 0; k < some; ++k) {
-      from[static_cast<std::size_t>(k)] = B + (done + k) * stride;
-      to[static_cast<std::size_t>(k)] = X + (done + k) * stride;
+double PanelFactor::busiest_share(int threads) const {
+  std::vector<int> parent;
+  std::vector<double> weight;
+  for (const Group& g : groups_) {
+    parent.push_back(g.parent);
+    weight.push_back(0.0);
+    for (int k = g.panels_begin; k < g.panels_end; ++k) {
+      weight.back() += static_cast<double>(panels_[static_cast<std::size_t>(k)].num_lines());
     }
-    solve_some(from.data(), to.data(), static_cast<int>(some), work, pool);
   }
-}
-
-void PanelFactor::solve_in_place(std::span<double* const> vectors, Workspace& work,
-                                 TaskPool* pool) const {
-  for (std::size_t done = 0; done < vectors.size(); done += kMostSides) {
-    const std::size_t some = std::min<std::size_t>(kMostSides, vectors.size() - done);
-    double* const* X = vectors.data() + done;
-    solve_some(X, X, static_cast<int>(some), work, pool);
-  }
-}
-
-void PanelFactor::solve_some(const double* const* B, double* const* X, int columns, Workspace& work,
-                             TaskPool* pool) const {
-  const int unit = side_multiple();
-  const int sides = columns == 1 ? 1 : (columns + unit - 1) / unit * unit;
-  const auto needed = static_cast<std::size_t>(num_places_) * static_cast<std::size_t>(sides);
-  if (work.values.size() < needed) work.values = StreamingMemory(needed);
-  double* x = work.values.data();
-  const Panel* panels = panels_.data();
-  run_tasks(pool, num_groups(), [&](int g) {
-    const Group& group = groups_[static_cast<std::size_t>(g)];
-    gather(g, B, columns, sides, x);
-    kernels_->forward(panels + group.panels_begin, panels + group.panels_end, x, sides);
-  });
-  solve_top(x, sides);
-  run_tasks(pool, num_groups(), [&](int g) {
-    const Group& group = groups_[static_cast<std::size_t>(g)];
-    if (g > 0) {
-      const double* top = x + static_cast<std::ptrdiff_t>(top_place(0)) * sides;
-      std::copy(top, top + static_cast<std::ptrdiff_t>(top_columns_) * sides,
-                x + static_cast<std::ptrdiff_t>(top_place(g)) * sides);
-    }
-    kernels_->backward(panels + group.panels_begin, panels + group.panels_end, x, sides);
-    scatter(g, x, sides, columns, X);
-  });
-}
-
-void PanelFactor::solve_top(double* x, int sides) const {
-  const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(top_columns_) * sides;
-  double* top = x + static_cast<std::ptrdiff_t>(top_place(0)) * sides;
-  for (int g = 1; g < num_groups(); ++g) {
-    const double* other = x + static_cast<std::ptrdiff_t>(top_place(g)) * sides;
-    for (std::ptrdiff_t k = 0; k < count; ++k) top[k] += other[k];
-  }
-  const Panel* begin = panels_.data() + top_begin_;
-  const Panel* end = panels_.data() + panels_.size();
-  kernels_->forward(begin, end, x, sides);
-  kernels_->backward(begin, end, x, sides);
-}
-
-void PanelFactor::gather(int group, const double* const* B, int columns, int sides,
-                         double* x) const {
-  const Group& g = groups_[static_cast<std::size_t>(group)];
-  const int end = g.first + g.columns + top_columns_ + 1;
-  for (int p = g.first; p < end; ++p) {
-    double* to = x + static_cast<std::ptrdiff_t>(p) * sides;
-    const int row = origin_[static_cast<std::size_t>(p)];
-    for (int r = 0; r < sides; ++r) to[r] = row >= 0 && r < columns ? B[r][row] : 0.0;
-  }
-}
-
-void PanelFactor::scatter(int group, const double* x, int sides, int columns,
-                          double* const* X) const {
-  const Group& g = groups_[static_cast<std::size_t>(group)];
-  const int end = g.first + g.columns + top_columns_;
-  for (int p = g.first; p < end; ++p) {
-    const int row = origin_[static_cast<std::size_t>(p)];
-    if (row < 0) continue;
-    const double* from = x + static_cast<std::ptrdiff_t>(p) * sides;
-    for (int r = 0; r < columns; ++r) X[r][row] = from[r];
-  }
+  return linalg::busiest_share(parent, weight, threads);
 }
 
 }  // namespace buckens::linalg

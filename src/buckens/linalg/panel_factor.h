@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,14 +21,24 @@ namespace buckens::linalg {
 ///
 /// Columns lie in panels of at most 128, rows in blocks of one cache line, triangles on the
 /// diagonal inverted, all contiguous on huge pages. The factorisation (multifrontal.h) writes into
-/// them. Two threads take whole subtrees each; contributions to the rows above both are kept
-/// separate and summed in a fixed order, so the result does not depend on the number of threads.
+/// them. Threads take whole subtrees each (subtree_groups.h); contributions to the rows above two
+/// of them are kept separate and added in a fixed order. Panels above are shared by rows in the
+/// forward pass, by columns in the backward pass. So no bit depends on the number of threads.
 class PanelFactor {
  public:
   /// Intermediate results of solves, kept between calls. One for each solve at a time.
   class Workspace {
    public:
-    StreamingMemory values;
+    Workspace();
+    ~Workspace();
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+
+   private:
+    friend class PanelFactor;
+    struct Meetings;
+    StreamingMemory values_;
+    std::unique_ptr<Meetings> meetings_;  // of the threads of a group
   };
 
   /// Factorises A.
@@ -44,8 +55,10 @@ class PanelFactor {
   Eigen::Index size() const { return size_; }
   /// Bytes that each of the two passes reads.
   double bytes() const { return static_cast<double>(values_.size()) * sizeof(double); }
-  /// Parts that can be solved at the same time, 1 or 2.
-  int num_groups() const { return static_cast<int>(groups_.size()); }
+  /// Parts that can be solved at the same time.
+  int num_parts() const { return (static_cast<int>(groups_.size()) + 1) / 2; }
+  /// Share of bytes() that the busiest of several threads reads.
+  double busiest_share(int threads) const;
 
   /// X ← A⁻¹ B, column by column. Allocates only where the workspace is too small.
   /// @param B,X column-major, may be the same. @param stride from column to column
@@ -55,33 +68,49 @@ class PanelFactor {
   void solve_in_place(std::span<double* const> vectors, Workspace& work, TaskPool* pool) const;
 
  private:
-  /// Places of one group: own columns, a copy of the top's, one for missing rows.
+  static constexpr int kNone = -1;
+
+  /// Places of one group: own columns, copies of those of all groups above it, nearest first, and
+  /// one for missing rows. A group with others below it has its places among those of the first of
+  /// them, of which they are the end.
   struct Group {
     int first = 0;
     int columns = 0;
+    int above = 0;
     int panels_begin = 0, panels_end = 0;
+    int parent = kNone;
+    int below[2] = {kNone, kNone};
+
+    int size() const { return columns + above; }
+    bool is_leaf() const { return below[0] == kNone; }
   };
   class Layout;
+  struct Solve;
+  struct Team;
   friend class PanelFile;
   explicit PanelFactor(SimdLevel level) : kernels_(&panel_kernels(level)) {}
 
+  const Group& group(int g) const { return groups_[static_cast<std::size_t>(g)]; }
+  int last_group() const { return static_cast<int>(groups_.size()) - 1; }
+
+  // panel_solve.cpp
   void solve_some(const double* const* B, double* const* X, int columns, Workspace& work,
                   TaskPool* pool) const;
-  void gather(int group, const double* const* B, int columns, int sides, double* x) const;
-  void scatter(int group, const double* x, int sides, int columns, double* const* X) const;
-  void solve_top(double* x, int sides) const;
-  int top_place(int group) const;
+  void forward(const Solve& solve, int g, const Team& team) const;
+  void backward(const Solve& solve, int g, const Team& team) const;
+  void forward_panels(const Solve& solve, int g, const Team& team) const;
+  void backward_panels(const Solve& solve, int g, const Team& team) const;
+  void gather(const Solve& solve, int g) const;
+  void scatter(const Solve& solve, int g) const;
 
   Eigen::Index size_ = 0;
   const PanelKernels* kernels_;
   StreamingMemory values_;
   std::vector<int> rows_;
-  std::vector<Panel> panels_;  // by group, the top last
-  std::vector<Group> groups_;
-  int top_columns_ = 0;
-  int top_begin_ = 0;        // first panel of the top
-  int num_places_ = 0;       // of all groups
-  std::vector<int> origin_;  // row of A per place, −1 where there is none
+  std::vector<Panel> panels_;  // by group
+  std::vector<Group> groups_;  // children before their parents
+  int num_places_ = 0;         // of all groups
+  std::vector<int> origin_;    // row of A per place, −1 where there is none
 };
 
 }  // namespace buckens::linalg

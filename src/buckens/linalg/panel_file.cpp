@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the layout of panels or of this file changes.
-constexpr char kMagic[16] = "Buckens panel 1";
+constexpr char kMagic[16] = "Buckens panel 2";
 constexpr std::uint64_t kByteOrder = 0x0102030405060708U;
 
 template <class T>
@@ -69,7 +69,7 @@ struct PanelFile::Header {
   char key[32] = {};
   std::uint64_t byte_order = kByteOrder;
   std::int64_t size = 0, groups = 0, panels = 0, rows = 0, origins = 0, values = 0;
-  std::int32_t top_columns = 0, top_begin = 0, places = 0, unused = 0;
+  std::int64_t places = 0;
   double entries = 0;
   std::uint64_t check[2] = {};  // of all runs and of the header without it
 
@@ -116,8 +116,6 @@ void PanelFile::write(const PanelFactor& factor, double entries) const {
   header.rows = static_cast<std::int64_t>(factor.rows_.size());
   header.origins = static_cast<std::int64_t>(factor.origin_.size());
   header.values = static_cast<std::int64_t>(factor.values_.size());
-  header.top_columns = factor.top_columns_;
-  header.top_begin = factor.top_begin_;
   header.places = factor.num_places_;
   header.entries = entries;
   Runs runs;
@@ -170,9 +168,7 @@ std::optional<PanelFile::Stored> PanelFile::read(SimdLevel level) const {
   Stored stored{PanelFactor(level), header.entries};
   PanelFactor& factor = stored.factor;
   factor.size_ = header.size;
-  factor.top_columns_ = header.top_columns;
-  factor.top_begin_ = header.top_begin;
-  factor.num_places_ = header.places;
+  factor.num_places_ = static_cast<int>(header.places);
   factor.groups_.resize(static_cast<std::size_t>(header.groups));
   factor.rows_.resize(static_cast<std::size_t>(header.rows));
   factor.origin_.resize(static_cast<std::size_t>(header.origins));

@@ -48,6 +48,18 @@ struct PanelKernels {
   void (*forward)(const Panel* begin, const Panel* end, double* x, int sides);
   /// For every panel downwards: x = Tᵀ (x − Lᵀ x at the rows below).
   void (*backward)(const Panel* begin, const Panel* end, double* x, int sides);
+
+  // The same in pieces, of which several threads may take some each: neither the division of rows
+  // nor that of columns changes a bit.
+
+  /// y = T x at the places of one panel.
+  void (*forward_triangle)(const Panel& panel, double* x, int sides);
+  /// x −= L y at the rows of the row blocks begin … end − 1.
+  void (*forward_rows)(const Panel& panel, int begin, int end, double* x, int sides);
+  /// x −= Lᵀ x at the rows below, for the columns begin … end − 1.
+  void (*backward_rows)(const Panel& panel, int begin, int end, double* x, int sides);
+  /// x = Tᵀ x at the places of one panel.
+  void (*backward_triangle)(const Panel& panel, double* x, int sides);
 };
 
 /// Several right-hand sides are padded to a multiple of this.

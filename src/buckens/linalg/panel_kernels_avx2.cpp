@@ -5,7 +5,7 @@
 
 namespace buckens::linalg {
 
-const PanelKernels kAvx2PanelKernels = {forward_panels<4>, backward_panels<4>};
+const PanelKernels kAvx2PanelKernels = kernels_of<4>();
 
 }  // namespace buckens::linalg
 

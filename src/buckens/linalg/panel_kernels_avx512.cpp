@@ -5,7 +5,7 @@
 
 namespace buckens::linalg {
 
-const PanelKernels kAvx512PanelKernels = {forward_panels<8>, backward_panels<8>};
+const PanelKernels kAvx512PanelKernels = kernels_of<8>();
 
 }  // namespace buckens::linalg
 

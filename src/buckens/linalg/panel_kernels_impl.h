@@ -91,8 +91,15 @@ inline void clear(Line* lines, int count) {
   }
 }
 
+/// Values of row block b of a panel, behind its triangle.
+inline const double* row_block(const Panel& panel, int b) {
+  const std::ptrdiff_t lines =
+      panel.num_lines() - static_cast<std::ptrdiff_t>(panel.row_blocks - b) * panel.columns;
+  return panel.values + kPanelRows * lines;
+}
+
 template <int Lanes>
-inline void forward_one(const Panel& panel, double* x) {
+inline void forward_triangle_one(const Panel& panel, double* x) {
   const double* values = panel.values;
   Line y[kPanelColumns / kPanelRows];
   double* own = x + panel.first;
@@ -104,8 +111,16 @@ inline void forward_one(const Panel& panel, double* x) {
   }
   const double* solved = y[0].value;
   for (int c = 0; c < panel.columns; ++c) own[c] = solved[c];
-  const int* rows = panel.rows;
-  for (int b = 0; b < panel.row_blocks; ++b, rows += kPanelRows) {
+}
+
+template <int Lanes>
+inline void forward_rows_one(const Panel& panel, int begin, int end, double* x) {
+  Line y[kPanelColumns / kPanelRows];  // rows may be anywhere in x, the compiler fears
+  double* solved = y[0].value;
+  for (int c = 0; c < panel.columns; ++c) solved[c] = x[panel.first + c];
+  const double* values = row_block(panel, begin);
+  const int* rows = panel.rows + static_cast<std::ptrdiff_t>(kPanelRows) * begin;
+  for (int b = begin; b < end; ++b, rows += kPanelRows) {
     Line sum;
     multiply_block<Lanes>(values, panel.columns, solved, sum);
     values += static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
@@ -115,25 +130,34 @@ inline void forward_one(const Panel& panel, double* x) {
 }
 
 template <int Lanes>
-inline void backward_one(const Panel& panel, double* x) {
-  const double* end = panel.values + kPanelRows * panel.num_lines();
+inline void backward_rows_one(const Panel& panel, int begin, int end, double* x) {
+  const std::ptrdiff_t beyond = static_cast<std::ptrdiff_t>(kPanelRows) * (panel.columns - end);
+  const double* values = panel.values + kPanelRows * panel.num_lines();
   Line sum[kPanelColumns];
-  Line y[kPanelColumns / kPanelRows];
-  clear(sum, panel.columns);
+  clear(sum, end - begin);
   const int* rows = panel.rows + static_cast<std::ptrdiff_t>(kPanelRows) * panel.row_blocks;
   for (int b = panel.row_blocks - 1; b >= 0; --b) {
     rows -= kPanelRows;
     Line at_rows;
 #pragma GCC unroll 8
     for (int i = 0; i < kPanelRows; ++i) at_rows.value[i] = x[rows[i]];
-    add_block<Lanes>(end, panel.columns, at_rows, sum);
-    end -= static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
+    add_block<Lanes>(values - beyond, end - begin, at_rows, sum);
+    values -= static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
   }
+  double* own = x + panel.first + begin;
+  for (int c = 0; c < end - begin; ++c) own[c] -= total(sum[c]);
+}
+
+template <int Lanes>
+inline void backward_triangle_one(const Panel& panel, double* x) {
+  Line sum[kPanelColumns];
+  Line y[kPanelColumns / kPanelRows];
+  const double* end = row_block(panel, 0);
   double* own = x + panel.first;
   double* right = y[0].value;
   const int triangles = panel.triangle_blocks();
   clear(y + triangles - 1, 1);
-  for (int c = 0; c < panel.columns; ++c) right[c] = own[c] - total(sum[c]);
+  for (int c = 0; c < panel.columns; ++c) right[c] = own[c];
   clear(sum, panel.columns);
   for (int b = triangles - 1; b >= 0; --b) {
     const int columns = panel.triangle_columns(b);
@@ -196,7 +220,7 @@ inline void for_sides(int sides, F&& f) {
 }
 
 template <int Lanes>
-inline void forward_several(const Panel& panel, double* x, int sides) {
+inline void forward_triangle_several(const Panel& panel, double* x, int sides) {
   const double* values = panel.values;
   alignas(64) double y[kPanelColumns * kMostSides];
   const std::ptrdiff_t stride = sides;
@@ -214,11 +238,18 @@ inline void forward_several(const Panel& panel, double* x, int sides) {
     values += static_cast<std::ptrdiff_t>(kPanelRows) * columns;
   }
   for (std::ptrdiff_t k = 0; k < panel.columns * stride; ++k) own[k] = y[k];
-  const int* rows = panel.rows;
-  for (int b = 0; b < panel.row_blocks; ++b, rows += kPanelRows) {
+}
+
+template <int Lanes>
+inline void forward_rows_several(const Panel& panel, int begin, int end, double* x, int sides) {
+  const std::ptrdiff_t stride = sides;
+  const double* own = x + panel.first * stride;
+  const double* values = row_block(panel, begin);
+  const int* rows = panel.rows + static_cast<std::ptrdiff_t>(kPanelRows) * begin;
+  for (int b = begin; b < end; ++b, rows += kPanelRows) {
     for_sides<Lanes>(sides, [&]<int L>(int r) {
       typename Simd<L>::Register sum[kPanelRows];
-      multiply_block_sides<L>(values, panel.columns, y + r, sides, r == 0, sum);
+      multiply_block_sides<L>(values, panel.columns, own + r, sides, r == 0, sum);
 #pragma GCC unroll 8
       for (int i = 0; i < kPanelRows; ++i) {
         double* at_row = x + rows[i] * stride + r;
@@ -230,11 +261,11 @@ inline void forward_several(const Panel& panel, double* x, int sides) {
 }
 
 template <int Lanes>
-inline void backward_several(const Panel& panel, double* x, int sides) {
-  const double* end = panel.values + kPanelRows * panel.num_lines();
-  alignas(64) double y[kPanelColumns * kMostSides];
+inline void backward_rows_several(const Panel& panel, int begin, int end, double* x, int sides) {
+  const std::ptrdiff_t beyond = static_cast<std::ptrdiff_t>(kPanelRows) * (panel.columns - end);
+  const double* values = panel.values + kPanelRows * panel.num_lines();
   const std::ptrdiff_t stride = sides;
-  double* own = x + panel.first * stride;
+  double* own = x + (panel.first + begin) * stride;
   const int* rows = panel.rows + static_cast<std::ptrdiff_t>(kPanelRows) * panel.row_blocks;
   for (int b = panel.row_blocks - 1; b >= 0; --b) {
     rows -= kPanelRows;
@@ -242,10 +273,18 @@ inline void backward_several(const Panel& panel, double* x, int sides) {
       typename Simd<L>::Register at_rows[kPanelRows];
 #pragma GCC unroll 8
       for (int i = 0; i < kPanelRows; ++i) at_rows[i] = Simd<L>::load(x + rows[i] * stride + r);
-      add_block_sides<L, true>(end, panel.columns, at_rows, sides, r == 0, own + r);
+      add_block_sides<L, true>(values - beyond, end - begin, at_rows, sides, r == 0, own + r);
     });
-    end -= static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
+    values -= static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
   }
+}
+
+template <int Lanes>
+inline void backward_triangle_several(const Panel& panel, double* x, int sides) {
+  const double* end = row_block(panel, 0);
+  alignas(64) double y[kPanelColumns * kMostSides];
+  const std::ptrdiff_t stride = sides;
+  double* own = x + panel.first * stride;
   for (std::ptrdiff_t k = 0; k < panel.columns * stride; ++k) y[k] = 0.0;
   for (int b = panel.triangle_blocks() - 1; b >= 0; --b) {
     const int columns = panel.triangle_columns(b);
@@ -262,13 +301,46 @@ inline void backward_several(const Panel& panel, double* x, int sides) {
 }
 
 template <int Lanes>
+void forward_triangle(const Panel& panel, double* x, int sides) {
+  if (sides == 1) {
+    forward_triangle_one<Lanes>(panel, x);
+  } else {
+    forward_triangle_several<Lanes>(panel, x, sides);
+  }
+}
+
+template <int Lanes>
+void forward_rows(const Panel& panel, int begin, int end, double* x, int sides) {
+  if (sides == 1) {
+    forward_rows_one<Lanes>(panel, begin, end, x);
+  } else {
+    forward_rows_several<Lanes>(panel, begin, end, x, sides);
+  }
+}
+
+template <int Lanes>
+void backward_rows(const Panel& panel, int begin, int end, double* x, int sides) {
+  if (sides == 1) {
+    backward_rows_one<Lanes>(panel, begin, end, x);
+  } else {
+    backward_rows_several<Lanes>(panel, begin, end, x, sides);
+  }
+}
+
+template <int Lanes>
+void backward_triangle(const Panel& panel, double* x, int sides) {
+  if (sides == 1) {
+    backward_triangle_one<Lanes>(panel, x);
+  } else {
+    backward_triangle_several<Lanes>(panel, x, sides);
+  }
+}
+
+template <int Lanes>
 void forward_panels(const Panel* begin, const Panel* end, double* x, int sides) {
   for (const Panel* panel = begin; panel != end; ++panel) {
-    if (sides == 1) {
-      forward_one<Lanes>(*panel, x);
-    } else {
-      forward_several<Lanes>(*panel, x, sides);
-    }
+    forward_triangle<Lanes>(*panel, x, sides);
+    forward_rows<Lanes>(*panel, 0, panel->row_blocks, x, sides);
   }
 }
 
@@ -276,12 +348,15 @@ template <int Lanes>
 void backward_panels(const Panel* begin, const Panel* end, double* x, int sides) {
   for (const Panel* panel = end; panel != begin;) {
     --panel;
-    if (sides == 1) {
-      backward_one<Lanes>(*panel, x);
-    } else {
-      backward_several<Lanes>(*panel, x, sides);
-    }
+    backward_rows<Lanes>(*panel, 0, panel->columns, x, sides);
+    backward_triangle<Lanes>(*panel, x, sides);
   }
+}
+
+template <int Lanes>
+constexpr PanelKernels kernels_of() {
+  return {forward_panels<Lanes>, backward_panels<Lanes>, forward_triangle<Lanes>,
+          forward_rows<Lanes>,   backward_rows<Lanes>,   backward_triangle<Lanes>};
 }
 
 }  // namespace

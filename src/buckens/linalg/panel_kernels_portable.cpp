@@ -3,6 +3,6 @@
 
 namespace buckens::linalg {
 
-const PanelKernels kPortablePanelKernels = {forward_panels<2>, backward_panels<2>};
+const PanelKernels kPortablePanelKernels = kernels_of<2>();
 
 }  // namespace buckens::linalg

@@ -126,7 +126,11 @@ SolveRoute SparseCholesky::route() const {
 }
 
 int SparseCholesky::num_parts() const {
-  return backend_->panels ? backend_->panels->num_groups() : 1;
+  return backend_->panels ? backend_->panels->num_parts() : 1;
+}
+
+double SparseCholesky::busiest_share(int threads) const {
+  return backend_->panels ? backend_->panels->busiest_share(threads) : 1.0;
 }
 
 int SparseCholesky::index_bits() const {

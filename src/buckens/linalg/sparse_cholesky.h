@@ -45,8 +45,10 @@ class SparseCholesky final : public Factor {
   Eigen::Index size() const override;
   double num_factor_entries() const override;
   double bytes() const override;
-  /// Parts of a solve that two threads can carry out at the same time: 1 or 2.
+  /// Parts of a solve that threads can carry out at the same time; more threads are of no use.
   int num_parts() const;
+  /// Share of bytes() that the busiest of several threads reads in each pass.
+  double busiest_share(int threads) const;
   /// Never `automatic`.
   SolveRoute route() const;
   /// Width of the indices of the factor: 64; of CHOLMOD's own what it needed, 32 or 64.

@@ -38,7 +38,11 @@ TEST(TaskPool, TwoTasksRunAtTheSameTime) {
 TEST(TaskPool, TasksWithinTasksRunInTurn) {
   TaskPool pool(2);
   std::atomic<int> sum{0};
-  pool.run(3, [&](int k) { pool.run(4, [&](int m) { sum += 10 * k + m; }); });
+  EXPECT_EQ(pool.available(), 2);
+  pool.run(3, [&](int k) {
+    EXPECT_EQ(pool.available(), 1);
+    pool.run(4, [&](int m) { sum += 10 * k + m; });
+  });
   EXPECT_EQ(sum, 10 * (0 + 1 + 2) * 4 + 3 * (0 + 1 + 2 + 3));
 }
 

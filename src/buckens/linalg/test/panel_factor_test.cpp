@@ -99,20 +99,29 @@ TEST(PanelFactor, SolvesAsADenseFactor) {
 }
 
 TEST(PanelFactor, DoesNotDependOnTheNumberOfThreads) {
-  const SparseMatrix A = grid(13, 0.1);  // 6591 variables, factor large enough for two groups
+  const SparseMatrix A = grid(16, 0.1);  // 12288 variables: groups below groups, and shared panels
   const SparseCholesky factor(A, {SolveRoute::panels});
-  ASSERT_EQ(factor.num_parts(), 2);
-  TaskPool one(1), two(2), four(4);
+  ASSERT_GE(factor.num_parts(), 5);
+  TaskPool one(1), two(2), three(3), four(4), eight(8);
   for (const Eigen::Index sides : {1, 6, 32}) {
     const Matrix B = scattered_block(A.rows(), sides, 4);
     const Matrix alone = factor.solve(B);
     EXPECT_LE(residual(A, alone, B), 1e-15);
-    for (TaskPool* pool : {&one, &two, &four}) {
-      for (int round = 0; round < 10; ++round) {
+    for (TaskPool* pool : {&one, &two, &three, &four, &eight}) {
+      for (int round = 0; round < 5; ++round) {
         ASSERT_EQ(factor.solve(B, pool), alone) << sides << ", " << pool->threads();
       }
     }
   }
+}
+
+TEST(PanelFactor, SharesReadingAmongThreads) {
+  const SparseCholesky factor(grid(16, 0.1), {SolveRoute::panels});
+  EXPECT_EQ(factor.busiest_share(1), 1.0);
+  // The halves of this cube differ a little; its top is shared.
+  EXPECT_LE(factor.busiest_share(2), 0.53);
+  EXPECT_LE(factor.busiest_share(4), 0.30);
+  for (const int threads : {2, 3, 4, 8}) EXPECT_GE(factor.busiest_share(threads), 1.0 / threads);
 }
 
 TEST(PanelFactor, SharesAFactorBetweenCallers) {
