@@ -14,6 +14,7 @@
 
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/loads/ball_friction.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/joint_friction.h"
 #include "buckens/loads/spring_damper.h"
@@ -131,15 +132,44 @@ class MechanismByChance {
       mechanism_.add_law(std::make_unique<loads::CoordinateSpring>(3.0, 0.05, 0.2),
                          joints::JointCoordinate::angle(axis, R_FM));
     }
-    if (type == JointType::prismatic) {
-      loads::FrictionData data;
-      data.static_coefficient = data.dynamic_coefficient = 0.1;
-      data.radius = 1.0;
-      data.slip = 1e-3;
-      data.inertia = 0.8;
-      mechanism_.add_law(std::make_unique<loads::JointFriction>(data, axis),
-                         joints::JointCoordinate::displacement(axis, Vector3d::Zero()));
+    add_friction_and_stops(type, axis, R_FM);
+  }
+
+  void add_friction_and_stops(JointType type, const Vector3d& axis, const Eigen::Matrix3d& R_FM) {
+    using joints::JointCoordinate;
+    const auto rub = [&](double radius, double inertia, const JointCoordinate& coordinate) {
+      mechanism_.add_law(std::make_unique<loads::JointFriction>(friction(radius, inertia), axis),
+                         coordinate);
+    };
+    // Near enough to be struck within the steps.
+    const auto stop = [&](double way, double stiffness, const JointCoordinate& coordinate) {
+      mechanism_.add_law(
+          std::make_unique<loads::CoordinateStop>(-way, 1.5 * way, stiffness, 0.01 * stiffness),
+          coordinate);
+    };
+    const JointCoordinate angle = JointCoordinate::angle(axis, R_FM);
+    const JointCoordinate way = JointCoordinate::displacement(axis, Vector3d::Zero());
+    if (type == JointType::prismatic || type == JointType::cylindrical) {
+      rub(1.0, 0.8, way);
+      stop(2e-3, 2e3, way);
     }
+    if (type == JointType::revolute || type == JointType::cylindrical) {
+      rub(0.02, 0.03, angle);
+      stop(4e-3, 50.0, angle);
+    }
+    if (type == JointType::spherical) {
+      mechanism_.add_law_of_joint(
+          std::make_unique<loads::BallFriction>(friction(0.02, 0.03), std::nullopt));
+    }
+  }
+
+  static loads::FrictionData friction(double radius, double inertia) {
+    loads::FrictionData data;
+    data.static_coefficient = data.dynamic_coefficient = 0.1;
+    data.radius = radius;
+    data.slip = 1e-3;
+    data.inertia = inertia;
+    return data;
   }
 
   model::MarkerId end_of(const Link& link) {
@@ -220,6 +250,60 @@ TEST(RandomMechanisms, RowsHaveTheDerivativesOfTheirResidualsAndDoTheirWork) {
     EXPECT_NEAR(power, lambda.dot(now.g_dot - now.g_t),
                 1e-12 * (1 + lambda.lpNorm<1>() * rates.lpNorm<1>()));
   }
+}
+
+/// Power of all loads but gravity.
+double power_of_loads(const model::Model& model, const std::vector<dynamics::BodyMotion>& motions,
+                      const dynamics::Forces& forces) {
+  double out = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    Vector6 u;
+    u << motions[b].frame.w, motions[b].frame.v;
+    out += forces.frame[b].dot(u) - model.bodies[b].mass * model.gravity.dot(motions[b].frame.v);
+    if (model.bodies[b].is_flexible()) out += forces.interface[b].dot(motions[b].y_dot);
+  }
+  return out;
+}
+
+TEST(RandomMechanisms, WhatFrictionStopsAndSpringsDoIsStoredOrLost) {
+  int rubbing = 0, stopped = 0;
+  for (std::uint32_t seed = 0; seed < kMechanisms; ++seed) {
+    SCOPED_TRACE(seed);
+    const model::Model model = MechanismByChance(seed).take();
+    test::Start start = thrown(model, seed);
+    stepping::Stepper stepper(model, tight(stepping::Method::generalized_alpha, 1e-3),
+                              start.rows_in_use);
+    model::State state = start.state;
+    model::RowMemory before;
+    for (int k = 0; k < 10; ++k) {
+      before = state.memory;
+      stepper.step(state);
+    }
+    // Seen from the last step, laws are within their regimes, not at their borders.
+    const dynamics::Circumstances around{&state.inputs, &before, &state.lambda, nullptr, nullptr};
+    const auto motions = dynamics::motions_of(model, state);
+    dynamics::Forces forces;
+    const auto stored = [&](double t) {
+      dynamics::evaluate_forces(model, moved(motions, t), state.t, around, forces);
+      return linalg::Vector(linalg::Vector::Constant(1, forces.stored_energy));
+    };
+    const double rate = test::derivative(stored, 1e-7)[0];
+    dynamics::evaluate_forces(model, motions, state.t, around, forces);
+    EXPECT_GE(forces.dissipation, 0.0);
+    rubbing += std::count_if(forces.regimes.begin(), forces.regimes.end(),
+                             [](int regime) { return regime == 1 || regime == -1; }) > 0;
+    stopped += std::any_of(model.loads.begin(), model.loads.end(), [&](const model::Load& load) {
+      return dynamic_cast<const loads::CoordinateStop*>(load.element.get()) != nullptr;
+    });
+    const double power = power_of_loads(model, motions, forces);
+    // The stiffness of sticking follows the bound b, and with the multipliers as they are the
+    // reaction turns with the bodies: ½ z_s ḃ, of slips of 1e-3.
+    const double size = std::abs(forces.active_power) + std::abs(rate) + forces.stored_energy;
+    EXPECT_NEAR(power, forces.active_power - rate, 1e-4 * (1 + size));
+  }
+  // Most of them have something to rub and to strike.
+  EXPECT_GT(rubbing, kMechanisms / 3);
+  EXPECT_GT(stopped, kMechanisms / 3);
 }
 
 }  // namespace

@@ -11,9 +11,6 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Images = std::array<Vector6, RowBlocks::kMostRows>;
 
-// If a pivot keeps less of its diagonal entry, about eight digits are lost without exchanges.
-constexpr double kPoorPivot = 1e-8;
-
 /// The blocks that are factorised come first.
 std::size_t num_blocks_before(const RowBlocks& rows, int end) {
   std::size_t k = 0;
@@ -113,7 +110,8 @@ void MultiplierCondensation::set_row(int row, const SystemRow& test, const Syste
   test_->set(row, test);
 }
 
-void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compliance) {
+void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compliance,
+                                      linalg::BlockLu& into) const {
   const auto& list = blocks_on_body_[b];
   const Eigen::Matrix3d rotation = compliance.frame.topLeftCorner<3, 3>();
   const Eigen::Matrix3d translation = compliance.frame.bottomRightCorner<3, 3>();
@@ -144,8 +142,8 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
     for (const BlockOnBody& i : list) {
       const RowBlock::Side& closing = side_of(test, i);
       const int rows = count_of(i);
-      double* const S = block_lu_.block(*place);
-      const int stride = block_lu_.stride(*place);
+      double* const S = into.block(*place);
+      const int stride = into.stride(*place);
       ++place;
       for (int m = 0; m < columns; ++m) {
         double* const column = S + static_cast<std::ptrdiff_t>(m) * stride;
@@ -161,15 +159,16 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
 }
 
 void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& compliance,
-                                      const std::vector<double>& soft_compliance) {
-  block_lu_.clear();
+                                      const std::vector<double>& soft_compliance,
+                                      linalg::BlockLu& into) const {
+  into.clear();
   for (std::size_t b = 0; b < blocks_on_body_.size(); ++b) {
-    if (!blocks_on_body_[b].empty()) add_body(b, compliance[b]);
+    if (!blocks_on_body_[b].empty()) add_body(b, compliance[b], into);
   }
   const int first_soft = size() - static_cast<int>(soft_compliance.size());
   const std::size_t num_direct = soft_compliance.size() - static_cast<std::size_t>(num_loose_);
   for (std::size_t k = 0; k < num_direct; ++k) {
-    block_lu_.diagonal(first_soft + static_cast<int>(k)) += soft_compliance[k];
+    into.diagonal(first_soft + static_cast<int>(k)) += soft_compliance[k];
   }
 }
 
@@ -233,12 +232,12 @@ bool MultiplierCondensation::factorise(const std::vector<BodyCompliance>& compli
 
 bool MultiplierCondensation::factorise_direct(const std::vector<BodyCompliance>& compliance,
                                               const std::vector<double>& soft_compliance) {
-  assemble(compliance, soft_compliance);
+  assemble(compliance, soft_compliance, block_lu_);
   factorise_with_slopes(soft_compliance);
   exchanges_rows_ = !(block_lu_.factorise() && block_lu_.pivot_ratio() > kPoorPivot);
   if (!exchanges_rows_) return true;
   has_sloped_ = false;
-  assemble(compliance, soft_compliance);
+  assemble(compliance, soft_compliance, block_lu_);
   return factorise_with_exchanges();
 }
 
@@ -256,28 +255,6 @@ bool MultiplierCondensation::factorise(const std::vector<SystemRow>& test,
     }
   }
   return factorise(compliance, soft_compliance);
-}
-
-void MultiplierCondensation::factorise_with_slopes(const std::vector<double>& soft_compliance) {
-  has_sloped_ = false;
-  if (slopes_.empty()) return;
-  if (sloped_) {
-    sloped_->take_values(block_lu_);
-  } else {
-    sloped_ = block_lu_;
-  }
-  const int first_soft = size() - static_cast<int>(soft_compliance.size());
-  for (const MultiplierSlope& slope : slopes_) {
-    const int i = force_.block_of(slope.soft_row), j = force_.block_of(slope.row);
-    const int place = sloped_->place(i, j);
-    const auto offset = [&](int row, int block) {
-      return row - force_.blocks()[static_cast<std::size_t>(block)].first_row;
-    };
-    sloped_->block(
-        place)[offset(slope.row, j) * sloped_->stride(place) + offset(slope.soft_row, i)] -=
-        soft_compliance[static_cast<std::size_t>(slope.soft_row - first_soft)] * slope.value;
-  }
-  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
 }
 
 void MultiplierCondensation::solve(linalg::Vector& x, Slopes slopes) const {

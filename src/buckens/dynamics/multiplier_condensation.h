@@ -43,7 +43,8 @@ struct MultiplierSlope {
 ///     S′ = S − Σ b_s w_sj e_s e_jᵀ,   b_s the soft row's entry on the diagonal, w_sj its slope
 ///
 /// whose unknown of the soft row is the whole of its force. Multipliers are found with S′,
-/// corrections of positions with S: they are no forces that could rub.
+/// corrections of positions with S: they are no forces that could rub. S′ may be formed again for
+/// other soft rows while S stays.
 class MultiplierCondensation {
  public:
   /// @param rows one entry per row, with body numbers and marker rows set; values are not read
@@ -64,6 +65,12 @@ class MultiplierCondensation {
   bool factorise(const std::vector<SystemRow>& test, const std::vector<SystemRow>& force,
                  const std::vector<BodyCompliance>& compliance,
                  const std::vector<double>& soft_compliance);
+
+  /// Assembles and factorises the matrix of multipliers, S′, of rows and slopes as set now. That of
+  /// corrections stays as it is.
+  /// @return false where only factorise() helps: poor pivots, or rows left out of the factor
+  bool factorise_multipliers(const std::vector<BodyCompliance>& compliance,
+                             const std::vector<double>& soft_compliance);
 
   /// Slopes for the next factorisations; their rows and soft rows must act on a common body.
   void set_slopes(const std::vector<MultiplierSlope>& slopes) { slopes_ = slopes; }
@@ -94,14 +101,17 @@ class MultiplierCondensation {
   double pivot_ratio() const { return block_lu_.pivot_ratio(); }
 
  private:
+  // If a pivot keeps less of its diagonal entry, about eight digits are lost without exchanges.
+  static constexpr double kPoorPivot = 1e-8;
   enum class Slopes { left_out, counted };
   struct BlockOnBody {
     int block;
     int side;
   };
   void assemble(const std::vector<BodyCompliance>& compliance,
-                const std::vector<double>& soft_compliance);
-  void add_body(std::size_t b, const BodyCompliance& compliance);
+                const std::vector<double>& soft_compliance, linalg::BlockLu& into) const;
+  void add_body(std::size_t b, const BodyCompliance& compliance, linalg::BlockLu& into) const;
+  void subtract_slopes(const std::vector<double>& soft_compliance, linalg::BlockLu& from) const;
   /// Calls take(row, column, value) for every entry of S.
   template <class Take>
   void for_entries(Take&& take);
@@ -131,7 +141,7 @@ class MultiplierCondensation {
   std::optional<linalg::SparseLu> general_;
   std::vector<MultiplierSlope> slopes_;
   std::optional<linalg::BlockLu> sloped_;  // S′, empty until it is needed
-  bool has_sloped_ = false;                // of the last factorisation
+  bool has_sloped_ = false;                // multipliers are found with it
 
   // Of loose rows only: what the bodies give, and the inverse of what each block gives alone.
   std::vector<BodyCompliance> compliance_;

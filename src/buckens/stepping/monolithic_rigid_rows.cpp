@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rigid rows of force laws in the slow route of a step.
+// Rigid rows of force laws, and laws that are held, in the slow route of a step.
 #include "buckens/stepping/monolithic_stepper.h"
 
 namespace buckens::stepping {
@@ -51,6 +51,24 @@ void MonolithicStepper::rigid_residual(Vector& r) const {
     r[first_rigid_ + static_cast<int>(k)] = row.slip / scheme_.end_rate;
     if (row.holds_position) r[first_rigid_correction_ + static_cast<int>(k)] = row.gap;
   }
+}
+
+void MonolithicStepper::hold_reversed(double t) {
+  held_.release();
+  if (regimes_before_.size() == soft_.regimes.size()) {
+    held_.hold_reversed(regimes_before_, motions_evaluation_, scheme_.evaluation_time(t), around(),
+                        soft_);
+  }
+  regimes_before_ = soft_.regimes;
+}
+
+void MonolithicStepper::held_residual(double t, Vector& r) const {
+  held_.for_excess(motions_evaluation_, scheme_.evaluation_time(t), around(),
+                   [&](int soft, double excess) {
+                     for (const Entry& e : entries(soft_.rows[static_cast<std::size_t>(soft)])) {
+                       r[e.column] -= scheme_.force * excess * e.value;
+                     }
+                   });
 }
 
 bool MonolithicStepper::move_rigid_rows() {

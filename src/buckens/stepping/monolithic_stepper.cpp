@@ -114,7 +114,8 @@ MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettin
       scheme_(settings.method, settings.step, settings.method_parameter()),
       rows_in_use_(std::move(rows_in_use)),
       rates_only_(dynamics::rate_only_rows(model)),
-      rigid_(model) {
+      rigid_(model),
+      held_(model) {
   const auto take = [this](Eigen::Index count) {
     const int first = size_;
     size_ += static_cast<int>(count);
@@ -144,6 +145,7 @@ bool MonolithicStepper::corrects_positions() const {
 
 void MonolithicStepper::start(const model::State& state) {
   z_ = Vector::Zero(size_);
+  regimes_before_.clear();
   lambda_ = state.lambda;
   inputs_ = state.inputs;
   memory_ = state.memory;
@@ -335,10 +337,8 @@ void MonolithicStepper::fixed_corrections() {
 
 void MonolithicStepper::follow_regimes() {
   if (correcting_.regimes == soft_.regimes) return;
-  correcting_.is_closed = soft_.is_closed;
-  correcting_.stiffness = soft_.stiffness;
-  correcting_.damping = soft_.damping;
   correcting_.regimes = soft_.regimes;
+  correcting_.is_closed = soft_.is_closed;
   fixed_part();
 }
 
@@ -408,7 +408,7 @@ void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {
   r.segment(part.nodal_multiplier, part.P.cols()) += part.P.transpose() * at_rest;
 }
 
-Vector MonolithicStepper::residual() const {
+Vector MonolithicStepper::residual(double t) const {
   Vector r = fixed_matrix_ * z_;
   for (std::size_t b = 0; b < parts_.size(); ++b) body_residual(b, r);
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
@@ -419,6 +419,7 @@ Vector MonolithicStepper::residual() const {
     }
   }
   rigid_residual(r);
+  held_residual(t, r);
   return r;
 }
 
@@ -461,6 +462,7 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
   double before = 0;
   for (int iteration = 0; iteration < settings_.max_newton; ++iteration) {
     follow_regimes();
+    hold_reversed(t);
     std::vector<Triplet> all = fixed_;
     tangent(all);
     rigid_tangent(all);
@@ -474,7 +476,7 @@ void MonolithicStepper::iterate(double t, StepReport& report) {
                       t));
     }
     double motion = 0;
-    const double change = apply(lu.solve(Vector(-residual())), motion);
+    const double change = apply(lu.solve(Vector(-residual(t))), motion);
     ++report.newton_iterations;
     for (const auto& part : parts_) update_coupling(*part);
     evaluate(t);

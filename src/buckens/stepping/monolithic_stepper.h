@@ -7,6 +7,7 @@
 #include <Eigen/SparseLU>
 
 #include "buckens/dynamics/forces.h"
+#include "buckens/stepping/held_laws.h"
 #include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/scheme.h"
 #include "buckens/stepping/step_settings.h"
@@ -67,14 +68,17 @@ class MonolithicStepper {
   void fixed_rigid_corrections();
   void rigid_tangent(std::vector<linalg::Triplet>& out) const;
   void rigid_residual(linalg::Vector& r) const;
+  /// Laws that have gone from one end of their set to the other are held for an iteration.
+  void hold_reversed(double t);
+  void held_residual(double t, linalg::Vector& r) const;
   /// Rigid rows go where their sets put them. @return whether any did
   bool move_rigid_rows();
-  /// Forms the fixed part again if a force law has changed its regime since.
+  /// Forms the fixed part again if rigid rows have opened or closed since.
   void follow_regimes();
   void add_product(const std::vector<Entry>& row, const std::vector<Entry>& column, double factor,
                    bool row_corrects, bool column_corrects);
   void tangent(std::vector<linalg::Triplet>& out) const;
-  linalg::Vector residual() const;
+  linalg::Vector residual(double t) const;
   void body_residual(std::size_t b, linalg::Vector& r) const;
   double apply(const linalg::Vector& change, double& motion);
   void iterate(double t, StepReport& report);
@@ -94,7 +98,9 @@ class MonolithicStepper {
   std::vector<linalg::Triplet> fixed_;  // what does not change within a step
   linalg::SparseMatrix fixed_matrix_;
   dynamics::SoftRows soft_;
-  // For the corrections of positions: predicted directions, stiffness of the current regimes.
+  HeldLaws held_;
+  std::vector<int> regimes_before_;  // of the iteration before
+  // For the corrections of positions: as predicted, but rigid rows as they stand now.
   dynamics::SoftRows correcting_;
   std::vector<dynamics::SystemRow> predicted_rows_;
   dynamics::Constraints end_, evaluation_;

@@ -40,8 +40,6 @@ constexpr double kStalledFarAway = 1e-14;
 constexpr double kWeaklyHeld = 1e-6;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
-constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
-
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
 template <class F>
 void for_other_rows(const std::vector<int>& rows_in_use, Eigen::Index count, F&& f) {
@@ -205,46 +203,6 @@ void SmallNewton::set_joint_rows(double t) {
   }
 }
 
-void SmallNewton::set_soft_rows() {
-  soft_compliance_.clear();
-  soft_stiffness_share_.clear();
-  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
-    if (soft_.is_closed[k]) {
-      condensation_->set_row(static_cast<int>(rows_in_use_.size() + k),
-                             without_rates(soft_.rows[k]), soft_.rows[k]);
-      // Residuals are closed exactly all the same.
-      soft_compliance_.push_back(kRigidGive * own_compliance(soft_.rows[k], compliance_));
-      soft_stiffness_share_.push_back(0.0);
-      continue;
-    }
-    const double elastic = scheme_.weight * soft_.stiffness[k];
-    const double k_eff = elastic + scheme_.mean_rate * soft_.damping[k];
-    condensation_->set_row(static_cast<int>(rows_in_use_.size() + k),
-                           k_eff == 0.0 ? dynamics::SystemRow{} : soft_.rows[k]);
-    soft_compliance_.push_back(k_eff > 0.0 ? 1.0 / (scheme_.force * k_eff) : 1.0);
-    soft_stiffness_share_.push_back(k_eff > 0.0 ? elastic / k_eff : 0.0);
-  }
-  set_slopes();
-}
-
-void SmallNewton::set_slopes() {
-  const int in_use = static_cast<int>(rows_in_use_.size());
-  slopes_in_use_.clear();
-  int sliding = -1;
-  for (const dynamics::ReactionSlope& slope : slopes_) {
-    const auto soft = static_cast<std::size_t>(slope.soft);
-    const int place = place_in_use_[static_cast<std::size_t>(slope.row)];
-    if (place < 0 || soft_.is_closed[soft] || held_.holds(slope.soft)) continue;
-    slopes_in_use_.push_back({in_use + slope.soft, place, slope.value});
-    // Where a force only follows multipliers, bodies move by it all the same.
-    const bool gives_way = soft_.stiffness[soft] != 0.0 || soft_.damping[soft] != 0.0;
-    if (gives_way || slope.soft == sliding) continue;
-    sliding = slope.soft;
-    condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
-  }
-  condensation_->set_slopes(slopes_in_use_);
-}
-
 std::vector<dynamics::SystemRow> SmallNewton::row_pattern(double t) {
   std::vector<dynamics::SystemRow> pattern(rows_in_use_.size());
   std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows;
@@ -268,42 +226,10 @@ bool SmallNewton::condense(double t) {
     pivoted_.clear();
   }
   set_joint_rows(t);
-  set_soft_rows();
+  keep_for_corrections();
+  set_soft_rows(soft_.stiffness, soft_.damping);
+  set_slopes();
   return condensation_->factorise(compliance_, soft_compliance_);
-}
-
-const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
-  if (!soft_.is_closed[soft]) return nullptr;
-  return &forces_.rigid[static_cast<std::size_t>(soft_.rigid[soft])];
-}
-
-bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
-  if (rigid_.empty() || !rigid_.move(forces_.rigid)) return false;
-  if (rigid_.num_moves() > kMostMoves) {
-    fail(t, report,
-         "no combination of holding and releasing satisfies all rigid stops and rigid friction");
-  }
-  return true;
-}
-
-bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
-  if (forces_.regimes == soft_.regimes) return true;
-  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
-                               soft_now_);
-  // Directions stay those of the predicted configuration, as of the joints.
-  std::swap(soft_.stiffness, soft_now_.stiffness);
-  std::swap(soft_.damping, soft_now_.damping);
-  std::swap(soft_.regimes, soft_now_.regimes);
-  std::swap(soft_.is_closed, soft_now_.is_closed);
-  held_.hold_reversed(soft_now_.regimes, at_evaluation(), scheme_.evaluation_time(t), around_,
-                      soft_);
-  reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
-  set_soft_rows();
-  for (BodyStep& body : bodies) body.drop_correction();
-  if (!condensation_->factorise(compliance_, soft_compliance_)) {
-    fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
-  }
-  return false;
 }
 
 bool SmallNewton::select_rows_anew(double t, bool may_give_up) {

@@ -102,16 +102,23 @@ class SmallNewton {
   void number_rows_in_use();
   /// Passes the derivatives at this configuration to the condensation, soft rows last.
   void set_joint_rows(double t);
-  void set_soft_rows();
+  /// With these stiffnesses and dampings of rows that are not closed.
+  void set_soft_rows(const std::vector<double>& stiffness, const std::vector<double>& damping);
   /// Passes on how friction grows with multipliers, after the soft rows.
   void set_slopes();
+  /// Corrections of positions are those of the soft rows as they are now.
+  void keep_for_corrections();
   /// The rigid row at a place among the soft ones if it is closed, else null.
   const loads::RigidRow* closed_row(std::size_t soft) const;
   /// Moves rigid rows to where their sets put them, once all else is settled. @return whether any
   bool move_rigid_rows(double t, const StepReport& report);
-  /// Forms the matrix again if a force law has changed its regime since. Position corrections are
-  /// then undone: they weigh soft rows, and belong to one matrix. @return false if so
+  /// Forms the matrix of multipliers again if a force law has changed its regime since. @return
+  /// false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
+  /// That matrix, from the soft rows as they are now. Position corrections weigh soft rows and
+  /// belong to one matrix, that of the predicted motion, so that they do not depend on the way of
+  /// the iteration. Where rigid rows have moved they begin anew. @return false if it is singular
+  bool form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_moved);
   /// Assembles and factorises S for the rows in use. @return false if it is singular
   bool condense(double t);
   /// Determines again which rows are independent.
@@ -161,6 +168,8 @@ class SmallNewton {
   std::vector<model::NearPair> near_;  // that the condensation was made for
   int num_of_groups_ = 0;
   dynamics::SoftRows soft_, soft_now_;  // at the predicted configuration; scratch
+  std::vector<double> correcting_stiffness_, correcting_damping_;  // of the soft rows, predicted
+  std::vector<char> give_to_corrections_;  // of soft rows: act in the matrix of corrections
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
   dynamics::ReactionSlopes reaction_slopes_;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The matrix of multipliers where it is not that of corrections: forces that grow with multipliers,
+// and soft rows that have changed since.
+#include "buckens/dynamics/multiplier_condensation.h"
+
+namespace buckens::dynamics {
+
+void MultiplierCondensation::factorise_with_slopes(const std::vector<double>& soft_compliance) {
+  has_sloped_ = false;
+  if (slopes_.empty()) return;
+  if (sloped_) {
+    sloped_->take_values(block_lu_);
+  } else {
+    sloped_ = block_lu_;
+  }
+  subtract_slopes(soft_compliance, *sloped_);
+  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+}
+
+bool MultiplierCondensation::factorise_multipliers(const std::vector<BodyCompliance>& compliance,
+                                                   const std::vector<double>& soft_compliance) {
+  has_sloped_ = false;
+  if (num_loose_ > 0 || exchanges_rows_) return false;
+  if (!sloped_) sloped_ = block_lu_;
+  assemble(compliance, soft_compliance, *sloped_);
+  subtract_slopes(soft_compliance, *sloped_);
+  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+  if (has_sloped_ || slopes_.empty()) return has_sloped_;
+  assemble(compliance, soft_compliance, *sloped_);
+  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+  return has_sloped_;
+}
+
+void MultiplierCondensation::subtract_slopes(const std::vector<double>& soft_compliance,
+                                             linalg::BlockLu& from) const {
+  const int first_soft = size() - static_cast<int>(soft_compliance.size());
+  for (const MultiplierSlope& slope : slopes_) {
+    const int i = force_.block_of(slope.soft_row), j = force_.block_of(slope.row);
+    const int place = from.place(i, j);
+    const auto offset = [&](int row, int block) {
+      return row - force_.blocks()[static_cast<std::size_t>(block)].first_row;
+    };
+    from.block(place)[offset(slope.row, j) * from.stride(place) + offset(slope.soft_row, i)] -=
+        soft_compliance[static_cast<std::size_t>(slope.soft_row - first_soft)] * slope.value;
+  }
+}
+
+}  // namespace buckens::dynamics

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Soft rows of force laws in the iteration of a step, and what follows when laws change regimes.
+#include <algorithm>
+
+#include "buckens/stepping/small_newton.h"
+
+namespace buckens::stepping {
+
+namespace {
+
+constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
+
+}  // namespace
+
+void SmallNewton::keep_for_corrections() {
+  correcting_stiffness_ = soft_.stiffness;
+  correcting_damping_ = soft_.damping;
+  give_to_corrections_.assign(soft_.rows.size(), 0);
+  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    give_to_corrections_[k] = soft_.is_closed[k] || soft_.stiffness[k] != 0.0 ||
+                              (scheme_.mean_rate != 0.0 && soft_.damping[k] != 0.0);
+  }
+}
+
+void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
+                                const std::vector<double>& damping) {
+  soft_compliance_.clear();
+  soft_stiffness_share_.clear();
+  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    const int row = static_cast<int>(rows_in_use_.size() + k);
+    if (soft_.is_closed[k]) {
+      condensation_->set_row(row, without_rates(soft_.rows[k]), soft_.rows[k]);
+      // Residuals are closed exactly all the same.
+      soft_compliance_.push_back(kRigidGive * own_compliance(soft_.rows[k], compliance_));
+      soft_stiffness_share_.push_back(0.0);
+      continue;
+    }
+    const double elastic = scheme_.weight * stiffness[k];
+    const double k_eff = elastic + scheme_.mean_rate * damping[k];
+    if (k_eff != 0.0) {
+      condensation_->set_row(row, soft_.rows[k]);
+    } else if (give_to_corrections_[k]) {
+      // Its spring still shares in corrections, which act along it.
+      condensation_->set_row(row, dynamics::SystemRow{}, soft_.rows[k]);
+    } else {
+      condensation_->set_row(row, dynamics::SystemRow{});
+    }
+    soft_compliance_.push_back(k_eff > 0.0 ? 1.0 / (scheme_.force * k_eff) : 1.0);
+    soft_stiffness_share_.push_back(k_eff > 0.0 ? elastic / k_eff : 0.0);
+  }
+}
+
+void SmallNewton::set_slopes() {
+  const int in_use = static_cast<int>(rows_in_use_.size());
+  slopes_in_use_.clear();
+  int sliding = -1;
+  for (const dynamics::ReactionSlope& slope : slopes_) {
+    const auto soft = static_cast<std::size_t>(slope.soft);
+    const int place = place_in_use_[static_cast<std::size_t>(slope.row)];
+    if (place < 0 || soft_.is_closed[soft] || held_.holds(slope.soft)) continue;
+    slopes_in_use_.push_back({in_use + slope.soft, place, slope.value});
+    // Where a force only follows multipliers, bodies move by it all the same.
+    const bool gives_way = soft_.stiffness[soft] != 0.0 || soft_.damping[soft] != 0.0;
+    if (gives_way || slope.soft == sliding) continue;
+    sliding = slope.soft;
+    condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
+  }
+  condensation_->set_slopes(slopes_in_use_);
+}
+
+const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
+  if (!soft_.is_closed[soft]) return nullptr;
+  return &forces_.rigid[static_cast<std::size_t>(soft_.rigid[soft])];
+}
+
+bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
+  if (rigid_.empty() || !rigid_.move(forces_.rigid)) return false;
+  if (rigid_.num_moves() > kMostMoves) {
+    fail(t, report,
+         "no combination of holding and releasing satisfies all rigid stops and rigid friction");
+  }
+  return true;
+}
+
+bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_moved) {
+  if (rigid_rows_moved) {
+    for (BodyStep& body : bodies) body.drop_correction();
+    slopes_in_use_.clear();
+    condensation_->set_slopes(slopes_in_use_);
+    for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+      if (soft_.rigid[k] >= 0) give_to_corrections_[k] = soft_.is_closed[k];
+    }
+    set_soft_rows(correcting_stiffness_, correcting_damping_);
+    if (!condensation_->factorise(compliance_, soft_compliance_)) return false;
+  }
+  set_soft_rows(soft_.stiffness, soft_.damping);
+  set_slopes();
+  if (condensation_->factorise_multipliers(compliance_, soft_compliance_)) return true;
+  keep_for_corrections();
+  set_soft_rows(soft_.stiffness, soft_.damping);
+  set_slopes();
+  for (BodyStep& body : bodies) body.drop_correction();
+  return condensation_->factorise(compliance_, soft_compliance_);
+}
+
+bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
+  if (forces_.regimes == soft_.regimes) return true;
+  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
+                               soft_now_);
+  // Directions stay those of the predicted configuration, as of the joints.
+  std::swap(soft_.stiffness, soft_now_.stiffness);
+  std::swap(soft_.damping, soft_now_.damping);
+  std::swap(soft_.regimes, soft_now_.regimes);
+  std::swap(soft_.is_closed, soft_now_.is_closed);
+  held_.hold_reversed(soft_now_.regimes, at_evaluation(), scheme_.evaluation_time(t), around_,
+                      soft_);
+  reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
+  if (!form_tangent(bodies, soft_.is_closed != soft_now_.is_closed)) {
+    fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
+  }
+  return false;
+}
+
+}  // namespace buckens::stepping
