@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
 
 #include <Eigen/Core>
 
+#include "buckens/base/characteristic.h"
 #include "buckens/base/motion_dimensions.h"
 #include "buckens/base/time_law.h"
 #include "buckens/joints/coupler_spec.h"
@@ -71,6 +73,8 @@ struct BushingSpec : JointEnds {
   Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();  ///< [N m/rad]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();               ///< [N s/m]
   Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
+  /// Beside these, along and about each axis [N], [N m].
+  std::array<std::optional<base::Characteristic>, 3> forces, torques;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -91,6 +95,31 @@ struct BushingSpec : JointEnds {
               .in(base::kRotationalDamping)
               .non_negative()
               .like("[0, 0, 0.1 N m s/rad]"));
+    curve_fields(visit);
+  }
+
+ private:
+  template <class Visitor>
+  void curve_fields(Visitor& visit) {
+    static constexpr const char* kForces[] = {"force-x", "force-y", "force-z"};
+    static constexpr const char* kTorques[] = {"torque-x", "torque-y", "torque-z"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      visit(base::field(kForces[k], forces[k],
+                        "force against the displacement along this axis as a formula in "
+                        "`displacement` and `rate`, or a table of the displacement in m; added to "
+                        "stiffness and damping")
+                .in(base::kForce)
+                .like("\"2e9*displacement^3 N\"")
+                .otherwise("none"));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      visit(base::field(kTorques[k], torques[k],
+                        "torque against the turn about this axis as a formula in `angle` and "
+                        "`rate`, or a table of the angle in rad; added to stiffness and damping")
+                .in(base::kTorque)
+                .like("\"300*angle^3 N m\"")
+                .otherwise("none"));
+    }
   }
 };
 

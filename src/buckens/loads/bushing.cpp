@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/loads/curve_slopes.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::loads {
@@ -32,36 +33,66 @@ void require_measurable(const Vector3d& theta, const Vector3d& stiffness) {
                   angle, Bushing::kLargestAngle));
 }
 
+using Curves = std::array<std::optional<base::Characteristic>, 3>;
+
+/// Adds what the curves give. @return the energy that they store [J]
+double add_curves(const Curves& curves, const Vector3d& x, const Vector3d& rate, Vector3d& elastic,
+                  Vector3d& viscous) {
+  double out = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto& curve = curves[static_cast<std::size_t>(i)];
+    if (!curve) continue;
+    const double at_rest = curve->force(x[i], 0.0);
+    elastic[i] += at_rest;
+    viscous[i] += curve->force(x[i], rate[i]) - at_rest;
+    out += curve->energy(x[i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 Bushing::Bushing(const Coefficients& coefficients, const Matrix3d& R_FM_placed,
                  const Vector3d& r_F_placed)
-    : k_(coefficients), R_MF_placed_(R_FM_placed.transpose()), r_F_placed_(r_F_placed) {}
+    : k_(coefficients),
+      resists_turns_(coefficients.rotational_stiffness),
+      R_MF_placed_(R_FM_placed.transpose()),
+      r_F_placed_(r_F_placed) {
+  const double largest = resists_turns_.maxCoeff();
+  for (int i = 0; i < 3; ++i) {
+    if (k_.torques[static_cast<std::size_t>(i)]) resists_turns_[i] = largest > 0.0 ? largest : 1.0;
+  }
+}
+
+Bushing::Stand Bushing::look(const MarkerMotion& first, const MarkerMotion& second) const {
+  const Matrix3d R_FW = first.R.transpose();
+  const Vector3d arm = second.p - first.p;
+  return {R_FW * arm - r_F_placed_, R_FW * (second.v - first.v - first.w.cross(arm)),
+          spatial::log_rotation(Eigen::Quaterniond(Matrix3d(R_FW * second.R * R_MF_placed_))),
+          R_FW * (second.w - first.w)};
+}
 
 Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
                          const MarkerMotion& second) const {
-  const Matrix3d R_FW = first.R.transpose();
+  const auto [r, r_dot, theta, w] = look(first, second);
   const Vector3d arm = second.p - first.p;
-  const Vector3d r = R_FW * arm - r_F_placed_;
-  const Vector3d r_dot = R_FW * (second.v - first.v - first.w.cross(arm));
-  const Vector3d theta =
-      spatial::log_rotation(Eigen::Quaterniond(Matrix3d(R_FW * second.R * R_MF_placed_)));
-  require_measurable(theta, k_.rotational_stiffness);
-  const Vector3d w = R_FW * (second.w - first.w);
-
-  const Vector3d elastic_force = k_.stiffness.cwiseProduct(r);
-  const Vector3d viscous_force = k_.damping.cwiseProduct(r_dot);
-  const Vector3d elastic_moment = k_.rotational_stiffness.cwiseProduct(theta);
+  require_measurable(theta, resists_turns_);
+  Vector3d elastic_force = k_.stiffness.cwiseProduct(r);
+  Vector3d viscous_force = k_.damping.cwiseProduct(r_dot);
+  Vector3d elastic_moment = k_.rotational_stiffness.cwiseProduct(theta);
+  Vector3d viscous_torque = k_.rotational_damping.cwiseProduct(w);
+  const double linear = 0.5 * (r.dot(elastic_force) + theta.dot(elastic_moment));
+  const double in_curves = add_curves(k_.forces, r, r_dot, elastic_force, viscous_force) +
+                           add_curves(k_.torques, theta, w, elastic_moment, viscous_torque);
   const Vector3d elastic_torque =
       spatial::left_jacobian(theta).transpose().partialPivLu().solve(elastic_moment);
-  const Vector3d viscous_torque = k_.rotational_damping.cwiseProduct(w);
 
   Action action;
   const Vector3d force = -(first.R * (elastic_force + viscous_force));
   const Vector3d torque = -(first.R * (elastic_torque + viscous_torque));
   action.on_second = {torque, force};
   action.on_first = {-torque - arm.cross(force), -force};
-  action.stored_energy = 0.5 * (r.dot(elastic_force) + theta.dot(elastic_moment));
+  action.stored_energy = linear + in_curves;
   action.dissipation = r_dot.dot(viscous_force) + w.dot(viscous_torque);
   action.active_power = -action.dissipation;
   return action;
@@ -70,6 +101,7 @@ Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
 void Bushing::append_soft_rows(const MarkerMotion& first, const MarkerMotion& second,
                                std::vector<SoftRow>& rows) const {
   const Vector3d arm = second.p - first.p;
+  const Stand stand = look(first, second);
   for (int i = 0; i < 3; ++i) {
     const Vector3d e = first.R.col(i);
     SoftRow row;
@@ -78,6 +110,7 @@ void Bushing::append_soft_rows(const MarkerMotion& first, const MarkerMotion& se
     row.J.segment<3>(9) = e.transpose();
     row.stiffness = k_.stiffness[i];
     row.damping = k_.damping[i];
+    add_slopes(k_.forces[static_cast<std::size_t>(i)], stand.r[i], stand.r_dot[i], row);
     rows.push_back(row);
   }
   for (int i = 0; i < 3; ++i) {
@@ -87,6 +120,7 @@ void Bushing::append_soft_rows(const MarkerMotion& first, const MarkerMotion& se
     row.J.segment<3>(6) = e.transpose();
     row.stiffness = k_.rotational_stiffness[i];
     row.damping = k_.rotational_damping[i];
+    add_slopes(k_.torques[static_cast<std::size_t>(i)], stand.theta[i], stand.w[i], row);
     rows.push_back(row);
   }
 }

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <optional>
+
+#include "buckens/base/characteristic.h"
 #include "buckens/loads/force_element.h"
 
 namespace buckens::loads {
 
-/// Linear six-DOF bushing: stiffness and damping along and about the axes of the first marker,
-/// force-free as placed.
+/// Six-DOF bushing: stiffness and damping along and about the axes of the first marker, force-free
+/// as placed, with a characteristic beside them for each axis.
 ///
 /// With r the displacement of the second marker in the first one's axes and θ the rotation vector
 /// between them (both zero as placed): force −K r − C ṙ, torque −J_l⁻ᵀ(θ) K_r θ − C_r ω. The
 /// elastic part derives from ½ rᵀK r + ½ θᵀK_r θ, so energy is conserved at any rotation below π.
+/// Characteristics φ add φᵢ(rᵢ, ṙᵢ) to the force and φᵢ(θᵢ, 0) to K_r θ, which store ∫ φᵢ(s, 0) ds;
+/// the rest φᵢ(θᵢ, ωᵢ) − φᵢ(θᵢ, 0) is lost like C_r ω.
 /// About axes without stiffness it may rotate without limit; against stiffness up to 3 rad.
 class Bushing final : public ForceElement {
  public:
@@ -21,6 +27,8 @@ class Bushing final : public ForceElement {
     Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();  ///< [N m/rad]
     Eigen::Vector3d damping = Eigen::Vector3d::Zero();               ///< [N s/m]
     Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
+    /// By displacement and rate along each axis [N], by angle and rate about it [N m].
+    std::array<std::optional<base::Characteristic>, 3> forces{}, torques{};
   };
 
   /// @param R_FM_placed orientation of the second marker in the first as placed
@@ -36,7 +44,14 @@ class Bushing final : public ForceElement {
                         std::vector<SoftRow>& rows) const override;
 
  private:
+  /// Displacement, rotation and their rates in axes of the first marker.
+  struct Stand {
+    Eigen::Vector3d r, r_dot, theta, w;
+  };
+  Stand look(const spatial::MarkerMotion& first, const spatial::MarkerMotion& second) const;
+
   Coefficients k_;
+  Eigen::Vector3d resists_turns_;  // stiffness, or what stands for it where there is a curve
   Eigen::Matrix3d R_MF_placed_;
   Eigen::Vector3d r_F_placed_;
 };

@@ -8,12 +8,14 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/characteristic.h"
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
 #include "buckens/loads/belt_spec.h"
 #include "buckens/loads/contact_spec.h"
 #include "buckens/loads/distributed_load_spec.h"
+#include "buckens/loads/elastic_gear_spec.h"
 #include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/load_axes.h"
 #include "buckens/loads/load_fields.h"
@@ -59,12 +61,13 @@ struct TorqueSpec {
 /// Tension k (l − l0) + c l̇ + f(t) along the line between two markers.
 struct SpringDamperSpec {
   static constexpr const char* kKey = "spring-damper";
-  static constexpr const char* kDoc = "linear spring and damper along the line between two markers";
+  static constexpr const char* kDoc = "spring and damper along the line between two markers";
   std::array<base::MarkerRef, 2> between;
   double stiffness = 0;                ///< k [N/m]
   double damping = 0;                  ///< c [N s/m]
   std::optional<double> length;        ///< l0 [m]; default: the distance as placed
   std::optional<base::TimeLaw> force;  ///< f [N], positive pulls the markers together
+  std::optional<base::Characteristic> characteristic;  ///< [N] by elongation and its rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -88,18 +91,25 @@ struct SpringDamperSpec {
               .in(base::kForce)
               .like("\"10*sin(20*t) N\"")
               .otherwise("none"));
+    visit(base::field("characteristic", characteristic,
+                      "tension as a formula in `displacement` (from the force-free length) and "
+                      "`rate`, or a table of the elongation in m; added to spring and damper")
+              .in(base::kForce)
+              .like("\"2e6*displacement^3 N\"")
+              .otherwise("none"));
   }
 };
 
 struct TorsionalSpringSpec {
   static constexpr const char* kKey = "torsional-spring";
   static constexpr const char* kDoc =
-      "linear torsional spring and damper about an axis, for angles up to 3 rad either way";
+      "torsional spring and damper about an axis, for angles up to 3 rad either way";
   std::array<base::MarkerRef, 2> between;
   std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
   double stiffness = 0;                 ///< [N m/rad]
   double damping = 0;                   ///< [N m s/rad]
   double angle = 0;                     ///< free angle, from the position as placed [rad]
+  std::optional<base::Characteristic> characteristic;  ///< [N m] by angle and rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -120,6 +130,12 @@ struct TorsionalSpringSpec {
               "angle at which the spring is torque-free, measured from the position as placed")
               .in(base::kAngle)
               .like("10 deg"));
+    visit(base::field("characteristic", characteristic,
+                      "torque as a formula in `angle` (from that free of torque) and `rate`, or a "
+                      "table of the angle in rad; added to spring and damper")
+              .in(base::kTorque)
+              .like("\"300*angle^3 N m\"")
+              .otherwise("none"));
   }
 };
 
@@ -130,7 +146,7 @@ struct LoadSpec {
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
                RopeSpec, HingeMotorSpec, SlideMotorSpec, BallFrictionSpec, HingeBrakeSpec,
-               SlideBrakeSpec, ContactSpec, ContactsSpec, ElasticBeltSpec>
+               SlideBrakeSpec, ContactSpec, ContactsSpec, ElasticBeltSpec, ElasticGearSpec>
       kind;
 
   /// Key of the kind in the model file.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "buckens/base/errors.h"
+#include "buckens/loads/curve_slopes.h"
 
 namespace buckens::loads {
 
@@ -12,11 +13,13 @@ using Eigen::Vector3d;
 using spatial::MarkerMotion;
 
 SpringDamper::SpringDamper(double stiffness, double damping, double free_length,
-                           std::optional<base::TimeLaw> tension)
+                           std::optional<base::TimeLaw> tension,
+                           std::optional<base::Characteristic> curve)
     : stiffness_(stiffness),
       damping_(damping),
       free_length_(free_length),
-      tension_(std::move(tension)) {}
+      tension_(std::move(tension)),
+      curve_(std::move(curve)) {}
 
 Action SpringDamper::evaluate(double t, const MarkerMotion& first,
                               const MarkerMotion& second) const {
@@ -26,20 +29,24 @@ Action SpringDamper::evaluate(double t, const MarkerMotion& first,
   const double stretch = length - free_length_;
   action.stored_energy = 0.5 * stiffness_ * stretch * stretch;
   const double law = tension_ ? tension_->value(t) : 0.0;
+  const double at_rest = curve_ ? curve_->force(stretch, 0.0) : 0.0;
+  if (curve_) action.stored_energy += curve_->energy(stretch);
   if (length == 0.0) {
-    if (stiffness_ * free_length_ == 0.0 && law == 0.0) return action;
+    if (stiffness_ * free_length_ == 0.0 && law == 0.0 && at_rest == 0.0) return action;
     throw NumericalError(
         "a spring-damper has no direction: its two markers coincide; "
         "place them apart or use a bushing");
   }
   const Vector3d n = r / length;
   const double length_rate = n.dot(second.v - first.v);
-  const double active = damping_ * length_rate + law;
-  const double tension = stiffness_ * stretch + active;
+  double lost = damping_ * length_rate;
+  if (curve_) lost += curve_->force(stretch, length_rate) - at_rest;
+  const double active = lost + law;
+  const double tension = stiffness_ * stretch + at_rest + active;
   action.on_first.force = tension * n;
   action.on_second.force = -tension * n;
   action.active_power = -active * length_rate;
-  action.dissipation = damping_ * length_rate * length_rate;
+  action.dissipation = lost * length_rate;
   return action;
 }
 
@@ -54,21 +61,26 @@ void SpringDamper::append_soft_rows(const MarkerMotion& first, const MarkerMotio
   }
   row.stiffness = stiffness_;
   row.damping = damping_;
+  if (length > 0.0) {
+    add_slopes(curve_, length - free_length_, r.dot(second.v - first.v) / length, row);
+  }
   rows.push_back(row);
 }
 
 TorsionalSpring::TorsionalSpring(const Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed,
-                                 double stiffness, double damping, double free_angle)
+                                 double stiffness, double damping, double free_angle,
+                                 std::optional<base::Characteristic> curve)
     : axis_F_(axis_F.normalized()),
       stiffness_(stiffness),
       damping_(damping),
-      free_angle_(free_angle) {
+      free_angle_(free_angle),
+      curve_(std::move(curve)) {
   x_F_ = axis_F_.unitOrthogonal();
   x_M_ = R_FM_placed.transpose() * x_F_;
 }
 
-Action TorsionalSpring::evaluate(double /*t*/, const MarkerMotion& first,
-                                 const MarkerMotion& second) const {
+TorsionalSpring::Twist TorsionalSpring::twist(const MarkerMotion& first,
+                                              const MarkerMotion& second) const {
   const Vector3d axis = first.R * axis_F_;
   const Vector3d x = first.R * x_F_;
   const Vector3d moved = second.R * x_M_;
@@ -77,19 +89,28 @@ Action TorsionalSpring::evaluate(double /*t*/, const MarkerMotion& first,
     throw NumericalError("a torsional spring is twisted by " + std::to_string(angle) +
                          " rad, more than the 3 rad it can measure; limit the motion");
   }
-  const double rate = axis.dot(second.w - first.w);
-  const double twist = angle - free_angle_;
-  const double torque = stiffness_ * twist + damping_ * rate;
+  return {angle - free_angle_, axis.dot(second.w - first.w)};
+}
+
+Action TorsionalSpring::evaluate(double /*t*/, const MarkerMotion& first,
+                                 const MarkerMotion& second) const {
+  const Vector3d axis = first.R * axis_F_;
+  const auto [angle, rate] = twist(first, second);
+  const double at_rest = curve_ ? curve_->force(angle, 0.0) : 0.0;
+  double lost = damping_ * rate;
+  if (curve_) lost += curve_->force(angle, rate) - at_rest;
+  const double torque = stiffness_ * angle + at_rest + lost;
   Action action;
   action.on_first.torque = torque * axis;
   action.on_second.torque = -torque * axis;
-  action.stored_energy = 0.5 * stiffness_ * twist * twist;
-  action.active_power = -damping_ * rate * rate;
-  action.dissipation = damping_ * rate * rate;
+  action.stored_energy = 0.5 * stiffness_ * angle * angle;
+  if (curve_) action.stored_energy += curve_->energy(angle);
+  action.active_power = -lost * rate;
+  action.dissipation = lost * rate;
   return action;
 }
 
-void TorsionalSpring::append_soft_rows(const MarkerMotion& first, const MarkerMotion& /*second*/,
+void TorsionalSpring::append_soft_rows(const MarkerMotion& first, const MarkerMotion& second,
                                        std::vector<SoftRow>& rows) const {
   const Vector3d axis = first.R * axis_F_;
   SoftRow row;
@@ -97,6 +118,10 @@ void TorsionalSpring::append_soft_rows(const MarkerMotion& first, const MarkerMo
   row.J.segment<3>(6) = axis.transpose();
   row.stiffness = stiffness_;
   row.damping = damping_;
+  if (curve_) {
+    const auto [angle, rate] = twist(first, second);
+    add_slopes(curve_, angle, rate, row);
+  }
   rows.push_back(row);
 }
 

@@ -3,21 +3,24 @@
 
 #include <optional>
 
+#include "buckens/base/characteristic.h"
 #include "buckens/base/time_law.h"
 #include "buckens/loads/force_element.h"
 
 namespace buckens::loads {
 
-/// Linear spring and damper along the line between two markers:
-/// tension F = k (l − l0) + c l̇ + f(t) pulls both together.
+/// Spring and damper along the line between two markers: the tension
+/// F = k (l − l0) + c l̇ + φ(l − l0, l̇) + f(t) pulls both together. φ stores ∫ φ(s, 0) ds.
 class SpringDamper final : public ForceElement {
  public:
   /// @param stiffness k [N/m] ≥ 0
   /// @param damping c [N s/m] ≥ 0
   /// @param free_length l0 [m]
   /// @param tension f(t) [N], optional
+  /// @param curve φ [N], optional
   SpringDamper(double stiffness, double damping, double free_length,
-               std::optional<base::TimeLaw> tension);
+               std::optional<base::TimeLaw> tension,
+               std::optional<base::Characteristic> curve = std::nullopt);
 
   /// @throws NumericalError if the markers coincide while the spring pulls, so that it has no
   /// direction
@@ -31,9 +34,10 @@ class SpringDamper final : public ForceElement {
  private:
   double stiffness_, damping_, free_length_;
   std::optional<base::TimeLaw> tension_;
+  std::optional<base::Characteristic> curve_;
 };
 
-/// Linear torsional spring and damper about an axis fixed in the first marker.
+/// Torsional spring and damper about an axis fixed in the first marker.
 ///
 /// The angle is that of the second marker about the axis, zero as placed; it is measured within ±3
 /// rad; beyond that the element throws (use a hinge-spring on a joint).
@@ -45,9 +49,10 @@ class TorsionalSpring final : public ForceElement {
   /// @param R_FM_placed orientation of the second marker in the first as placed
   /// @param stiffness k [N m/rad] ≥ 0
   /// @param damping c [N m s/rad] ≥ 0
-  /// @param free_angle [rad]
+  /// @param free_angle [rad], @param curve torque by angle from there and rate [N m], optional
   TorsionalSpring(const Eigen::Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed,
-                  double stiffness, double damping, double free_angle);
+                  double stiffness, double damping, double free_angle,
+                  std::optional<base::Characteristic> curve = std::nullopt);
 
   /// Unit vector in the first marker.
   const Eigen::Vector3d& axis() const { return axis_F_; }
@@ -60,8 +65,15 @@ class TorsionalSpring final : public ForceElement {
                         std::vector<SoftRow>& rows) const override;
 
  private:
+  /// Angle from that free of torque, and its rate.
+  struct Twist {
+    double angle, rate;
+  };
+  Twist twist(const spatial::MarkerMotion& first, const spatial::MarkerMotion& second) const;
+
   Eigen::Vector3d axis_F_, x_F_, x_M_;
   double stiffness_, damping_, free_angle_;
+  std::optional<base::Characteristic> curve_;
 };
 
 }  // namespace buckens::loads

@@ -13,6 +13,7 @@
 #include "buckens/fem/solid/block.h"
 #include "buckens/fem/solid/recovery.h"
 #include "buckens/loads/elastic_belt.h"
+#include "buckens/model/elastic_gear.h"
 #include "buckens/model/spec/model_description.h"
 #include "buckens/results/divided_body.h"
 
@@ -279,6 +280,13 @@ Geometry model_geometry(const model::Model& model) {
                             joints::to_string(joints::JointType::belt),
                             {side_of(model, load.first), side_of(model, load.second)},
                             to_body(model, load.first, belt->axis())});
+      continue;
+    }
+    if (const auto* teeth = dynamic_cast<const model::ElasticGear*>(load.element.get())) {
+      out.joints.push_back({load.name,
+                            joints::to_string(joints::JointType::gear),
+                            {side_of(model, load.first), side_of(model, load.second)},
+                            to_body(model, load.first, teeth->axis())});
       continue;
     }
     out.joints.push_back({load.name,

@@ -153,7 +153,7 @@ class JointBuilder {
     const joints::Placement p = find_.placement(load.first, load.second);
     load.element = std::make_unique<loads::Bushing>(
         loads::Bushing::Coefficients{kind.stiffness, kind.rotational_stiffness, kind.damping,
-                                     kind.rotational_damping},
+                                     kind.rotational_damping, kind.forces, kind.torques},
         p.R_WF.transpose() * p.R_WM, p.r_F);
     load.kind = joints::BushingSpec::kKey;
     load.is_among_joints = true;

@@ -17,6 +17,7 @@
 #include "buckens/model/build/add_belt.h"
 #include "buckens/model/build/add_contact.h"
 #include "buckens/model/build/add_contacts.h"
+#include "buckens/model/build/add_gear_teeth.h"
 
 namespace buckens::model {
 
@@ -58,6 +59,8 @@ class LoadBuilder {
       set_contacts(*contacts, find_, load, spec.where);
     } else if (const auto* belt = std::get_if<loads::ElasticBeltSpec>(&spec.kind)) {
       set_belt(*belt, find_, load, spec.where);
+    } else if (const auto* teeth = std::get_if<loads::ElasticGearSpec>(&spec.kind)) {
+      set_gear_teeth(*teeth, find_, load, spec.where);
     } else if (const auto* ball = std::get_if<loads::BallFrictionSpec>(&spec.kind)) {
       add_ball_friction(*ball, load, spec.where);
     }
@@ -132,14 +135,15 @@ class LoadBuilder {
     load.second = find_.marker(kind.between[1], true);
     find_.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
     const double distance = (find_.placed(load.second).p - find_.placed(load.first).p).norm();
-    if (distance == 0.0 && (kind.length.value_or(0.0) > 0.0 || kind.force)) {
+    if (distance == 0.0 && (kind.length.value_or(0.0) > 0.0 || kind.force || kind.characteristic)) {
       throw InputError(where,
                        fmt::format("load \"{}\": its markers coincide as placed, so its force "
                                    "has no direction; place them apart or use a bushing",
                                    load.name));
     }
-    load.element = std::make_unique<loads::SpringDamper>(
-        kind.stiffness, kind.damping, kind.length.value_or(distance), kind.force);
+    load.element = std::make_unique<loads::SpringDamper>(kind.stiffness, kind.damping,
+                                                         kind.length.value_or(distance), kind.force,
+                                                         kind.characteristic);
   }
 
   void add_rope(const loads::RopeSpec& kind, Load& load, const SourceLocation& where) {
@@ -232,9 +236,9 @@ class LoadBuilder {
                                    "position as placed, its free angle {:.4g} rad lies beyond",
                                    what, loads::TorsionalSpring::kLargestAngle, kind.angle));
     }
-    load.element =
-        std::make_unique<loads::TorsionalSpring>(joints::unit_axis(p), p.R_WF.transpose() * p.R_WM,
-                                                 kind.stiffness, kind.damping, kind.angle);
+    load.element = std::make_unique<loads::TorsionalSpring>(
+        joints::unit_axis(p), p.R_WF.transpose() * p.R_WM, kind.stiffness, kind.damping, kind.angle,
+        kind.characteristic);
   }
 
   MarkerFinder& find_;

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/model/build/add_coupler.h"
 #include "buckens/model/build/add_distributed_load.h"
+#include "buckens/model/build/add_gear_teeth.h"
 #include "buckens/model/build/add_joint.h"
 #include "buckens/model/build/add_joint_law.h"
 #include "buckens/model/build/add_load.h"
@@ -89,6 +90,7 @@ class Builder {
         add_lock(*base::find_named(d.joints, joint), event, find);
       }
     }
+    require_common_carriers(model_);
     connect_signals(d, model_);
     number_states();
     if (size > 0.0) move_origin(box.center());

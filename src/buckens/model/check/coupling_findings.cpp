@@ -21,7 +21,9 @@ std::string degrees(double angle) {
   return fmt::format("{:.6g} degrees", angle * 180.0 / std::numbers::pi);
 }
 
-Found tooth_problem(const joints::ToothAngles& spec, const ModelDescription& model) {
+/// @param spec with the angles of teeth
+template <class Spec>
+Found tooth_problem(const Spec& spec, const ModelDescription& model) {
   for (const auto& [key, angle] : {std::pair("pressure-angle", spec.pressure_angle),
                                    std::pair("helix-angle", spec.helix_angle)}) {
     if (std::abs(angle) <= kLargestToothAngle) continue;
@@ -36,6 +38,18 @@ Found tooth_problem(const joints::ToothAngles& spec, const ModelDescription& mod
                                degrees(spec.helix_angle))};
   }
   return std::nullopt;
+}
+
+template <class Spec>
+Found gear_problem(const Spec& spec, const ModelDescription& model) {
+  if (spec.internal && spec.teeth[0] == spec.teeth[1]) {
+    return Finding{"teeth",
+                   fmt::format("a ring has more teeth than the gear inside of it, but both have "
+                               "{:g}; correct one",
+                               spec.teeth[0])};
+  }
+  if (Found found = tooth_problem(spec, model)) return found;
+  return needed_axis_problem(spec.axis, model);
 }
 
 Found function_problem(const joints::CouplerTermSpec& term) {
@@ -85,14 +99,11 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
 }  // namespace
 
 Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model) {
-  if (spec.internal && spec.teeth[0] == spec.teeth[1]) {
-    return Finding{"teeth",
-                   fmt::format("a ring has more teeth than the gear inside of it, but both have "
-                               "{:g}; correct one",
-                               spec.teeth[0])};
-  }
-  if (Found found = tooth_problem(spec, model)) return found;
-  return needed_axis_problem(spec.axis, model);
+  return gear_problem(spec, model);
+}
+
+Found own_joint_problem(const loads::ElasticGearSpec& spec, const ModelDescription& model) {
+  return gear_problem(spec, model);
 }
 
 Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/add_gear_teeth.h"
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/model/elastic_gear.h"
+
+namespace buckens::model {
+
+using Eigen::Vector3d;
+
+namespace {
+
+// sin of the angle between the axis and the normal of a planar model that counts as none.
+constexpr double kTurnedGear = 2e-4;
+
+/// Which bodies hang together, the ground among them.
+class Assemblies {
+ public:
+  explicit Assemblies(std::size_t num_bodies) : leader_(num_bodies + 1) {
+    std::iota(leader_.begin(), leader_.end(), std::size_t{0});
+  }
+  void connect(int a, int b) { leader_[find(a)] = find(b); }
+  bool are_connected(int a, int b) { return find(a) == find(b); }
+
+ private:
+  std::size_t find(int body) {
+    auto k = static_cast<std::size_t>(body + 1);  // the ground is -1
+    while (leader_[k] != k) k = leader_[k] = leader_[leader_[k]];
+    return k;
+  }
+  std::vector<std::size_t> leader_;
+};
+
+void require_connected(Assemblies& parts, const Model& model, const MarkerId& first,
+                       const MarkerId& second, const std::string& what,
+                       const SourceLocation& where) {
+  if (parts.are_connected(first.body, second.body)) return;
+  const auto name = [&](const MarkerId& id) {
+    return id.body == kGround ? std::string("the ground")
+                              : '"' + model.bodies[static_cast<std::size_t>(id.body)].name + '"';
+  };
+  throw ModelError(where, fmt::format("{}: its gears have no common carrier, since nothing else "
+                                      "connects {} and {}; gears keep no distance: hold both "
+                                      "shafts, for example by `revolute` joints, on the ground or "
+                                      "on a housing",
+                                      what, name(first), name(second)));
+}
+
+}  // namespace
+
+void require_common_carriers(const Model& model) {
+  Assemblies parts(model.bodies.size());
+  const auto is_teeth = [](const Load& load) {
+    return dynamic_cast<const ElasticGear*>(load.element.get()) != nullptr;
+  };
+  for (const Joint& joint : model.joints) {
+    if (joint.type != joints::JointType::gear) parts.connect(joint.first.body, joint.second.body);
+  }
+  for (const Load& load : model.loads) {
+    if (!load.element->is_applied() && !is_teeth(load)) {
+      parts.connect(load.first.body, load.second.body);
+    }
+  }
+  for (const Joint& joint : model.joints) {
+    if (joint.type != joints::JointType::gear) continue;
+    require_connected(parts, model, joint.first, joint.second,
+                      fmt::format("joint \"{}\"", joint.name), joint.where);
+  }
+  for (const Load& load : model.loads) {
+    if (!is_teeth(load)) continue;
+    require_connected(parts, model, load.first, load.second, fmt::format("load \"{}\"", load.name),
+                      {});
+  }
+}
+
+void set_gear_teeth(const loads::ElasticGearSpec& spec, MarkerFinder& find, Load& load,
+                    const SourceLocation& where) {
+  const std::string what = fmt::format("load \"{}\"", load.name);
+  load.first = find.marker(spec.between[0], true);
+  load.second = find.marker(spec.between[1], true);
+  find.require_two_bodies(load.first, load.second, what, where);
+  find.require_moment(load.first, what, where);
+  find.require_moment(load.second, what, where);
+  joints::Placement p = find.placement(load.first, load.second);
+  p.axis_F = find.axis_or_normal(spec.axis, p.R_WF, what, where);
+  joints::GearMesh::Data mesh;
+  mesh.axis_F = joints::unit_axis(p);
+  if (find.model().planar &&
+      (p.R_WF * mesh.axis_F).cross(spatial::normal(*find.model().planar)).norm() > kTurnedGear) {
+    throw InputError(where, fmt::format("{}: the axis of gears of a planar model must be normal to "
+                                        "the plane; leave `axis` out or turn it",
+                                        what));
+  }
+  mesh.r_F = p.r_F;
+  mesh.R_FM = p.R_WF.transpose() * p.R_WM;
+  mesh.sizes = spec.teeth;
+  mesh.same_sense = spec.internal;
+  mesh.pressure_angle = spec.pressure_angle;
+  mesh.helix_angle = spec.helix_angle;
+  // From normal to the teeth to the line of action across the axes, by the helix at the base
+  // circle; from the pitch circle to the base circle.
+  const double sine = std::sin(spec.helix_angle) * std::cos(spec.pressure_angle);
+  const double normal = 1.0 - sine * sine;
+  const double transverse = std::atan(std::tan(spec.pressure_angle) / std::cos(spec.helix_angle));
+  const ElasticGear::Data data{spec.stiffness * normal, spec.damping * normal,
+                               spec.backlash * std::cos(transverse)};
+  try {
+    load.element = std::make_unique<ElasticGear>(mesh, data);
+  } catch (const ModelError& error) {
+    throw ModelError(where, fmt::format("{}: {}", what, error.what()));
+  }
+}
+
+}  // namespace buckens::model
