@@ -119,6 +119,16 @@ loads:
       "  sensors:", "  sensors:\n    i: {signal: i}\n    u: {signal: u}", 1)
 
 
+# A drive whose speed follows a controller, and gears that rattle in their backlash.
+DRIVEN = SLIDER_CRANK.replace('angle: "speed*t rad"', 'speed: w').replace("loads:", """  pin: {revolute: {between: [{ground: [0, 0.1, 0]}, wheel]}}
+signals:
+  way: {joint-displacement: guide}
+  w: {lag: {input: "speed*(1 + 2*way)", time-constant: 5 ms}}
+loads:
+  teeth: {elastic-gear: {between: [crank/shaft, wheel], teeth: [30, 20], stiffness: 1e6 N/m, damping: 20 N s/m, backlash: 0.2 mm}}""", 1).replace(
+    "joints:", "  wheel: {rigid: {mass: 1 kg, inertia: [0, 0, 1e-3]}, at: {position: [0, 0.1, 0]}}\njoints:", 1)
+
+
 # Settings, locks and switches by events before and after the state is saved, and a joint that lets go.
 EVENTS = SLIDER_CRANK.replace("loads:", """  way: {prismatic: {between: [slider, ball], axis: [1, 0, 0]}}
   hook: {fixed: {between: [rod/mid, weight]}}
@@ -178,6 +188,9 @@ CASES = {
     "contacts of many bodies": (model(HEAP), 0.151),
     "contacts of many bodies, step control": (model(HEAP, step="tolerance: 1e-4"), 0.151),
     "blocks": (model(CONTROL), 0.03),
+    "a drive by signals and gears with backlash": (model(DRIVEN), 0.0301),
+    "a drive by signals and gears, newmark": (model(DRIVEN, step="method: newmark"), 0.0301),
+    "a drive by signals and gears, step control": (model(DRIVEN, step="tolerance: 1e-4"), 0.0301),
     "events": (model(EVENTS), 0.0301),
     "events, step control": (model(EVENTS, step="tolerance: 1e-4"), 0.0301),
     "blocks, newmark": (model(CONTROL, step="method: newmark"), 0.03),

@@ -288,3 +288,49 @@ def test_a_robot_arm_gets_where_it_should(sensors, tmp_path):
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     times = [float(note.split("t = ")[1].split(" s")[0]) for note in summary["notes"] if "event \"there\"" in note]
     assert times == pytest.approx([1.2808], abs=2e-3)  # as its page says
+
+
+CURVES = """
+buckens: 1
+bodies: {cart: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}}
+joints: {rail: {prismatic: {between: [ground, cart], axis: [1, 0, 0]}}}
+signals:
+  at: {joint-displacement: rail}
+  pull: {table: {input: at, points: [[0, 3], [0.5, 1], [1, 1]], EXTRA}}
+  slow: {rate-limit: {input: "t < 0.5 ? 1 : 0", rising: 4, falling: 10}}
+loads: {motor: {slide-motor: {joint: rail, force: "pull"}}}
+simulation: {duration: 1 s, step: 1 ms}
+output: {every: 5 ms, sensors: {x: {joint-coordinate: rail}, pull: {signal: pull}, slow: {signal: slow}}}
+"""
+
+
+def test_a_table_and_a_limit_of_rates(sensors):
+    out = sensors(CURVES.replace("EXTRA", "extrapolation: hold"))
+    assert out["pull"] == pytest.approx(numpy.interp(out["x.value"], [0, 0.5, 1], [3, 1, 1]), abs=1e-12)
+    # x'' = 3 - 4 x until 0.5, so x = 0.75 (1 - cos 2t) to h^2.
+    first = out["x.value"] < 0.5
+    assert out["x.value"][first] == pytest.approx(0.75 * (1 - numpy.cos(2 * out["t"][first])), abs=1e-5)
+    # Up by 4 per second to 1, from 0.5 s down by 10 per second; a lag of 1 ms at the corners.
+    ramp = numpy.where(out["t"] < 0.5, numpy.minimum(4 * out["t"], 1), numpy.maximum(1 - 10 * (out["t"] - 0.5), 0))
+    assert out["slow"] == pytest.approx(ramp, abs=1e-2)
+    steady = (out["t"] > 0.02) & (out["t"] < 0.24) | (out["t"] > 0.52) & (out["t"] < 0.59)
+    assert out["slow"][steady] == pytest.approx(ramp[steady], abs=1e-2) and max(out["slow"]) <= 1 + 1e-9
+
+
+@pytest.mark.parametrize("wrong, words", [
+    ("points: [[0, 3], [0.5, 1], [1, 1]], EXTRA", ["covers inputs from 0 to 1", "extrapolation: hold"]),
+    ("points: [[0, 3], [0, 1]]", ["inputs of a table must increase", "0 follows 0"]),
+    ("points: [[0, 3]]", ["a table of one point"]),
+    ("falling: -1", ["falling", "positive"]),
+])
+def test_tables_and_limits_say_what_is_wrong(buckens, tmp_path, wrong, words):
+    text = CURVES
+    if wrong.startswith("falling"):
+        text = text.replace("falling: 10", wrong).replace(", EXTRA", "")
+    else:
+        text = text.replace("points: [[0, 3], [0.5, 1], [1, 1]], EXTRA", wrong).replace(", EXTRA", "").replace("[1, 1]", "[1, 1]")
+    (tmp_path / "model.yaml").write_text(text.replace("duration: 1 s", "duration: 3 s"))
+    result = buckens("run", "model.yaml", "-o", "out")
+    assert result.code in (2, 4), result.out + result.err
+    for word in words:
+        assert word in result.err, result.err

@@ -247,8 +247,8 @@ TEST(FastEqualsMonolithic, GearsRacksAndCouplers) {
     const Start start = test::consistent_start(model);
     EXPECT_EQ(start.rows_in_use.size(), static_cast<std::size_t>(model.num_constraint_rows()));
     expect_same(model, start, tight(kMethods[seed % 4], 1e-3));
-    // By Wilson's method rounding of reactions grows by e in 25 steps here, in either route: the same
-    // one from accelerations that differ by 1e-14 ends 2e-8 apart after 200 steps.
+    // By Wilson's method rounding of reactions grows by e in 25 steps here, in either route: the
+    // same one from accelerations that differ by 1e-14 ends 2e-8 apart after 200 steps.
     if (seed < 3) expect_same(model, start, tight(stepping::Method::wilson, 1e-3), 60);
   }
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "buckens/base/expression.h"
@@ -15,6 +16,10 @@ namespace buckens::base {
 struct SignalLaw {
   /// Signals that one formula may name.
   static constexpr std::size_t kMostSignals = 8;
+
+  SignalLaw() = default;
+  /// A law of time, which takes the place of a formula of signals everywhere.
+  SignalLaw(TimeLaw of_time) : law(std::move(of_time)) {}  // NOLINT(google-explicit-constructor)
 
   TimeLaw law;                        ///< without signals
   std::optional<Expression> formula;  ///< in t and `names`, in this order

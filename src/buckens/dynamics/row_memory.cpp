@@ -72,7 +72,10 @@ void follow_rows(const model::Model& model, const std::vector<BodyMotion>& motio
     int state = joint.first_state;
     for (std::size_t k = 0; k < joint.rows.size(); ++k) {
       const joints::RowLaw* const law = joint.rows[k].law();
-      if (law == nullptr) continue;
+      if (law == nullptr) {
+        state += joint.rows[k].num_states();  // of drives: written with the signals
+        continue;
+      }
       const int row = joint.first_row + static_cast<int>(k);
       citing(joint, t, [&] {
         law->follow(evaluate_marker(model, joint.first, motions).motion,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/model/function_signal.h"
 
@@ -41,8 +42,9 @@ struct FirstOrderScheme {
 
   double share_of_rate() const { return (1.0 - alpha_f) / (1.0 - alpha_m); }
   /// a⁺ without the share of ẋ⁺.
-  Vector known(const Vector& rate, const Vector& method_rate) const {
-    return (alpha_f * rate - alpha_m * method_rate) / (1.0 - alpha_m);
+  template <class Rate>
+  void find_known(const Rate& rate, const Vector& method_rate, Vector& out) const {
+    out = (alpha_f * rate - alpha_m * method_rate) / (1.0 - alpha_m);
   }
 
   double alpha_f, alpha_m, gamma;
@@ -142,11 +144,15 @@ Vector start_states(const model::Model& model) {
   return x;
 }
 
-/// Rates of the method at the start of a step of length h: they move with it.
-Vector method_rates(const model::RowMemory& memory, Eigen::Index n, double h) {
+/// Rates of the method at the start of a step of length h, which move with it, and what is known of
+/// those at its end.
+void find_method_rates(const FirstOrderScheme& scheme, const model::RowMemory& memory, double h,
+                       SignalValues& s) {
+  const Eigen::Index n = s.x.size();
   const auto rate = memory.blocks.segment(n, n);
   const double scale = memory.block_step > 0.0 ? h / memory.block_step : 1.0;
-  return rate + scale * (memory.blocks.tail(n) - rate);
+  s.method_rates = rate + scale * (memory.blocks.tail(n) - rate);
+  scheme.find_known(rate, s.method_rates, s.known);
 }
 
 const Signal& owner_of_state(const model::Model& model, Eigen::Index state) {
@@ -157,31 +163,40 @@ const Signal& owner_of_state(const model::Model& model, Eigen::Index state) {
   return *owner;
 }
 
-/// x⁺ = fixed + e ẋ⁺(x⁺) by Newton's method with a tangent by differences, formed once.
-void solve_states(const model::Model& model, Evaluation& at, double e, SignalValues& s) {
+/// 1 − e ∂ẋ/∂x by differences, factorised.
+void form_tangent(Evaluation& at, double e, SignalValues& s) {
   const Eigen::Index n = s.x.size();
   at.evaluate(s.x, s.x_dot);
   s.tangent.setIdentity(n, n);
+  s.rates.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double kept = s.x[k];
     const double d = kDifference * (1.0 + std::abs(kept));
     s.x[k] = kept + d;
-    s.rates.resize(n);
     at.evaluate(s.x, s.rates);
     s.tangent.col(k) -= (e / d) * (s.rates - s.x_dot);
     s.x[k] = kept;
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(s.tangent);
+  s.factor.compute(s.tangent);
+}
+
+/// x⁺ = fixed + e ẋ⁺(x⁺) by Newton's method with a tangent by differences, formed again where it
+/// does not lead on: limits bend rates.
+void solve_states(const model::Model& model, Evaluation& at, double e, SignalValues& s) {
+  form_tangent(at, e, s);
   double before = HUGE_VAL;
   for (int iteration = 0;; ++iteration) {
-    s.open = lu.solve(s.fixed + e * s.x_dot - s.x);
+    s.right = s.fixed + e * s.x_dot - s.x;
+    s.open = s.factor.solve(s.right);
     s.x += s.open;
     at.evaluate(s.x, s.x_dot);
     Eigen::Index worst = 0;
     const double change = s.open.cwiseAbs().maxCoeff(&worst);
     const double scale = s.x.cwiseAbs().maxCoeff();
     if (change <= kSettled * scale) return;
-    if (change > 0.3 * before && change <= kRounding * scale) return;
+    const bool is_slow = change > 0.3 * before;
+    if (is_slow && change <= kRounding * scale) return;
+    if (is_slow && std::isfinite(change)) form_tangent(at, e, s);
     before = change;
     if (iteration < kMostIterations && std::isfinite(change)) continue;
     const Signal& signal = owner_of_state(model, worst);
@@ -228,9 +243,12 @@ void require_bounded(const model::Model& model, const SignalValues& s) {
           signal.name, s.x[worst], s.values[0]));
 }
 
-void write_memory(const SignalValues& s, const Vector& method_rate, double h,
-                  model::RowMemory& out) {
+/// @param around with the memory at the start of the step
+void write_memory(const model::Model& model, const std::vector<BodyMotion>& motions,
+                  const Circumstances& around, const SignalValues& s, const Vector& method_rate,
+                  double h, model::RowMemory& out) {
   const Eigen::Index n = s.x.size();
+  write_drives(model, motions, around, s, out.rows);
   out.signals = s.values;
   out.blocks.resize(3 * n);
   out.blocks << s.x, s.x_dot, method_rate;
@@ -254,9 +272,8 @@ void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& 
   out.x = memory.blocks.head(n);
   if (n == 0 || h <= kSameInstant * memory.block_step) return at.evaluate(out.x, out.x_dot);
   const FirstOrderScheme scheme(model.signals.rho);
-  const Vector a = method_rates(memory, n, h);
-  const Vector known = scheme.known(memory.blocks.segment(n, n), a);
-  out.fixed = out.x + h * ((1.0 - scheme.gamma) * a + scheme.gamma * known);
+  find_method_rates(scheme, memory, h, out);
+  out.fixed = out.x + h * ((1.0 - scheme.gamma) * out.method_rates + scheme.gamma * out.known);
   solve_states(model, at, h * scheme.gamma * scheme.share_of_rate(), out);
 }
 
@@ -270,7 +287,7 @@ void start_signals(const model::Model& model, const std::vector<BodyMotion>& mot
   if (take_samples(model, t, s)) {
     Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
   }
-  write_memory(s, s.x_dot, 0.0, memory);
+  write_memory(model, motions, around, s, s.x_dot, 0.0, memory);
 }
 
 void change_states(const model::Model& model, const std::vector<BodyMotion>& motions,
@@ -285,26 +302,26 @@ void change_states(const model::Model& model, const std::vector<BodyMotion>& mot
   Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
   // The rates of the method jump with those of the states.
   const Vector a = memory.blocks.tail(n) + (s.x_dot - memory.blocks.segment(n, n));
-  write_memory(s, a, memory.block_step, memory);
+  write_memory(model, motions, around, s, a, memory.block_step, memory);
 }
 
 void advance_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      const Circumstances& around, model::RowMemory& out) {
   if (model.signals.empty()) return;
-  SignalValues s;
+  thread_local SignalValues s;  // kept, so that steps allocate nothing
   evaluate_signals(model, motions, t, around, s);
-  const Eigen::Index n = s.x.size();
   const double h = t - around.memory->signals[0];
   const FirstOrderScheme scheme(model.signals.rho);
-  Vector a = scheme.known(around.memory->blocks.segment(n, n), method_rates(*around.memory, n, h)) +
-             scheme.share_of_rate() * s.x_dot;
+  find_method_rates(scheme, *around.memory, h, s);
+  Vector& a = s.known;
+  a += scheme.share_of_rate() * s.x_dot;
   if (take_samples(model, t, s)) {
-    const Vector before = s.x_dot;
+    s.rates = s.x_dot;
     Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
-    a += s.x_dot - before;  // what held values drive jumps with them
+    a += s.x_dot - s.rates;  // what held values drive jumps with them
   }
   require_bounded(model, s);
-  write_memory(s, a, h, out);
+  write_memory(model, motions, around, s, a, h, out);
 }
 
 }  // namespace buckens::dynamics

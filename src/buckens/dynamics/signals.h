@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/system_kinematics.h"
 
@@ -12,8 +14,9 @@ namespace buckens::dynamics {
 struct SignalValues {
   std::vector<double> values;  ///< t, then one per signal
   linalg::Vector x, x_dot;     ///< states of all blocks and their rates
-  linalg::Vector fixed, open, rates;
+  linalg::Vector fixed, open, rates, known, method_rates, right;
   Eigen::MatrixXd tangent;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor;
 };
 
 /// What one joint coordinate is taken to be more than it is: for tangents.

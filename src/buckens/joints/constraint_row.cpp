@@ -103,17 +103,46 @@ ConstraintRow ConstraintRow::travelling(int number, std::optional<base::TimeLaw>
   return row;
 }
 
-ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, bool with_acceleration) const {
+ConstraintRow ConstraintRow::steered(double start) const {
+  ConstraintRow out = *this;
+  out.law_ = base::TimeLaw::constant(start);
+  out.is_steered_ = true;
+  return out;
+}
+
+double ConstraintRow::driven_to(double t, const double* states) const {
+  Steering to;
+  if (!is_steered_ || !to.read(states)) return law_ ? law_->value(t) : 0.0;
+  const double ahead = t - to.t;
+  return to.value + ahead * (to.rate + 0.5 * ahead * to.acceleration);
+}
+
+double ConstraintRow::driven_rate(double t, const double* states) const {
+  Steering to;
+  if (!is_steered_ || !to.read(states)) return law_ ? law_->rate(t) : 0.0;
+  return to.rate + (t - to.t) * to.acceleration;
+}
+
+double ConstraintRow::driven_acceleration(double t, const double* states) const {
+  Steering to;
+  if (!is_steered_ || !to.read(states)) return law_ ? law_->acceleration(t) : 0.0;
+  return to.acceleration;
+}
+
+ConstraintRow::TurningVector ConstraintRow::turning_vector(double t, const double* states,
+                                                           bool with_acceleration) const {
   TurningVector b{e_, Vector3d::Zero(), Vector3d::Zero()};
   if (!law_) return b;
-  const double angle = law_->value(t);
-  const double rate = law_->rate(t);
+  const double angle = driven_to(t, states);
+  const double rate = driven_rate(t, states);
   // e_ is perpendicular to the axis, so b = cos e + sin (axis × e).
   const Vector3d side = axis_.cross(e_);
   b.value = std::cos(angle) * e_ + std::sin(angle) * side;
   const Vector3d ahead = axis_.cross(b.value);
   b.rate = rate * ahead;
-  if (with_acceleration) b.acceleration = law_->acceleration(t) * ahead - rate * rate * b.value;
+  if (with_acceleration) {
+    b.acceleration = driven_acceleration(t, states) * ahead - rate * rate * b.value;
+  }
   return b;
 }
 
@@ -147,15 +176,15 @@ RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, d
       break;
     case Kind::point_along: {
       const Vector3d e = F.R * e_;
-      out.g = e.dot(r) - offset_ - (law_ ? law_->value(t) : 0.0);
-      out.g_t = law_ ? -law_->rate(t) : 0.0;
+      out.g = e.dot(r) - offset_ - driven_to(t, states);
+      out.g_t = -driven_rate(t, states);
       out.J.segment<3>(0) = e.cross(r).transpose();
       out.J.segment<3>(3) = -e.transpose();
       out.J.segment<3>(9) = e.transpose();
       break;
     }
     case Kind::direction: {
-      const TurningVector b_F = turning_vector(t, false);
+      const TurningVector b_F = turning_vector(t, states, false);
       const Vector3d b = F.R * b_F.value;
       const Vector3d c = M.R * c_;
       out.g = b.dot(c);
@@ -218,7 +247,7 @@ double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const M
     const Vector3d e_dot = F.w.cross(e);
     const Vector3d e_bias = bias_F.alpha.cross(e) + F.w.cross(e_dot);
     const double slide = e_bias.dot(r) + 2.0 * e_dot.dot(r_dot) + e.dot(a);
-    if (kind_ == Kind::point_along) return slide - (law_ ? law_->acceleration(t) : 0.0);
+    if (kind_ == Kind::point_along) return slide - driven_acceleration(t, states);
     const double turn = e.dot(bias_M.alpha - bias_F.alpha) + e_dot.dot(M.w - F.w);
     return slide - pitch_ / kWholeTurn * turn;
   }
@@ -232,7 +261,7 @@ double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const M
   if (kind_ == Kind::homokinetic) {
     return product(F.R * e_, M.R * c_) - product(F.R * e2_, M.R * c2_);
   }
-  const TurningVector b_F = turning_vector(t, true);
+  const TurningVector b_F = turning_vector(t, states, true);
   const Vector3d b = F.R * b_F.value;
   const Vector3d rel = F.R * b_F.rate;
   const Vector3d c = M.R * c_;

@@ -9,6 +9,26 @@
 
 namespace buckens::joints {
 
+/// What a steered row is told: where it is to be at an instant, and how that moves on from there.
+struct Steering {
+  static constexpr int kStates = 5;
+  double t = 0;             ///< the instant [s]
+  double value = 0;         ///< [m] or [rad]
+  double rate = 0;          ///< [m/s] or [rad/s]
+  double acceleration = 0;  ///< [m/s²] or [rad/s²]
+
+  void write(double* states) const {
+    const double all[kStates] = {1.0, t, value, rate, acceleration};
+    for (int k = 0; k < kStates; ++k) states[k] = all[k];
+  }
+  /// @param states may be null. @return whether they say anything
+  bool read(const double* states) {
+    if (states == nullptr || states[0] == 0.0) return false;
+    *this = {states[1], states[2], states[3], states[4]};
+    return true;
+  }
+};
+
 /// One scalar constraint between marker frames F (first) and M (second).
 ///
 /// Every joint is made of these kinds of rows:
@@ -68,7 +88,14 @@ class ConstraintRow {
   static ConstraintRow travelling(int number,
                                   std::optional<base::TimeLaw> displacement = std::nullopt);
 
-  /// @param states what a row of kind `law` remembers; null: nothing is known yet
+  /// The same row, following signals instead of a law of time: where it is to be stands in its
+  /// states (Steering), which whoever evaluates signals writes.
+  /// @param start where it is to be as long as its states say nothing [m] or [rad]
+  /// @pre depends_on_time(), of kind `point_along` or `direction`
+  ConstraintRow steered(double start) const;
+
+  /// @param states what a row of kind `law` remembers, or a steered one is told; null: nothing is
+  ///        known yet
   RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states = nullptr) const;
 
@@ -94,6 +121,7 @@ class ConstraintRow {
   /// A slider remembers with its first row whether it is known where it is, and where.
   int num_states() const {
     if (kind_ == Kind::travelling) return number_ == 0 ? 2 : 0;
+    if (is_steered_) return Steering::kStates;
     return own_ ? own_->num_states() : 0;
   }
   /// Whether it holds rates only, so that its residual is always zero: rolling.
@@ -113,7 +141,11 @@ class ConstraintRow {
   struct TurningVector {
     Eigen::Vector3d value, rate, acceleration;
   };
-  TurningVector turning_vector(double t, bool with_acceleration) const;
+  TurningVector turning_vector(double t, const double* states, bool with_acceleration) const;
+  /// Where the drive is to be.
+  double driven_to(double t, const double* states) const;
+  double driven_rate(double t, const double* states) const;
+  double driven_acceleration(double t, const double* states) const;
   /// Rows of distance, homokinetic and screw. @param r from F to M
   void evaluate_coupling(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                          const Eigen::Vector3d& r, RowValue& out) const;
@@ -132,6 +164,7 @@ class ConstraintRow {
   double pitch_ = 0;
   bool is_angle_ = false;  // of a coupled row
   int number_ = 0;         // of a travelling row
+  bool is_steered_ = false;
   std::optional<base::TimeLaw> law_;
   std::shared_ptr<const RowLaw> own_;
 };

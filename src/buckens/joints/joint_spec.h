@@ -10,7 +10,7 @@
 
 #include "buckens/base/characteristic.h"
 #include "buckens/base/motion_dimensions.h"
-#include "buckens/base/time_law.h"
+#include "buckens/base/signal_law.h"
 #include "buckens/joints/coupler_spec.h"
 #include "buckens/joints/coupling_specs.h"
 #include "buckens/joints/guide_specs.h"
@@ -123,14 +123,27 @@ struct BushingSpec : JointEnds {
   }
 };
 
-/// The motion of a drive from the one of its laws that is given; integrals begin at t = 0 with 0.
-inline base::TimeLaw driven_by(const std::optional<base::TimeLaw>& position,
-                               const std::optional<base::TimeLaw>& rate,
-                               const std::optional<base::TimeLaw>& acceleration) {
-  if (rate) return base::TimeLaw::integral(*rate);
-  if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(*acceleration));
-  return position.value_or(base::TimeLaw());
-}
+/// What a drive follows: exactly one of the three is given.
+struct DriveLaws {
+  const std::optional<base::SignalLaw>&position, &rate, &acceleration;
+
+  int num_given() const {
+    return int{position.has_value()} + int{rate.has_value()} + int{acceleration.has_value()};
+  }
+  /// Whether it follows signals, so that no law of time is known.
+  bool is_steered() const {
+    for (const auto* law : {&position, &rate, &acceleration}) {
+      if (*law && (*law)->uses_signals()) return true;
+    }
+    return false;
+  }
+  /// The motion as a law of time; integrals begin at t = 0 with 0. @pre !is_steered()
+  base::TimeLaw of_time() const {
+    if (rate) return base::TimeLaw::integral(rate->law);
+    if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(acceleration->law));
+    return position ? position->law : base::TimeLaw();
+  }
+};
 
 struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "prescribed-rotation";
@@ -138,34 +151,38 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
       "drives the rotation about the axis; add a joint for the other directions";
   static constexpr bool kTurns = true;
   // Exactly one of the three is given.
-  std::optional<base::TimeLaw> angle;         ///< counted from the position as placed [rad]
-  std::optional<base::TimeLaw> speed;         ///< [rad/s]; the angle is its integral from t = 0
-  std::optional<base::TimeLaw> acceleration;  ///< [rad/s²]; the speed is its integral from t = 0
+  std::optional<base::SignalLaw> angle;         ///< counted from the position as placed [rad]
+  std::optional<base::SignalLaw> speed;         ///< [rad/s]; the angle is its integral from t = 0
+  std::optional<base::SignalLaw> acceleration;  ///< [rad/s²]; the speed is its integral from t = 0
 
-  /// The angle as a law of time.
-  base::TimeLaw law() const { return driven_by(angle, speed, acceleration); }
+  DriveLaws laws() const { return {angle, speed, acceleration}; }
 
   template <class Visitor>
   void fields(Visitor& visit) {
     axis_fields(visit);
     visit(base::field(
               "angle", angle,
-              "angle of the second marker about the axis, measured from the position as placed")
+              "angle of the second marker about the axis, measured from the position as placed; a "
+              "formula of t and signals whose rate has no jumps: "
+              "of states of blocks, no measured angles or speeds")
               .in(base::kAngle)
               .like("\"150*t\"")
               .otherwise("give this or `speed`"));
     visit(base::field("speed", speed,
                       "angular velocity of the second marker about the axis; the angle is its "
-                      "integral from t = 0 and starts from the position as placed")
+                      "integral from t = 0 and starts from the position as placed; a formula of t "
+                      "and signals, but of measured speeds and forces only behind a `lag` or an "
+                      "`integral`")
               .in(base::kAngularVelocity)
               .like("3000 rpm")
               .otherwise("give this or `angle`"));
-    visit(base::field("acceleration", acceleration,
-                      "angular acceleration of the second marker about the axis; it begins at rest "
-                      "at the position as placed")
-              .in(base::kAngularAcceleration)
-              .like("\"20*sin(5*t) rad/s^2\"")
-              .otherwise("give this, `angle` or `speed`"));
+    visit(
+        base::field("acceleration", acceleration,
+                    "angular acceleration of the second marker about the axis, a formula of t and "
+                    "signals; it begins at rest at the position as placed")
+            .in(base::kAngularAcceleration)
+            .like("\"20*sin(5*t) rad/s^2\"")
+            .otherwise("give this, `angle` or `speed`"));
   }
 };
 
@@ -176,12 +193,11 @@ struct PrescribedTranslationSpec : JointEnds {
   static constexpr bool kSlides = true;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
   // Exactly one of the three is given.
-  std::optional<base::TimeLaw> displacement;  ///< counted from the position as placed [m]
-  std::optional<base::TimeLaw> velocity;      ///< [m/s]; the displacement is its integral
-  std::optional<base::TimeLaw> acceleration;  ///< [m/s²]; the velocity is its integral
+  std::optional<base::SignalLaw> displacement;  ///< counted from the position as placed [m]
+  std::optional<base::SignalLaw> velocity;      ///< [m/s]; the displacement is its integral
+  std::optional<base::SignalLaw> acceleration;  ///< [m/s²]; the velocity is its integral
 
-  /// The displacement as a law of time.
-  base::TimeLaw law() const { return driven_by(displacement, velocity, acceleration); }
+  DriveLaws laws() const { return {displacement, velocity, acceleration}; }
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -191,22 +207,25 @@ struct PrescribedTranslationSpec : JointEnds {
               .like("[1, 0, 0]"));
     visit(base::field("displacement", displacement,
                       "displacement of the second marker along the axis, measured from the "
-                      "position as placed")
+                      "position as placed; a formula of t and signals whose rate has no jumps: of "
+                      "states of blocks, no measured places or velocities")
               .in(base::kLength)
               .like("\"10*sin(20*t) mm\"")
               .otherwise("give this, `velocity` or `acceleration`"));
     visit(base::field("velocity", velocity,
                       "of the second marker along the axis; the displacement is its integral from "
-                      "t = 0 and begins at the position as placed")
+                      "t = 0 and begins at the position as placed; a formula of t and signals, but "
+                      "of measured velocities and forces only behind a `lag` or an `integral`")
               .in(base::kVelocity)
               .like("0.2 m/s")
               .otherwise("give this or `displacement`"));
-    visit(base::field("acceleration", acceleration,
-                      "of the second marker along the axis; it begins at rest at the position as "
-                      "placed")
-              .in(base::kAcceleration)
-              .like("\"2*sin(5*t) m/s^2\"")
-              .otherwise("give this or `displacement`"));
+    visit(
+        base::field("acceleration", acceleration,
+                    "of the second marker along the axis, a formula of t and signals; it begins at "
+                    "rest at the position as placed")
+            .in(base::kAcceleration)
+            .like("\"2*sin(5*t) m/s^2\"")
+            .otherwise("give this or `displacement`"));
   }
 };
 

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
 namespace buckens::model {
 
 namespace {
@@ -28,6 +32,16 @@ class LinearBlock final : public ControlBlock {
     return c_.dot(states_of(x)) + d_ * u;
   }
   bool feeds_through() const override { return d_ != 0.0; }
+  bool is_linear() const override { return true; }
+  int relative_degree() const override {
+    if (feeds_through()) return 0;
+    VectorXd effect = b_;
+    for (int k = 1; k < 3; ++k) {
+      if (c_.dot(effect) != 0.0) return k;
+      effect = VectorXd(A_ * effect);
+    }
+    return 3;
+  }
   void rates(std::span<const double> x, double u, std::span<double> x_dot) const override {
     Eigen::Map<VectorXd> out(x_dot.data(), A_.rows());
     out.noalias() = A_ * states_of(x);
@@ -78,6 +92,7 @@ class SampledPid final : public ControlBlock {
   // What is held; the integral part; the derivative part; the last input; whether there was one.
   int num_states() const override { return 5; }
   void start(std::span<double> x) const override { std::fill(x.begin(), x.end(), 0.0); }
+  bool is_held() const override { return true; }
   bool feeds_through() const override { return false; }
   double value(std::span<const double> x, double /*u*/) const override { return x[0]; }
   void rates(std::span<const double>, double, std::span<double> x_dot) const override {
@@ -110,6 +125,7 @@ class Switch final : public ControlBlock {
 
   int num_states() const override { return 1; }
   void start(std::span<double> x) const override { x[0] = start_ ? 1.0 : 0.0; }
+  bool is_held() const override { return true; }
   bool feeds_through() const override { return false; }
   double value(std::span<const double> x, double /*u*/) const override { return x[0]; }
   void rates(std::span<const double>, double, std::span<double> x_dot) const override {
@@ -137,6 +153,7 @@ class SampleHold final : public ControlBlock {
 
   int num_states() const override { return 1; }
   void start(std::span<double> x) const override { x[0] = 0.0; }
+  bool is_held() const override { return true; }
   bool feeds_through() const override { return false; }
   double value(std::span<const double> x, double /*u*/) const override { return x[0]; }
   void rates(std::span<const double>, double, std::span<double> x_dot) const override {
@@ -149,6 +166,47 @@ class SampleHold final : public ControlBlock {
   double sample_;
 };
 
+class TableBlock final : public ControlBlock {
+ public:
+  explicit TableBlock(base::TimeLaw function) : function_(std::move(function)) {}
+
+  int num_states() const override { return 0; }
+  void start(std::span<double>) const override {}
+  bool feeds_through() const override { return true; }
+  double value(std::span<const double>, double u) const override {
+    const std::optional<base::TimeRange> range = function_.range();
+    if (range && (u < range->first || u > range->last)) {
+      throw NumericalError(
+          range->where,
+          fmt::format("the table of a signal covers inputs from {:g} to {:g}, but is asked for "
+                      "{:.6g}; give it more points, or `extrapolation: hold`",
+                      range->first, range->last, u));
+    }
+    return function_.value(u);
+  }
+  void rates(std::span<const double>, double, std::span<double>) const override {}
+
+ private:
+  base::TimeLaw function_;
+};
+
+class RateLimit final : public ControlBlock {
+ public:
+  RateLimit(double rising, double falling, double time_constant, double start)
+      : rising_(rising), falling_(falling), time_constant_(time_constant), start_(start) {}
+
+  int num_states() const override { return 1; }
+  void start(std::span<double> x) const override { x[0] = start_; }
+  bool feeds_through() const override { return false; }
+  double value(std::span<const double> x, double /*u*/) const override { return x[0]; }
+  void rates(std::span<const double> x, double u, std::span<double> x_dot) const override {
+    x_dot[0] = std::clamp((u - x[0]) / time_constant_, -falling_, rising_);
+  }
+
+ private:
+  double rising_, falling_, time_constant_, start_;
+};
+
 /// y = x, which stays until it is set.
 class Setting final : public ControlBlock {
  public:
@@ -156,6 +214,7 @@ class Setting final : public ControlBlock {
 
   int num_states() const override { return 1; }
   void start(std::span<double> x) const override { x[0] = start_; }
+  bool is_held() const override { return true; }
   bool feeds_through() const override { return false; }
   double value(std::span<const double> x, double /*u*/) const override { return x[0]; }
   void rates(std::span<const double>, double, std::span<double> x_dot) const override {
@@ -205,6 +264,15 @@ std::shared_ptr<const ControlBlock> make_pid(const PidData& data) {
 
 std::shared_ptr<const ControlBlock> make_switch(double on, std::optional<double> off, bool start) {
   return std::make_shared<Switch>(on, off, start);
+}
+
+std::shared_ptr<const ControlBlock> make_table_block(base::TimeLaw function) {
+  return std::make_shared<TableBlock>(std::move(function));
+}
+
+std::shared_ptr<const ControlBlock> make_rate_limit(double rising, double falling,
+                                                    double time_constant, double start) {
+  return std::make_shared<RateLimit>(rising, falling, time_constant, start);
 }
 
 std::shared_ptr<const ControlBlock> make_setting(double start) {

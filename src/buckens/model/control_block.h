@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/time_law.h"
+
 namespace buckens::model {
 
 /// A block with states x, one input u and one value y.
@@ -26,6 +28,13 @@ class ControlBlock {
   virtual bool feeds_through() const = 0;
   /// Writes ẋ. Of sampled blocks zero.
   virtual void rates(std::span<const double> x, double u, std::span<double> x_dot) const = 0;
+
+  /// Whether rates and value are linear in states and input.
+  virtual bool is_linear() const { return false; }
+  /// How often the value has to be differentiated until the input shows; 3 for more.
+  virtual int relative_degree() const { return feeds_through() ? 0 : 1; }
+  /// Whether the value stays from one sample, switch or setting to the next.
+  virtual bool is_held() const { return false; }
 
   /// Time between two samples [s]; 0: continuous.
   virtual double sample_time() const { return 0.0; }
@@ -58,6 +67,14 @@ struct PidData {
 /// (y − v)/tracking. Sampled: the integral by the rule of rectangles, the derivative by backward
 /// differences, and no integral while the value is limited and would grow.
 std::shared_ptr<const ControlBlock> make_pid(const PidData& data);
+
+/// y = f(u), without states. @param function over its input in place of time
+std::shared_ptr<const ControlBlock> make_table_block(base::TimeLaw function);
+
+/// T ẋ = u − x within −falling … rising, y = x.
+/// @param rising,falling,time_constant > 0
+std::shared_ptr<const ControlBlock> make_rate_limit(double rising, double falling,
+                                                    double time_constant, double start);
 
 /// y is 1 from where the input reaches `on` to where it reaches `off`, seen at the ends of steps.
 /// @param off none: it stays on

@@ -62,6 +62,12 @@ struct Coordinate {
   joints::JointCoordinate law;
 };
 
+/// A joint that is driven by a signal.
+struct Drive {
+  int joint = 0;   ///< index into Model::joints; its only row is steered
+  int signal = 0;  ///< index into SignalSet::all: its angle [rad] or displacement [m]
+};
+
 /// Where a distributed load can be drawn as an arrow.
 struct LoadFoot {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< model axes [m]
@@ -110,6 +116,7 @@ struct Model {
   /// Of loads that are contacts among many bodies; see model/contact_group.h.
   std::vector<std::shared_ptr<const ContactGroup>> contact_groups;
   SignalSet signals;
+  std::vector<Drive> drives;
   /// Origin of the world of this model in that of the model file [m]: zero unless the mechanism is
   /// so far away that positions would lose digits. All positions in the library are relative to it;
   /// add it for display.

@@ -31,10 +31,12 @@ struct Signal {
 
 /// All signals of a model.
 struct SignalSet {
-  std::vector<Signal> all;  ///< in the order of the model file: that of the variables of formulas
-  std::vector<int> order;   ///< in which they can be evaluated, one after the other
-  int num_states = 0;       ///< of all blocks
-  double rho = 1;           ///< spectral radius of their integration at infinite frequency
+  /// In the order of the model file, that of the variables of formulas; then those of drives.
+  std::vector<Signal> all;
+  std::vector<int> order;     ///< in which they can be evaluated, one after the other
+  std::vector<int> steering;  ///< those of `order` that drives depend on
+  int num_states = 0;         ///< of all blocks
+  double rho = 1;             ///< spectral radius of their integration at infinite frequency
 
   bool empty() const { return all.empty(); }
 };

@@ -283,7 +283,7 @@ base::SignalLaw read_signal_law(const ReadPlace& place, const FieldNote& note,
       out.places.push_back(static_cast<int>(k));
     }
   }
-  if (out.names.empty()) return {read_time_law(place, note, context), {}, 1.0, {}, {}};
+  if (out.names.empty()) return read_time_law(place, note, context);
   if (out.names.size() > base::SignalLaw::kMostSignals) {
     fail(place,
          fmt::format("the formula names {} signals, {} at most are possible; make signals of "

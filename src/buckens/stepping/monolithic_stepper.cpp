@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/coupling_terms.h"
+#include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/spatial/rotation.h"
@@ -202,6 +203,7 @@ void MonolithicStepper::evaluate(double t) {
         part.motion(scheme_.weight, at_end, scheme_.has_offset(), scheme_.mean_rate,
                     part.frame_history.mean_velocity, &part.nodal_history.mean_velocity);
   }
+  dynamics::steer_drives(model_, motions_end_, t + scheme_.h, around(), forces_.signals, memory_);
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, &memory_, end_);
   dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, &memory_, evaluation_);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/model_scales.h"
 #include "buckens/stepping/row_selection.h"
 #include "buckens/stepping/step_failure.h"
@@ -89,6 +90,10 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
 
 void SmallNewton::use(const dynamics::Circumstances& around) {
   around_ = around;
+  if (!model_.drives.empty()) {
+    steered_ = *around.memory;
+    around_.memory = &steered_;
+  }
   held_.release();
   if (rigid_.empty()) return;
   rigid_.start(*around.memory);
@@ -114,6 +119,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
     bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
     if (!same) bodies[b].motion_at_evaluation(scheme_, answers_[b], evaluation_[b]);
   }
+  steer(t);
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_);
   if (same) {
@@ -127,6 +133,10 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
     if (answers_[b] == nullptr) continue;
     bodies[b].set_load(forces_.interface[b], at_evaluation()[b].frame.w);
   }
+}
+
+void SmallNewton::steer(double t) {
+  dynamics::steer_drives(model_, end_, t + scheme_.h, around_, steering_signals_, steered_);
 }
 
 void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end) {
@@ -149,6 +159,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     compliance_[b].interface = answers_[b] ? &answers_[b]->interface_compliance() : nullptr;
   }
   rounding_length_ = dynamics::rounding_length(model_, end_);
+  steer(t);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
   reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
   follow_near();

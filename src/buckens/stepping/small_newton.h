@@ -71,6 +71,8 @@ class SmallNewton {
     double motion = 0;  ///< largest motion of the step [m]
   };
   void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda);
+  /// Tells drives by signals where they are to be at the end of the step.
+  void steer(double t);
   /// @return size of the residual of the bodies' equations of motion [m]
   double find_residuals(const std::vector<BodyStep>& bodies);
   /// One iteration from the results of evaluate() and find_residuals().
@@ -149,6 +151,8 @@ class SmallNewton {
   RowWatch watch_;
   bool has_quasi_static_ = false;
   dynamics::Circumstances around_;
+  model::RowMemory steered_;  // of models with drives by signals: around_.memory, steered
+  dynamics::SignalValues steering_signals_;
   RigidRows rigid_;
   HeldLaws held_;
   int num_selections_ = 0;

@@ -33,10 +33,12 @@ struct OpenJoint {
   double size(double length) const { return std::max(gap / length, angle); }
 };
 
-std::vector<OpenJoint> open_joints(const model::Model& model, double t) {
+std::vector<OpenJoint> open_joints(const model::Model& model, const model::State& state) {
   std::vector<OpenJoint> out;
+  const double t = state.t;
   model::State placed = model::placed_state(model);
   placed.t = t;
+  placed.memory.released = state.memory.released;
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, placed), t, &placed.memory,
                                  constraints);
@@ -125,7 +127,7 @@ std::string AssemblyMove::text() const {
 
 std::vector<AssemblyMove> assembly_moves(const model::Model& model, const model::State& assembled) {
   std::vector<AssemblyMove> out;
-  const std::vector<OpenJoint> open = open_joints(model, assembled.t);
+  const std::vector<OpenJoint> open = open_joints(model, assembled);
   for (const model::WholeBody& whole : model.wholes) {
     std::optional<AssemblyMove> move = move_of(model, whole, assembled);
     if (!move) continue;

@@ -25,9 +25,12 @@ namespace buckens::analysis {
 namespace {
 
 std::vector<std::string> describe_redundancy(const model::Model& model,
+                                             const model::RowMemory& memory,
                                              const std::vector<int>& dependent) {
   std::vector<std::string> out;
-  for (const model::Joint& joint : model.joints) {
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (memory.is_released(j)) continue;
+    const model::Joint& joint = model.joints[j];
     const int first = joint.first_row;
     const int count = static_cast<int>(joint.rows.size());
     const auto own = std::count_if(dependent.begin(), dependent.end(),
@@ -53,17 +56,45 @@ void settle_rows(const model::Model& model, const dynamics::MassMetric& metric,
   }
 }
 
+/// Joints that hold nothing at the start; empty if there are none.
+std::vector<char> released_at_start(const model::BuiltModel& built) {
+  std::vector<char> out;
+  const auto& joints = built.model.joints;
+  for (const std::string& name : built.description.initial.released) {
+    out.resize(joints.size(), 0);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].name == name && !joints[j].is_tie) out[j] = 1;
+    }
+  }
+  return out;
+}
+
 /// What rows and laws remember as the motion begins.
-model::RowMemory memory_at_start(const model::Model& model, const std::vector<std::string>& off,
+model::RowMemory memory_at_start(const model::BuiltModel& built,
                                  const std::vector<dynamics::BodyMotion>& motions) {
+  const model::Model& model = built.model;
   model::RowMemory out = dynamics::start_memory(model, motions);
-  for (const std::string& name : off) {
+  out.released = released_at_start(built);
+  for (const std::string& name : built.description.initial.off) {
     out.off.resize(model.loads.size(), 0);
     for (std::size_t k = 0; k < model.loads.size(); ++k) {
       if (model.loads[k].name == name) out.off[k] = 1;
     }
   }
   return out;
+}
+
+bool have_laws_of_reactions(const model::Model& model) {
+  return std::any_of(model.loads.begin(), model.loads.end(),
+                     [](const model::Load& load) { return load.joint >= 0; });
+}
+
+/// The speeds of drives by signals are known once positions are.
+void begin_drives(const model::BuiltModel& built, model::State& state) {
+  const auto motions = dynamics::motions_of(built.model, state);
+  state.memory = memory_at_start(built, motions);
+  count_start_turns(built.starts, built.model, state.memory);
+  dynamics::start_signals(built.model, motions, state.t, state.memory);
 }
 
 }  // namespace
@@ -74,6 +105,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   Prepared out;
   out.notes = model.notes;
   out.state = model::placed_state(model);
+  out.state.memory.released = released_at_start(built);
   bool is_closed = false;
   try {
     assemble_positions(model, metric, out.state);
@@ -104,6 +136,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     assemble_positions(model, metric, out.state, built.starts);
   }
   set_initial_velocities(built, out.state);
+  if (!model.drives.empty()) begin_drives(built, out.state);
 
   dynamics::Constraints constraints;
   dynamics::evaluate_constraints(model, dynamics::motions_of(model, out.state), out.state.t,
@@ -111,7 +144,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   const linalg::RowRank rank = metric.split(constraints.rows);
   out.rows_in_use = rank.independent;
   out.redundant_rows = rank.dependent;
-  out.redundant_text = describe_redundancy(model, rank.dependent);
+  out.redundant_text = describe_redundancy(model, out.state.memory, rank.dependent);
   const model::State given = out.state;
   project_velocities(model, metric, out.state, built.starts);
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
@@ -119,13 +152,11 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   }
   refuse_beyond_stops(model, out.state);
   const auto motions = dynamics::motions_of(model, out.state);
-  out.state.memory = memory_at_start(model, initial.off, motions);
+  out.state.memory = memory_at_start(built, motions);
   count_start_turns(built.starts, model, out.state.memory);
   dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns
   settle_rows(model, metric, out.rows_in_use, out.state);
-  const bool sees_reactions = std::any_of(model.loads.begin(), model.loads.end(),
-                                          [](const model::Load& load) { return load.joint >= 0; });
-  if (sees_reactions) settle_friction(model, metric, out.rows_in_use, out.state);
+  if (have_laws_of_reactions(model)) settle_friction(model, metric, out.rows_in_use, out.state);
   return out;
 }
 

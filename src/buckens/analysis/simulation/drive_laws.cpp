@@ -41,12 +41,9 @@ bool grows(const base::TimeLaw& law, double duration, int order) {
 DriveLaws::DriveLaws(const model::ModelDescription& description) {
   for (const joints::JointSpec& joint : description.joints) {
     if (const auto* turn = std::get_if<joints::PrescribedRotationSpec>(&joint.kind)) {
-      const base::TimeLaw law = turn->law();
-      if (!law.is_constant()) drives_.push_back({joint.name, joint.where, law, "rad"});
+      take(turn->laws(), joint, "rad");
     } else if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
-      if (!push->law().is_constant()) {
-        drives_.push_back({joint.name, joint.where, push->law(), "m"});
-      }
+      take(push->laws(), joint, "m");
     } else if (const auto* slide = std::get_if<joints::SliderOnBeamSpec>(&joint.kind)) {
       const base::TimeLaw law = slide->way();
       if (slide->is_driven() && !law.is_constant()) {
@@ -54,6 +51,13 @@ DriveLaws::DriveLaws(const model::ModelDescription& description) {
       }
     }
   }
+}
+
+void DriveLaws::take(const joints::DriveLaws& laws, const joints::JointSpec& joint,
+                     const char* unit) {
+  if (laws.is_steered()) return;
+  const base::TimeLaw law = laws.of_time();
+  if (!law.is_constant()) drives_.push_back({joint.name, joint.where, law, unit});
 }
 
 void DriveLaws::check(double from, double to) const {

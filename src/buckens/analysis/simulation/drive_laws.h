@@ -26,6 +26,8 @@ class DriveLaws {
   std::vector<std::string> corners(double duration) const;
 
  private:
+  void take(const joints::DriveLaws& laws, const joints::JointSpec& joint, const char* unit);
+
   struct Drive {
     std::string joint;
     SourceLocation where;

@@ -2,9 +2,14 @@
 #include "buckens/analysis/simulation/event_actions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
 
 #include "buckens/analysis/initial/after_impact.h"
 #include "buckens/analysis/initial/rigid_rows_start.h"
+#include "buckens/base/errors.h"
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/energy.h"
@@ -17,6 +22,10 @@ namespace buckens::analysis {
 namespace {
 
 constexpr int kFree = 0, kLocked = 1;
+// How far joints may be open that are attached: of the model's length, and as the sine of an angle.
+constexpr double kOpen = 1e-3;
+constexpr double kBent = 0.05;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double kinetic_energy(const model::Model& model, const model::State& state) {
   return dynamics::energy(model, state).kinetic;
@@ -38,7 +47,8 @@ EventActions::Effect EventActions::apply(const model::EventSpec& event, model::S
   switch_loads(event.switch_off, false, state);
   out.gained = dynamics::energy(model, state).springs - stored;
   for (const std::string& joint : event.release) release_joint(joint, state);
-  bool has_locked = false;
+  for (const std::string& joint : event.attach) attach_joint(joint, event, state);
+  bool has_locked = !event.attach.empty();
   for (const std::string& joint : event.unlock) hold_joint(joint, false, state);
   for (const std::string& joint : event.lock) {
     has_locked = hold_joint(joint, true, state) || has_locked;
@@ -128,6 +138,36 @@ void EventActions::release_joint(const std::string& name, model::State& state) c
     if (joints[j].name == name && !joints[j].is_tie) {
       mark(state.memory.released, joints.size(), j, true);
     }
+  }
+}
+
+void EventActions::attach_joint(const std::string& name, const model::EventSpec& event,
+                                model::State& state) const {
+  const model::Model& model = built_.model;
+  const double most = event.tolerance.value_or(kOpen * model.length);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const model::Joint& joint = model.joints[j];
+    if (joint.name != name || joint.is_tie || !state.memory.is_released(j)) continue;
+    mark(state.memory.released, model.joints.size(), j, false);
+    dynamics::Constraints now;
+    dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
+                                   &state.memory, now);
+    double apart = 0.0, bent = 0.0;
+    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+      const double open = std::abs(now.g[joint.first_row + static_cast<int>(k)]);
+      double& worst = joint.rows[k].is_length() ? apart : bent;
+      worst = std::max(worst, open);
+    }
+    if (apart <= most && bent <= kBent) continue;
+    throw NumericalError(
+        event.where,
+        fmt::format(
+            "event \"{}\" at t = {:.6g} s: joint \"{}\" cannot be attached, its markers are {:.3g} "
+            "m "
+            "apart and turned by {:.3g} degrees against each other (at most {:.3g} m and {:.3g} "
+            "degrees); let the event wait until they have met, or raise its `tolerance`",
+            event.name, state.t, name, apart, std::asin(std::min(bent, 1.0)) * kDegrees, most,
+            std::asin(kBent) * kDegrees));
   }
 }
 

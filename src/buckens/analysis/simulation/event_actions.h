@@ -39,6 +39,9 @@ class EventActions {
   void switch_loads(const std::vector<std::string>& names, bool on, model::State& state) const;
   bool hold_joint(const std::string& name, bool is_held, model::State& state) const;
   void release_joint(const std::string& name, model::State& state) const;
+  /// @throws NumericalError if it is too far open
+  void attach_joint(const std::string& name, const model::EventSpec& event,
+                    model::State& state) const;
   std::vector<int> rows_in_use(const model::State& state) const;
 
   const model::BuiltModel& built_;

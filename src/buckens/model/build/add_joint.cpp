@@ -79,7 +79,10 @@ class JointBuilder {
     if constexpr (requires { kind.axis; }) {
       placement.axis_F = find_.axis_or_normal(kind.axis, placement.R_WF, what, spec.where);
     }
-    if constexpr (requires { kind.law(); }) placement.law = kind.law();
+    if constexpr (requires { kind.laws(); }) {
+      // Those that follow signals get them when these are known, see add_drives().
+      placement.law = kind.laws().is_steered() ? base::TimeLaw() : kind.laws().of_time();
+    }
     if constexpr (requires { kind.second_axis; }) placement.second_axis_F = kind.second_axis;
     if constexpr (requires { kind.length; }) placement.length = kind.length;
     if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;

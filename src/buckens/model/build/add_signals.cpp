@@ -68,6 +68,20 @@ std::shared_ptr<const ControlBlock> block_of(const SwitchSpec& spec) {
   return make_switch(spec.on, spec.off, spec.start);
 }
 
+std::shared_ptr<const ControlBlock> block_of(const TableSignalSpec& spec) {
+  std::vector<double> inputs, values;
+  for (const auto& [input, value] : spec.points) {
+    inputs.push_back(input);
+    values.push_back(value);
+  }
+  return make_table_block(base::TimeLaw::table(std::move(inputs), std::move(values),
+                                               spec.interpolation, spec.extrapolation, spec.where));
+}
+
+std::shared_ptr<const ControlBlock> block_of(const RateLimitSpec& spec) {
+  return make_rate_limit(spec.rising, spec.falling, spec.time_constant, spec.start);
+}
+
 std::shared_ptr<const ControlBlock> block_of(const SettingSpec& spec) {
   return make_setting(spec.start);
 }
@@ -94,6 +108,8 @@ class SignalBuilder {
     block(spec_.state_space);
     block(spec_.pid);
     block(spec_.sample_hold);
+    block(spec_.table);
+    block(spec_.rate_limit);
     block(spec_.switched);
     block(spec_.setting);
     return std::move(out_);

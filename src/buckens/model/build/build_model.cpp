@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/model/build/add_coupler.h"
 #include "buckens/model/build/add_distributed_load.h"
+#include "buckens/model/build/add_drives.h"
 #include "buckens/model/build/add_gear_teeth.h"
 #include "buckens/model/build/add_joint.h"
 #include "buckens/model/build/add_joint_law.h"
@@ -65,6 +66,7 @@ class Builder {
       if (is_coupler(joint)) add_coupler(joint, find);
     }
     add_signals(d, find);
+    add_drives(d, model_);
     for (const loads::LoadSpec& load : d.loads) {
       if (!DistributedLoads::takes(load) && !is_joint_law(load)) add_load(load, find);
     }
@@ -92,6 +94,7 @@ class Builder {
     }
     require_common_carriers(model_);
     connect_signals(d, model_);
+    settle_drives(d, model_);
     number_states();
     if (size > 0.0) move_origin(box.center());
     settle_massless_rotations(model_, d.simulation ? d.simulation->duration : 0.0);

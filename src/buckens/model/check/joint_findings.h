@@ -19,6 +19,11 @@ Found joint_problem(const std::string& name, const ModelDescription& model);
 Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
                          const std::string& key = "joint");
 
+/// Whether joints do not exist or cannot be attached during a run.
+/// @param key field that names them
+Found attached_problem(const std::vector<std::string>& joints, const char* key,
+                       const ModelDescription& model);
+
 // What is wrong with joints, laws and sensors of joints beyond their ends and axes.
 
 Found own_joint_problem(const loads::HingeSpringSpec& spec, const ModelDescription& model);

@@ -20,7 +20,8 @@ int num_given(const SignalSpec& s) {
          int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.integral.has_value()} +
          int{s.lag.has_value()} + int{s.transfer_function.has_value()} +
          int{s.state_space.has_value()} + int{s.pid.has_value()} + int{s.sample_hold.has_value()} +
-         int{s.switched.has_value()} + int{s.setting.has_value()};
+         int{s.table.has_value()} + int{s.rate_limit.has_value()} + int{s.switched.has_value()} +
+         int{s.setting.has_value()};
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
                    "exactly one of the keys value, joint-angle, joint-speed, "
                    "joint-displacement, joint-velocity, position, velocity, force-of, "
                    "integral, lag, transfer-function, state-space, pid, sample-hold, "
-                   "switch and setting is needed"};
+                   "table, rate-limit, switch and setting is needed"};
   }
   struct Seen {
     const std::optional<std::string>& joint;
@@ -44,6 +45,20 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
         Seen{spec.joint_velocity, false, "joint-velocity"}}) {
     if (!seen.joint) continue;
     if (Found found = coordinate_problem(*seen.joint, seen.turns, model, seen.key)) return found;
+  }
+  return std::nullopt;
+}
+
+Found problem(const TableSignalSpec& spec, const ModelDescription&) {
+  if (spec.points.size() < 2) {
+    return Finding{"points", "a table of one point is no function; give at least two"};
+  }
+  for (std::size_t k = 1; k < spec.points.size(); ++k) {
+    if (spec.points[k][0] > spec.points[k - 1][0]) continue;
+    return Finding{fmt::format("points.{}", k),
+                   fmt::format("inputs of a table must increase, but {:g} follows {:g}; sort the "
+                               "points",
+                               spec.points[k][0], spec.points[k - 1][0])};
   }
   return std::nullopt;
 }
@@ -129,6 +144,7 @@ Found problem(const EventSpec& spec, const ModelDescription& model) {
   if (Found found = switches_problem(spec.switch_off, "switch-off", model)) return found;
   if (Found found = locks_problem(spec.lock, "lock", model)) return found;
   if (Found found = locks_problem(spec.unlock, "unlock", model)) return found;
+  if (Found found = attached_problem(spec.attach, "attach", model)) return found;
   for (const std::string& name : spec.release) {
     const auto* joint = base::find_named(model.joints, name);
     if (joint == nullptr) {

@@ -106,18 +106,14 @@ Found spring_problem(const std::string& name, bool torque, const ModelDescriptio
 
 /// A rotation is driven by its angle, its speed or its acceleration.
 Found drive_problem(const joints::PrescribedRotationSpec& spec) {
-  const int given = int{spec.angle.has_value()} + int{spec.speed.has_value()} +
-                    int{spec.acceleration.has_value()};
-  if (given == 1) return std::nullopt;
+  if (spec.laws().num_given() == 1) return std::nullopt;
   return Finding{spec.angle && spec.speed ? "speed" : "",
                  "exactly one of the keys angle, speed and acceleration is needed, for example "
                  "angle: \"150*t\" or speed: 1500 rpm"};
 }
 
 Found drive_problem(const joints::PrescribedTranslationSpec& spec) {
-  const int given = int{spec.displacement.has_value()} + int{spec.velocity.has_value()} +
-                    int{spec.acceleration.has_value()};
-  if (given != 1) {
+  if (spec.laws().num_given() != 1) {
     return Finding{"",
                    "exactly one of the keys displacement, velocity and acceleration is needed, "
                    "for example displacement: \"10*sin(20*t) mm\" or velocity: 0.2 m/s"};

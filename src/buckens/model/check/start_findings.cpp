@@ -80,6 +80,13 @@ Found problem(const InitialSpec& spec, const ModelDescription& model) {
     return Finding{"off", fmt::format("unknown load \"{}\".{}", name,
                                       base::suggestion(name, names_of(model.loads)))};
   }
+  if (Found found = attached_problem(spec.released, "released", model)) return found;
+  if (!spec.released.empty() && spec.start == StartKind::static_equilibrium) {
+    return Finding{"released",
+                   fmt::format("the equilibrium counts all joints, \"{}\" among them; remove "
+                               "`start: static`, or let an event release the joint",
+                               spec.released.front())};
+  }
   if (!spec.off.empty() && spec.start == StartKind::static_equilibrium) {
     return Finding{"off", fmt::format("the equilibrium counts all loads, \"{}\" among them; remove "
                                       "`start: static`, or let an event switch the load off",

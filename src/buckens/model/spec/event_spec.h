@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,12 +49,14 @@ struct EventSpec {
   std::vector<SettingChange> changes;
   std::vector<std::string> switch_on, switch_off;  ///< loads
   std::vector<std::string> lock, unlock, release;  ///< joints
+  std::vector<std::string> attach;                 ///< joints
+  std::optional<double> tolerance;                 ///< of `attach` [m]
   bool records = false;
 
   /// Whether the motion after it is another one.
   bool changes_motion() const {
     return !changes.empty() || !switch_on.empty() || !switch_off.empty() || !lock.empty() ||
-           !unlock.empty() || !release.empty();
+           !unlock.empty() || !release.empty() || !attach.empty();
   }
   /// Whether its instant matters.
   bool acts() const { return changes_motion() || records; }
@@ -87,6 +90,16 @@ struct EventSpec {
     visit(base::field("unlock", unlock, "joints that are free again after `lock`").like("[hinge]"));
     visit(base::field("release", release, "joints that hold nothing any more: they have let go")
               .like("[hook]"));
+    visit(base::field("attach", attach,
+                      "joints that had let go, or started so (`initial: {released: …}`), and hold "
+                      "again; speeds are closed by an impact")
+              .like("[gripper]"));
+    visit(base::field("tolerance", tolerance,
+                      "how far a joint that is attached may be open; the next step closes it")
+              .in(base::kLength)
+              .positive()
+              .like("0.5 mm")
+              .otherwise("a thousandth of the model's size"));
   }
 };
 

@@ -140,8 +140,9 @@ struct InitialSpec {
   std::vector<InitialBodySpec> bodies;
   std::vector<InitialJointSpec> joints;
   StartKind start = StartKind::as_given;
-  std::vector<std::string> off;  ///< loads
-  bool preload = false;          ///< accept bodies that must be deformed to fit together
+  std::vector<std::string> off;       ///< loads
+  std::vector<std::string> released;  ///< joints
+  bool preload = false;               ///< accept bodies that must be deformed to fit together
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -154,6 +155,8 @@ struct InitialSpec {
                       "`static` starts in equilibrium under gravity and constant loads"));
     visit(base::field("off", off, "loads that do not act until an event switches them on")
               .like("[brake]"));
+    visit(base::field("released", released, "joints that hold nothing until an event attaches them")
+              .like("[gripper]"));
     visit(base::field("preload", preload, "accept bodies that must be deformed to fit together"));
   }
 };

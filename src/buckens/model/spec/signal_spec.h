@@ -169,6 +169,51 @@ struct SampleHoldSpec : BlockInput {
   }
 };
 
+/// A function of its input by points.
+struct TableSignalSpec : BlockInput {
+  std::vector<std::array<double, 2>> points;
+  base::Interpolation interpolation = base::Interpolation::linear;
+  base::Extrapolation extrapolation = base::Extrapolation::refuse;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("points", points, "pairs of input and value, inputs increasing")
+              .of_any_dimension()
+              .required()
+              .like("[[0, 0], [100, 8], [300, 10]]"));
+    visit(base::field("interpolation", interpolation, "between the points"));
+    visit(base::field("extrapolation", extrapolation,
+                      "beyond the points: an error, or the first and last value"));
+  }
+};
+
+/// Follows its input no faster than it may: T ẋ = u − x within limits of ẋ.
+struct RateLimitSpec : BlockInput {
+  double rising = 0, falling = 0;  ///< largest rates upwards and downwards, both > 0 [1/s]
+  double time_constant = 1e-3;     ///< [s]
+  double start = 0;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    input_field(visit);
+    visit(base::field("rising", rising, "largest rate upwards, per second")
+              .of_any_dimension()
+              .required()
+              .positive()
+              .like("5"));
+    visit(base::field("falling", falling, "largest rate downwards, per second, a positive number")
+              .of_any_dimension()
+              .required()
+              .positive()
+              .like("5"));
+    visit(base::field("time-constant", time_constant, "of the lag that it is below these rates")
+              .in(base::kTime)
+              .positive()
+              .like("1 ms")
+              .otherwise("1 ms"));
+    visit(base::field("start", start, "value at t = 0").of_any_dimension().like("0.2"));
+  }
+};
+
 /// On or off by the level of a signal, with hysteresis.
 struct SwitchSpec : BlockInput {
   double on = 0;
@@ -227,6 +272,8 @@ struct SignalSpec {
   std::optional<StateSpaceSpec> state_space;
   std::optional<PidSpec> pid;
   std::optional<SampleHoldSpec> sample_hold;
+  std::optional<TableSignalSpec> table;
+  std::optional<RateLimitSpec> rate_limit;
   std::optional<SwitchSpec> switched;
   std::optional<SettingSpec> setting;
 
@@ -246,6 +293,8 @@ struct SignalSpec {
     visit(base::field("state-space", state_space, "linear system with one input and one value"));
     visit(base::field("pid", pid, "controller with proportional, integral and derivative part"));
     visit(base::field("sample-hold", sample_hold, "sampled and held"));
+    visit(base::field("table", table, "function of a formula by points"));
+    visit(base::field("rate-limit", rate_limit, "follows a formula no faster than it may"));
     visit(base::field("switch", switched,
                       "1 or 0 by the level of a signal, from the end of the step in which it is "
                       "reached"));
