@@ -2,6 +2,7 @@
 """tools/census.py sorts files by outcome, follows the remedies of messages and groups reasons."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -51,7 +52,7 @@ def test_tells_of_a_crash(tmp_path):
     done = subprocess.run([sys.executable, SOURCE / "tools" / "census.py", deck, "--program", program],
                           capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert "| 1 | 0.0 s |" in done.stdout
+    assert re.search(r"\| 1 \| \d+\.\d s \|", done.stdout)
 
 
 def test_parts_and_missing_files(tmp_path):

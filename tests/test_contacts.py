@@ -141,14 +141,34 @@ def test_wrong_contacts_are_refused(buckens, tmp_path, spec, code, words):
     buckens("check", "model.yaml").must(code, "model.yaml:", *words)
 
 
-def test_friction_needs_inertia_and_rigid_bodies(buckens, tmp_path):
+def test_friction_needs_inertia(buckens, tmp_path):
     text = MODEL.replace("SPEC", "among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, static: 0.3")
     (tmp_path / "model.yaml").write_text(text.replace("BODIES", TWO.replace("[1, 1, 1]", "[0, 0, 0]")))
     buckens("check", "model.yaml").must(3, "model.yaml:", "body \"b0\", which has no rotary inertia")
-    rod = ("materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}\nbodies: {b0: {beam: {to: [1, 0, 0], elements: 2, "
-           "section: {circle: {diameter: 8 mm}}, material: steel}}}")
-    (tmp_path / "model.yaml").write_text(text.replace("BODIES", rod).replace("bodies: \"b*\", sphere", "on: b0/mid, sphere"))
-    buckens("check", "model.yaml").must(3, "body \"b0\" is flexible", "give it a `contact`")
+
+
+def test_flexible_bodies_of_a_group_are_what_its_pairs_are(sensors):
+    """Two balls fall on a springy beam, roll on it and hit each other; then the same by single contacts."""
+    shapes = {"beam/mid": "box: [0.3, 0.1, 0.02]", "b0": "sphere: 50 mm", "b1": "sphere: 50 mm"}
+    law = "stiffness: 2e4, restitution: 0.7, static: 0.3"
+    group = "  g: {contacts: {among: [" + ", ".join(f"{{on: {on}, {shape}}}" for on, shape in shapes.items()) + f"], {law}}}}}\n"
+    pairs = "".join(f"  c{i}{j}: {{contact: {{between: [{a}, {b}], shapes: [{{{shapes[a]}}}, {{{shapes[b]}}}], {law}}}}}\n"
+                    for i, a in enumerate(shapes) for j, b in enumerate(shapes) if i < j)
+    out = [sensors(f"""
+buckens: 1
+gravity: [0, 0, -9.81]
+materials: {{steel: {{E: 210 GPa, nu: 0.3, rho: 7850}}}}
+bodies:
+  beam: {{beam: {{to: [1, 0, 0], elements: 8, section: {{rectangle: {{width: 100 mm, height: 4 mm}}}}, material: steel}}}}
+{BALL.format(k=0, m=0.5, j=5e-4, x=0.42, y=0, z=0.1)}{BALL.format(k=1, m=0.5, j=5e-4, x=0.54, y=0.001, z=0.13)}joints:
+  a: {{fixed: {{between: [ground, beam/start]}}}}
+loads:
+{loads}simulation: {{duration: 0.3 s, step: 0.2 ms}}
+output: {{every: 10 ms, sensors: {{p0: {{position: b0}}, p1: {{position: b1}}, tip: {{position: beam/end}}}}}}
+""") for loads in (group, pairs)]
+    assert numpy.abs(out[0]["tip.z"]).max() > 5e-3
+    for name in out[0]:
+        assert out[0][name] == pytest.approx(out[1][name], rel=1e-5, abs=1e-7), name
 
 
 def test_statics_refuse_many_contacts(buckens, tmp_path):

@@ -109,7 +109,7 @@ ERRORS = {
 def test_messages_say_what_is_wrong(buckens, tmp_path, name):
     fields, words = ERRORS[name]
     text = HELD.split("  teeth:")[0].replace("TORQUE", "0")
-    text += f"  teeth: {{elastic-gear: {{between: [wheel, pinion], {fields}}}}}\nsimulation: {{duration: 1 s}}\n"
+    text += f"  teeth: {{elastic-gear: {{between: [wheel, pinion], {fields}}}}}\nsimulation: {{duration: 1 s, step: 1 ms}}\n"
     (tmp_path / "model.yaml").write_text(text)
     result = buckens("check", "model.yaml")
     assert result.code in (2, 3), result.out + result.err

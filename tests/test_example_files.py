@@ -15,6 +15,7 @@ EXAMPLES = pathlib.Path(os.environ.get("BUCKENS_SOURCE_DIR", pathlib.Path(__file
 WRITTEN = {
     "bracket_inp/make_deck.py": ["bracket.inp"],  # to the standard output
     "plate_bdf/make_deck.py": ["plate.bdf"],
+    "marble_bowl/make_bowl.py": ["bowl.stl"],
     "gyro_rotor/make_matrices.py": ["rotor_mass.mtx", "rotor_stiffness.mtx", "rotor_nodes.csv"],
 }
 

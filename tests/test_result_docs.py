@@ -122,8 +122,12 @@ def test_the_list_of_data_sets_is_that_of_the_files(buckens, readme_rod, tmp_pat
     buckens("modes", "rod.yaml", "--count", "2", "-o", "modes").must(0)
     path = SOURCE / "examples" / "snap_through" / "snap_through.yaml"
     buckens("static", str(path), "-o", "path", "-q").must(0)
+    for name in ("bouncing_dumbbell", "block_and_tackle"):  # shapes of contact, cables
+        buckens("run", str(SOURCE / "examples" / name / f"{name}.yaml"), "-o", name, "-q").must(0)
+    surface = SOURCE / "examples" / "marble_bowl" / "marble_bowl.yaml"
+    buckens("run", str(surface), "-o", "marbles", "-q", "--set", "simulation.duration=10 ms").must(0)
     sets, groups = set(), set()
-    for run in ("rod", "everything", "modes", "path"):
+    for run in ("rod", "everything", "modes", "path", "bouncing_dumbbell", "block_and_tackle", "marbles"):
         more, around = contents(tmp_path / run / "results.h5")
         sets |= more
         groups |= around

@@ -86,7 +86,7 @@ SLIDE = """
 buckens: 1
 planar: xy
 gravity: [0, -9.81, 0]
-materials: {steel: {E: 70 GPa, nu: 0.3, rho: 2700 kg/m^3, damping: {stiffness: 1e-4 s}}}
+materials: {steel: {E: 70 GPa, nu: 0.3, rho: 2700 kg/m^3, damping: {stiffness: 5e-3 s}}}
 bodies:
   cart: {rigid: {mass: 3 kg, inertia: [0, 0, 0.1]}}
   mast: {beam: {to: [0, 0.8, 0], elements: 6, section: {rectangle: {width: 10 mm, height: 6 mm}}, material: steel}}
@@ -97,17 +97,18 @@ joints:
 signals:
   tip: {position: {of: mast/end, along: [1, 0, 0]}}
   u: {pid: {input: "0.3 - tip", proportional: 2, integral: 1, limits: [-0.4, 0.4]}}
-simulation: {duration: 3 s, step: 2 ms}
+simulation: {duration: 10 s, step: 2 ms}
 output: {every: 10 ms, sensors: {x: {joint-coordinate: rail}, tip: {position: {of: mast/end, along: [1, 0, 0]}}, u: {signal: u}}}
 """
 
 
 def test_a_cart_under_a_flexible_mast(sensors):
-    """Its speed is what the controller of the tip says, at every instant."""
+    """Its speed is what the controller of the tip says, at every instant; with less damping of the mast the loop is unstable."""
     out = sensors(SLIDE)
     assert out["x.rate"] == pytest.approx(out["u"], abs=1e-9)
     assert max(out["u"]) == 0.4  # at its limit first
-    assert out["tip"][-1] == pytest.approx(0.3, abs=2e-2)
+    # Free of its limit the error obeys e'' + 2 e' + e = 0: t e^-t, 1e-3 m after eight seconds or so.
+    assert out["tip"][-1] == pytest.approx(0.3, abs=2e-3)
 
 
 REFUSED = {

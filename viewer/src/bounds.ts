@@ -1,5 +1,6 @@
 import { Motion } from './motion';
 import { numNodes, type Run } from './run';
+import { reachOf } from './shape_view';
 import type { Triple } from './page_data';
 
 export interface Bounds {
@@ -48,6 +49,13 @@ export function runBounds(run: Run): Bounds {
       if (nodes > 0) add(body.toWorld(body.node(nodes - 1, 1)));
       for (const marker of body.body.markers) add(body.toWorld(body.marker(marker, 1)));
     }
+    for (const shape of run.shapes) {
+      const reach = reachOf(shape);
+      if (reach === 0) continue;
+      const at = motion.side(shape.on, 1);
+      for (const side of [-1, 1]) add(at.map((x) => x + side * reach) as Triple);
+    }
+    for (const cable of run.cables) for (const side of cable.sides) add(motion.side(side, 1));
     for (const joint of run.joints) for (const side of joint.between) add(motion.side(side, 1));
     machine = Math.max(machine, now.diagonal);
   }

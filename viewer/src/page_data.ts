@@ -115,6 +115,38 @@ export interface PageJoint {
   torque?: Base64 | null;
 }
 
+/** A shape that bodies touch with. */
+export interface PageShape {
+  /** Of its contact. */
+  name: string;
+  kind: 'plane' | 'sphere' | 'socket' | 'bore' | 'capsule' | 'cylinder' | 'box' | 'mesh';
+  on: PageJointSide;
+  /** w, x, y, z: axes of the shape in those of the body. */
+  orientation: [number, number, number, number];
+  /** Of planes and long shapes, own axes. */
+  axis: Triple;
+  radius: number;
+  length: number;
+  /** Edges of boxes; of meshes twice their reach [m]. */
+  size: Triple;
+  /** Of meshes: points × 3 as float32, corners × 3 as int32. */
+  points?: Base64;
+  triangles?: Base64;
+}
+
+/** A cable or belt over pulleys. */
+export interface PageCable {
+  name: string;
+  kind: string;
+  closed: boolean;
+  /** Side in whose body the axis stands. */
+  firstPulley: number;
+  axis: Triple;
+  sides: PageJointSide[];
+  /** One per side; negative: it runs around clockwise, 0: it ends there. */
+  radii: number[];
+}
+
 /** A load to be drawn as arrows. */
 export interface PageLoad {
   name: string;
@@ -181,6 +213,9 @@ export interface PageRun {
   bodies: PageBody[];
   joints: PageJoint[];
   loads?: PageLoad[];
+  /** Missing in pages of older versions, as are cables. */
+  shapes?: PageShape[];
+  cables?: PageCable[];
   gravity: Triple;
   planar: string | null;
   sensors: PageSensor[];

@@ -3,12 +3,14 @@ import { decodeFaces, decodeSections, type Faces, type Sections } from './body_s
 import { PackedRows, SparseRows, type Rows } from './rows';
 import type {
   PageBody,
+  PageCable,
   PageData,
   PageField,
   PageJoint,
   PageLoad,
   PageMarker,
   PageRun,
+  PageShape,
   PageStorage,
   Triple,
 } from './page_data';
@@ -63,6 +65,14 @@ export interface Load extends Omit<PageLoad, 'values'> {
   values: Float32Array | null;
 }
 
+/** A shape of contact; meshes with their points × 3 and corners × 3. */
+export interface Shape extends Omit<PageShape, 'points' | 'triangles'> {
+  points: Float32Array | null;
+  triangles: Int32Array | null;
+}
+
+export type Cable = PageCable;
+
 /** A joint with its force and torque on the last side, frames × 3. */
 export interface Joint extends Omit<PageJoint, 'force' | 'torque'> {
   force: Float32Array | null;
@@ -100,6 +110,8 @@ export interface Run {
   bodies: Body[];
   joints: Joint[];
   loads: Load[];
+  shapes: Shape[];
+  cables: Cable[];
   gravity: Triple;
   planar: 'xy' | 'yz' | 'zx' | null;
   sensors: Series[];
@@ -228,6 +240,28 @@ function decodeLoad(load: PageLoad, bodies: Body[], frames: number, where: strin
   return { ...load, nodes: load.positions.map((_, i) => load.nodes?.[i] ?? -1), width, values };
 }
 
+function decodeShape(shape: PageShape, bodies: Body[], where: string): Shape {
+  if (shape.on.body >= bodies.length) throw new PageDataError(`${where}: no body ${shape.on.body}`);
+  if (!shape.points || !shape.triangles) return { ...shape, points: null, triangles: null };
+  const bits = decodeInts(shape.points, 3, `${where}.points`);
+  const points = new Float32Array(bits.buffer, 0, bits.length);
+  const triangles = decodeInts(shape.triangles, 3, `${where}.triangles`);
+  if (triangles.some((corner) => corner < 0 || 3 * corner >= points.length)) {
+    throw new PageDataError(`${where}.triangles: a point is missing`);
+  }
+  return { ...shape, points, triangles };
+}
+
+function decodeCable(cable: PageCable, bodies: Body[], where: string): Cable {
+  for (const side of cable.sides) {
+    if (side.body >= bodies.length) throw new PageDataError(`${where}: no body ${side.body}`);
+  }
+  if (cable.radii.length !== cable.sides.length || !cable.sides[cable.firstPulley]) {
+    throw new PageDataError(`${where}: sides and radii do not agree`);
+  }
+  return cable;
+}
+
 /** Decodes and checks one run of the page. */
 export function decodeRun(data: PageRun): Run {
   const times = decodeTimes(data);
@@ -252,6 +286,8 @@ export function decodeRun(data: PageRun): Run {
     bodies,
     joints: (data.joints ?? []).map((joint, i) => decodeJoint(joint, bodies, n, `joints[${i}]`)),
     loads: (data.loads ?? []).map((load, i) => decodeLoad(load, bodies, n, `loads[${i}]`)),
+    shapes: (data.shapes ?? []).map((shape, i) => decodeShape(shape, bodies, `shapes[${i}]`)),
+    cables: (data.cables ?? []).map((cable, i) => decodeCable(cable, bodies, `cables[${i}]`)),
     gravity: data.gravity ?? [0, 0, 0],
     planar: planar === 'xy' || planar === 'yz' || planar === 'zx' ? planar : null,
     sensors: (data.sensors ?? []).map((s, i) => {

@@ -4,9 +4,11 @@ import { CameraRig, type Insets } from './camera_rig';
 import { CornerTriad } from './corner_triad';
 import { Grid } from './grid';
 import { ball } from './glyphs';
+import { CableView } from './cable_view';
 import { JointView } from './joint_view';
 import { Labels, type Label } from './labels';
 import { LoadView } from './load_view';
+import { ShapeView } from './shape_view';
 import { Motion } from './motion';
 import { namesOf } from './names';
 import { orientationOf, type Orientation } from './orientation';
@@ -48,6 +50,8 @@ export class Stage {
   private bodies: BodyView[] = [];
   private joints: JointView[] = [];
   private loads: LoadView[] = [];
+  private shapes: ShapeView[] = [];
+  private cables: CableView[] = [];
   private reactions: ReactionView[] = [];
   private dots: THREE.Mesh[] = [];
   private width = 1;
@@ -98,7 +102,15 @@ export class Stage {
       const color = theme.bodies[i % theme.bodies.length]!;
       return new BodyView(body, color, theme, glyphs, this.shading);
     });
-    this.joints = run.joints.map(
+    this.shapes = run.shapes.map((shape) => {
+      const color = theme.bodies[Math.max(0, shape.on.body) % theme.bodies.length]!;
+      return new ShapeView(shape, motion, theme, color, this.bounds.size);
+    });
+    this.cables = run.cables.map((cable) => new CableView(cable, motion, theme, glyphs));
+    // A belt is drawn as it runs: no glyph beside it.
+    const belts = new Set(run.cables.map(({ name }) => name));
+    const joints = run.joints.filter(({ name }) => !belts.has(name));
+    this.joints = joints.map(
       (joint) => new JointView(joint, motion, theme, glyphs, orientation.up),
     );
     this.loads = run.loads.map((load) => new LoadView(load, motion, glyphs));
@@ -107,7 +119,14 @@ export class Stage {
       .filter(({ force, torque }) => force || torque)
       .map((joint) => new ReactionView(joint, motion, glyphs, largest));
     this.model.add(grid.root, this.trace.root);
-    const views = [...this.bodies, ...this.joints, ...this.loads, ...this.reactions];
+    const views = [
+      ...this.bodies,
+      ...this.shapes,
+      ...this.cables,
+      ...this.joints,
+      ...this.loads,
+      ...this.reactions,
+    ];
     for (const view of views) this.model.add(view.root);
   }
 
@@ -148,6 +167,8 @@ export class Stage {
     this.present = low <= high ? [low, high] : [NaN, NaN];
     for (const [views, shown] of [
       [this.joints, options.joints],
+      [this.shapes, options.joints],
+      [this.cables, options.joints],
       [this.loads, options.loads],
       [this.reactions, options.reactions],
     ] as const) {

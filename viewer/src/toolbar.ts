@@ -12,7 +12,7 @@ interface ToggleEntry {
 }
 
 const kToggles: ToggleEntry[] = [
-  { name: 'joints', text: 'Joints', key: 'j', title: 'Joints, supports and springs' },
+  { name: 'joints', text: 'Joints', key: 'j', title: 'Joints, supports, springs, belts and shapes of contact' },
   { name: 'loads', text: 'Loads', key: 'a', title: 'Loads as arrows' },
   { name: 'reactions', text: 'Forces', key: 'r', title: 'Forces and torques of joints as arrows' },
   { name: 'frames', text: 'Frames', key: 'b', title: 'Buckens frames of the bodies' },

@@ -96,6 +96,17 @@ void add_pattern(const model::Load& load, const std::vector<BodyMotion>& motions
   out.active_power += action.along_pattern * motions[b].y_dot[load.pattern_row];
 }
 
+/// What a cable does to its third marker and those behind it.
+void add_others(const model::Model& model, std::size_t k, double t, const Circumstances& around,
+                const LoadEnds& ends, Forces& out) {
+  const model::Load& load = model.loads[k];
+  out.on_others.assign(load.others.size(), {});
+  add_to_others(model, k, t, around, ends, out.on_others);
+  for (std::size_t m = 0; m < load.others.size(); ++m) {
+    add_wrench(model, load.others[m], ends.others[m], out.on_others[m], out);
+  }
+}
+
 }  // namespace
 
 void Forces::reset(const model::Model& model) {
@@ -127,8 +138,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     const LoadEnds ends = ends_of(model, load, motions, around.memory);
     loads::Action action;
     try {
-      action =
-          action_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels());
+      action = action_of(model, k, t, around, ends);
     } catch (const NumericalError& error) {
       fail_with_name(load, error);
     }
@@ -145,6 +155,7 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
     } else {
       add_wrench(model, load.first, ends.first, action.on_first, out);
       add_wrench(model, load.second, ends.second, action.on_second, out);
+      if (!load.others.empty()) add_others(model, k, t, around, ends, out);
     }
     if (load.pattern_row >= 0) add_pattern(load, motions, action, out);
     out.stored_energy += action.stored_energy;
@@ -184,6 +195,19 @@ SystemRow tangent_row(const model::Model& model, const model::Load& load, const 
   return out;
 }
 
+/// Shares of the markers behind the second.
+void add_parts(const model::Model& model, const model::Load& load, const LoadEnds& ends,
+               const loads::TwistRow* of_others, SystemRow& out) {
+  static const model::MarkerId kNowhere;
+  static const body::MarkerKinematics kAtRest;
+  for (std::size_t m = 0; m < load.others.size(); ++m) {
+    spatial::PairRow J = spatial::PairRow::Zero();
+    J.head<6>() = of_others[m];
+    out.more.push_back(
+        system_row(model, load.others[m], ends.others[m], kNowhere, kAtRest, J).first);
+  }
+}
+
 }  // namespace
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
@@ -206,12 +230,11 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     if (load.element->num_soft_rows() == 0) continue;
     const LoadEnds ends = ends_of(model, load, motions, around.memory);
     rows.clear();
-    const loads::Sight sight =
-        sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels());
-    load.element->append_tangent(sight, rows);
+    const loads::Sight sight = sight_of(model, k, t, around, ends);
     const bool is_off = around.memory != nullptr && around.memory->is_off(k);
-    if (is_off) give_nothing(rows);
     try {
+      load.element->append_tangent(sight, rows);
+      if (is_off) give_nothing(rows);
       if (has_regimes(load)) {
         out.regimes.push_back(is_off ? 0 : load.element->respond(sight).regime);
       }
@@ -221,8 +244,13 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     if (!is_off && load.coordinate >= 0 && load.element->uses_signals()) {
       add_slopes_of_signals(load, motions, around, {model, sight, out});
     }
+    out.of_others.clear();
+    if (!load.others.empty()) load.element->append_others_of_rows(sight, out.of_others);
+    const loads::TwistRow* of_others = out.of_others.data();
     for (const loads::SoftRow& row : rows) {
       out.rows.push_back(tangent_row(model, load, ends, row.J));
+      add_parts(model, load, ends, of_others, out.rows.back());
+      of_others += load.others.size();
       out.stiffness.push_back(row.stiffness);
       out.damping.push_back(row.damping);
       out.rigid.push_back(load.rigid_row);

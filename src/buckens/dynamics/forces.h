@@ -21,6 +21,7 @@ struct Forces {
   std::vector<int> regimes;            ///< of laws on joint coordinates, see loads::Action::regime
   std::vector<loads::RigidRow> rigid;  ///< one per Load::rigid_row
   SignalValues signals;                ///< at the instant
+  std::vector<spatial::Wrench> on_others;  ///< scratch
 
   void reset(const model::Model& model);
 };
@@ -53,7 +54,8 @@ struct SoftRows {
   std::vector<int> regimes;            ///< as in Forces
   int num_of_groups = 0;               ///< of the rows, the last ones: of contacts of many bodies
   std::vector<loads::SoftRow> of_one;  ///< scratch
-  SignalValues signals, shifted;       ///< at the instant; scratch
+  std::vector<loads::TwistRow> of_others;
+  SignalValues signals, shifted;  ///< at the instant; scratch
 };
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& around, SoftRows& out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of MultiplierCondensation that solves by iteration.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "buckens/dynamics/multiplier_condensation.h"
@@ -20,6 +21,22 @@ Eigen::Map<const Eigen::Matrix<double, 6, 1>> numbers_of(const double* values) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(values);
 }
 
+/// What an interface gives along one row under a unit multiplier of another on the same marker.
+double interface_share(const linalg::Matrix& interface, const RowBlock::Side& side,
+                       const double* test, const double* force) {
+  std::array<int, 6> rows{};
+  for (int i = 0; i < 3; ++i) {
+    rows[static_cast<std::size_t>(i)] = side.translation_row + i;
+    rows[static_cast<std::size_t>(3 + i)] = side.rotation_row + i;
+  }
+  const std::size_t count = side.rotation_row < 0 ? 3 : 6;
+  double out = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) out += test[i] * interface(rows[i], rows[j]) * force[j];
+  }
+  return out;
+}
+
 }  // namespace
 
 void MultiplierCondensation::set_loose_blocks() {
@@ -35,11 +52,17 @@ void MultiplierCondensation::set_loose_blocks() {
       const RowBlock::Side& side = force_.sides(block)[s];
       const RowBlock::Side& closing = test.sides(block)[s];
       if (side.body == model::kGround) continue;
-      const auto& W = compliance_[static_cast<std::size_t>(side.body)].frame;
+      const BodyCompliance& own = compliance_[static_cast<std::size_t>(side.body)];
+      const auto& W = own.frame;
+      const bool bends = own.interface != nullptr && side.follows_mesh();
       for (int m = 0; m < block.count; ++m) {
         const Eigen::Matrix<double, 6, 1> image = W * numbers_of(force_.frame(side, m));
-        for (int k = 0; k < block.count; ++k)
+        for (int k = 0; k < block.count; ++k) {
           S(k, m) += numbers_of(test.frame(closing, k)).dot(image);
+          if (!bends) continue;
+          S(k, m) += interface_share(*own.interface, side, test.interface(closing, k),
+                                     force_.interface(side, m));
+        }
       }
     }
     for (int k = 0; k < block.count; ++k) {

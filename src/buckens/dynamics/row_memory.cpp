@@ -118,8 +118,7 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
     const LoadEnds ends = ends_of(model, load, motions, &out);
-    load.element->start_states(sight_of(model, k, 0.0, {nullptr, &out, nullptr, nullptr},
-                                        ends.first.motion, ends.second.motion, ends.travels()),
+    load.element->start_states(sight_of(model, k, 0.0, {nullptr, &out, nullptr, nullptr}, ends),
                                out.laws.data() + load.first_state);
   }
   start_near(model, motions, out);
@@ -152,9 +151,8 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
       continue;
     }
     const LoadEnds ends = ends_of(model, load, motions, &before);
-    load.element->find_states(
-        sight_of(model, k, t, around, ends.first.motion, ends.second.motion, ends.travels()),
-        out.laws.data() + load.first_state);
+    load.element->find_states(sight_of(model, k, t, around, ends),
+                              out.laws.data() + load.first_state);
   }
   advance_near(model, motions, t, around, out);
   advance_signals(model, motions, t, around, out);

@@ -144,7 +144,35 @@ LoadEnds ends_of(const model::Model& model, const model::Load& load,
   }
   out.first = evaluate_marker(model, load.first, motions);
   out.second = evaluate_marker(model, load.second, motions);
+  for (const model::MarkerId& id : load.others) {
+    out.others.push_back(evaluate_marker(model, id, motions));
+    out.other_motions.push_back(out.others.back().motion);
+  }
   return out;
+}
+
+loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
+                      const Circumstances& around, const LoadEnds& ends) {
+  loads::Sight out =
+      sight_of(model, load, t, around, ends.first.motion, ends.second.motion, ends.travels());
+  out.others = ends.other_motions;
+  return out;
+}
+
+loads::Action action_of(const model::Model& model, std::size_t load, double t,
+                        const Circumstances& around, const LoadEnds& ends) {
+  if (ends.others.empty()) {
+    return action_of(model, load, t, around, ends.first.motion, ends.second.motion, ends.travels());
+  }
+  if (around.memory != nullptr && around.memory->is_off(load)) return {};
+  return model.loads[load].element->respond(sight_of(model, load, t, around, ends));
+}
+
+void add_to_others(const model::Model& model, std::size_t load, double t,
+                   const Circumstances& around, const LoadEnds& ends,
+                   std::span<spatial::Wrench> wrenches) {
+  if (around.memory != nullptr && around.memory->is_off(load)) return;
+  model.loads[load].element->add_to_others(sight_of(model, load, t, around, ends), wrenches);
 }
 
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,

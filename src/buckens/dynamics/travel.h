@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/forces.h"
@@ -74,14 +76,28 @@ class Travel {
 /// The joint of a coordinate if it is a slider on a beam, else null. Ropes have no joint.
 const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate);
 
-/// Both ends of a load. The first end of a law on a slider's coordinate is a point of the beam.
+/// All markers of a load. The first of a law on a slider's coordinate is a point of the beam.
 struct LoadEnds {
   std::optional<Travel> travel;  ///< of a law on a slider's coordinate
   body::MarkerKinematics first, second;
+  std::vector<body::MarkerKinematics> others;  ///< one per Load::others
+  std::vector<spatial::MarkerMotion> other_motions;
   const Travel* travels() const { return travel ? &*travel : nullptr; }
 };
 LoadEnds ends_of(const model::Model& model, const model::Load& load,
                  const std::vector<BodyMotion>& motions, const model::RowMemory* memory);
+
+/// All that a load may see. @param load index into Model::loads, @param ends its markers, to
+/// outlive what is returned
+loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
+                      const Circumstances& around, const LoadEnds& ends);
+/// The effect of one load on its first two markers. @param load index into Model::loads
+loads::Action action_of(const model::Model& model, std::size_t load, double t,
+                        const Circumstances& around, const LoadEnds& ends);
+/// What it does to those behind them. @param wrenches one per Load::others
+void add_to_others(const model::Model& model, std::size_t load, double t,
+                   const Circumstances& around, const LoadEnds& ends,
+                   std::span<spatial::Wrench> wrenches);
 
 /// Motion of a joint coordinate of any joint.
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,

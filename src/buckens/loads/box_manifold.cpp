@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "buckens/loads/symmetric_root.h"
+
 namespace buckens::loads {
 
 using Eigen::Matrix2d;
@@ -199,14 +201,6 @@ Vector2d slope_of(const Polygon& face) {
   return edges.inverse() * rises;
 }
 
-/// The symmetric root of a positive semidefinite matrix.
-Matrix2d root_of(const Matrix2d& spread) {
-  const double det = std::sqrt(std::max(0.0, spread.determinant()));
-  const double size = std::sqrt(std::max(0.0, spread.trace() + 2.0 * det));
-  if (size == 0.0) return Matrix2d::Zero();
-  return (spread + det * Matrix2d::Identity()) / size;
-}
-
 double face_area(const Placed& box, int axis) {
   return 4.0 * box.half[(axis + 1) % 3] * box.half[(axis + 2) % 3];
 }
@@ -241,7 +235,7 @@ void set_face_spots(const Placed& reference, const Placed& incident, const Separ
   const Moments moments = moments_of(area);
   const bool touches = moments.area > 0.0 && moments.overlap > 0.0;
   const Vector2d slope = touches ? slope_of(face) : Vector2d(Vector2d::Zero());
-  const Matrix2d root = touches ? root_of(moments.spread) : Matrix2d(Matrix2d::Zero());
+  const Matrix2d root = touches ? symmetric_root(moments.spread) : Matrix2d(Matrix2d::Zero());
   const double share = moments.area / std::min(mean_face(reference), mean_face(incident));
   static constexpr double kU[] = {1, -1, -1, 1}, kV[] = {1, 1, -1, -1};
   for (std::size_t k = 0; k < 4; ++k) {

@@ -102,6 +102,9 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, Points& memory
     point.across =
         normal_force(data_, -point.gap, -point.gap_rate, own != nullptr ? own[kApproach] : 0.0);
     if (spot.share != 1.0) point.across *= spot.share;
+    if (point.gap < 0.0 && data_.exponent == 1.0) {
+      point.across.energy += data_.stiffness * spot.held;
+    }
     if (!has_friction()) continue;
     Vector3d strain = Vector3d::Zero();
     if (own != nullptr) {

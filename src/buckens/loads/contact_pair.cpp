@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "buckens/loads/box_manifold.h"
+#include "buckens/loads/contact_mesh.h"
+#include "buckens/loads/mesh_spots.h"
 
 namespace buckens::loads {
 
@@ -81,7 +83,7 @@ double nearest_on_second(const Vector3d& r, const Vector3d& a, const Vector3d& b
 
 const char* to_string(ShapeKind kind) {
   static constexpr const char* kNames[] = {"plane",   "sphere",   "socket", "bore",
-                                           "capsule", "cylinder", "box"};
+                                           "capsule", "cylinder", "box",    "mesh"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -91,7 +93,8 @@ std::span<const ContactPair::Kinds> ContactPair::all() {
                                    {bore, sphere},  {capsule, sphere}, {cylinder, sphere},
                                    {box, sphere},   {plane, capsule},  {plane, cylinder},
                                    {plane, box},    {bore, cylinder},  {capsule, capsule},
-                                   {box, box}};
+                                   {box, box},      {mesh, sphere},    {mesh, capsule},
+                                   {mesh, box},     {plane, mesh}};
   return kAll;
 }
 
@@ -106,7 +109,11 @@ ContactPair::ContactPair(const ContactShape& first, const ContactShape& second)
   radius_ = second.kind == ShapeKind::box || on_rims ? 0.0 : second.radius;
   const bool has_ends = second.kind == ShapeKind::cylinder ||
                         (second.kind == ShapeKind::capsule && first.kind != ShapeKind::capsule);
-  if (second.kind == ShapeKind::box) {
+  if (second.kind == ShapeKind::mesh) {
+    num_spots_ = 4;
+  } else if (first.kind == ShapeKind::mesh && second.kind == ShapeKind::sphere) {
+    num_spots_ = first.mesh->num_colours();
+  } else if (second.kind == ShapeKind::box) {
     num_spots_ = first.kind == ShapeKind::box || second.flat >= 0 ? 4 : 8;
   } else if (has_ends) {
     num_spots_ = on_rims ? 2 * kRimPoints : 2;
@@ -196,6 +203,11 @@ double ContactPair::distance(const Vector3d& point, Vector3d& normal) const {
       return from_cylinder(first_, point, normal);
     case ShapeKind::box:
       return from_box(first_, point, normal);
+    case ShapeKind::mesh: {
+      const ContactMesh::Nearest place = first_.mesh->nearest(point);
+      normal = place.normal;
+      return place.distance;
+    }
   }
   return HUGE_VAL;
 }
@@ -204,7 +216,13 @@ void ContactPair::find(const Vector3d& r, const Matrix3d& R, Spots& all) const {
   if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box) {
     return find_box_spots(first_, second_, r, R, std::span(all).first<4>());
   }
+  if (second_.kind == ShapeKind::mesh) {
+    return find_plane_spots(*second_.mesh, first_.axis, r, R, std::span(all).first<4>());
+  }
   const std::span<ContactSpot> spots(all.data(), static_cast<std::size_t>(num_spots_));
+  if (first_.kind == ShapeKind::mesh && second_.kind == ShapeKind::sphere) {
+    return find_sphere_spots(*first_.mesh, r, radius_, spots);
+  }
   centres(r, R, spots);
   for (ContactSpot& spot : spots) {
     const double away = distance(spot.place, spot.normal);

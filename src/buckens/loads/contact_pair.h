@@ -2,21 +2,26 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 
 #include <Eigen/Dense>
 
 namespace buckens::loads {
 
+class ContactMesh;
+
 /// A shape about the origin of its marker, in the marker's axes.
 struct ContactShape {
-  enum class Kind { plane, sphere, socket, bore, capsule, cylinder, box };
+  enum class Kind { plane, sphere, socket, bore, capsule, cylinder, box, mesh };
 
   Kind kind = Kind::sphere;
   double radius = 0;                                ///< [m]
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector; of a plane: its normal
   double half_length = 0;                           ///< of capsules and cylinders [m]
-  Eigen::Vector3d half = Eigen::Vector3d::Zero();   ///< half the edges of a box [m]
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();   ///< half the edges of a box [m]; of a mesh
+                                                    ///< its reach along each axis
+  std::shared_ptr<const ContactMesh> mesh;          ///< of meshes, in axes of the marker
   int flat = -1;  ///< axis of a box that points out of the plane of a planar model, −1: none
 };
 
@@ -29,13 +34,15 @@ struct ContactSpot {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit vector from the first to the second
   double gap = 0;                                     ///< negative: overlap [m]
   double share = 1;                                   ///< of the law's stiffness
+  double held = 0;  ///< energy beyond that of its overlap, per stiffness [m²]
 };
 
 /// Two shapes that can touch. The first is a surface, given by the distance from it; the second is
 /// made of spheres, or of points where their radius is zero. So all pairs have exact distances:
 /// anything with a sphere; a plane with capsule, cylinder and box; a bore with a cylinder; two
-/// capsules. Two boxes touch with areas (loads/box_manifold.h). Theory: docs/theory/25-contact.md
-/// §1.
+/// capsules. Two boxes touch with areas (loads/box_manifold.h), and so do a plane and a mesh; a
+/// mesh touches a sphere with each of its patches (loads/mesh_spots.h). Theory:
+/// docs/theory/25-contact.md §1, §6.
 class ContactPair {
  public:
   static constexpr int kMostSpots = 8;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -8,6 +9,8 @@
 #include <Eigen/Core>
 
 #include "buckens/base/field.h"
+#include "buckens/base/source_location.h"
+#include "buckens/spatial/triangle_list.h"
 
 namespace buckens::loads {
 
@@ -139,15 +142,74 @@ struct BoxShape {
   }
 };
 
+template <class Visitor>
+void visit_smooth(Visitor& visit, double& smooth) {
+  visit(base::field("smooth", smooth,
+                    "triangles that are inclined against their neighbours by no more than this "
+                    "are one curved surface, others meet in sharp edges")
+            .in(base::kAngle)
+            .positive()
+            .like("30 deg"));
+}
+
+/// As CAD programs write cylinders: some twenty sides.
+inline constexpr double kSmoothAngle = 0.523598775598298873;  // 30°
+
+struct StlShape {
+  static constexpr const char* kKey = "stl";
+  static constexpr const char* kDoc =
+      "surface of triangles from an STL file, text or binary, placed by the marker; it can touch "
+      "planes, spheres, capsules (with their ends) and boxes (with their corners)";
+  SourceLocation where;
+  std::string file;
+  double unit = 0;  ///< [m]
+  double smooth = kSmoothAngle;
+  /// Set by the reader of model files; programs may set it in place of `file`.
+  std::shared_ptr<const spatial::TriangleList> triangles;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("file", file, "name of the file, relative to the model file")
+              .required()
+              .like("bowl.stl"));
+    visit(base::field("unit", unit, "length of one unit of the file, which does not state it")
+              .in(base::kLength)
+              .required()
+              .positive()
+              .like("1 mm"));
+    visit_smooth(visit, smooth);
+  }
+};
+
+struct SurfaceShape {
+  static constexpr const char* kKey = "surface";
+  static constexpr const char* kDoc =
+      "outer surface of the mesh of the marker's body (solids and shells), in its undeformed "
+      "shape; it moves with the marker and touches what `stl` touches";
+  double smooth = kSmoothAngle;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit_smooth(visit, smooth);
+  }
+};
+
 /// One of the shapes.
 struct ShapeSpec {
   std::variant<PlaneShape, SphereShape, SocketShape, BoreShape, CapsuleShape, CylinderShape,
-               BoxShape>
+               BoxShape, StlShape, SurfaceShape>
       kind;
 
   /// Key of the shape in the model file.
   const char* kind_name() const {
     return std::visit([]<class T>(const T&) { return T::kKey; }, kind);
+  }
+
+  /// Kind of shape that it touches others as: see ContactShape::Kind.
+  const char* touches_as() const {
+    const bool is_mesh =
+        std::holds_alternative<StlShape>(kind) || std::holds_alternative<SurfaceShape>(kind);
+    return is_mesh ? "mesh" : kind_name();
   }
 
   template <class Visitor>

@@ -28,11 +28,12 @@ struct ContactForceSpec {
  protected:
   template <class Visitor>
   void stiffness_fields(Visitor& visit) {
-    visit(base::field("stiffness", stiffness,
-                      "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
-                      "of N/m^n; of each point of a box, capsule or cylinder that touches; of two "
-                      "boxes of each "
-                      "quarter of an area like the mean face of the smaller one")
+    visit(base::field(
+              "stiffness", stiffness,
+              "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
+              "of N/m^n; of each point of a box, capsule or cylinder that touches; of two "
+              "boxes, or a mesh and a plane, of each quarter of an area like the mean face (a "
+              "sixth of the surface) of the smaller one")
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")

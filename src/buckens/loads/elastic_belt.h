@@ -53,6 +53,8 @@ class ElasticBelt final : public ForceElement {
   BeltReading read(const Sight& sight) const;
   /// Of the pulleys, unit vector in the first marker.
   const Eigen::Vector3d& axis() const { return data_.axis_F; }
+  /// Of both pulleys; the second is negative where the belt is crossed [m].
+  std::array<double, 2> radii() const { return {data_.first_radius, data_.second_radius}; }
 
   /// Length of a span and its share of the wraps [m]. @param distance of the centres [m]
   /// @pre the pulleys do not overlap

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/loads/contact_mesh.h"
 #include "buckens/loads/rigid_law.h"
 
 namespace buckens::loads {
@@ -49,6 +50,12 @@ double size_of(const ContactShape& shape) {
       Eigen::Vector3d half = shape.half;
       if (shape.flat >= 0) half[shape.flat] = HUGE_VAL;
       return half.minCoeff();
+    }
+    case ContactShape::Kind::mesh: {
+      // Half of its middle extent: plates are wide, and surfaces of plane ground have no height.
+      Eigen::Vector3d half = 0.5 * shape.mesh->box().sizes();
+      std::sort(half.begin(), half.end());
+      return half[1];
     }
     default:
       return shape.radius;

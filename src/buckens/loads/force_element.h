@@ -49,6 +49,9 @@ struct SoftRow {
   bool is_rigid = false;  ///< closed without any give; stiffness and damping say nothing
 };
 
+/// Derivatives of a scalar with respect to the twist (w, v) of one marker, world components.
+using TwistRow = Eigen::Matrix<double, 1, 6>;
+
 /// A joint coordinate at one instant: an angle including whole turns [rad] or a displacement [m].
 struct CoordinateMotion {
   double value = 0;
@@ -68,13 +71,16 @@ struct Sight {
   RowStand stand{};                ///< of laws with a rigid row: as it is now
   /// t and the values of all signals of the model at this instant; empty where it has none.
   std::span<const double> signals{};
+  /// Of elements with more than two markers: the third and those behind it.
+  std::span<const spatial::MarkerMotion> others{};
 };
 
 /// A force law between two marker frames. An applied load has the ground as its second marker.
 ///
 /// Most laws depend on time and both markers and need only evaluate() and append_soft_rows().
 /// Others depend on a joint coordinate, the reaction of their joint, or states of their own, which
-/// the model's state stores for them; these override respond() and append_tangent().
+/// the model's state stores for them; these override respond() and append_tangent(). A cable has
+/// more than two markers; what it does to the others is asked for apart.
 class ForceElement {
  public:
   virtual ~ForceElement() = default;
@@ -97,6 +103,13 @@ class ForceElement {
   virtual void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
     append_soft_rows(sight.first, sight.second, rows);
   }
+
+  /// Adds what it does to its third marker and those behind it, one wrench for each.
+  virtual void add_to_others(const Sight& /*sight*/,
+                             std::span<spatial::Wrench> /*wrenches*/) const {}
+  /// The shares of these markers in the rows of append_tangent(), row by row.
+  virtual void append_others_of_rows(const Sight& /*sight*/,
+                                     std::vector<TwistRow>& /*rows*/) const {}
 
   /// Whether its soft row is a rigid one. Its first two states are RowStand::regime and force.
   virtual bool is_rigid() const { return false; }

@@ -13,6 +13,7 @@
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/time_law.h"
 #include "buckens/loads/belt_spec.h"
+#include "buckens/loads/cable_spec.h"
 #include "buckens/loads/contact_spec.h"
 #include "buckens/loads/distributed_load_spec.h"
 #include "buckens/loads/elastic_gear_spec.h"
@@ -146,7 +147,8 @@ struct LoadSpec {
                TractionSpec, LineLoadSpec, BodyForceSpec, BaseAccelerationSpec, HingeSpringSpec,
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
                RopeSpec, HingeMotorSpec, SlideMotorSpec, BallFrictionSpec, HingeBrakeSpec,
-               SlideBrakeSpec, ContactSpec, ContactsSpec, ElasticBeltSpec, ElasticGearSpec>
+               SlideBrakeSpec, ContactSpec, ContactsSpec, ElasticBeltSpec, CableSpec,
+               ElasticGearSpec>
       kind;
 
   /// Key of the kind in the model file.

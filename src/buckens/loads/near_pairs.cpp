@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/loads/contact_mesh.h"
+
 namespace buckens::loads {
 
 using Eigen::AlignedBox3d;
@@ -26,6 +28,12 @@ AlignedBox3d bounding_box(const ContactShape& shape, const spatial::MarkerMotion
     case ContactShape::Kind::box:
       half = at.R.cwiseAbs() * shape.half;
       break;
+    case ContactShape::Kind::mesh: {
+      const AlignedBox3d& own = shape.mesh->box();
+      const Vector3d middle = at.p + at.R * own.center();
+      half = at.R.cwiseAbs() * (0.5 * own.sizes());
+      return {middle - half, middle + half};
+    }
   }
   return {at.p - half, at.p + half};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,10 @@
 #include "buckens/model/signal.h"
 #include "buckens/model/whole_body.h"
 #include "buckens/spatial/plane.h"
+
+namespace buckens::loads {
+struct ContactShape;
+}
 
 namespace buckens::model {
 
@@ -50,6 +55,9 @@ struct Joint {
   /// Of a slider on a beam: its first body is where the second marker is at the time. Null of all
   /// other joints.
   std::shared_ptr<const Track> track;
+  /// Of a belt: the radii of its pulleys, the second one negative where it is crossed [m]; 0 of all
+  /// other joints.
+  std::array<double, 2> pulleys{0, 0};
   SourceLocation where;  ///< in the model file; that of the body for ties
   /// Holds the parts of a divided body together; stands in no model file.
   bool is_tie = false;
@@ -92,6 +100,9 @@ struct Load {
   std::string unit;  ///< of the values by laws of time, if there are any
   std::shared_ptr<const loads::ForceElement> element;
   MarkerId first, second;
+  std::vector<MarkerId> others;  ///< behind them, of cables
+  /// Of contacts of two bodies: the shape on either marker.
+  std::shared_ptr<const std::array<loads::ContactShape, 2>> shapes;
   bool is_among_joints = false;  ///< in the model file
   int joint = -1;                ///< whose reaction it depends on, −1: none
   int coordinate = -1;           ///< index into Model::coordinates on which it acts, −1: none

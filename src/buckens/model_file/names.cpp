@@ -11,6 +11,7 @@
 #include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/spec_findings.h"
 #include "buckens/model_file/body_mesh.h"
+#include "buckens/model_file/contact_files.h"
 #include "buckens/model_file/wishes.h"
 
 namespace buckens::model_file {
@@ -178,6 +179,10 @@ void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& con
   }
   load_body_mesh(body, context);
   fail_if_found(model::problem_when_complete(body, *context.model), place);
+}
+
+void finish_entry(loads::LoadSpec& load, const ReadPlace& /*place*/, ReadContext& context) {
+  load_contact_files(load, context);
 }
 
 void finish_entry(model::InitialBodySpec& initial, const ReadPlace& place, ReadContext& context) {

@@ -46,6 +46,7 @@ template <class T>
 void finish_entry(T& /*entry*/, const ReadPlace& /*place*/, ReadContext& /*context*/) {}
 void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadContext& context);
 void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& context);
+void finish_entry(loads::LoadSpec& load, const ReadPlace& place, ReadContext& context);
 void finish_entry(model::InitialBodySpec& initial, const ReadPlace& place, ReadContext& context);
 
 }  // namespace buckens::model_file

@@ -18,6 +18,7 @@
 #include "buckens/files/output_file.h"
 #include "buckens/files/vector_json.h"
 #include "buckens/page/body.h"
+#include "buckens/page/contact_shapes.h"
 #include "buckens/page/fields.h"
 #include "buckens/page/frames.h"
 #include "buckens/page/origin.h"
@@ -51,9 +52,7 @@ Json vector_json(const FrameReader& reader, const std::string& path) {
 Json joint_json(const results::GeometryJoint& joint, const FrameReader& reader) {
   Json between = Json::array();
   for (const results::GeometrySide& side : joint.between) {
-    between.push_back({{"body", side.body},
-                       {"marker", side.marker},
-                       {"position", files::json_of(side.position)}});
+    between.push_back(side_json(side));
   }
   return {{"name", joint.name},
           {"type", joint.type},
@@ -266,6 +265,8 @@ nlohmann::ordered_json page_run(const std::filesystem::path& directory,
           {"bodies", bodies_json(shown, reader)},
           {"joints", std::move(joints)},
           {"loads", loads_json(run, reader, shown)},
+          {"shapes", shapes_json(geometry)},
+          {"cables", cables_json(geometry)},
           {"gravity", files::json_of(geometry.gravity)},
           {"planar", geometry.planar.empty() ? Json(nullptr) : Json(geometry.planar)},
           {"sensors", sensors_json(run, reader)},

@@ -85,11 +85,40 @@ struct GeometryLoad {
   std::vector<Eigen::Vector3d> directions;
 };
 
+/// A shape that bodies touch with.
+struct GeometryShape {
+  std::string name;  ///< of its contact
+  std::string kind;  ///< "plane", "sphere", "socket", "bore", "capsule", "cylinder", "box", "mesh"
+  GeometrySide on;
+  Eigen::Quaterniond q =
+      Eigen::Quaterniond::Identity();               ///< axes of the shape in those of the body
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of planes and long shapes, own axes
+  double radius = 0;                                ///< [m]
+  double length = 0;                                ///< between ends, of long shapes [m]
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();   ///< edges of boxes [m]
+  std::vector<Eigen::Vector3d> points;              ///< of meshes, own axes [m]
+  std::vector<std::array<int, 3>> triangles;
+};
+
+/// A cable or belt, and what it runs around.
+struct GeometryCable {
+  std::string name;
+  std::string kind;  ///< as in the model file: "cable", "elastic-belt", "belt"
+  bool is_closed = false;
+  int first_pulley = 0;                             ///< side in whose body the axis stands
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector, axes of that body
+  std::vector<GeometrySide> sides;                  ///< in the order in which it passes them
+  /// One per side [m]; negative: it runs around clockwise, 0: it ends there.
+  std::vector<double> radii;
+};
+
 /// What a viewer needs besides the records and never changes during a run.
 struct Geometry {
   std::vector<GeometryBody> bodies;
   std::vector<GeometryJoint> joints;
   std::vector<GeometryLoad> loads;
+  std::vector<GeometryShape> shapes;
+  std::vector<GeometryCable> cables;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²] world
   std::string planar;                                 ///< "xy", "yz", "zx"; empty in 3-D
 };

@@ -48,6 +48,9 @@ InterfaceLoads::InterfaceLoads(const model::Model& model, const model::FieldPlac
     if (!load.region) {
       add_side(load.first, {k, false, Side::first, 0});
       add_side(load.second, {k, false, Side::second, 0});
+      for (std::size_t m = 0; m < load.others.size(); ++m) {
+        add_side(load.others[m], {k, false, Side::other, m});
+      }
     } else if (is_of_body(load.first) && is_wanted(model::part_of_place(load.region->place))) {
       add("loads/" + load.name, true, {k, false, Side::first, 0});
     }
@@ -79,6 +82,7 @@ const MarkerId& InterfaceLoads::marker_of(const Share& share) const {
     return is_first ? owner.first : owner.second;
   }
   const model::Load& load = model_.loads[share.index];
+  if (share.side == Side::other) return load.others[share.coupled];
   return is_first ? load.first : load.second;
 }
 
@@ -115,9 +119,13 @@ Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
   }
   const model::Load& load = model_.loads[share.index];
   const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state.memory);
-  const loads::Action action =
-      dynamics::action_of(model_, share.index, state.t, dynamics::circumstances_of(state),
-                          ends.first.motion, ends.second.motion, ends.travels());
+  const dynamics::Circumstances around = dynamics::circumstances_of(state);
+  if (share.side == Side::other) {
+    std::vector<Wrench> others(load.others.size());
+    dynamics::add_to_others(model_, share.index, state.t, around, ends, others);
+    return others[share.coupled];
+  }
+  const loads::Action action = dynamics::action_of(model_, share.index, state.t, around, ends);
   Wrench out = is_first ? action.on_first : action.on_second;
   if (load.element->is_applied()) {
     out.force *= load_factor;

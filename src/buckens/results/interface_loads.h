@@ -36,12 +36,12 @@ class InterfaceLoads {
               const linalg::Vector& lambda, double load_factor, std::vector<double>& values) const;
 
  private:
-  enum class Side { first, second };
+  enum class Side { first, second, other };
   struct Share {
     std::size_t index = 0;  // of the joint or load in the model
     bool is_joint = false;
     Side side = Side::first;
-    std::size_t coupled = 0;  // which coordinate of a coupler
+    std::size_t coupled = 0;  // which coordinate of a coupler; which of Load::others
   };
   struct Place {
     std::string path;             // after the body's: "interfaces/end"

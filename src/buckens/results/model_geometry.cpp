@@ -12,9 +12,9 @@
 #include "buckens/fem/constraint/coupled_nodes.h"
 #include "buckens/fem/solid/block.h"
 #include "buckens/fem/solid/recovery.h"
-#include "buckens/loads/elastic_belt.h"
 #include "buckens/model/elastic_gear.h"
 #include "buckens/model/spec/model_description.h"
+#include "buckens/results/contact_geometry.h"
 #include "buckens/results/divided_body.h"
 
 namespace buckens::results {
@@ -25,29 +25,6 @@ namespace {
 
 // Of lines that stand for elements, as a share of the size of the body.
 constexpr double kLineRadius = 0.002;
-
-/// Number of markers on the parts of a divided body before the one with this index.
-int markers_before(const model::Model& model, const model::WholeBody& whole, int body) {
-  int count = 0;
-  for (int b = whole.first; b < body; ++b) {
-    count += static_cast<int>(model.bodies[static_cast<std::size_t>(b)].markers.size());
-  }
-  return count;
-}
-
-GeometrySide side_of(const model::Model& model, const model::MarkerId& id) {
-  GeometrySide side;
-  if (id.body == model::kGround) {
-    side.body = kGroundBody;
-    side.position = model.origin + id.X_WF.p;
-    return side;
-  }
-  side.body = model.whole_of(id.body);
-  const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(side.body)];
-  side.marker = markers_before(model, whole, id.body) + id.marker;
-  side.position = DividedBody(model, whole).place(id);
-  return side;
-}
 
 /// Node of the whole mesh that a marker of a part sits on, or is nearest to.
 int whole_node(const model::WholeBody& whole, int body, const body::Marker& marker,
@@ -77,15 +54,6 @@ std::vector<GeometryMarker> markers_of(const model::Model& model, const model::W
     }
   }
   return out;
-}
-
-/// A direction given in a marker's axes, in those of its body.
-Vector3d to_body(const model::Model& model, const model::MarkerId& id, const Vector3d& axis) {
-  if (id.body == model::kGround) return id.X_WF.q * axis;
-  return model.bodies[static_cast<std::size_t>(id.body)]
-             .markers[static_cast<std::size_t>(id.marker)]
-             .X_BF.q *
-         axis;
 }
 
 /// Lines in place of the elements that a body given by matrices does not have.
@@ -271,17 +239,13 @@ Geometry model_geometry(const model::Model& model) {
   for (const model::Load& load : model.loads) {
     // What acts on a joint's coordinate is where the joint is drawn.
     const bool is_rope = load.kind == loads::RopeSpec::kKey;
-    const bool is_contact = load.kind == loads::ContactSpec::kKey;  // nothing between the bodies
+    // Drawn as what they are.
+    const bool is_drawn = load.kind == loads::ContactSpec::kKey ||
+                          load.kind == loads::CableSpec::kKey ||
+                          load.kind == loads::ElasticBeltSpec::kKey;
     // What rubs in a joint is where the joint is drawn, too.
     const bool is_in_joint = (load.coordinate >= 0 && !is_rope) || load.joint >= 0;
-    if (load.element->num_soft_rows() == 0 || is_contact || is_in_joint) continue;
-    if (const auto* belt = dynamic_cast<const loads::ElasticBelt*>(load.element.get())) {
-      out.joints.push_back({load.name,
-                            joints::to_string(joints::JointType::belt),
-                            {side_of(model, load.first), side_of(model, load.second)},
-                            to_body(model, load.first, belt->axis())});
-      continue;
-    }
+    if (load.element->num_soft_rows() == 0 || is_drawn || is_in_joint) continue;
     if (const auto* teeth = dynamic_cast<const model::ElasticGear*>(load.element.get())) {
       out.joints.push_back({load.name,
                             joints::to_string(joints::JointType::gear),
@@ -297,6 +261,8 @@ Geometry model_geometry(const model::Model& model) {
                           Vector3d::UnitZ()});
   }
   add_loads(model, out);
+  add_contact_shapes(model, out);
+  add_cables(model, out);
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "buckens/fem/assembly/recovery.h"
 #include "buckens/fem/solid/recovery.h"
 #include "buckens/results/belt_sensor.h"
+#include "buckens/results/cable_sensor.h"
 #include "buckens/results/contact_sensor.h"
 #include "buckens/results/coordinate_sensor.h"
 #include "buckens/results/deflection_sensor.h"
@@ -391,6 +392,9 @@ class Maker {
   }
   std::unique_ptr<Sensor> operator()(const model::ContactSensor& s) const {
     return make_contact_sensor(built_, spec_, s.contact);
+  }
+  std::unique_ptr<Sensor> operator()(const model::CableSensor& s) const {
+    return make_cable_sensor(built_, spec_, s.cable);
   }
   std::unique_ptr<Sensor> operator()(const model::BeltSensor& s) const {
     return make_belt_sensor(built_, spec_, s.belt);

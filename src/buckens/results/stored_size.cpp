@@ -61,6 +61,10 @@ double stored_bytes(const Geometry& geometry) {
   for (const GeometryLoad& load : geometry.loads) {
     add(load.positions.size() + load.directions.size(), 3 * sizeof(double));
   }
+  for (const GeometryShape& shape : geometry.shapes) {
+    add(15 + 3 * shape.points.size(), sizeof(double));
+    add(4 + 3 * shape.triangles.size(), sizeof(int));
+  }
   return sum;
 }
 

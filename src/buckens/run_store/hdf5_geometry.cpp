@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/run_store/hdf5_contact_shapes.h"
 #include "buckens/run_store/hdf5_reading.h"
 #include "buckens/run_store/hdf5_sections.h"
 #include "buckens/run_store/hdf5_values.h"
@@ -368,6 +369,8 @@ void write_geometry(const Hdf5File& file, const Geometry& geometry) {
   for (const GeometryJoint& joint : geometry.joints) write_joint(file, index++, geometry, joint);
   index = 0;
   for (const GeometryLoad& load : geometry.loads) write_load(file, index++, geometry, load);
+  write_shapes(file, geometry);
+  write_cables(file, geometry);
 }
 
 Geometry read_geometry(const Hdf5File& file) {
@@ -386,6 +389,8 @@ Geometry read_geometry(const Hdf5File& file) {
   for (const std::string& name : in_order(file, kLoads)) {
     geometry.loads.push_back(read_load(file, geometry, name));
   }
+  read_shapes(file, geometry);
+  read_cables(file, geometry);
   return geometry;
 }
 

@@ -104,8 +104,7 @@ void EventActions::switch_loads(const std::vector<std::string>& names, bool on,
       if (!on) continue;
       const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, &state.memory);
       load.element->start_states(
-          dynamics::sight_of(model, k, state.t, dynamics::circumstances_of(state),
-                             ends.first.motion, ends.second.motion, ends.travels()),
+          dynamics::sight_of(model, k, state.t, dynamics::circumstances_of(state), ends),
           states.data());
     }
   }

@@ -135,6 +135,7 @@ ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whol
   for (const model::Load& load : model.loads) {
     add(load.first);
     add(load.second);
+    for (const model::MarkerId& id : load.others) add(id);
   }
   return band_of(modes, share);
 }

@@ -29,7 +29,13 @@ std::vector<std::vector<std::size_t>> neighbours_of(const model::Model& model) {
     out[static_cast<std::size_t>(second.body)].push_back(static_cast<std::size_t>(first.body));
   };
   for (const model::Joint& joint : model.joints) connect(joint.first, joint.second);
-  for (const model::Load& load : model.loads) connect(load.first, load.second);
+  for (const model::Load& load : model.loads) {
+    std::vector<model::MarkerId> all = load.others;
+    all.insert(all.end(), {load.first, load.second});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) connect(all[i], all[j]);
+    }
+  }
   for (auto& list : out) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());

@@ -6,6 +6,7 @@
 
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/dynamics/model_scales.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::analysis {
 
@@ -95,9 +96,8 @@ double strongest_load(const model::Model& model, const StaticPoint& point, doubl
   }
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
-    const auto first = dynamics::evaluate_marker(model, load.first, motions);
-    const auto second = dynamics::evaluate_marker(model, load.second, motions);
-    const loads::Action action = dynamics::action_of(model, k, t, {}, first.motion, second.motion);
+    const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, nullptr);
+    const loads::Action action = dynamics::action_of(model, k, t, {}, ends);
     const double factor = load.element->is_applied() ? std::abs(point.load_factor) : 1.0;
     largest = std::max(largest, factor * std::abs(action.along_pattern));
     count(action.on_first, factor);

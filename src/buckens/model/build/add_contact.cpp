@@ -51,6 +51,7 @@ class ContactBuilder {
     }
     load_.first = markers[0];
     load_.second = markers[1];
+    load_.shapes = std::make_shared<const std::array<ContactShape, 2>>(shapes);
     const loads::ContactPair pair(shapes[0], shapes[1]);
     require_place(pair);
     require_moments(pair);

@@ -87,15 +87,15 @@ class GroupBuilder {
     member.is_against = is_against;
     if (member.marker.body != kGround) {
       const body::Body& body = find_.model().bodies[static_cast<std::size_t>(member.marker.body)];
-      if (body.is_flexible()) {
-        throw ModelError(spec.where,
-                         fmt::format("{}: body \"{}\" is flexible; contacts of many bodies are "
-                                     "those of rigid ones: give it a `contact` with each of "
-                                     "them, or make it rigid",
-                                     what_, body.name));
-      }
       member.inverse_mass = 1.0 / body.mass;
-      require_inertia(member, body, spec.where);
+      if (body.is_flexible()) {
+        const bool is_centred = member.shape.kind == ContactShape::Kind::sphere;
+        if (!is_centred || spec_.coefficient > 0.0) {
+          find_.require_moment(member.marker, what_, spec.where);
+        }
+      } else {
+        require_inertia(member, body, spec.where);
+      }
     }
     group_->members.push_back(std::move(member));
   }

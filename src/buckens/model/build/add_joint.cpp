@@ -91,6 +91,10 @@ class JointBuilder {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
       if (type == joints::JointType::rolling) joint.axis_F = axle_M(placement);
+      if (type == joints::JointType::belt) {
+        joint.pulleys = {placement.sizes[0],
+                         placement.same_sense ? placement.sizes[1] : -placement.sizes[1]};
+      }
     } catch (const ModelError& error) {
       throw ModelError(spec.where, fmt::format("{}: {}", what, error.what()));
     }

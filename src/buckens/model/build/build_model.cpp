@@ -404,6 +404,7 @@ class Builder {
     for (Load& load : model_.loads) {
       move(load.first);
       move(load.second);
+      for (MarkerId& id : load.others) move(id);
     }
     for (auto& group : model_.contact_groups) {
       auto moved = std::make_shared<ContactGroup>(*group);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/solid/recovery.h"
+#include "buckens/loads/contact_mesh.h"
 
 namespace buckens::model {
 
@@ -21,7 +23,7 @@ class ShapeBuilder {
  public:
   ShapeBuilder(MarkerFinder& find, const MarkerId& marker, const std::string& what,
                const SourceLocation& where)
-      : what_(what), where_(where) {
+      : find_(find), marker_(marker), what_(what), where_(where) {
     if (!find.model().planar) return;
     is_planar_ = true;
     normal_ = find.placed(marker).R().transpose() * spatial::normal(*find.model().planar);
@@ -75,8 +77,67 @@ class ShapeBuilder {
     }
     return out;
   }
+  ContactShape operator()(const loads::StlShape& spec) const {
+    if (!spec.triangles) {
+      throw InputError(where_, fmt::format("{}: \"{}\" has not been read; set `triangles`, or read "
+                                           "the model from a file",
+                                           what_, spec.file));
+    }
+    return mesh(*spec.triangles, spec.smooth, fmt::format("\"{}\"", spec.file));
+  }
+  ContactShape operator()(const loads::SurfaceShape& spec) const {
+    return mesh(own_surface(), spec.smooth, "its surface");
+  }
 
  private:
+  ContactShape mesh(const spatial::TriangleList& triangles, double smooth,
+                    const std::string& of) const {
+    if (is_planar_) refuse("meshes have no section; use a `sphere`, a `capsule` or a `box`");
+    ContactShape out;
+    out.kind = ContactShape::Kind::mesh;
+    try {
+      out.mesh = std::make_shared<const loads::ContactMesh>(triangles, smooth);
+    } catch (const InputError& error) {
+      throw InputError(where_, fmt::format("{}: {}: {}", what_, of, error.text()));
+    }
+    out.half = out.mesh->box().min().cwiseAbs().cwiseMax(out.mesh->box().max().cwiseAbs());
+    return out;
+  }
+
+  /// The faces of the marker's body, in axes of the marker.
+  spatial::TriangleList own_surface() const {
+    const Model& model = find_.model();
+    const auto fail = [&](const char* text) {
+      throw InputError(where_, fmt::format("{}: {}", what_, text));
+    };
+    if (marker_.body == kGround) fail("the ground has no mesh; use an `stl`");
+    const body::Body& body = model.bodies[static_cast<std::size_t>(marker_.body)];
+    const WholeBody& whole = model.wholes[static_cast<std::size_t>(model.whole_of(marker_.body))];
+    if (whole.is_divided()) {
+      fail(
+          "the surface of a body with several frames belongs to several of them; use an `stl`, or "
+          "one frame");
+    }
+    if (!body.is_flexible()) fail("its body is rigid and has no mesh; use an `stl`");
+    const fem::FeModel& fe = body.flexible->mesh();
+    const spatial::Pose& X = body.markers[static_cast<std::size_t>(marker_.marker)].X_BF;
+    spatial::TriangleList out;
+    for (const fem::Node& node : fe.nodes) {
+      out.points.push_back(X.R().transpose() * (node.position - body.com - X.p));
+    }
+    for (const fem::SurfaceFace& face : fem::surface_faces(fe)) {
+      out.triangles.push_back({face.nodes[0], face.nodes[1], face.nodes[2]});
+      if (face.nodes[3] < 0) continue;
+      out.triangles.push_back({face.nodes[0], face.nodes[2], face.nodes[3]});
+    }
+    if (out.triangles.empty()) {
+      fail(
+          "the mesh of its body has neither solids nor shells, so no surface; use a `capsule` or "
+          "an `stl`");
+    }
+    return out;
+  }
+
   [[noreturn]] void refuse(const std::string& text) const {
     throw InputError(where_, fmt::format("{}: in a planar model {}", what_, text));
   }
@@ -96,6 +157,8 @@ class ShapeBuilder {
                        given ? "turn the" : "give the"));
   }
 
+  MarkerFinder& find_;
+  const MarkerId& marker_;
   const std::string& what_;
   const SourceLocation& where_;
   bool is_planar_ = false;

@@ -113,6 +113,7 @@ std::vector<std::string> loaded_places(const Model& model, int whole) {
     if (!load.region) {
       add(load.first);
       add(load.second);
+      for (const MarkerId& id : load.others) add(id);
     } else if (model.whole_of(load.first.body) == whole) {
       out.insert(part_of_place(load.region->place));
     }

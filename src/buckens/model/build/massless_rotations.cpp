@@ -203,6 +203,7 @@ class MasslessRotations {
     const auto body = static_cast<int>(b);
     for (const Load& load : model_.loads) {
       if (load.first.body != body && load.second.body != body) continue;
+      if (!load.others.empty()) continue;  // cables ask for inertia themselves
       double largest = 0.0;
       double size = 0.0;
       for (int k = 0; k < kInstants; ++k) {

@@ -48,7 +48,7 @@ Found direction_problem(const ShapeSpec& shape) {
 }
 
 bool is_pair(const loads::ContactSpec& spec, const std::string& a, const std::string& b) {
-  const std::string first = spec.shapes[0].kind_name(), second = spec.shapes[1].kind_name();
+  const std::string first = spec.shapes[0].touches_as(), second = spec.shapes[1].touches_as();
   return (first == a && second == b) || (first == b && second == a);
 }
 
@@ -64,7 +64,7 @@ Found pair_problem(const loads::ContactSpec& spec) {
       pairs.push_back(fmt::format("{}–{}", to_string(kinds[0]), to_string(kinds[1])));
     }
     return Finding{"shapes", fmt::format("a {} and a {} cannot touch; the pairs are {}",
-                                         spec.shapes[0].kind_name(), spec.shapes[1].kind_name(),
+                                         spec.shapes[0].touches_as(), spec.shapes[1].touches_as(),
                                          fmt::join(pairs, ", "))};
   }
   const auto does_not_fit = [&](const char* what, double hole, double inside) -> Found {
@@ -103,7 +103,7 @@ Found rigid_problem(const loads::ContactSpec& spec, const ModelDescription& mode
   if (is_known) return std::nullopt;
   return Finding{"shapes", fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
                                        "of a sphere with a plane, a sphere or a socket",
-                                       spec.shapes[0].kind_name(), spec.shapes[1].kind_name())};
+                                       spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
 }
 
 Found restitution_problem(const loads::ContactForceSpec& spec) {
@@ -137,12 +137,18 @@ Found elastic_problem(const loads::ContactSpec& spec) {
                    "by `modulus` the exponent is 1.5; remove `exponent`, or give a "
                    "`stiffness` in place of `modulus`"};
   }
+  if (spec.exponent.value_or(1.0) != 1.0 && is_pair(spec, "plane", "mesh")) {
+    return Finding{"exponent",
+                   "a mesh and a plane touch with an area, over which forces grow linearly; "
+                   "remove `exponent`"};
+  }
   const bool is_hertz = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
                         is_pair(spec, "sphere", "socket");
   if (spec.modulus && !is_hertz) {
-    return Finding{"modulus", fmt::format("Hertz has no force for a {} and a {}; give a "
-                                          "`stiffness`",
-                                          spec.shapes[0].kind_name(), spec.shapes[1].kind_name())};
+    return Finding{"modulus",
+                   fmt::format("Hertz has no force for a {} and a {}; give a "
+                               "`stiffness`",
+                               spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
   }
   return elastic_loss_problem(spec);
 }
@@ -172,7 +178,7 @@ Found kinds_problem(const loads::ContactMemberSpec& a, const loads::ContactMembe
                     bool needs_hertz) {
   const auto is_on_ground = [](const loads::ContactMemberSpec& one) { return one.on.is_ground(); };
   if (is_on_ground(a) && is_on_ground(b)) return std::nullopt;
-  const std::string first = a.shape.kind_name(), second = b.shape.kind_name();
+  const std::string first = a.shape.touches_as(), second = b.shape.touches_as();
   const auto all = loads::ContactPair::all();
   const auto is_either = [&](const auto& kinds) {
     const std::string one = loads::to_string(kinds[0]), other = loads::to_string(kinds[1]);

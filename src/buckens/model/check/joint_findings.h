@@ -40,6 +40,8 @@ Found own_joint_problem(const loads::HingeBrakeSpec& spec, const ModelDescriptio
 Found own_joint_problem(const loads::SlideBrakeSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::ElasticBeltSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const BeltSensor& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::CableSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const CableSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);

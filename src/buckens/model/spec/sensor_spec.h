@@ -356,6 +356,22 @@ struct BeltSensor {
   }
 };
 
+/// Tensions, wraps and slips of a cable.
+struct CableSensor {
+  static constexpr const char* kKey = "cable";
+  static constexpr const char* kDoc =
+      "of a cable: the forces in its spans (`tension1` …), the angles by which it is wrapped "
+      "around "
+      "its pulleys (`wrap1` …) and the lengths by which it has slipped over them in its own "
+      "direction (`slip1` …)";
+  std::string cable;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("cable", cable, "name of the cable").required().shorthand().like("hoist"));
+  }
+};
+
 /// A signal of the model.
 struct SignalSensor {
   static constexpr const char* kKey = "signal";
@@ -376,7 +392,8 @@ struct SensorSpec {
                RotationSensor, AngularVelocitySensor, DeflectionSensor, RelativeSensor,
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
                SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
-               EnergySensor, JointCoordinateSensor, SignalSensor, ContactSensor, BeltSensor>
+               EnergySensor, JointCoordinateSensor, SignalSensor, ContactSensor, BeltSensor,
+               CableSensor>
       kind;
 
   template <class Visitor>

@@ -172,9 +172,9 @@ TEST(ModelFile, JointsAndLoads) {
   const auto& bushing = std::get<joints::BushingSpec>(entry(m.joints, "soft").kind);
   EXPECT_EQ(bushing.stiffness, Eigen::Vector3d(1e6, 1e6, 0));
   const auto& motor = std::get<joints::PrescribedRotationSpec>(entry(m.joints, "motor").kind);
-  EXPECT_DOUBLE_EQ(motor.angle->value(2.0), 300);
+  EXPECT_DOUBLE_EQ(motor.angle->law.value(2.0), 300);
   const auto& shift = std::get<joints::PrescribedTranslationSpec>(entry(m.joints, "shift").kind);
-  EXPECT_DOUBLE_EQ(shift.displacement->value(0.1), 2e-3);
+  EXPECT_DOUBLE_EQ(shift.displacement->law.value(0.1), 2e-3);
   const auto& push = std::get<loads::ForceSpec>(entry(m.loads, "push").kind);
   EXPECT_DOUBLE_EQ(push.value[1].value(0.1), 10 * std::sin(2.0));
   EXPECT_TRUE(push.value[0].is_constant());

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/loads/cable.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/loads/cable_span.h"
+#include "buckens/loads/capstan_slip.h"
+
+namespace buckens::loads {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+// A wrap below this is that of a cable that just touches its pulley [rad].
+constexpr double kTouchingWrap = 1e-6;
+// Of each pulley: angle from the arriving and the leaving span, wrap, slip and its rate; then ℓ of
+// each span, the instant, and of open cables the angles of both ends, 0 without a drum.
+constexpr std::size_t kArriving = 0, kLeaving = 1, kWrap = 2, kSlip = 3, kSlipRate = 4,
+                      kOfPulley = 5;
+// Instants closer than this share of the time are one, computed in two ways.
+constexpr double kOneInstant = 1e-13;
+
+double within_one_turn(double angle) { return std::remainder(angle, kTurn); }
+
+double turned_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
+  return std::atan2(axis.dot(from.cross(to)), from.dot(to));
+}
+
+using Square = CapstanSlip::Square;
+
+}  // namespace
+
+/// Geometry and forces at one instant.
+struct Cable::Stand {
+  Vector3d axis;
+  std::array<CableSpan, kMostNodes> spans;
+  std::array<double, kMostNodes> arriving{}, leaving{}, wrap{};  // of pulleys [rad]
+  double h = 0;                                                  // of the step so far [s]
+  CapstanSlip::Values slip_rate{};                               // over pulleys [m/s]
+  double first_angle = 0, last_angle = 0;                        // of drums [rad]
+  std::array<double, kMostNodes> rate{};       // of the elongation while nothing slips [m/s]
+  std::array<double, kMostNodes> free{};       // ℓ, after slip [m]
+  std::array<double, kMostNodes> free_rate{};  // of ℓ while nothing slips [m/s]
+  CapstanSlip slip;
+};
+
+Cable::Cable(CableData data) : data_(std::move(data)) {}
+
+bool Cable::may_slip() const {
+  return std::any_of(data_.nodes.begin(), data_.nodes.end(),
+                     [](const CableNode& node) { return node.coefficient.has_value(); });
+}
+
+int Cable::num_states() const {
+  return static_cast<int>(kOfPulley * num_pulleys() + num_spans()) + (data_.is_closed ? 1 : 3);
+}
+
+namespace {
+
+const spatial::MarkerMotion& motion_of(const Sight& sight, std::size_t node) {
+  return node == 0 ? sight.first : node == 1 ? sight.second : sight.others[node - 2];
+}
+
+/// Twist of a marker, as rows are multiplied with.
+double rate_by(const TwistRow& row, const spatial::MarkerMotion& motion) {
+  return row.head<3>().dot(motion.w) + row.tail<3>().dot(motion.v);
+}
+
+/// Angle of a pulley's mark from where a span touches it.
+double mark_angle(const CableNode& node, const spatial::MarkerMotion& motion, const CableSpan& span,
+                  const Vector3d& axis) {
+  const Vector3d touched = node.radius > 0.0 ? Vector3d(-span.left) : span.left;
+  return turned_about(axis, touched, motion.R * node.mark);
+}
+
+}  // namespace
+
+void Cable::wind_ends(const Sight& sight, const double* states, Stand& s) const {
+  if (data_.is_closed) return;
+  const std::size_t last = last_node();
+  const double* const angles = states + kOfPulley * num_pulleys() + num_spans() + 1;
+  const CableNode &first_drum = data_.nodes[0], &last_drum = data_.nodes[last];
+  if (first_drum.radius != 0.0) {
+    s.first_angle = mark_angle(first_drum, motion_of(sight, 0), s.spans[0], s.axis);
+    s.free[0] += first_drum.radius * within_one_turn(s.first_angle - angles[0]);
+  }
+  if (last_drum.radius != 0.0) {
+    s.last_angle = mark_angle(last_drum, motion_of(sight, last), s.spans[last - 1], s.axis);
+    s.free[last - 1] -= last_drum.radius * within_one_turn(s.last_angle - angles[1]);
+  }
+}
+
+void Cable::find_spans(const Sight& sight, const double* states, Stand& s) const {
+  const std::size_t nodes = data_.nodes.size();
+  s.axis = motion_of(sight, data_.first_pulley).R * data_.axis;
+  for (std::size_t j = 0; j < num_spans(); ++j) {
+    const std::size_t next = (j + 1) % nodes;
+    const auto& from = motion_of(sight, j);
+    const auto& to = motion_of(sight, next);
+    s.spans[j] =
+        CableSpan::between(from, data_.nodes[j].radius, to, data_.nodes[next].radius, s.axis);
+    if (!s.spans[j].exists()) {
+      throw NumericalError(
+          fmt::format("its span {} cannot be formed: the pulleys or ends on both sides of it have "
+                      "come within {:.6g} m of each other; look at what holds them",
+                      j + 1, s.spans[j].centres));
+    }
+    s.rate[j] = rate_by(s.spans[j].on_from, from) + rate_by(s.spans[j].on_to, to);
+    s.free[j] = states[kOfPulley * num_pulleys() + j];
+    s.free_rate[j] = s.spans[j].length_rate(from, to) - s.rate[j];
+  }
+}
+
+void Cable::wind_pulleys(const Sight& sight, const double* states, Stand& s) const {
+  const std::size_t nodes = data_.nodes.size();
+  for (std::size_t i = 0; i < num_pulleys(); ++i) {
+    const std::size_t k = node_of(i), before = (k + nodes - 1) % nodes;
+    const double* own = states + kOfPulley * i;
+    const CableNode& node = data_.nodes[k];
+    const auto& motion = motion_of(sight, k);
+    s.arriving[i] = mark_angle(node, motion, s.spans[before], s.axis);
+    s.leaving[i] = mark_angle(node, motion, s.spans[k], s.axis);
+    s.free[before] -= node.radius * within_one_turn(s.arriving[i] - own[kArriving]);
+    s.free[k] += node.radius * within_one_turn(s.leaving[i] - own[kLeaving]);
+    const double sense = node.radius > 0.0 ? 1.0 : -1.0;
+    const double seen = sense * turned_about(s.axis, s.spans[before].along, s.spans[k].along);
+    s.wrap[i] = own[kWrap] + within_one_turn(seen - own[kWrap]);
+    if (s.wrap[i] < -kTouchingWrap) {
+      throw NumericalError(fmt::format(
+          "it has left its pulley {}, around which it would run the other way; look at the "
+          "motion, or leave the pulley out",
+          i + 1));
+    }
+  }
+}
+
+void Cable::set_tensions(const double* states, Stand& s) const {
+  s.slip.reset(num_spans(), num_pulleys(), data_.is_closed);
+  // Before anything can slip, what slips goes on as it did.
+  for (std::size_t i = 0; i < num_pulleys() && s.h == 0.0; ++i) {
+    s.slip_rate[i] = states[kOfPulley * i + kSlipRate];
+  }
+  for (std::size_t j = 0; j < num_spans(); ++j) {
+    if (!(s.free[j] > 0.0)) {
+      throw NumericalError(fmt::format(
+          "its span {} has been wound up whole; look at what turns its pulleys", j + 1));
+    }
+    const double k = data_.stiffness / s.free[j], c = data_.damping_time * k;
+    s.slip.set_span(j, k, s.h > 0.0 ? c / s.h : 0.0, k * (s.spans[j].length - s.free[j]),
+                    c * (s.rate[j] + s.slip.of_spans(s.slip_rate, j)));
+  }
+}
+
+Cable::Stand Cable::look(const Sight& sight) const {
+  if (sight.others.size() + 2 != data_.nodes.size()) {
+    throw NumericalError("a cable was asked for without its markers");
+  }
+  Stand s;
+  const double* states = sight.states != nullptr ? sight.states : data_.placed.data();
+  find_spans(sight, states, s);
+  wind_pulleys(sight, states, s);
+  wind_ends(sight, states, s);
+  const double started = states[kOfPulley * num_pulleys() + num_spans()];
+  const bool has_begun = sight.states != nullptr && sight.t - started > kOneInstant * sight.t;
+  s.h = has_begun ? sight.t - started : 0.0;
+  set_tensions(states, s);
+  if (!may_slip()) return s;
+  for (std::size_t i = 0; i < num_pulleys(); ++i) {
+    const std::optional<double>& coefficient = data_.nodes[node_of(i)].coefficient;
+    if (coefficient) s.slip.set_pulley(i, std::exp(*coefficient * std::max(0.0, s.wrap[i])));
+  }
+  s.slip.solve();
+  for (std::size_t j = 0; j < num_spans(); ++j) s.free[j] -= s.slip.lengthened(j);
+  for (std::size_t i = 0; i < num_pulleys() && s.h > 0.0; ++i) {
+    s.slip_rate[i] = s.slip.slipped(i) / s.h;
+  }
+  return s;
+}
+
+Action Cable::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
+                       const spatial::MarkerMotion& /*second*/) const {
+  return {};
+}
+
+namespace {
+
+/// Adds what a span does to its two markers.
+template <class Add>
+void add_pull(const CableSpan& span, double tension, std::size_t from, std::size_t to, Add&& add) {
+  const auto wrench = [&](const TwistRow& row) {
+    return spatial::Wrench{-tension * row.head<3>().transpose(),
+                           -tension * row.tail<3>().transpose()};
+  };
+  add(from, wrench(span.on_from));
+  add(to, wrench(span.on_to));
+}
+
+}  // namespace
+
+Action Cable::respond(const Sight& sight) const {
+  const Stand s = look(sight);
+  const std::size_t nodes = data_.nodes.size();
+  Action out;
+  for (std::size_t j = 0; j < num_spans(); ++j) {
+    const double tension = s.slip.tension(j);
+    add_pull(s.spans[j], tension, j, (j + 1) % nodes,
+             [&](std::size_t node, const spatial::Wrench& wrench) {
+               if (node == 0) out.on_first += wrench;
+               if (node == 1) out.on_second += wrench;
+             });
+    const double elastic = std::max(0.0, s.slip.elastic(j));
+    const double k = data_.stiffness / s.free[j];
+    out.stored_energy += 0.5 * elastic * elastic / k;
+    // What is taken in or given out carries its strain along.
+    const double carried = 0.5 * elastic * elastic / data_.stiffness;
+    const double slip_rate = s.slip.of_spans(s.slip_rate, j);
+    out.active_power += elastic * (s.rate[j] + slip_rate) - tension * s.rate[j] -
+                        carried * (s.free_rate[j] - slip_rate);
+  }
+  out.dissipation = -out.active_power;
+  out.regime = s.slip.regime();
+  return out;
+}
+
+void Cable::add_to_others(const Sight& sight, std::span<spatial::Wrench> wrenches) const {
+  const Stand s = look(sight);
+  for (std::size_t j = 0; j < num_spans(); ++j) {
+    add_pull(s.spans[j], s.slip.tension(j), j, (j + 1) % data_.nodes.size(),
+             [&](std::size_t node, const spatial::Wrench& wrench) {
+               if (node >= 2) wrenches[node - 2] += wrench;
+             });
+  }
+}
+
+namespace {
+
+/// Rows along which a cable resists, and how much: its spans, or where something slips what these
+/// do together.
+struct Resistance {
+  Square directions;  // one per column: of the elongations of spans
+  CapstanSlip::Column stiffness;
+
+  explicit Resistance(const CapstanSlip& slip) {
+    const Square tangent = slip.tangent();
+    if (!slip.has_slipped()) {
+      directions = Square::Identity(tangent.rows(), tangent.rows());
+      stiffness = tangent.diagonal();
+      return;
+    }
+    const Eigen::SelfAdjointEigenSolver<Square> own(0.5 * (tangent + tangent.transpose()));
+    directions = own.eigenvectors();
+    stiffness = own.eigenvalues().cwiseMax(0.0);
+  }
+};
+
+}  // namespace
+
+void Cable::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  const Stand s = look(sight);
+  const std::size_t nodes = data_.nodes.size();
+  const Resistance own(s.slip);
+  for (std::size_t n = 0; n < num_spans(); ++n) {
+    SoftRow row;
+    for (std::size_t j = 0; j < num_spans(); ++j) {
+      const double share = own.directions(static_cast<int>(j), static_cast<int>(n));
+      const std::size_t next = (j + 1) % nodes;
+      if (j == 0) row.J.segment<6>(0) += share * s.spans[j].on_from;
+      if (j == 1) row.J.segment<6>(6) += share * s.spans[j].on_from;
+      if (next == 0) row.J.segment<6>(0) += share * s.spans[j].on_to;
+      if (next == 1) row.J.segment<6>(6) += share * s.spans[j].on_to;
+    }
+    row.stiffness = own.stiffness[static_cast<int>(n)];
+    row.damping = data_.damping_time * row.stiffness;
+    rows.push_back(row);
+  }
+}
+
+void Cable::append_others_of_rows(const Sight& sight, std::vector<TwistRow>& rows) const {
+  const Stand s = look(sight);
+  const std::size_t nodes = data_.nodes.size();
+  const Resistance own(s.slip);
+  for (std::size_t n = 0; n < num_spans(); ++n) {
+    const std::size_t first = rows.size();
+    rows.resize(first + nodes - 2, TwistRow::Zero());
+    for (std::size_t j = 0; j < num_spans(); ++j) {
+      const double share = own.directions(static_cast<int>(j), static_cast<int>(n));
+      const std::size_t next = (j + 1) % nodes;
+      if (j >= 2) rows[first + j - 2] += share * s.spans[j].on_from;
+      if (next >= 2) rows[first + next - 2] += share * s.spans[j].on_to;
+    }
+  }
+}
+
+void Cable::start_states(const Sight& sight, double* states) const {
+  Sight placed = sight;
+  placed.states = data_.placed.data();
+  find_states(placed, states);
+}
+
+void Cable::find_states(const Sight& sight, double* states) const {
+  const Stand s = look(sight);
+  const double* before = sight.states != nullptr ? sight.states : data_.placed.data();
+  for (std::size_t i = 0; i < num_pulleys(); ++i) {
+    const double slip = before[kOfPulley * i + kSlip] + s.slip.slipped(i);
+    double* own = states + kOfPulley * i;
+    own[kArriving] = s.arriving[i];
+    own[kLeaving] = s.leaving[i];
+    own[kWrap] = s.wrap[i];
+    own[kSlip] = slip;
+    own[kSlipRate] = s.slip_rate[i];
+  }
+  for (std::size_t j = 0; j < num_spans(); ++j) {
+    states[kOfPulley * num_pulleys() + j] = s.free[j];
+  }
+  states[kOfPulley * num_pulleys() + num_spans()] = sight.t;
+  if (data_.is_closed) return;
+  double* const angles = states + kOfPulley * num_pulleys() + num_spans() + 1;
+  angles[0] = s.first_angle;
+  angles[1] = s.last_angle;
+}
+
+CableReading Cable::read(const Sight& sight) const {
+  const Stand s = look(sight);
+  const double* before = sight.states != nullptr ? sight.states : data_.placed.data();
+  CableReading out;
+  for (std::size_t j = 0; j < num_spans(); ++j) out.tensions.push_back(s.slip.tension(j));
+  for (std::size_t i = 0; i < num_pulleys(); ++i) {
+    out.wraps.push_back(s.wrap[i]);
+    out.slips.push_back(before[kOfPulley * i + kSlip] + s.slip.slipped(i));
+  }
+  return out;
+}
+
+std::vector<double> Cable::placed_states(const CableData& data,
+                                         std::span<const spatial::MarkerMotion> markers,
+                                         double pretension, std::span<const int> turns) {
+  const Cable cable(data);
+  const std::size_t nodes = data.nodes.size(), pulleys = cable.num_pulleys();
+  const Vector3d axis = markers[data.first_pulley].R * data.axis;
+  std::vector<double> out(static_cast<std::size_t>(cable.num_states()), 0.0);
+  std::vector<CableSpan> spans;
+  for (std::size_t j = 0; j < cable.num_spans(); ++j) {
+    const std::size_t next = (j + 1) % nodes;
+    spans.push_back(CableSpan::between(markers[j], data.nodes[j].radius, markers[next],
+                                       data.nodes[next].radius, axis));
+    if (!spans[j].exists()) {
+      throw InputError(
+          {},
+          fmt::format("its span {} cannot be formed: the centres on both sides of it are {:.6g} "
+                      "m apart across the axis, more than {:.6g} m are needed; place them "
+                      "apart, or look at `side` and `radius` of its pulleys",
+                      j + 1, spans[j].centres,
+                      std::abs(data.nodes[next].radius - data.nodes[j].radius)));
+    }
+    out[kOfPulley * pulleys + j] = spans[j].length / (1.0 + pretension / data.stiffness);
+  }
+  for (std::size_t i = 0; i < pulleys; ++i) {
+    const std::size_t k = cable.node_of(i), before = (k + nodes - 1) % nodes;
+    const CableNode& node = data.nodes[k];
+    out[kOfPulley * i + kArriving] = mark_angle(node, markers[k], spans[before], axis);
+    out[kOfPulley * i + kLeaving] = mark_angle(node, markers[k], spans[k], axis);
+    const double sense = node.radius > 0.0 ? 1.0 : -1.0;
+    double wrap = sense * turned_about(axis, spans[before].along, spans[k].along);
+    if (wrap < -kTouchingWrap) wrap += kTurn;
+    out[kOfPulley * i + kWrap] = wrap + kTurn * turns[i];
+  }
+  if (data.is_closed) return out;
+  const std::size_t last = nodes - 1, at = kOfPulley * pulleys + spans.size() + 1;
+  if (data.nodes[0].radius != 0.0) {
+    out[at] = mark_angle(data.nodes[0], markers[0], spans[0], axis);
+  }
+  if (data.nodes[last].radius != 0.0) {
+    out[at + 1] = mark_angle(data.nodes[last], markers[last], spans[last - 1], axis);
+  }
+  return out;
+}
+
+std::vector<Vector3d> Cable::span_ends(const CableData& data,
+                                       std::span<const spatial::MarkerMotion> markers) {
+  const std::size_t nodes = data.nodes.size();
+  const Vector3d axis = markers[data.first_pulley].R * data.axis;
+  std::vector<Vector3d> out;
+  for (std::size_t j = 0; j + (data.is_closed ? 0 : 1) < nodes; ++j) {
+    const std::size_t next = (j + 1) % nodes;
+    const CableSpan span = CableSpan::between(markers[j], data.nodes[j].radius, markers[next],
+                                              data.nodes[next].radius, axis);
+    out.push_back(markers[j].p - data.nodes[j].radius * span.left);
+    out.push_back(markers[next].p - data.nodes[next].radius * span.left);
+  }
+  return out;
+}
+
+}  // namespace buckens::loads

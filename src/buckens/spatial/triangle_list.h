@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace buckens::spatial {
+
+/// A surface of triangles: corners counter-clockwise as seen from outside.
+struct TriangleList {
+  std::vector<Eigen::Vector3d> points;  ///< [m]; several may be at one place
+  std::vector<std::array<int, 3>> triangles;
+};
+
+}  // namespace buckens::spatial

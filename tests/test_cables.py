@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cables over pulleys: Atwood's machine, tackles, capstans, closed belts, hoists."""
+
+import math
+import os
+import pathlib
+
+import numpy
+import pytest
+
+EXAMPLES = pathlib.Path(os.environ.get("BUCKENS_SOURCE_DIR", pathlib.Path(__file__).parents[1])) / "examples"
+G = 9.81
+
+
+def acceleration(t, x, since):
+    late = t > since
+    return 2 * numpy.polyfit(t[late], x[late], 2)[0]
+
+
+def test_atwoods_machine_with_a_pulley_of_its_own_inertia(sensors):
+    out = sensors("""
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  light: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [-0.1, -1, 0]}}
+  heavy: {rigid: {mass: 2, inertia: [0, 0, 1e-3]}, at: {position: [0.1, -1, 0]}}
+  wheel: {rigid: {mass: 1, inertia: [0, 0, 0.01]}}
+joints: {axle: {revolute: {between: [ground, wheel]}}}
+loads: {rope: {cable: {ends: [light, heavy], pulleys: [{on: wheel, radius: 0.1, side: right}], stiffness: 1e7, damping-time: 1 ms, pretension: 13}}}
+simulation: {duration: 0.6 s, step: 0.2 ms}
+output: {every: 2 ms, sensors: {a: {position: light}, b: {position: heavy}, rope: {cable: rope}, w: {angular-velocity: wheel}, balance: {energy: balance}}}
+""")
+    # (m2 - m1) g/(m1 + m2 + J/r^2); the rope gives by 1e-6 of its length.
+    assert acceleration(out["t"], out["a.y"], 0.1) == pytest.approx(2.4525, rel=1e-4)
+    assert acceleration(out["t"], out["b.y"], 0.1) == pytest.approx(-2.4525, rel=1e-4)
+    assert out["rope.tension1"][-1] == pytest.approx(1 * (G + 2.4525), rel=1e-4)
+    assert out["rope.tension2"][-1] == pytest.approx(2 * (G - 2.4525), rel=1e-4)
+    assert out["w.z"][-1] == pytest.approx(-2.4525 * 0.6 / 0.1, rel=1e-3)
+    assert out["rope.wrap1"] == pytest.approx(math.pi, abs=1e-9)
+    assert numpy.abs(out["rope.slip1"]).max() == 0
+    assert numpy.abs(out["balance"]).max() < 1e-5
+
+
+def test_a_tackle_doubles_the_force(sensors):
+    """From the ceiling around a sheave on the load, over one on the ceiling, to a counterweight."""
+    out = sensors("""
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  load: {rigid: {mass: 3, inertia: [0, 0, 0.01]}, at: {position: [0, -1, 0]}}
+  weight: {rigid: {mass: 2, inertia: [0, 0, 0.01]}, at: {position: [0.3, -1, 0]}}
+loads:
+  rope:
+    cable:
+      ends: [{ground: [-0.05, 0, 0]}, weight]
+      pulleys: [{on: load, radius: 50 mm, side: left}, {on: {ground: [0.175, 0, 0]}, radius: 125 mm, side: right}]
+      stiffness: 1e7
+      damping-time: 1 ms
+      friction: 0
+      pretension: 17
+simulation: {duration: 0.5 s, step: 0.2 ms}
+output: {every: 2 ms, sensors: {load: {position: load}, weight: {position: weight}, rope: {cable: rope}}}
+""")
+    a = (2 * 2 - 3) * G / (3 + 4 * 2)
+    assert acceleration(out["t"], out["load.y"], 0.1) == pytest.approx(a, rel=1e-3)
+    assert acceleration(out["t"], out["weight.y"], 0.1) == pytest.approx(-2 * a, rel=1e-3)
+    for n in (2, 3):  # nothing rubs
+        assert out[f"rope.tension{n}"] == pytest.approx(out["rope.tension1"], rel=1e-12)
+    assert out["rope.tension1"][-1] == pytest.approx(2 * (G - 2 * a), rel=1e-3)
+    assert out["rope.wrap1"] == pytest.approx(math.pi, abs=1e-4)
+
+
+def test_a_rope_slips_on_a_drum_by_eulers_law(sensors):
+    text = """
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  light: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [-0.1, -1, 0]}}
+  heavy: {rigid: {mass: MASS, inertia: [0, 0, 1e-3]}, at: {position: [0.1, -1, 0]}}
+loads: {rope: {cable: {ends: [light, heavy], pulleys: [{on: ground, radius: 0.1, side: right}], stiffness: 1e5, damping-time: 0.2 ms, pretension: 10, friction: 0.3}}}
+simulation: {duration: 0.3 s, step: STEP}
+output: {every: 2 ms, sensors: {a: {position: light}, rope: {cable: rope}, balance: {energy: balance}, lost: {energy: dissipated}}}
+"""
+    out = sensors(text.replace("MASS", "4").replace("STEP", "0.1 ms"))
+    ratio = math.exp(0.3 * math.pi)
+    assert ratio == pytest.approx(2.566332, abs=1e-6)
+    slips = numpy.gradient(out["rope.slip1"], out["t"]) > 0.01
+    assert slips[5:].all()
+    # Exact within steps; records take the stiffness E A/l anew, with l shorter by what has slipped in the last step, 1e-4.
+    assert out["rope.wrap1"] == pytest.approx(math.pi, abs=1e-3)
+    assert out["rope.tension2"][slips] / out["rope.tension1"][slips] == pytest.approx(numpy.exp(0.3 * out["rope.wrap1"][slips]), rel=2e-4)
+    a = (4 - ratio) * G / (4 + ratio)
+    assert acceleration(out["t"], out["a.y"], 0.1) == pytest.approx(a, rel=2e-3)
+    # What rubs is T2 - T1 along the slip.
+    work = numpy.trapezoid if hasattr(numpy, "trapezoid") else numpy.trapz
+    rubbed = work(out["rope.tension2"] - out["rope.tension1"], out["rope.slip1"])
+    assert out["lost"][-1] == pytest.approx(rubbed, rel=0.02)
+    assert numpy.abs(out["balance"]).max() < 1e-3
+    # Below the bound it holds, and does not creep.
+    out = sensors(text.replace("MASS", "2.5").replace("STEP", "0.1 ms").replace("damping-time: 0.2 ms", "damping-time: 5 ms"))
+    assert abs(out["rope.slip1"][-1] - out["rope.slip1"][len(out["t"]) // 2]) < 1e-9
+    assert abs(out["a.y"][-1] - out["a.y"][len(out["t"]) // 2]) < 1e-4
+
+
+def test_a_whole_turn_holds_more(sensors):
+    out = sensors("""
+buckens: 1
+planar: xy
+bodies:
+  left: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [-1, 0.1, 0]}}
+  right: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [1, 0.1, 0]}}
+loads:
+  rope: {cable: {ends: [left, right], pulleys: [{on: ground, radius: 0.1, side: right, turns: 1}], stiffness: 1e5, damping-time: 0.2 ms, pretension: 1, friction: 0.3}}
+  pull: {force: {on: right, value: [20, 0, 0]}}
+  hold: {force: {on: left, value: [-1, 0, 0]}}
+simulation: {duration: 0.2 s, step: 0.1 ms}
+output: {every: 2 ms, sensors: {rope: {cable: rope}}}
+""")
+    slips = numpy.gradient(out["rope.slip1"], out["t"]) > 0.01
+    assert slips[10:].all()
+    assert out["rope.wrap1"] == pytest.approx(2 * math.pi, abs=1e-3)
+    assert math.exp(0.6 * math.pi) == pytest.approx(6.586062, abs=1e-6)
+    assert out["rope.tension2"][slips] / out["rope.tension1"][slips] == pytest.approx(numpy.exp(0.3 * out["rope.wrap1"][slips]), rel=2e-4)
+
+
+def test_a_closed_cable_is_a_belt(sensors):
+    """Over two pulleys it is what elastic-belt is, but for the change of E A/l by the pretension, 4e-5 here."""
+    frame = """
+buckens: 1
+planar: xy
+bodies:
+  driver: {rigid: {mass: 1, inertia: [0, 0, 2e-3]}}
+  fan: {rigid: {mass: 2, inertia: [0, 0, 0.02]}, at: {position: [0.4, 0, 0]}}
+joints:
+  a: {revolute: {between: [ground, driver]}}
+  b: {revolute: {between: [{ground: [0.4, 0, 0]}, fan]}}
+loads:
+  LAW
+  motor: {torque: {on: driver, value: [0, 0, "2*sin(20*t) N m"]}}
+simulation: {duration: 0.4 s, step: 0.1 ms}
+output: {every: 2 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: b}}}
+"""
+    rest = "stiffness: 5e6, damping-time: 0.2 ms, pretension: 200"
+    for crossed in (False, True):
+        belt = sensors(frame.replace("LAW", f"belt: {{elastic-belt: {{between: [driver, fan], radii: [50 mm, 100 mm], crossed: {'on' if crossed else 'off'}, {rest}}}}}"))
+        side = "right" if crossed else "left"
+        cable = sensors(frame.replace("LAW", f"belt: {{cable: {{pulleys: [{{on: driver, radius: 50 mm}}, {{on: fan, radius: 100 mm, side: {side}}}], {rest}}}}}"))
+        assert len(belt) == 5
+        for name in belt:
+            # The half wraps of the belt share its spans' stiffness alike, the cable's do not stretch: both are this stiff.
+            assert cable[name] == pytest.approx(belt[name], rel=1e-3, abs=1e-6), name
+        assert cable["b.value"][-1] / cable["a.value"][-1] == pytest.approx(-0.5 if crossed else 0.5, rel=1e-3)
+
+
+def test_a_hoist_winds_its_rope_up(sensors):
+    """Ten turns of the drum lift the hook by 2 pi r each; three pulleys, and a load that hangs on a spring of 1/3 of the length."""
+    out = sensors("""
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  drum: {rigid: {mass: 5, inertia: [0, 0, 0.01]}}
+  hook: {rigid: {mass: 10, inertia: [0, 0, 0.1]}, at: {position: [1.0, -9, 0]}}
+joints:
+  axle: {revolute: {between: [ground, drum]}}
+  motor: {prescribed-rotation: {between: [ground, drum], angle: "-2*pi*10*(t/5 - sin(2*pi*t/5)/(2*pi))"}}
+loads:
+  rope:
+    cable:
+      ends: [drum, hook]
+      pulleys: [{on: drum, radius: 100 mm, side: left}, {on: {ground: [0.5, 1, 0]}, radius: 80 mm, side: right, friction: 0}, {on: {ground: [0.9, 1.2, 0]}, radius: 100 mm, side: right, friction: 0}]
+      stiffness: 1e6
+      damping-time: 5 ms
+      pretension: 98.1
+simulation: {duration: 5 s, step: 2 ms}
+output: {every: 10 ms, sensors: {hook: {position: hook}, rope: {cable: rope}}}
+""")
+    assert out["hook.y"][-1] == pytest.approx(-9 + 2 * math.pi, abs=2e-3)
+
+
+def test_a_cable_bends_a_beam(sensors):
+    """Its end on a flexible mast: the tip gives way as a beam under the tension does."""
+    out = sensors("""
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies:
+  mast: {beam: {to: [0, 1, 0], elements: 4, section: {circle: {diameter: 12 mm}}, material: steel}, damping: {stiffness: 5e-3 s}}
+  weight: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [1.1, 0.5, 0]}}
+joints: {foot: {fixed: {between: [ground, mast/start]}}}
+loads: {rope: {cable: {ends: [mast/end, weight], pulleys: [{on: {ground: [1.0, 0.9, 0]}, radius: 100 mm, side: right}], stiffness: 1e6, damping-time: 10 ms, friction: 0}}}
+simulation: {duration: 6 s, step: 2 ms}
+output: {every: 50 ms, sensors: {tip: {displacement: mast/end}, rope: {cable: rope}}}
+""")
+    I = math.pi * 0.012**4 / 64
+    assert out["rope.tension1"][-1] == pytest.approx(G, rel=2e-2)
+    assert out["tip.x"][-1] == pytest.approx(out["rope.tension1"][-1] / (3 * 210e9 * I), rel=3e-2)
+
+
+BAD = """
+buckens: 1
+planar: xy
+bodies: {a: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [0, -1, 0]}}, b: {rigid: {mass: 1, inertia: [0, 0, B]}, at: {position: [0.3, -1, 0]}}}
+loads: {rope: {cable: {SPEC, stiffness: 1e5}}}
+SENSORS
+simulation: {duration: 1 s, step: 1 ms}
+"""
+
+
+@pytest.mark.parametrize(("spec", "code", "words"), [
+    ("ends: [ground, a], pulleys: []", 2, ["a cable needs a pulley", "`rope`"]),
+    ("pulleys: [{on: a, radius: 0.1}]", 2, ["a closed cable needs two pulleys"]),
+    ("pulleys: [{on: a, radius: 0.2}, {on: b, radius: 0.2, side: right}]", 2, ["its span 1 cannot be formed", "0.3 m apart", "more than 0.4 m"]),
+    ("ends: [a, {ground: [0.05, 0, 0]}], pulleys: [{on: ground, radius: 0.1}]", 2, ["its span 2 cannot be formed", "`side` and `radius`"]),
+    ("pulleys: [{on: a, radius: 0.1}, {on: {ground: [1, 0, 0]}, radius: 0.1}], friction: 0.3", 2, ["without pretension a closed cable"]),
+    ("ends: [a, ground], pulleys: [{on: b, radius: 0.1}]", 3, ["turns body \"b\", which has no rotary inertia"]),
+    ("ends: [a, ground], pulleys: [{on: c, radius: 0.1}]", 2, ["c"]),
+    ("ends: [a, ground], pulleys: [{on: b, radius: 0.1, side: up}]", 2, ["left", "right"]),
+])
+def test_wrong_cables_are_refused(buckens, tmp_path, spec, code, words):
+    (tmp_path / "model.yaml").write_text(BAD.replace("SPEC", spec).replace("SENSORS", "").replace("B]", "0]" if code == 3 else "1e-3]"))
+    buckens("check", "model.yaml").must(code, "model.yaml:", *words)
+
+
+def test_a_sensor_needs_its_cable(buckens, tmp_path):
+    text = BAD.replace("B]", "1e-3]").replace("SPEC", "ends: [a, ground], pulleys: [{on: {ground: [0.5, 0, 0]}, radius: 0.1}]")
+    (tmp_path / "model.yaml").write_text(text.replace("SENSORS", "output: {sensors: {s: {cable: rop}}}"))
+    buckens("check", "model.yaml").must(2, "there is no cable \"rop\"", "rope")
+
+
+def test_a_cable_that_leaves_its_pulley_ends_the_run_by_name(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+planar: xy
+bodies: {a: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [-1, -0.2, 0]}}}
+loads: {rope: {cable: {ends: [a, {ground: [1, -0.2, 0]}], pulleys: [{on: ground, radius: 0.1, side: right}], stiffness: 1e3}}}
+initial: {bodies: {a: {velocity: [0, 2, 0]}}}
+simulation: {duration: 1 s, step: 1 ms}
+""")
+    buckens("run", "model.yaml").must(4, "load \"rope\"", "left its pulley 1")
+
+
+def test_the_block_and_tackle_of_the_examples(sensors):
+    out = sensors((EXAMPLES / "block_and_tackle/block_and_tackle").with_suffix(".yaml").read_text())
+    risen, wound = out["load.y"] + 3.25, -0.15 * out["winch.value"]
+    # Four parts of rope share what the drum winds up; they give by a share of 3e-4 of 13 m while the load is sped up.
+    assert risen == pytest.approx(wound / 4, abs=1e-3)
+    # What the drum takes up is stretched by the tension, 490.5 N over 1.5 MN.
+    assert risen[-1] == pytest.approx(wound[-1] / 4 * (1 + 490.5 / 1.5e6), abs=1e-5)
+    assert wound[-1] == pytest.approx(8 * math.pi * 0.15, rel=5e-3)  # the drum lags behind its law
+    tensions = numpy.array([out[f"rope.tension{k}"] for k in range(1, 6)])
+    # No friction: the same everywhere, at rest a quarter of the weight.
+    assert numpy.ptp(tensions, axis=0).max() < 1e-8 * tensions.max()
+    assert tensions[:, -1] == pytest.approx(200 * G / 4, rel=1e-3)
+    assert abs(out["turn.z"]).max() < 1e-9
