@@ -314,12 +314,15 @@ def test_a_table_and_a_limit_of_rates(sensors):
     ramp = numpy.where(out["t"] < 0.5, numpy.minimum(4 * out["t"], 1), numpy.maximum(1 - 10 * (out["t"] - 0.5), 0))
     assert out["slow"] == pytest.approx(ramp, abs=1e-2)
     steady = (out["t"] > 0.02) & (out["t"] < 0.24) | (out["t"] > 0.52) & (out["t"] < 0.59)
-    assert out["slow"][steady] == pytest.approx(ramp[steady], abs=1e-2) and max(out["slow"]) <= 1 + 1e-6
+    assert out["slow"][steady] == pytest.approx(ramp[steady], abs=1e-2)
+    # Where the limit ends within a step the method of second order overshoots: 1e-7 with 1 ms.
+    assert max(out["slow"]) <= 1 + 1e-6
 
 
 @pytest.mark.parametrize("wrong, words", [
     ("points: [[0, 3], [0.5, 1], [1, 1]], EXTRA", ["covers inputs from 0 to 1", "extrapolation: hold"]),
-    ("points: [[0, 3], [0, 1]]", ["of a table must increase", "row 2"]),
+    ("points: [[0, 3], [0, 1]]", ["signals.pull.table.points", "inputs of a table must increase", "0 follows 0"]),
+    ("points: [[0, 3]]", ["signals.pull.table.points", "a table of one point"]),
     ("falling: -1", ["falling", "positive"]),
 ])
 def test_tables_and_limits_say_what_is_wrong(buckens, tmp_path, wrong, words):

@@ -55,6 +55,7 @@ Found problem(const MarkerSignalSpec& spec, const ModelDescription& model);
 Found problem(const TransferFunctionSpec& spec, const ModelDescription& model);
 Found problem(const StateSpaceSpec& spec, const ModelDescription& model);
 Found problem(const PidSpec& spec, const ModelDescription& model);
+Found problem(const TableSignalSpec& spec, const ModelDescription& model);
 Found problem(const SwitchSpec& spec, const ModelDescription& model);
 Found problem(const EventSpec& spec, const ModelDescription& model);
 Found problem(const InitialJointSpec& spec, const ModelDescription& model);
