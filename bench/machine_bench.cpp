@@ -40,10 +40,8 @@ void gear_train_step(benchmark::State& state) { step(state, buckens::bench::gear
 void belt_drive_step(benchmark::State& state) { step(state, buckens::bench::belt_drive(), 5e-4); }
 
 void spheres_step(benchmark::State& state, double from) {
-  Running run =
-      buckens::bench::start(buckens::bench::spheres_in_a_box(static_cast<int>(state.range(0)),
-                                                             static_cast<int>(state.range(1))),
-                            kStep);
+  Running run = buckens::bench::start(
+      buckens::bench::spheres_in_a_box(static_cast<int>(state.range(0))), kStep);
   while (run.prepared.state.t < from) run.stepper->step(run.prepared.state);
   long iterations = 0;
   double pairs = 0;

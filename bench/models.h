@@ -223,8 +223,9 @@ initial: {bodies: {driver: {angular-velocity: [0, 0, 1500 rpm]}, fan: {angular-v
 }
 
 /// Steel-like balls of 20 mm in layers of a box of planes, slightly out of line.
-/// @param side of a layer: side × side of them
-inline model::ModelDescription spheres_in_a_box(int count, int side) {
+/// @param count 100: layers of 5 × 5; 1000: of 10 × 10
+inline model::ModelDescription spheres_in_a_box(int count) {
+  const int side = count > 300 ? 10 : 5;
   const double pitch = 0.0215;
   const double half = 0.5 * pitch * side;
   std::string text = fmt::format(R"(buckens: 1

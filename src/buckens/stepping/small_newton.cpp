@@ -150,7 +150,6 @@ void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, doub
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   contraction_ = 1.0;
-  num_tangents_ = 0;
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
@@ -242,11 +241,6 @@ bool SmallNewton::condense(double t) {
   set_soft_rows(soft_.stiffness, soft_.damping);
   set_slopes();
   return condensation_->factorise(compliance_, soft_compliance_);
-}
-
-bool SmallNewton::contacts_settled(const Change& change) const {
-  if (soft_.num_of_groups == 0 || was_held_ || !rigid_.empty()) return false;
-  return change.size <= admitted(change.motion) + kRounding * rounding_length_;
 }
 
 bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
@@ -417,7 +411,6 @@ SmallNewton::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, V
                                       StepReport& report) {
   solve_correction(bodies);
   solve_multipliers(t);
-  was_held_ = held_.any();
   held_.release();
   const Change change = update(bodies, lambda);
   ++report.newton_iterations;
@@ -433,7 +426,6 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     evaluate(bodies, t, lambda);
     record_residuals(report);
     if (before.size > 0.0) contraction_ = change.size / before.size;
-    if (contacts_settled(change)) break;
     bool are_formed = regimes_hold(bodies, t, report);
     if (are_formed && settled(change, before)) {
       if (!move_rigid_rows(t, report)) break;

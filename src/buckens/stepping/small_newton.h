@@ -117,11 +117,6 @@ class SmallNewton {
   /// Forms the matrix of multipliers again if a force law has changed its regime since. @return
   /// false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
-  /// Contacts of many bodies keep what is stiffer of the tangents so far and those of now.
-  void keep_stiffer_contacts();
-  /// Whether contacts of many bodies need no more: the last iteration, whose tangents were those of
-  /// where it began, has changed too little to matter, though another of them may slide now.
-  bool contacts_settled(const Change& change) const;
   /// That matrix, from the soft rows as they are now. Position corrections weigh soft rows and
   /// belong to one matrix, that of the predicted motion, so that they do not depend on the way of
   /// the iteration. Where rigid rows have moved they begin anew. @return false if it is singular
@@ -160,8 +155,6 @@ class SmallNewton {
   dynamics::SignalValues steering_signals_;
   RigidRows rigid_;
   HeldLaws held_;
-  bool was_held_ = false;  // any law in the last iteration
-  int num_tangents_ = 0;   // how often they were formed again in this step
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()

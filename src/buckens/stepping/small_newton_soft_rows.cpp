@@ -8,9 +8,6 @@ namespace buckens::stepping {
 
 namespace {
 
-// Contacts of many bodies that change their tangents more often than this in a step keep the
-// stiffer ones: one that hovers between sticking and sliding would go on for ever.
-constexpr int kMostTangents = 6;
 constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
 
 }  // namespace
@@ -110,7 +107,6 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   if (forces_.regimes == soft_.regimes) return true;
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
                                soft_now_);
-  if (++num_tangents_ > kMostTangents) keep_stiffer_contacts();
   // Directions stay those of the predicted configuration, as of the joints.
   std::swap(soft_.stiffness, soft_now_.stiffness);
   std::swap(soft_.damping, soft_now_.damping);
@@ -123,14 +119,6 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
     fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
   }
   return false;
-}
-
-void SmallNewton::keep_stiffer_contacts() {
-  const std::size_t count = soft_.stiffness.size();
-  for (std::size_t k = count - static_cast<std::size_t>(soft_.num_of_groups); k < count; ++k) {
-    soft_now_.stiffness[k] = std::max(soft_now_.stiffness[k], soft_.stiffness[k]);
-    soft_now_.damping[k] = std::max(soft_now_.damping[k], soft_.damping[k]);
-  }
 }
 
 }  // namespace buckens::stepping
