@@ -39,6 +39,8 @@ export class BodyView {
     private readonly theme: Theme,
     size: GlyphSize,
     shading: FieldShading,
+    /** Shapes of contact or a pulley are drawn where it is. */
+    private readonly hasShape = false,
   ) {
     const { body } = motion;
     this.field = new BodyField(body);
@@ -100,6 +102,7 @@ export class BodyView {
       if (spin) this.root.add(this.disc(color, size, spin));
       return;
     }
+    if (this.hasShape) return;
     // Unequal edges show how the body is turned.
     const box = new THREE.Mesh(new THREE.BoxGeometry(4.6, 3.4, 2.4), material);
     box.scale.setScalar(size.joint);

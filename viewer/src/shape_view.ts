@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import { kZ } from './glyphs';
+import { kZ, massCentre } from './glyphs';
 import type { Motion } from './motion';
 import type { Shape } from './run';
 import type { Triple } from './page_data';
@@ -80,7 +80,12 @@ export class ShapeView {
       side: isHollow ? THREE.DoubleSide : THREE.FrontSide,
     });
     const geometry = geometryOf(shape);
-    if (geometry) {
+    if (shape.kind === 'sphere' && !onGround) {
+      // In eight fields, so that one sees it roll.
+      const ball = massCentre(color);
+      ball.scale.setScalar(shape.radius);
+      this.root.add(ball);
+    } else if (geometry) {
       this.root.add(new THREE.Mesh(geometry, material));
       if (shape.kind === 'mesh' || shape.kind === 'box') {
         const edges = new THREE.EdgesGeometry(geometry, shape.kind === 'mesh' ? 1 : 20);

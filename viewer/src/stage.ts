@@ -98,9 +98,13 @@ export class Stage {
     const { run, glyphs, orientation, motion } = this;
     const grid = new Grid(this.bounds, orientation, run.planar !== null, theme);
     this.gridSpacing = grid.spacing;
+    const shaped = new Set([
+      ...run.shapes.map(({ on }) => on.body),
+      ...run.cables.flatMap(({ sides, radii }) => sides.filter((_, k) => radii[k] !== 0).map(({ body }) => body)),
+    ]);
     this.bodies = motion.bodies.map((body, i) => {
       const color = theme.bodies[i % theme.bodies.length]!;
-      return new BodyView(body, color, theme, glyphs, this.shading);
+      return new BodyView(body, color, theme, glyphs, this.shading, shaped.has(i));
     });
     this.shapes = run.shapes.map((shape) => {
       const color = theme.bodies[Math.max(0, shape.on.body) % theme.bodies.length]!;
