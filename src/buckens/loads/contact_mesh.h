@@ -33,10 +33,11 @@ class ContactMesh {
 
   /// A place of the surface and the distance of a point from it.
   struct Nearest {
-    Eigen::Vector3d at;
-    Eigen::Vector3d normal;  ///< unit vector from the surface to the point, outwards
-    double distance = 0;     ///< negative: inside [m]
-    int facet = -1;          ///< −1: nothing found
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    /// Unit vector from the surface to the point, outwards.
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+    double distance = 0;  ///< negative: inside [m]
+    int facet = -1;       ///< −1: nothing found
   };
   /// The nearest place of the whole surface.
   Nearest nearest(const Eigen::Vector3d& point) const;
