@@ -12,13 +12,6 @@ namespace buckens::model {
 
 using Eigen::Vector3d;
 
-namespace {
-
-// sin of the angle between the axis and the normal of a planar model that counts as none.
-constexpr double kTurnedBelt = 2e-4;
-
-}  // namespace
-
 void set_belt(const loads::ElasticBeltSpec& spec, MarkerFinder& find, Load& load,
               const SourceLocation& where) {
   const std::string what = fmt::format("load \"{}\"", load.name);
@@ -32,13 +25,7 @@ void set_belt(const loads::ElasticBeltSpec& spec, MarkerFinder& find, Load& load
   loads::ElasticBeltData data;
   data.axis_F = joints::unit_axis(p);
   const Vector3d axis_W = p.R_WF * data.axis_F;
-  if (find.model().planar &&
-      axis_W.cross(spatial::normal(*find.model().planar)).norm() > kTurnedBelt) {
-    throw InputError(where,
-                     fmt::format("{}: the axis of a belt of a planar model must be normal to "
-                                 "the plane; leave `axis` out or turn it",
-                                 what));
-  }
+  find.require_across_plane(axis_W, "a belt", what, where);
   data.first_radius = spec.radii[0];
   data.second_radius = spec.crossed ? -spec.radii[1] : spec.radii[1];
   const Vector3d apart = find.placed(load.second).p - find.placed(load.first).p;

@@ -14,8 +14,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-// sin of the angle between the axis and the normal of a planar model that counts as none.
-constexpr double kTurnedCable = 2e-4;
 // Share of m r² below which a body has no rotary inertia.
 constexpr double kNoPulleyInertia = 1e-12;
 
@@ -89,12 +87,7 @@ class CableBuilder {
     const Eigen::Matrix3d R = find_.placed(first).R();
     data_.axis = find_.axis_or_normal(spec_.axis, R, what_, where_).normalized();
     axis_W_ = R * data_.axis;
-    if (!find_.model().planar) return;
-    if (axis_W_.cross(spatial::normal(*find_.model().planar)).norm() <= kTurnedCable) return;
-    throw InputError(where_,
-                     fmt::format("{}: the axis of the pulleys of a planar model must be normal to "
-                                 "the plane; leave `axis` out or turn it",
-                                 what_));
+    find_.require_across_plane(axis_W_, "the pulleys", what_, where_);
   }
 
   void require_one_plane(std::size_t k) const {

@@ -13,12 +13,7 @@
 
 namespace buckens::model {
 
-using Eigen::Vector3d;
-
 namespace {
-
-// sin of the angle between the axis and the normal of a planar model that counts as none.
-constexpr double kTurnedGear = 2e-4;
 
 /// Which bodies hang together, the ground among them.
 class Assemblies {
@@ -92,12 +87,7 @@ void set_gear_teeth(const loads::ElasticGearSpec& spec, MarkerFinder& find, Load
   p.axis_F = find.axis_or_normal(spec.axis, p.R_WF, what, where);
   joints::GearMesh::Data mesh;
   mesh.axis_F = joints::unit_axis(p);
-  if (find.model().planar &&
-      (p.R_WF * mesh.axis_F).cross(spatial::normal(*find.model().planar)).norm() > kTurnedGear) {
-    throw InputError(where, fmt::format("{}: the axis of gears of a planar model must be normal to "
-                                        "the plane; leave `axis` out or turn it",
-                                        what));
-  }
+  find.require_across_plane(p.R_WF * mesh.axis_F, "gears", what, where);
   mesh.r_F = p.r_F;
   mesh.R_FM = p.R_WF.transpose() * p.R_WM;
   mesh.sizes = spec.teeth;

@@ -33,8 +33,6 @@ constexpr double kOutOfPlane = 1e-6;
 constexpr double kTautRope = 1e-9;
 // Elastic turn before friction breaks away, as of hinges [rad].
 constexpr double kSlipAngle = 1e-5;
-// The same for axes, as of joints.
-constexpr double kTurnedAxis = 2e-4;
 
 class LoadBuilder {
  public:
@@ -224,15 +222,7 @@ class LoadBuilder {
     find_.require_moment(load.second, what, where);
     joints::Placement p = find_.placement(load.first, load.second);
     p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
-    if (find_.model().planar) {
-      const Vector3d axis_W = p.R_WF * joints::unit_axis(p);
-      if (axis_W.cross(spatial::normal(*find_.model().planar)).norm() > kTurnedAxis) {
-        throw InputError(where, fmt::format("{}: the axis of a torsional spring of a planar model "
-                                            "must be normal to the plane; leave `axis` out or turn "
-                                            "it",
-                                            what));
-      }
-    }
+    find_.require_across_plane(p.R_WF * joints::unit_axis(p), "a torsional spring", what, where);
     if (std::abs(kind.angle) >= loads::TorsionalSpring::kLargestAngle) {
       throw InputError(where,
                        fmt::format("{}: a torsional spring measures up to {} rad from the "

@@ -112,4 +112,15 @@ Vector3d MarkerFinder::axis_or_normal(const std::optional<Vector3d>& axis, const
   throw InputError(where, what + " needs an `axis` in a model in space, for example [0, 0, 1]");
 }
 
+void MarkerFinder::require_across_plane(const Vector3d& axis_W, const char* of,
+                                        const std::string& what,
+                                        const SourceLocation& where) const {
+  // sin of the angle between axis and normal that counts as none.
+  constexpr double kTurned = 2e-4;
+  if (!model_.planar || axis_W.cross(spatial::normal(*model_.planar)).norm() <= kTurned) return;
+  throw InputError(where, fmt::format("{}: the axis of {} of a planar model must be normal to the "
+                                      "plane; leave `axis` out or turn it",
+                                      what, of));
+}
+
 }  // namespace buckens::model

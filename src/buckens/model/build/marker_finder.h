@@ -34,6 +34,11 @@ class MarkerFinder {
                                  const Eigen::Matrix3d& R_WF, const std::string& what,
                                  const SourceLocation& where) const;
 
+  /// @param axis_W unit vector in the world, @param of "a belt", for the message
+  /// @throws InputError if a planar model has its plane elsewhere than across the axis
+  void require_across_plane(const Eigen::Vector3d& axis_W, const char* of, const std::string& what,
+                            const SourceLocation& where) const;
+
   /// @throws ModelError if the marker's mesh has no rotations
   void require_moment(const MarkerId& id, const std::string& what,
                       const SourceLocation& where) const;
