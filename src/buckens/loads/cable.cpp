@@ -180,7 +180,11 @@ Cable::Stand Cable::look(const Sight& sight) const {
     const std::optional<double>& coefficient = data_.nodes[node_of(i)].coefficient;
     if (coefficient) s.slip.set_pulley(i, std::exp(*coefficient * std::max(0.0, s.wrap[i])));
   }
-  s.slip.solve();
+  if (!s.slip.solve()) {
+    throw NumericalError(
+        "its tensions found no balance by slipping over the pulleys; make spans less different in "
+        "length, or give some pulleys no `friction`");
+  }
   for (std::size_t j = 0; j < num_spans(); ++j) s.free[j] -= s.slip.lengthened(j);
   for (std::size_t i = 0; i < num_pulleys() && s.h > 0.0; ++i) {
     s.slip_rate[i] = s.slip.slipped(i) / s.h;

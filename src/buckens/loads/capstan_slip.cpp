@@ -10,8 +10,9 @@ namespace {
 
 // Frictionless pulleys in a row share like heat along a bar: a few hundred sweeps for sixteen.
 constexpr int kMostSlipSweeps = 5000;
-// Change of the last sweep, relative to the largest tension.
-constexpr double kShared = 1e-15;
+// Change of the last sweep, relative to the largest tension: rounding, and what rounding may leave
+// where spans differ much in length.
+constexpr double kShared = 1e-15, kSharedEnough = 1e-10;
 
 }  // namespace
 
@@ -53,12 +54,13 @@ void CapstanSlip::add(std::size_t pulley, double slip) {
   viscous_[b] -= c_[b] * slip;
 }
 
-void CapstanSlip::solve() {
+bool CapstanSlip::solve() {
   double largest = 0.0;
   for (std::size_t j = 0; j < spans_; ++j) largest = std::max(largest, tension(j));
-  if (largest == 0.0) return;
+  if (largest == 0.0) return true;
+  double change = 0.0;
   for (int sweep = 0; sweep < kMostSlipSweeps; ++sweep) {
-    double change = 0.0;
+    change = 0.0;
     for (std::size_t i = 0; i < pulleys_; ++i) {
       const double m = factor_[i];
       if (std::isinf(m)) continue;
@@ -79,8 +81,9 @@ void CapstanSlip::solve() {
       slip_[i] = slip;
       change = std::max(change, std::abs(slip - had) * std::max(k_a, k_b));
     }
-    if (change <= kShared * largest) return;
+    if (change <= kShared * largest) return true;
   }
+  return change <= kSharedEnough * largest;
 }
 
 bool CapstanSlip::has_slipped() const {

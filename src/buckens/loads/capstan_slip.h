@@ -30,7 +30,8 @@ class CapstanSlip {
                 double viscous);
   /// @param factor m ≥ 1; without one, nothing slips
   void set_pulley(std::size_t pulley, double factor) { factor_[pulley] = factor; }
-  void solve();
+  /// @return false if the pulleys found no balance
+  bool solve();
 
   /// At least zero [N].
   double tension(std::size_t span) const;

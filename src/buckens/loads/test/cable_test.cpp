@@ -198,7 +198,7 @@ TEST(CapstanSlip, LeavesTensionsWithinTheirBounds) {
       factor[i] = trial % 3 == 0 ? 1.0 : std::exp(0.2 * wrap(engine));
       slip.set_pulley(i, factor[i]);
     }
-    slip.solve();
+    ASSERT_TRUE(slip.solve());
     for (std::size_t j = 0; j < spans; ++j) longer += slip.elastic(j) / k[j];
     EXPECT_NEAR(longer, length, 1e-12);  // what one span loses another gets
     for (std::size_t i = 0; i < pulleys; ++i) {
