@@ -82,6 +82,40 @@ def test_a_killed_shard_goes_on(buckens, start, models, tmp_path):
     buckens("sweep", "--merge", "out").must(2, "1 of 2 shards", "2/2")
 
 
+def test_status_tells_how_far_it_is(buckens, models, tmp_path):
+    model = models / "pendulum.yaml"
+    buckens("sweep", model, *RANGES, "-o", "out", "--shard", "1/2", "-q").must(0)
+    told = buckens("sweep", "--status", "out", "--json").must(0).json
+    first, second = told["shards"]
+    assert (first["state"], second["state"]) == ("ended", "not begun")
+    assert first["finished"] == first["variants"] == told["finished"] > 0 and told["failed"] == told["running"] == 0
+    text = buckens("sweep", "--status", "out").must(0).out
+    assert f"{first['variants']} of {first['variants']} variants finished, 0 failed, 0 running" in text
+    assert "1/2" in text and "not begun" in text
+    # A variant that was killed is still running, as far as anybody can see; one that ended early failed.
+    runs = sorted(path.parent for path in (tmp_path / "out").glob("*/summary.json"))
+    for run, status in zip(runs, ("running", "interrupted")):
+        (run / "summary.json").write_text(json.dumps({"status": status}))
+    told = buckens("sweep", "--status", "out", "--json").must(0).json
+    assert (told["finished"], told["failed"], told["running"]) == (first["variants"] - 2, 1, 1)
+    assert told["slowest"] == runs[0].name and told["to_go"] > 0
+    # A sweep that is not divided.
+    buckens("sweep", model, "--vary", "gravity.1=[1, 2]", "-o", "whole", "-q").must(0)
+    told = buckens("sweep", "--status", "whole", "--json").must(0).json
+    assert told["finished"] == told["variants"] == 2 and told["shards"][0]["state"] == "ended"
+
+
+def test_status_says_what_is_wrong(buckens, models, tmp_path):
+    model = models / "pendulum.yaml"
+    buckens("sweep", "--status", "nowhere").must(2, "nowhere", "no sweep has begun here")
+    buckens("sweep", model, "--status", "out").must(2, "--status OUT", "nothing but the directory")
+    for shard in ("1/2", "2/3"):
+        buckens("sweep", model, *RANGES, "-o", "out", "--shard", shard, "-q").must(0)
+    buckens("sweep", "--status", "out").must(2, "2-of-3", "one of 3", "one of 2")
+    (tmp_path / "out" / ".parts" / "2-of-3.begun").write_text("{}")
+    buckens("sweep", "--status", "out").must(5, "2-of-3", "damaged", "start its shard again")
+
+
 def test_says_what_is_wrong(buckens, models, tmp_path):
     model = models / "pendulum.yaml"
     for shard in ("0/4", "5/4", "half", "2"):
