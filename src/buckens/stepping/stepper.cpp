@@ -442,7 +442,17 @@ SolveCounts Stepper::counts(std::size_t body) const {
   if (!operators_[body]) return {};
   const BodyStepOperator& op = *operators_[body];
   const FlexibleStep& step = *flexible_[body];
-  return {op.factorisations(), step.solves, step.recycled, op.setup_solves()};
+  return {op.factorisations(),
+          step.solves,
+          step.recycled,
+          op.setup_solves(),
+          step.iterations,
+          step.solve_seconds,
+          op.iterates() ? op.factor_bytes() : 0.0};
+}
+
+std::string Stepper::why_solver(std::size_t body) const {
+  return operators_[body] ? operators_[body]->why_solver() : std::string();
 }
 
 }  // namespace buckens::stepping
