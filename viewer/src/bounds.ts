@@ -55,7 +55,16 @@ export function runBounds(run: Run): Bounds {
       const at = motion.side(shape.on, 1);
       for (const side of [-1, 1]) add(at.map((x) => x + side * reach) as Triple);
     }
-    for (const cable of run.cables) for (const side of cable.sides) add(motion.side(side, 1));
+    for (const cable of run.cables) {
+      const axis = motion.axisOf(cable);
+      cable.sides.forEach((side, k) => {
+        const at = motion.side(side, 1);
+        // A disc reaches as far along an edge of the box as it stands across it.
+        for (const radius of [-cable.radii[k]!, cable.radii[k]!]) {
+          add(at.map((x, i) => x + radius * Math.sqrt(Math.max(0, 1 - axis[i]! ** 2))) as Triple);
+        }
+      });
+    }
     for (const joint of run.joints) for (const side of joint.between) add(motion.side(side, 1));
     machine = Math.max(machine, now.diagonal);
   }

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import { cablePath, type CablePlace } from './cable_path';
 import { solid } from './glyphs';
-import { rotate, type Motion } from './motion';
+import type { Motion } from './motion';
 import type { GlyphSize } from './body_view';
 import type { Cable } from './run';
 import type { Triple } from './page_data';
@@ -51,12 +51,6 @@ export class CableView {
     });
   }
 
-  /** Of all pulleys, in the world. */
-  private axis(): Triple {
-    const first = this.motion.bodies[this.cable.sides[this.cable.firstPulley]!.body];
-    return first ? rotate(first.pose, 3, this.cable.axis) : this.cable.axis;
-  }
-
   /** Where its name stands: halfway along the first span. */
   position(scale: number): Triple {
     const [a, b] = [0, 1].map((k) => this.motion.side(this.cable.sides[k]!, scale)) as [Triple, Triple];
@@ -69,7 +63,7 @@ export class CableView {
 
   update(scale: number): void {
     const { cable, motion } = this;
-    const axis = this.axis();
+    const axis = motion.axisOf(cable);
     const places: CablePlace[] = cable.sides.map((side, k) => ({
       centre: motion.side(side, scale),
       radius: cable.radii[k]!,

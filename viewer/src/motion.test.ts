@@ -42,6 +42,23 @@ describe('runBounds', () => {
     expect(Math.abs(runBounds(run('far')).size - size)).toBeLessThan(1e-3);
   });
 
+  it('holds pulleys as a whole', () => {
+    const place = (x: number) => ({ body: -1, marker: -1, position: [x, 0, 0] as [number, number, number] });
+    const belt = {
+      name: 'belt',
+      kind: 'elastic-belt',
+      closed: true,
+      firstPulley: 0,
+      axis: [0, 0, 1] as [number, number, number],
+      sides: [place(0), place(10)],
+      radii: [2, -3],
+    };
+    const { center, half } = runBounds({ ...run('slider-crank'), cables: [belt] });
+    expect([center[0] - half[0], center[0] + half[0]]).toEqual([-2, 13]);
+    expect([center[1] - half[1], center[1] + half[1]]).toEqual([-3, 3]);
+    expect(half[2]).toBeLessThan(1);
+  });
+
   it('has a size for nothing at all', () => {
     expect(runBounds(run('no-bodies')).size).toBe(1);
   });

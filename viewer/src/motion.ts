@@ -1,5 +1,5 @@
 import { interpolatePose, locate, type FramePlace } from './interpolation';
-import { nodeAt, numNodes, type Body, type Run } from './run';
+import { nodeAt, numNodes, type Body, type Cable, type Run } from './run';
 import type { PageJointSide, PageMarker, Triple } from './page_data';
 
 /** v turned by the unit quaternion w, x, y, z at offset `at` of q. */
@@ -100,5 +100,11 @@ export class Motion {
     if (!motion) return [...side.position];
     const marker = motion.body.markers[side.marker];
     return motion.toWorld(marker ? motion.marker(marker, scale) : side.position);
+  }
+
+  /** Axis of the pulleys of a cable, in the world. */
+  axisOf(cable: Cable): Triple {
+    const first = this.bodies[cable.sides[cable.firstPulley]!.body];
+    return first ? rotate(first.pose, 3, cable.axis) : cable.axis;
   }
 }
