@@ -2,12 +2,14 @@
 #include "buckens/fem/solid/element.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "buckens/fem/element/quadrature.h"
+#include "buckens/fem/solid/gradient_stiffness.h"
 
 namespace buckens::fem {
 
@@ -82,9 +84,6 @@ double least_volume(const ShapeRule& rule, const NodeVectors& x) {
   return least;
 }
 
-template <int nodes>
-using Rows = Eigen::Matrix<double, 6, 3 * nodes>;
-
 /// Strain rows of the 3 columns that belong to a gradient.
 template <class Block>
 void set_strain(const Vector3d& g, Block&& block) {
@@ -94,14 +93,23 @@ void set_strain(const Vector3d& g, Block&& block) {
   block.row(5) << g.z(), 0.0, g.x();
 }
 
-template <int nodes>
-Rows<nodes> strain_rows(const Matrix3d& inverse, const SolidShape& shape) {
-  Rows<nodes> B;
-  for (int node = 0; node < nodes; ++node) {
-    const Vector3d g = inverse.transpose() * shape.slope.col(node);
-    set_strain(g, B.template middleCols<3>(3 * node));
+template <std::size_t count>
+void set_gradients(const Matrix3d& inverse, const SolidShape& shape,
+                   std::array<Vector3d, count>& gradients) {
+  for (Eigen::Index node = 0; node < shape.slope.cols(); ++node) {
+    gradients[static_cast<std::size_t>(node)] = inverse.transpose() * shape.slope.col(node);
   }
-  return B;
+}
+
+/// Fills a matrix from entry (row, column) on.
+template <int functions, class Block>
+void copy_block(const GradientStiffness<functions>& sum, std::size_t row, std::size_t column,
+                Block& out) {
+  for (Eigen::Index j = 0; j < out.cols(); ++j) {
+    for (Eigen::Index i = 0; i < out.rows(); ++i) {
+      out(i, j) = sum(row + static_cast<std::size_t>(i), column + static_cast<std::size_t>(j));
+    }
+  }
 }
 
 /// The rule of the stiffness of an element. Fourteen points of a tetrahedron are so
@@ -126,43 +134,44 @@ const ShapeRule& stiffness_rule(SolidKind kind, const NodeVectors& x) {
 /// factor.
 template <int nodes>
 SolidStiffness full_stiffness(SolidKind kind, const NodeVectors& x, const Elasticity& D) {
-  Eigen::Matrix<double, 3 * nodes, 3 * nodes> K;
-  K.setZero();
+  GradientStiffness<nodes> sum;
+  std::array<Vector3d, nodes> gradients;
   for (const auto& point : stiffness_rule(kind, x).points) {
     const Matrix3d J = jacobian(x, point.shape);
-    const Rows<nodes> B = strain_rows<nodes>(J.inverse(), point.shape);
-    const Rows<nodes> stress = (point.weight * J.determinant()) * (D * B);
-    K.noalias() += B.transpose() * stress;
+    set_gradients(J.inverse(), point.shape, gradients);
+    sum.add(gradients, point.weight * J.determinant(), D);
   }
-  return 0.5 * (K + K.transpose());
+  SolidStiffness K(3 * nodes, 3 * nodes);
+  copy_block(sum, 0, 0, K);
+  return K;
 }
 
+/// The three inner functions count behind the nodes, until they are condensed out.
 SolidStiffness incompatible_stiffness(const NodeVectors& x, const Elasticity& D) {
-  using Inner = Eigen::Matrix<double, 6, 9>;
-  Eigen::Matrix<double, 24, 24> K = Eigen::Matrix<double, 24, 24>::Zero();
-  Eigen::Matrix<double, 24, 9> mixed = Eigen::Matrix<double, 24, 9>::Zero();
-  Eigen::Matrix<double, 9, 9> inner = Eigen::Matrix<double, 9, 9>::Zero();
+  constexpr int kNodes = 8, kInner = 3;
   const Matrix3d centre = jacobian(x, solid_shape(SolidKind::hex8, Vector3d::Zero()));
   const Matrix3d centre_inverse = centre.inverse();
   const double centre_volume = centre.determinant();
+  GradientStiffness<kNodes + kInner> sum;
+  std::array<Vector3d, kNodes + kInner> gradients;
   for (const auto& point : stiffness_rule(SolidKind::hex8).points) {
     const Matrix3d J = jacobian(x, point.shape);
     const double volume = J.determinant();
-    const Rows<8> B = strain_rows<8>(J.inverse(), point.shape);
-    Inner G;
-    for (int a = 0; a < 3; ++a) {
+    set_gradients(J.inverse(), point.shape, gradients);
+    for (int a = 0; a < kInner; ++a) {
       const double slope = -2.0 * point.natural[a] * centre_volume / volume;
-      const Vector3d g = slope * centre_inverse.row(a).transpose();
-      set_strain(g, G.middleCols<3>(3 * a));
+      gradients[static_cast<std::size_t>(kNodes + a)] = slope * centre_inverse.row(a).transpose();
     }
-    const double weight = point.weight * volume;
-    const Rows<8> stress = weight * (D * B);
-    const Inner inner_stress = weight * (D * G);
-    K.noalias() += B.transpose() * stress;
-    mixed.noalias() += B.transpose() * inner_stress;
-    inner.noalias() += G.transpose() * inner_stress;
+    sum.add(gradients, point.weight * volume, D);
   }
-  K.noalias() -= mixed * inner.llt().solve(mixed.transpose());
+  SolidStiffness K(3 * kNodes, 3 * kNodes);
+  Eigen::Matrix<double, 3 * kInner, 3 * kNodes> mixed;
+  Eigen::Matrix<double, 3 * kInner, 3 * kInner> inner;
+  copy_block(sum, 0, 0, K);
+  copy_block(sum, 3 * kNodes, 0, mixed);
+  copy_block(sum, 3 * kNodes, 3 * kNodes, inner);
+  const Eigen::Matrix<double, 3 * kInner, 3 * kNodes> half = inner.llt().matrixL().solve(mixed);
+  K.noalias() -= half.transpose() * half;
   return 0.5 * (K + K.transpose());
 }
 
