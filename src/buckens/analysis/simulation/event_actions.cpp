@@ -103,7 +103,7 @@ void EventActions::switch_loads(const std::vector<std::string>& names, bool on,
       states.setZero();
       if (!on) continue;
       const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, &state.memory);
-      load.element->start_states(
+      load.element->restart_states(
           dynamics::sight_of(model, k, state.t, dynamics::circumstances_of(state), ends),
           states.data());
     }

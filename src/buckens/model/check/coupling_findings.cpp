@@ -106,6 +106,24 @@ Found own_joint_problem(const loads::ElasticGearSpec& spec, const ModelDescripti
   return gear_problem(spec, model);
 }
 
+Found own_joint_problem(const GearSensor& spec, const ModelDescription& model) {
+  std::vector<std::string> known;
+  for (const loads::LoadSpec& load : model.loads) {
+    if (std::holds_alternative<loads::ElasticGearSpec>(load.kind)) known.push_back(load.name);
+  }
+  if (std::find(known.begin(), known.end(), spec.gear) != known.end()) return std::nullopt;
+  const auto* joint = base::find_named(model.joints, spec.gear);
+  if (joint != nullptr && std::holds_alternative<joints::GearSpec>(joint->kind)) {
+    return Finding{"gear",
+                   fmt::format("\"{}\" is a joint, whose teeth do not give way; observe its "
+                               "`joint-force`",
+                               spec.gear)};
+  }
+  return Finding{"gear", fmt::format("there is no elastic-gear \"{}\".{}", spec.gear,
+                                     known.empty() ? " The model has none."
+                                                   : base::suggestion(spec.gear, known))};
+}
+
 Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model) {
   if (!(spec.along.norm() > 0.0)) {
     return Finding{"along", "[0, 0, 0] is not a direction; give for example [1, 0, 0]"};
