@@ -224,7 +224,11 @@ void add_rack(const Vector3d& axis, const Placement& placement, RowCollector& ro
 void add_slot(const Placement& placement, RowCollector& rows) {
   std::optional<Vector3d> normal = placement.path_normal_F;
   if (placement.planar) normal = placement.R_WF.transpose() * spatial::normal(*placement.planar);
-  const auto curve = std::make_shared<SpaceCurve>(placement.path, placement.is_closed);
+  const auto curve =
+      placement.path_steps.empty()
+          ? std::make_shared<SpaceCurve>(placement.path, placement.is_closed)
+          : std::make_shared<SpaceCurve>(CurvePieces(placement.path_start, placement.path_steps),
+                                         placement.is_closed);
   for (auto& law : make_path_rows(curve, normal)) rows.push(ConstraintRow::by_law(std::move(law)));
 }
 

@@ -9,6 +9,7 @@
 #include "buckens/loads/bushing.h"
 #include "buckens/model/build/add_coupler.h"
 #include "buckens/model/build/add_slider.h"
+#include "buckens/model/build/curve_of_path.h"
 
 namespace buckens::model {
 
@@ -127,6 +128,8 @@ class JointBuilder {
     }
     if constexpr (requires { kind.path; }) {
       placement.path = kind.path;
+      placement.path_start = kind.start.value_or(Eigen::Vector3d::Zero());
+      placement.path_steps = curve_steps(kind);
       placement.is_closed = kind.closed;
       placement.path_normal_F = kind.normal;
     }
