@@ -396,7 +396,9 @@ std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement)
       rows.perpendicular(f.z, f.x);
       break;
     case JointType::prescribed_rotation:
-      rows.push(ConstraintRow::turning(f.z, f.x, rows.to_M(f.x), placement.law.value()));
+      rows.push(ConstraintRow::turning(f.z, placement.mark_F.value_or(f.x),
+                                       rows.to_M(placement.mark_F.value_or(f.x)),
+                                       placement.law.value()));
       break;
     case JointType::prescribed_translation:
       rows.push(ConstraintRow::point_along(f.z, f.z.dot(placement.r_F), placement.law.value()));

@@ -66,7 +66,11 @@ struct Placement {
   std::vector<CurveStep> path_steps;                     ///< these, in F
   bool is_closed = false;                                ///< whether the path is
   std::optional<Eigen::Vector3d> path_normal_F;  ///< of a plane path; planar models need none
-  double edge = 0;                               ///< of a wheel: radius of its rounded edge [m]
+  /// Of a prescribed rotation: what turns with M as placed, unit vector in F across the axis; any
+  /// if M turns about no other axis.
+  std::optional<Eigen::Vector3d> mark_F;
+  bool as_found = false;  ///< whether a weld holds where it was attached
+  double edge = 0;        ///< of a wheel: radius of its rounded edge [m]
 };
 
 /// Rows of a joint of the given kind between two marker frames.

@@ -148,7 +148,9 @@ struct DriveLaws {
 struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "prescribed-rotation";
   static constexpr const char* kDoc =
-      "drives the rotation about the axis; add a joint for the other directions";
+      "drives the rotation about the axis; add a joint for the other directions. Between the "
+      "markers of a universal joint, about the arm that the first of them holds, it drives the "
+      "angle of that arm";
   static constexpr bool kTurns = true;
   // Exactly one of the three is given.
   std::optional<base::SignalLaw> angle;         ///< counted from the position as placed [rad]
@@ -249,6 +251,14 @@ struct JointSpec {
     return std::visit(
         []<class T>(const T&) {
           return requires { T::kTurns; };
+        },
+        kind);
+  }
+  /// Whether it has a second angle, about an arm that the second marker holds.
+  bool turns_twice() const {
+    return std::visit(
+        []<class T>(const T&) {
+          return requires { T::kTurnsTwice; };
         },
         kind);
   }

@@ -46,6 +46,8 @@ struct Joint {
   joints::JointType type = joints::JointType::fixed;
   MarkerId first, second;
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
+  /// Of a universal joint: the arm that the second body holds, as placed, unit vector in F.
+  Eigen::Vector3d arm_F = Eigen::Vector3d::Zero();
   std::vector<joints::ConstraintRow> rows;
   int first_row = 0;    ///< of λ
   int first_state = 0;  ///< of its rows in RowMemory::rows

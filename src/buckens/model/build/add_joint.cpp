@@ -15,6 +15,16 @@ namespace buckens::model {
 
 namespace {
 
+// Sine of the angle up to which the axis of a drive is that of an arm.
+constexpr double kAlongArm = 1e-4;
+
+/// Whether both are the same marker, or the same frame of the ground.
+bool are_one(const MarkerId& a, const MarkerId& b) {
+  if (a.body != b.body) return false;
+  if (a.body != kGround) return a.marker == b.marker;
+  return a.X_WF.p == b.X_WF.p && a.X_WF.q.coeffs() == b.X_WF.q.coeffs();
+}
+
 class JointBuilder {
  public:
   explicit JointBuilder(MarkerFinder& find) : find_(find) {}
@@ -91,6 +101,7 @@ class JointBuilder {
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
+      if (type == joints::JointType::universal) joint.arm_F = placement.second_axis_F->normalized();
       if (type == joints::JointType::rolling) joint.axis_F = axle_M(placement);
       if (type == joints::JointType::belt) {
         joint.pulleys = {placement.sizes[0],
@@ -106,6 +117,31 @@ class JointBuilder {
     joint.where = spec.where;
     joint.first_row = find_.model().num_constraint_rows();
     find_.model().joints.push_back(std::move(joint));
+  }
+
+  /// A drive between the markers of a cross joint counts the angle about the arm of its first
+  /// marker by where the other arm is: nothing else stays across this axis.
+  void place_mark(const Joint& drive, const std::string& what, const joints::JointSpec& spec,
+                  joints::Placement& placement) {
+    for (const Joint& cross : find_.model().joints) {
+      if (cross.type != joints::JointType::universal) continue;
+      const bool is_same = are_one(cross.first, drive.first) && are_one(cross.second, drive.second);
+      const bool is_swapped =
+          are_one(cross.first, drive.second) && are_one(cross.second, drive.first);
+      if (!is_same && !is_swapped) continue;
+      const Eigen::Matrix3d R_FC = placement.R_WF.transpose() * find_.placed(cross.first).R();
+      const Eigen::Vector3d own = R_FC * (is_same ? cross.axis_F : cross.arm_F);
+      const Eigen::Vector3d other = R_FC * (is_same ? cross.arm_F : cross.axis_F);
+      const Eigen::Vector3d axis = joints::unit_axis(placement);
+      if (axis.cross(own).norm() <= kAlongArm) placement.mark_F = other;
+      if (axis.cross(other).norm() > kAlongArm) continue;
+      throw ModelError(
+          spec.where,
+          fmt::format(
+              "{}: its axis is the arm of joint \"{}\" that the second marker holds, and an "
+              "axis is fixed in the first; swap the markers of `between`",
+              what, cross.name));
+    }
   }
 
   /// Axis of a wheel in its own marker.

@@ -91,6 +91,9 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
                                    "take; couple what moves the slider",
                                    term.name)};
   }
+  if (term.which == joints::CoordinateChoice::second_angle) {
+    return second_angle_problem(term.name, model, "which");
+  }
   const bool turns = term.which ? *term.which == joints::CoordinateChoice::angle : joint->turns();
   if (Found found = coordinate_problem(term.name, turns, model, "")) return found;
   return std::nullopt;

@@ -19,6 +19,11 @@ Found joint_problem(const std::string& name, const ModelDescription& model);
 Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
                          const std::string& key = "joint");
 
+/// Whether a joint does not exist or has no second angle.
+/// @param key field that asks for it
+Found second_angle_problem(const std::string& name, const ModelDescription& model,
+                           const std::string& key);
+
 /// Whether joints do not exist or cannot be attached during a run.
 /// @param key field that names them
 Found attached_problem(const std::vector<std::string>& joints, const char* key,

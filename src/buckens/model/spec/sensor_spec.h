@@ -153,10 +153,10 @@ struct JointTorqueSensor : JointForceSensor {
   static constexpr const char* kDoc = "torque of a joint on its second marker";
 };
 
-enum class CoordinateKind { angle, displacement };
+enum class CoordinateKind { angle, displacement, second_angle };
 
-constexpr std::array<const char*, 2> choice_names(CoordinateKind) {
-  return {"angle", "displacement"};
+constexpr std::array<const char*, 3> choice_names(CoordinateKind) {
+  return {"angle", "displacement", "second-angle"};
 }
 
 /// Coordinate of a joint, and its rate.
@@ -176,7 +176,7 @@ struct JointCoordinateSensor {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("joint", joint, "name of the joint").required().shorthand().like("hinge"));
-    visit(base::field("which", which, "for joints that rotate and slide")
+    visit(base::field("which", which, "for joints that rotate and slide, or rotate about two axes")
               .like("displacement")
               .otherwise("the angle of joints that rotate"));
   }
