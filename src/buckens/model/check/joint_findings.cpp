@@ -31,6 +31,7 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
                        acts_on_coordinate(*load, true);
     const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind) ||
                            std::holds_alternative<loads::RopeSpec>(load->kind) ||
+                           std::holds_alternative<loads::CamSpec>(load->kind) ||
                            acts_on_coordinate(*load, false);
     return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
                                         turns       ? "spring-torque"

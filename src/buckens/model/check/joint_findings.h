@@ -53,6 +53,7 @@ Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& m
 Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::ElasticGearSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const GearSensor& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::CamSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::SlotSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription& model);

@@ -2,6 +2,7 @@
 // What is wrong with the curves of slots and cams.
 #include <fmt/format.h>
 
+#include "buckens/model/check/give_findings.h"
 #include "buckens/model/check/joint_findings.h"
 #include "buckens/model/check/spec_findings.h"
 
@@ -49,5 +50,15 @@ Found own_joint_problem(const joints::SlotSpec& spec, const ModelDescription& /*
   return normal_problem(spec.normal);
 }
 
+Found own_joint_problem(const loads::CamSpec& spec, const ModelDescription& model) {
+  if (Found found = path_problem(spec)) return found;
+  if (!spec.normal && !model.planar) {
+    return Finding{"",
+                   "the key \"normal\" is missing; a model in space needs the direction across "
+                   "the plane of the curve, for example normal: [0, 0, 1]"};
+  }
+  if (Found found = normal_problem(spec.normal)) return found;
+  return give_problem(spec);
+}
 
 }  // namespace buckens::model
