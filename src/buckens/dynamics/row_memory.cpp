@@ -45,8 +45,8 @@ void follow_slider(const model::Model& model, const model::Joint& joint,
 
 /// What rows of a joint that has let go remember.
 void keep_rows(const model::Joint& joint, const double* before, linalg::Vector& after) {
-  int count = joint.track ? 2 : 0;
-  for (const joints::ConstraintRow& row : joint.rows) count += joint.track ? 0 : row.num_states();
+  int count = 0;
+  for (const joints::ConstraintRow& row : joint.rows) count += row.num_states();
   std::copy_n(before + joint.first_state, count, after.data() + joint.first_state);
 }
 

@@ -13,6 +13,7 @@
 #include "buckens/base/signal_law.h"
 #include "buckens/joints/coupler_spec.h"
 #include "buckens/joints/coupling_specs.h"
+#include "buckens/joints/drive_laws.h"
 #include "buckens/joints/guide_specs.h"
 #include "buckens/joints/joint_ends.h"
 #include "buckens/joints/meshing_specs.h"
@@ -120,28 +121,6 @@ struct BushingSpec : JointEnds {
                 .like("\"300*angle^3 N m\"")
                 .otherwise("none"));
     }
-  }
-};
-
-/// What a drive follows: exactly one of the three is given.
-struct DriveLaws {
-  const std::optional<base::SignalLaw>&position, &rate, &acceleration;
-
-  int num_given() const {
-    return int{position.has_value()} + int{rate.has_value()} + int{acceleration.has_value()};
-  }
-  /// Whether it follows signals, so that no law of time is known.
-  bool is_steered() const {
-    for (const auto* law : {&position, &rate, &acceleration}) {
-      if (*law && (*law)->uses_signals()) return true;
-    }
-    return false;
-  }
-  /// The motion as a law of time; integrals begin at t = 0 with 0. @pre !is_steered()
-  base::TimeLaw of_time() const {
-    if (rate) return base::TimeLaw::integral(rate->law);
-    if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(acceleration->law));
-    return position ? position->law : base::TimeLaw();
   }
 };
 

@@ -74,7 +74,7 @@ struct Coordinate {
 
 /// A joint that is driven by a signal.
 struct Drive {
-  int joint = 0;   ///< index into Model::joints; its only row is steered
+  int joint = 0;   ///< index into Model::joints; its last row is steered
   int signal = 0;  ///< index into SignalSet::all: its angle [rad] or displacement [m]
 };
 
