@@ -107,7 +107,8 @@ class ConstraintRow {
   Kind kind() const { return kind_; }
   /// True for rows whose residual is a length, false for dimensionless ones.
   bool is_length() const {
-    return kind_ != Kind::direction && kind_ != Kind::homokinetic && !is_angle_;
+    return kind_ != Kind::direction && kind_ != Kind::homokinetic && !is_angle_ &&
+           (!own_ || own_->is_length());
   }
   /// Whether the row takes a moment of the first marker, and of the second.
   bool turns_first() const {

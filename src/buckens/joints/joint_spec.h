@@ -58,9 +58,14 @@ struct PrismaticSpec : JointEnds {
 struct FixedSpec : JointEnds {
   static constexpr const char* kKey = "fixed";
   static constexpr const char* kDoc = "weld: no relative motion of the markers";
+  bool as_found = false;
   template <class Visitor>
   void fields(Visitor& visit) {
     end_fields(visit);
+    visit(base::field("as-found", as_found,
+                      "whether an event that attaches it holds the markers as they are then, "
+                      "however far apart and turned, as a gripper does")
+              .on_off());
   }
 };
 

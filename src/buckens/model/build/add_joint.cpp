@@ -98,6 +98,10 @@ class JointBuilder {
     if constexpr (requires { kind.length; }) placement.length = kind.length;
     if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;
     place_teeth(kind, placement);
+    if constexpr (requires { kind.as_found; }) placement.as_found = kind.as_found;
+    if constexpr (requires { kind.laws(); }) {
+      if (type == joints::JointType::prescribed_rotation) place_mark(joint, what, spec, placement);
+    }
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
