@@ -58,6 +58,93 @@ def test_it_must_have_met(buckens, tmp_path):
     buckens("run", "model.yaml", "-o", "out").must(4, "event \"catch\"", "joint \"hand\" cannot be attached", "m apart", "`tolerance`")
 
 
+# A gripper takes a part that drifts past, wherever it is then.
+GRIP = """
+buckens: 1
+PLANAR
+bodies:
+  hand: {rigid: {mass: 3 kg, inertia: [0.1, 0.2, 0.3]}}
+  part: {rigid: {mass: 1 kg, inertia: [1e-2, 1e-2, 1e-2]}, at: {position: [0.5, 0.3, 0], orientation: {axis: [0, 0, 1], angle: 20 deg}}}
+joints: {grip: {fixed: {between: [hand, part], as-found: on}}}
+signals: {now: "t - 0.2", late: "t - 0.6", again: "t - 0.7"}
+events: {take: {when: now, attach: grip}, drop: {when: late, release: grip}, retake: {when: again, attach: grip}}
+initial: {released: [grip], bodies: {part: {velocity: [-0.5, 0.1, 0], angular-velocity: [0, 0, 2]}}}
+simulation: {duration: 1 s, step: 1 ms, METHOD}
+output:
+  every: 5 ms
+  sensors: {far: {relative: {between: [hand, part]}}, turned: {relative: {between: [hand, part], quantity: angle, axis: [0, 0, 1]}},
+            hand: {velocity: hand}, w: {angular-velocity: hand}, part: {velocity: part}, x: {position: hand}, p: {position: part},
+            grip: {joint-force: grip}, lost: {energy: dissipated}, balance: {energy: balance}}
+"""
+
+
+@pytest.mark.parametrize("planar", ["planar: xy", ""])
+@pytest.mark.parametrize("method", ["method: generalized-alpha", "method: newmark", "tolerance: 1e-5"])
+def test_a_gripper_holds_what_it_finds(sensors, planar, method):
+    out = sensors(GRIP.replace("METHOD", method).replace("PLANAR", planar))
+    t = out["t"]
+    free, held, late = t < 0.1995, (t > 0.203) & (t < 0.5995), t > 0.703
+    # It drifts past, and stays where it was taken: far from where it was placed.
+    assert out["far.x"][free] == pytest.approx(0.5 - 0.5 * t[free], abs=1e-9)
+    for when in (held, late):
+        for name in ("far.x", "far.y", "turned"):
+            assert numpy.ptp(out[name][when]) < 1e-9, name
+    assert out["far.x"][held][0] == pytest.approx(0.4, abs=1e-3)
+    assert out["turned"][held][0] == pytest.approx(0.4, abs=1e-3)
+    # Let go, both fly on straight and turn as before, and it is taken again where it has come to in 0.1 s.
+    w, x, y = (out[name][held][-1] for name in ("w.z", "far.x", "far.y"))
+    c, s = numpy.cos(0.1 * w), numpy.sin(0.1 * w)
+    x, y = x - 0.1 * w * y, y + 0.1 * w * x
+    assert out["far.x"][late][0] == pytest.approx(c * x + s * y, abs=2e-6)
+    assert out["far.y"][late][0] == pytest.approx(c * y - s * x, abs=2e-6)
+    # Momentum stays, and the angular momentum about the common centre.
+    for c, start in (("x", -0.5), ("y", 0.1)):
+        assert 3 * out[f"hand.{c}"] + out[f"part.{c}"] == pytest.approx(start, abs=1e-9)
+    r = numpy.array([out["p.x"] - out["x.x"], out["p.y"] - out["x.y"]])
+    v = numpy.array([out["part.x"] - out["hand.x"], out["part.y"] - out["hand.y"]])
+    spin = 0.75 * (r[0] * v[1] - r[1] * v[0]) + 0.3 * out["w.z"]
+    other = numpy.where(free, 2.0, out["w.z"])
+    assert (spin + 0.01 * other)[free | held] == pytest.approx((spin + 0.01 * other)[0], abs=2e-6)
+    # What the impact took.
+    energy = 1.5 * (out["hand.x"]**2 + out["hand.y"]**2) + 0.5 * (out["part.x"]**2 + out["part.y"]**2) + 0.15 * out["w.z"]**2 + 0.005 * other**2
+    assert out["lost"][held][0] == pytest.approx(energy[0] - energy[held][0], rel=1e-5)
+    assert abs(out["balance"]).max() < 1e-6
+
+
+def test_a_weld_as_placed_does_not_take_it(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(GRIP.replace("METHOD", "method: newmark").replace("PLANAR", "").replace(", as-found: on", ""))
+    buckens("run", "model.yaml", "-o", "out").must(4, "event \"take\"", "cannot be attached", "`as-found`")
+
+
+# A bead that flies and is caught by a wire, which it flies up to from beyond its end; a wheel that lands and rolls on.
+LAND = """
+buckens: 1
+planar: xy
+gravity: [0, -10, 0]
+bodies:
+  bead: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [-0.1, 0.2, 0]}}
+  wheel: {rigid: {mass: 2, inertia: [0, 0, 0.01]}, at: {position: [3, 0.3, 0]}}
+joints:
+  wire: {slot: {between: [ground, bead], segments: [{line: [2, 0, 0]}]}}
+  road: {rolling: {between: [ground, wheel], normal: [0, 1, 0], radius: 0.1}}
+signals: {low: {position: {of: bead, along: [0, 1, 0]}}, wheel: {position: {of: wheel, along: [0, 1, 0]}}, down: "wheel - 0.1"}
+events: {hang: {when: low, direction: falling, attach: wire, tolerance: 5 mm}, roll: {when: down, direction: falling, attach: road, tolerance: 5 mm}}
+initial: {released: [wire, road], bodies: {bead: {velocity: [1.5, 0, 0]}, wheel: {velocity: [3, 0, 0]}}}
+simulation: {duration: 0.6 s, step: 1 ms}
+output: {every: 5 ms, sensors: {bead: {position: bead}, v: {velocity: bead}, wheel: {velocity: wheel}, w: {angular-velocity: wheel}}}
+"""
+
+
+def test_slots_and_wheels_look_where_they_are(sensors):
+    out = sensors(LAND)
+    late = out["t"] > 0.21  # both fall for √(0.04) s
+    assert abs(out["bead.y"][late]).max() < 1e-9
+    assert out["v.x"][late] == pytest.approx(1.5, abs=1e-9)
+    # The blow at the road turns it: v = 3 m/(m + J/r²), and no slip.
+    assert out["wheel.x"][late] == pytest.approx(3 * 2 / (2 + 0.01 / 0.01), abs=1e-6)
+    assert out["w.z"][late] == pytest.approx(-10 * out["wheel.x"][late], abs=1e-6)
+
+
 MASTS = """
 buckens: 1
 planar: xy

@@ -13,7 +13,8 @@ import h5py
 import numpy
 import pytest
 
-from test_save_state import BLOCK, CONTROL, CLEARANCE, ELBOW, LAWS, RIGID, SLIDER_CRANK, model
+from test_save_state import (BLOCK, CABLES, CONTROL, CLEARANCE, ELBOW, GROUPED, HEAP, LAWS, MORE, PAIRS, RIGID, SLIDER_CRANK,
+                             model)
 
 # Long enough to be killed on the way (about a second), with a checkpoint every few milliseconds.
 FREQUENT = "--set", "simulation.checkpoint=5 ms"
@@ -24,6 +25,11 @@ CASES = {
     "friction, stops": model(LAWS).replace("60 ms", "0.8 s"),
     "rigid rows": model(RIGID).replace("60 ms", "0.5 s"),
     "contact": model(CLEARANCE).replace("60 ms", "0.5 s"),
+    "surfaces": model(PAIRS).replace("0.24 s", "1.2 s"),
+    "groups": model(GROUPED).replace("0.24 s", "1.2 s"),
+    "heap": model(HEAP).replace("0.3 s", "8 s"),
+    "cables": model(CABLES, step="tolerance: 1e-4"),
+    "cams, grips": model(MORE).replace("0.4 s", "4 s"),
     "controllers": model(CONTROL, step="method: newmark").replace("60 ms", "0.8 s"),
     "impacts, step control": ELBOW.replace("duration: 2 s", "duration: 20 s"),
 }

@@ -40,6 +40,23 @@ def test_teeth_give_way_as_their_stiffness_says(sensors):
             assert abs(out["bearing.z"][-1]) == pytest.approx(88.1635, abs=5e-5)
 
 
+def test_its_sensor_tells_force_and_deflection_of_the_teeth(sensors):
+    for sign in (1, -1):
+        text = HELD.replace("TORQUE", str(sign * 1000)).replace("PLAY", "1 mm")
+        out = sensors(text.replace("sensors: {", "sensors: {mesh: {gear: teeth}, "))
+        # 500 N on the pitch circle, normal to flanks inclined by 20 and 10 degrees; the wheel with 40 teeth is first.
+        force = 500 / math.cos(math.radians(20)) / math.cos(math.radians(10))
+        assert out["mesh.force"][-1] == pytest.approx(sign * force, rel=1e-9)
+        assert out["mesh.deflection"][-1] == pytest.approx(sign * force / 1e6, rel=1e-9)
+        assert out["mesh.force"][0] == out["mesh.deflection"][0] == 0  # in the middle of the play
+
+
+def test_a_sensor_of_no_elastic_gear_is_refused(buckens, tmp_path):
+    text = HELD.replace("TORQUE", "0").replace("PLAY", "0")
+    (tmp_path / "model.yaml").write_text(text.replace("sensors: {", "sensors: {mesh: {gear: tooth}, "))
+    buckens("check", "model.yaml").must(2, "output.sensors.mesh.gear.gear", "no elastic-gear \"tooth\"", "\"teeth\"")
+
+
 # Two wheels whose rims are equally heavy, J/r² = 0.1 kg.
 RATTLE = """
 buckens: 1
@@ -81,6 +98,29 @@ def test_gears_rattle_between_their_flanks(sensors):
     assert abs(out["balance"]).max() < 2e-3 * out["total"][0]
     # Momentum of the rims, exactly: the teeth push both alike.
     assert rim + other == pytest.approx(0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("start", ["", "off: [teeth], "])
+def test_teeth_engage_where_the_gears_are(sensors, start):
+    """Out of mesh the gears turn by other numbers of teeth; switched on again, teeth begin in the middle of their play."""
+    text = RATTLE.replace("STEP", "2 us").replace("duration: 20 ms", "duration: 0.32 s").replace("every: 10 us", "every: 20 us")
+    text = text.replace("initial: {bodies: {small: {angular-velocity: [0, 0, 10]}}}", f"""initial: {{{start}bodies: {{small: {{angular-velocity: [0, 0, 61]}}, large: {{angular-velocity: [0, 0, -29]}}}}}}
+signals: {{out: "t - 0.1e-3", in: "t - 0.3"}}
+events: {{open: {{when: out, switch-off: teeth}}, close: {{when: in, switch-on: teeth}}}}""")
+    out = sensors(text.replace("sensors: {", "sensors: {mesh: {gear: teeth}, "))
+    rim, other = 0.05 * out["small.rate"], -0.1 * out["large.rate"]
+    t = out["t"]
+    # 3.05 and 2.9 m/s: half of the play of 1 mm is passed in 3.3 ms, then the rims exchange their speeds in a blow of 75 us.
+    assert out["small.value"][-1] > 6 * math.pi
+    assert rim[t < 0.3033] == pytest.approx(3.05, abs=1e-9)
+    assert abs(out["mesh.force"][t < 0.3033]).max() == 0
+    late = (t > 0.3035) & (t < 0.3098)
+    assert rim[late] == pytest.approx(2.9, abs=2e-3)
+    assert other[late] == pytest.approx(3.05, abs=2e-3)
+    # The blow: √(k m) v with the mass of both rims together, 0.05 kg; records every 20 us miss its top by up to 10 of 75 us.
+    largest = 0.15 * math.sqrt(0.05 * 1e8)
+    assert math.cos(math.pi * 10 / 75) * largest < out["mesh.force"].max() < 1.001 * largest
+    assert abs(out["balance"]).max() < 2e-3 * out["total"][0]
 
 
 @pytest.mark.parametrize("kind", ["joints: {shaft: {revolute: {between: [ground, a], axis: [0, 0, 1]}}, g: {gear: {GEAR}}}",

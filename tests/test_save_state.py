@@ -178,7 +178,90 @@ simulation: {duration: 0.3 s, step: 1 ms, STEP}
 output: {every: 7 ms, sensors: {p: {position: b3}, v: {velocity: b5}, heap: {contact: heap}}}
 """
 
+# The surface of a soft block on a plane, and balls that hit both: patches that touch, speeds of approach and strains of friction.
+SURFACES = """buckens: 1
+gravity: [0, 0, -9.81]
+materials: {rubber: {E: 5 MPa, nu: 0.3, rho: 1200}}
+bodies:
+  block:
+    mesh: {box: {size: [0.1, 0.1, 0.1], divisions: [2, 2, 2]}, material: rubber}
+    interfaces: {foot: {face: z0}}
+    at: {position: [0, 0, 0.003]}
+    ROD
+  b1: {rigid: {mass: 0.2, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [0.052, 0.048, 0.16]}}
+  b2: {rigid: {mass: 0.2, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [0.16, 0.04, 0.05]}}
+loads: CONTACT
+initial: {bodies: {b1: {velocity: [0.1, -0.05, -0.5]}, b2: {velocity: [-0.4, 0, 0]}}}
+simulation: {duration: 0.24 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {p: {position: b1}, v: {velocity: b2}, w: {angular-velocity: b1}, foot: {position: block/foot}}}
+"""
+LAW = "stiffness: 2e4, restitution: 0.5, static: 0.3"
+GROUPED = SURFACES.replace("CONTACT", f"""
+  all: {{contacts: {{among: [{{on: ground, plane: {{}}}}, {{on: block/foot, surface: {{}}}}, {{bodies: "b?", sphere: 40 mm}}], {LAW}}}}}""")
+PAIRS = SURFACES.replace("CONTACT", f"""
+  floor: {{contact: {{between: [ground, block/foot], shapes: [{{plane: {{}}}}, {{surface: {{}}}}], {LAW}}}}}
+  top: {{contact: {{between: [block/foot, b1], shapes: [{{surface: {{}}}}, {{sphere: 40 mm}}], {LAW}}}}}
+  side: {{contact: {{between: [block/foot, b2], shapes: [{{surface: {{}}}}, {{sphere: 40 mm}}], {LAW}}}}}
+  under: {{contact: {{between: [ground, b2], shapes: [{{plane: {{}}}}, {{sphere: 40 mm}}], {LAW}}}}}""")
+
+# A rope that slips over two pulleys while an end swings around one of them, and a closed belt.
+CABLES = """buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  light: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [-0.1, -1, 0]}}
+  heavy: {rigid: {mass: 4, inertia: [0, 0, 1e-3]}, at: {position: [0.6, -1, 0]}}
+  wheel: {rigid: {mass: 1, inertia: [0, 0, 0.01]}}
+  fan: {rigid: {mass: 1, inertia: [0, 0, 0.02]}, at: {position: [0, 0.5, 0]}}
+joints:
+  axle: {revolute: {between: [ground, wheel]}}
+  shaft: {revolute: {between: [{ground: [0, 0.5, 0]}, fan]}}
+loads:
+  rope: {cable: {ends: [light, heavy], pulleys: [{on: wheel, radius: 0.1, side: right}, {on: {ground: [0.5, 0, 0]}, radius: 0.1, side: right}], stiffness: 1e5, damping-time: 0.2 ms, pretension: 15, friction: 0.3}}
+  belt: {cable: {pulleys: [{on: wheel, radius: 0.05}, {on: fan, radius: 0.08}], stiffness: 1e4, damping-time: 1 ms, pretension: 5, friction: 0.2}}
+initial: {bodies: {light: {velocity: [0.3, 0, 0]}}}
+simulation: {duration: 0.3 s, step: 0.5 ms, STEP}
+output: {every: 7 ms, sensors: {a: {position: light}, rope: {cable: rope}, belt: {cable: belt}, w: {angular-velocity: fan}}}
+"""
+
+# A follower that flies off its cam, a cross joint turned about both arms, a weld where an event found its bodies.
+MORE = """buckens: 1
+gravity: [0, -9.81, 0]
+bodies:
+  disc: {rigid: {mass: 1, inertia: [0.01, 0.01, 0.01]}}
+  follower: {rigid: {mass: 0.4, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [0, 0.0979795897113271, 0]}}
+  fork: {rigid: {mass: 1, com: [0.1, 0, 0], inertia: [0.01, 0.02, 0.03]}, at: {position: [1, 0, 0]}, markers: {hole: {position: [0, 0, 0]}, tip: {position: [0.2, 0.1, 0]}}}
+  stone: {rigid: {mass: 0.1, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [1.4, 0.5, 0.1]}}
+joints:
+  shaft: {revolute: {between: [ground, disc/origin], axis: [0, 0, 1]}}
+  motor: {prescribed-rotation: {between: [ground, disc/origin], axis: [0, 0, 1], speed: 30 rad/s}}
+  guide: {prismatic: {between: [ground, follower], axis: [0, 1, 0]}}
+  cross: {universal: {between: [{ground: [1, 0, 0]}, fork/hole], axis: [0, 1, 0], second-axis: [0, 0, 1]}}
+  grip: {fixed: {between: [fork/tip, stone], as-found: on}}
+signals: {now: "t - 0.05", tilt: {joint-second-angle: cross}}
+events: {take: {when: now, attach: grip}}
+loads:
+  cam: {cam: {between: [disc/origin, follower], normal: [0, 0, 1], closed: on, start: [120 mm, 0, 0], restitution: 0.3,
+              segments: [{arc: [-80 mm, 0, 0], through: [20 mm, 100 mm, 0]}, {arc: [120 mm, 0, 0], through: [20 mm, -100 mm, 0]}]}}
+  twist: {hinge-motor: {joint: cross, torque: "2 + tilt"}}
+  spring: {hinge-spring: {joint: cross, which: second-angle, stiffness: 2, damping: 0.01}}
+initial: {released: [grip], bodies: {disc: {angular-velocity: [0, 0, 30]}, follower: {velocity: [0, 0.6, 0]}, stone: {velocity: [0, 0.5, 0]}}}
+simulation: {duration: 0.4 s, step: 0.5 ms, STEP}
+output: {every: 7 ms, sensors: {y: {position: follower}, push: {spring-force: cam}, one: {joint-coordinate: cross}, two: {joint-coordinate: {joint: cross, which: second-angle}}, stone: {position: stone}}}
+"""
+
 CASES = {
+    "surfaces in contact": (model(PAIRS), 0.1011),
+    "surfaces in contact, reduced": (model(PAIRS, "reduction: {craig-bampton: 4}"), 0.1011),
+    "surfaces in contact, step control": (model(PAIRS, step="tolerance: 1e-4"), 0.1011),
+    "surfaces in groups": (model(GROUPED), 0.1011),
+    "surfaces in groups, newmark": (model(GROUPED, step="method: newmark"), 0.1011),
+    "cables": (model(CABLES), 0.1501),
+    "cables, newmark": (model(CABLES, step="method: newmark"), 0.1501),
+    "cables, step control": (model(CABLES, step="tolerance: 1e-4"), 0.1501),
+    "cams, crosses, grips": (model(MORE), 0.1501),
+    "cams, crosses, grips before": (model(MORE), 0.0301),
+    "cams, crosses, grips, step control": (model(MORE, step="tolerance: 1e-4"), 0.1501),
     "a slider and a wheel": (model(SLIDER), 0.2),
     "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
     "rigid rows": (model(RIGID), 0.0301),

@@ -94,6 +94,55 @@ def test_a_slider_leaves_its_beam_with_a_message(buckens, tmp_path):
                                                    "slide-stop")
 
 
+STEERED = """
+buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {stiffness: 1e-4 s}}}
+bodies:
+  rail: {beam: {to: [3, 0, 0], elements: 12, section: {circle: {diameter: 20 mm}}, material: steelROD}}
+  bead: {rigid: {mass: 0.1 kg, inertia: [0, 0, 1e-3]}, at: {position: [0.4, 0, 0]}}
+joints:
+  left: {fixed: {between: [ground, rail/start]}}
+  hole: {slider-on-beam: {between: [rail, bead], LAW}}
+signals: {SIGNALS}
+simulation: {duration: 1 s, step: 1 ms, METHOD}
+output: {every: 10 ms, sensors: {way: {joint-coordinate: hole}, x: {position: bead}, push: {joint-force: hole}, balance: {energy: balance}}}
+"""
+
+
+def steered(law, signals, method="method: generalized-alpha", rod=""):
+    return (STEERED.replace("LAW", law).replace("{SIGNALS}", "{" + signals + "}").replace("METHOD", method)
+            .replace("steelROD}", "steel}" + rod))
+
+
+@pytest.mark.parametrize("method, rod", [("method: generalized-alpha", ""), ("method: newmark", ""),
+                                         ("method: generalized-alpha", ", frames: 3")])
+def test_signals_drive_a_slider(sensors, method, rod):
+    """By feedback to a goal, over nodes and borders of parts; and by a measured velocity."""
+    out = sensors(steered('velocity: "4*(goal - s)"', "s: {joint-displacement: hole}, goal: {setting: 1.5}", method, rod))
+    t = out["t"]
+    # The drive is as good as the method integrates its signal: (4 h)²/12 over a second.
+    assert out["way.value"] == pytest.approx(1.5 * (1 - numpy.exp(-4 * t)), abs=3e-5)
+    assert out["way.rate"] == pytest.approx(6 * numpy.exp(-4 * t), abs=3e-4)
+    assert out["x.x"] == pytest.approx(0.4 + out["way.value"], abs=1e-6)
+    # It brakes the bead, m x'', once what its start shakes in the rail has died out.
+    late = t > 0.1
+    assert out["push.x"][late] == pytest.approx(-2.4 * numpy.exp(-4 * t[late]), abs=2e-2)
+    out = sensors(steered('acceleration: "5 - 2*v"', "v: {joint-velocity: hole}", method, rod))
+    assert out["way.rate"] == pytest.approx(2.5 * (1 - numpy.exp(-2 * t)), abs=1e-4)
+
+
+def test_a_setting_moves_a_slider_behind_a_filter(sensors):
+    out = sensors(steered('displacement: "p"', "step: {setting: 1}, p: {transfer-function: {input: step, numerator: [400], denominator: [1, 40, 400]}}"))
+    t = out["t"]
+    assert out["way.value"] == pytest.approx(1 - (1 + 20 * t) * numpy.exp(-20 * t), abs=1e-4)
+
+
+def test_a_slider_cannot_follow_what_jumps(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(steered('displacement: "p"', "p: {setting: 1}"))
+    buckens("check", "model.yaml").must(3, "joint \"hole\"", "`displacement` follows signal \"p\"", "`velocity`")
+
+
 BEAD = """
 buckens: 1
 gravity: [0, 0, -9.81]

@@ -5,10 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "verification/fast_equals_monolithic/same_steps.h"
-
-#include "buckens/analysis/initial/prepare.h"
-#include "buckens/model_file/model_file.h"
+#include "verification/fast_equals_monolithic/mechanism_of_text.h"
 
 namespace buckens::verification::friction {
 namespace {
@@ -42,22 +39,10 @@ std::string slider_crank(const std::string& stick) {
   return text;
 }
 
-struct Mechanism {
-  std::unique_ptr<model::BuiltModel> built;
-  test::Start start;
-
-  explicit Mechanism(const std::string& text)
-      : built(model::build_model(model_file::read_model_text(text, "model.yaml", {}))) {
-    const dynamics::MassMetric metric(built->model);
-    analysis::Prepared prepared = analysis::prepare(*built, metric);
-    start = {std::move(prepared.state), std::move(prepared.rows_in_use)};
-  }
-};
-
 TEST(FastEqualsMonolithic, SliderCrankWithFrictionInAllJoints) {
   for (const char* stick : {"", ", stick: rigid"}) {
     SCOPED_TRACE(stick);
-    const Mechanism crank(slider_crank(stick));
+    const MechanismOfText crank(slider_crank(stick));
     for (const stepping::Method method :
          {stepping::Method::generalized_alpha, stepping::Method::newmark}) {
       // A quarter of a turn: the slider moves by more than a tenth of the model's length.

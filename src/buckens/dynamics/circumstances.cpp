@@ -38,8 +38,7 @@ joints::CountedValue counted_coordinate(const model::Model& model, std::size_t c
   if (memory != nullptr && !memory->coordinates.empty()) {
     return law.follow(memory->coordinates[coordinate], fraction);
   }
-  const bool is_angle = law.kind() == joints::JointCoordinate::Kind::angle;
-  if (is_angle && std::abs(fraction) > kLargestUncounted) {
+  if (law.is_angle() && std::abs(fraction) > kLargestUncounted) {
     const auto joint = static_cast<std::size_t>(model.coordinates[coordinate].joint);
     throw NumericalError(fmt::format(
         "the angle of joint \"{}\" is {:.4g} rad; static analyses count no turns and measure "

@@ -139,7 +139,11 @@ void write_drives(const model::Model& model, const std::vector<BodyMotion>& moti
   const SignalMotions all(model, motions, around, signals);
   for (const model::Drive& drive : model.drives) {
     const model::Joint& joint = model.joints[static_cast<std::size_t>(drive.joint)];
-    all.of(drive.signal).write(rows.data() + joint.first_state);
+    int state = joint.first_state;  // of the driven row, the last one
+    for (const joints::ConstraintRow& row : joint.rows) {
+      if (!row.is_steered()) state += row.num_states();
+    }
+    all.of(drive.signal).write(rows.data() + state);
   }
 }
 

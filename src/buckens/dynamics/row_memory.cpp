@@ -45,8 +45,8 @@ void follow_slider(const model::Model& model, const model::Joint& joint,
 
 /// What rows of a joint that has let go remember.
 void keep_rows(const model::Joint& joint, const double* before, linalg::Vector& after) {
-  int count = joint.track ? 2 : 0;
-  for (const joints::ConstraintRow& row : joint.rows) count += joint.track ? 0 : row.num_states();
+  int count = 0;
+  for (const joints::ConstraintRow& row : joint.rows) count += row.num_states();
   std::copy_n(before + joint.first_state, count, after.data() + joint.first_state);
 }
 
@@ -106,14 +106,17 @@ model::RowMemory memory_at_rest(const model::Model& model, const std::vector<Bod
   return out;
 }
 
-model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions) {
+model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions,
+                              const std::vector<char>& released) {
   model::RowMemory out;
+  out.released = released;
   for (const model::Coordinate& coordinate : model.coordinates) {
     out.coordinates.push_back({0, fraction_of(model, coordinate, motions, nullptr)});
   }
   out.laws = linalg::Vector::Zero(model.num_law_states());
   out.rows = linalg::Vector::Zero(model.num_row_states());
-  if (out.rows.size() > 0) follow_rows(model, motions, 0.0, nullptr, nullptr, nullptr, out.rows);
+  if (out.rows.size() > 0)
+    follow_rows(model, motions, 0.0, nullptr, &out.released, nullptr, out.rows);
   for (std::size_t k = 0; k < model.loads.size() && out.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;

@@ -10,7 +10,9 @@ namespace buckens::dynamics {
 
 /// Memory of joint coordinates and force laws at the start of a motion: no turns yet, and laws at
 /// rest.
-model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions);
+/// @param released RowMemory::released: rows of these joints know nothing yet
+model::RowMemory start_memory(const model::Model& model, const std::vector<BodyMotion>& motions,
+                              const std::vector<char>& released = {});
 
 /// Lets rows of joints that remember a sign of their multiplier see those of the start.
 /// @return whether they remember something else now

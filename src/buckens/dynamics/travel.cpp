@@ -25,6 +25,7 @@ Travel::Travel(const model::Model& model, const model::Joint& joint,
     : model_(model),
       joint_(joint),
       motions_(motions),
+      states_(states),
       slider_(evaluate_marker(model, joint.second, motions)) {
   std::optional<double> guess;
   if (states != nullptr && states[0] > 0.0) guess = states[1];
@@ -67,8 +68,7 @@ spatial::Wrench Travel::reaction(double t, const linalg::Vector& lambda) const {
 
 Travel::Row Travel::row(const joints::ConstraintRow& row, double t) const {
   if (row.number() == 2) {
-    const auto& law = row.displacement();
-    return {displacement() - law->value(t), -law->rate(t), along()};
+    return {displacement() - row.driven_to(t, drive()), -row.driven_rate(t, drive()), along()};
   }
   const Vector3d e = at_.across(row.number());
   return {e.dot(slider_.motion.p - at_.p), 0.0, e};
@@ -122,7 +122,7 @@ double Travel::bias(const joints::ConstraintRow& constraint, double t) const {
                                     evaluate_bias(model_, node(at_.element + 1), motions_));
   const double out = own.e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
                                s_dot * s_dot * at_.curvature);
-  return constraint.number() == 2 ? out - constraint.displacement()->acceleration(t) : out;
+  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
 }
 
 const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate) {

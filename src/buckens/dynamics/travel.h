@@ -27,7 +27,8 @@ class Travel {
   Travel(const model::Model& model, const model::Joint& joint,
          const std::vector<BodyMotion>& motions, const model::RowMemory* memory)
       : Travel(model, joint, motions, states_of(joint, memory)) {}
-  /// @param states of the joint as at the start of the step, null: not known
+  /// @param states of the joint as at the start of the step, where signals drive it told where to
+  /// be at its end; null: not known; they outlive the object
   Travel(const model::Model& model, const model::Joint& joint,
          const std::vector<BodyMotion>& motions, const double* states);
 
@@ -66,9 +67,13 @@ class Travel {
   /// Derivative of s by a displacement of the slider against the beam.
   Eigen::Vector3d along() const { return at_.tangent / at_.tangent.squaredNorm(); }
 
+  /// States of the row along the beam, behind those of the place; may be null.
+  const double* drive() const { return states_ == nullptr ? nullptr : states_ + 2; }
+
   const model::Model& model_;
   const model::Joint& joint_;
   const std::vector<BodyMotion>& motions_;
+  const double* states_;
   body::MarkerKinematics slider_;
   joints::TrackPoint at_;
 };

@@ -91,7 +91,7 @@ class ConstraintRow {
   /// The same row, following signals instead of a law of time: where it is to be stands in its
   /// states (Steering), which whoever evaluates signals writes.
   /// @param start where it is to be as long as its states say nothing [m] or [rad]
-  /// @pre depends_on_time(), of kind `point_along` or `direction`
+  /// @pre depends_on_time(), of kind `point_along`, `direction` or `travelling`
   ConstraintRow steered(double start) const;
 
   /// @param states what a row of kind `law` remembers, or a steered one is told; null: nothing is
@@ -107,7 +107,8 @@ class ConstraintRow {
   Kind kind() const { return kind_; }
   /// True for rows whose residual is a length, false for dimensionless ones.
   bool is_length() const {
-    return kind_ != Kind::direction && kind_ != Kind::homokinetic && !is_angle_;
+    return kind_ != Kind::direction && kind_ != Kind::homokinetic && !is_angle_ &&
+           (!own_ || own_->is_length());
   }
   /// Whether the row takes a moment of the first marker, and of the second.
   bool turns_first() const {
@@ -120,15 +121,20 @@ class ConstraintRow {
   bool depends_on_time() const { return law_.has_value(); }
   /// A slider remembers with its first row whether it is known where it is, and where.
   int num_states() const {
-    if (kind_ == Kind::travelling) return number_ == 0 ? 2 : 0;
     if (is_steered_) return Steering::kStates;
+    if (kind_ == Kind::travelling) return number_ == 0 ? 2 : 0;
     return own_ ? own_->num_states() : 0;
   }
   /// Whether it holds rates only, so that its residual is always zero: rolling.
   bool holds_rates_only() const { return own_ && own_->holds_rates_only(); }
   /// Of a travelling row.
   int number() const { return number_; }
-  const std::optional<base::TimeLaw>& displacement() const { return law_; }
+  /// Whether it follows signals.
+  bool is_steered() const { return is_steered_; }
+  /// Where a driven row is to be. @param states of this row, may be null
+  double driven_to(double t, const double* states) const;
+  double driven_rate(double t, const double* states) const;
+  double driven_acceleration(double t, const double* states) const;
   /// Of rows of kind `law`, else null.
   const RowLaw* law() const { return own_.get(); }
   /// e of a point row; b of a direction row, at angle zero where it turns.
@@ -142,10 +148,6 @@ class ConstraintRow {
     Eigen::Vector3d value, rate, acceleration;
   };
   TurningVector turning_vector(double t, const double* states, bool with_acceleration) const;
-  /// Where the drive is to be.
-  double driven_to(double t, const double* states) const;
-  double driven_rate(double t, const double* states) const;
-  double driven_acceleration(double t, const double* states) const;
   /// Rows of distance, homokinetic and screw. @param r from F to M
   void evaluate_coupling(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                          const Eigen::Vector3d& r, RowValue& out) const;

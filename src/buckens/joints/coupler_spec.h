@@ -12,10 +12,10 @@
 namespace buckens::joints {
 
 /// Coordinate of a joint.
-enum class CoordinateChoice { angle, displacement };
+enum class CoordinateChoice { angle, displacement, second_angle };
 
-constexpr std::array<const char*, 2> choice_names(CoordinateChoice) {
-  return {"angle", "displacement"};
+constexpr std::array<const char*, 3> choice_names(CoordinateChoice) {
+  return {"angle", "displacement", "second-angle"};
 }
 
 /// One term of a coupler, named after its joint. At most one of factor, polynomial and table is
@@ -43,7 +43,7 @@ struct CouplerTermSpec {
                       "in place of the factor: points [x, value], x in rad or m, of a smooth curve")
               .like("[[0, 0], [1, 0.2], [2, 0.7]]")
               .otherwise("a factor"));
-    visit(base::field("which", which, "of joints that turn and slide")
+    visit(base::field("which", which, "of joints that turn and slide, or turn about two axes")
               .like("displacement")
               .otherwise("the angle of joints that turn"));
   }

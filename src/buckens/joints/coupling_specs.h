@@ -11,7 +11,8 @@ struct UniversalSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "universal";
   static constexpr const char* kDoc =
       "Cardan joint: rotates about one arm of the cross held by the first body and about the other "
-      "held by the second";
+      "held by the second, its coordinates `angle` and `second-angle`";
+  static constexpr bool kTurns = true, kTurnsTwice = true;
   Eigen::Vector3d second_axis = Eigen::Vector3d::Zero();  ///< in the first marker, as placed
   template <class Visitor>
   void fields(Visitor& visit) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "buckens/joints/row_law.h"
 #include "buckens/joints/turn_sum.h"
@@ -44,6 +45,9 @@ class GearMesh final : public RowLaw {
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
               const double* before, double* after) const override;
+
+  /// From tooth to tooth along the line of action [m].
+  double pitch() const { return 2.0 * std::numbers::pi * base_; }
 
  private:
   struct View;

@@ -10,6 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/joints/gear_mesh.h"
+#include "buckens/joints/held_row.h"
 #include "buckens/joints/path_row.h"
 #include "buckens/joints/rolling_row.h"
 
@@ -73,6 +74,20 @@ class RowCollector {
   void perpendicular(const Vector3d& b_F, const Vector3d& c_in_F) {
     if (in_plane(placement_.R_WF * b_F) && in_plane(placement_.R_WF * c_in_F)) {
       rows_.push_back(ConstraintRow::direction(b_F, to_M(c_in_F)));
+    }
+  }
+
+  /// A weld that events can attach anywhere.
+  void hold(const Vector3d& x, const Vector3d& y, const Vector3d& z) {
+    for (const Vector3d& e : {x, y, z}) {
+      if (!in_plane(placement_.R_WF * e)) continue;
+      rows_.push_back(
+          ConstraintRow::by_law(std::make_shared<HeldRow>(HeldRow::place(e, placement_.r_F))));
+    }
+    const Eigen::Matrix3d R_FM = placement_.R_WF.transpose() * placement_.R_WM;
+    for (const auto& [b, c] : {std::pair{x, y}, std::pair{y, z}, std::pair{z, x}}) {
+      if (!in_plane(placement_.R_WF * b) || !in_plane(placement_.R_WF * c)) continue;
+      rows_.push_back(ConstraintRow::by_law(std::make_shared<HeldRow>(HeldRow::turn(b, c, R_FM))));
     }
   }
 
@@ -224,7 +239,11 @@ void add_rack(const Vector3d& axis, const Placement& placement, RowCollector& ro
 void add_slot(const Placement& placement, RowCollector& rows) {
   std::optional<Vector3d> normal = placement.path_normal_F;
   if (placement.planar) normal = placement.R_WF.transpose() * spatial::normal(*placement.planar);
-  const auto curve = std::make_shared<SpaceCurve>(placement.path, placement.is_closed);
+  const auto curve =
+      placement.path_steps.empty()
+          ? std::make_shared<SpaceCurve>(placement.path, placement.is_closed)
+          : std::make_shared<SpaceCurve>(CurvePieces(placement.path_start, placement.path_steps),
+                                         placement.is_closed);
   for (auto& law : make_path_rows(curve, normal)) rows.push(ConstraintRow::by_law(std::move(law)));
 }
 
@@ -386,13 +405,19 @@ std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement)
       rows.perpendicular(f.z, f.x);
       break;
     case JointType::fixed:
+      if (placement.as_found) {
+        rows.hold(f.x, f.y, f.z);
+        break;
+      }
       rows.points_in_world();
       rows.perpendicular(f.x, f.y);
       rows.perpendicular(f.y, f.z);
       rows.perpendicular(f.z, f.x);
       break;
     case JointType::prescribed_rotation:
-      rows.push(ConstraintRow::turning(f.z, f.x, rows.to_M(f.x), placement.law.value()));
+      rows.push(ConstraintRow::turning(f.z, placement.mark_F.value_or(f.x),
+                                       rows.to_M(placement.mark_F.value_or(f.x)),
+                                       placement.law.value()));
       break;
     case JointType::prescribed_translation:
       rows.push(ConstraintRow::point_along(f.z, f.z.dot(placement.r_F), placement.law.value()));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/joints/constraint_row.h"
+#include "buckens/joints/curve_pieces.h"
 #include "buckens/spatial/plane.h"
 
 namespace buckens::joints {
@@ -60,10 +61,16 @@ struct Placement {
   bool same_sense = false;                       ///< internal gears, open belts
   double pressure_angle = 0;                     ///< of gears and racks [rad]
   double helix_angle = 0;                        ///< of gears and racks [rad]
-  std::vector<Eigen::Vector3d> path;             ///< of a slot, in F [m]
-  bool is_closed = false;                        ///< whether the path is
+  std::vector<Eigen::Vector3d> path;             ///< of a slot, in F [m]; or
+  Eigen::Vector3d path_start = Eigen::Vector3d::Zero();  ///< where its pieces begin [m]
+  std::vector<CurveStep> path_steps;                     ///< these, in F
+  bool is_closed = false;                                ///< whether the path is
   std::optional<Eigen::Vector3d> path_normal_F;  ///< of a plane path; planar models need none
-  double edge = 0;                               ///< of a wheel: radius of its rounded edge [m]
+  /// Of a prescribed rotation: what turns with M as placed, unit vector in F across the axis; any
+  /// if M turns about no other axis.
+  std::optional<Eigen::Vector3d> mark_F;
+  bool as_found = false;  ///< whether a weld holds where it was attached
+  double edge = 0;        ///< of a wheel: radius of its rounded edge [m]
 };
 
 /// Rows of a joint of the given kind between two marker frames.

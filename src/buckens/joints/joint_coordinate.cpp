@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "buckens/joints/curve_gap.h"
 
 namespace buckens::joints {
 
@@ -28,6 +31,27 @@ JointCoordinate JointCoordinate::angle(const Vector3d& axis_F, const Eigen::Matr
   return out;
 }
 
+JointCoordinate JointCoordinate::first_angle(const Vector3d& arm_F, const Vector3d& other_F,
+                                             const Eigen::Matrix3d& R_FM_placed) {
+  JointCoordinate out;
+  out.kind_ = Kind::angle;
+  out.axis_F_ = arm_F;
+  out.x_F_ = other_F;
+  out.x_M_ = R_FM_placed.transpose() * other_F;
+  return out;
+}
+
+JointCoordinate JointCoordinate::second_angle(const Vector3d& arm_F, const Vector3d& other_F,
+                                              const Eigen::Matrix3d& R_FM_placed) {
+  JointCoordinate out;
+  out.kind_ = Kind::second_angle;
+  out.axis_F_ = other_F;
+  out.axis_M_ = R_FM_placed.transpose() * other_F;
+  out.x_F_ = arm_F;
+  out.x_M_ = R_FM_placed.transpose() * arm_F;
+  return out;
+}
+
 JointCoordinate JointCoordinate::displacement(const Vector3d& axis_F, const Vector3d& r_F_placed) {
   JointCoordinate out;
   out.kind_ = Kind::displacement;
@@ -42,6 +66,13 @@ JointCoordinate JointCoordinate::length() {
   return out;
 }
 
+JointCoordinate JointCoordinate::gap(std::shared_ptr<const CurveGap> curve) {
+  JointCoordinate out;
+  out.kind_ = Kind::gap;
+  out.curve_ = std::move(curve);
+  return out;
+}
+
 namespace {
 /// Direction from F to M; any where they coincide.
 Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
@@ -53,7 +84,8 @@ Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
 
 double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) const {
   if (kind_ == Kind::length) return (M.p - F.p).norm();
-  const Vector3d axis = F.R * axis_F_;
+  if (kind_ == Kind::gap) return curve_->gap(F, M);
+  const Vector3d axis = axis_now(F, M);
   if (kind_ == Kind::displacement) return axis.dot(M.p - F.p) - offset_;
   const Vector3d x = F.R * x_F_;
   const Vector3d moved = M.R * x_M_;
@@ -68,8 +100,9 @@ spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const Marke
     J.segment<3>(9) = n.transpose();
     return J;
   }
-  const Vector3d axis = F.R * axis_F_;
-  if (kind_ == Kind::angle) {
+  if (kind_ == Kind::gap) return curve_->derivatives(F, M);
+  const Vector3d axis = axis_now(F, M);
+  if (is_angle()) {
     J.segment<3>(0) = -axis.transpose();
     J.segment<3>(6) = axis.transpose();
     return J;
@@ -90,9 +123,10 @@ double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
     const double across = r_dot.squaredNorm() - n.dot(r_dot) * n.dot(r_dot);
     return n.dot(bias_M.a - bias_F.a) + (length > 0.0 ? across / length : 0.0);
   }
-  const Vector3d axis = F.R * axis_F_;
-  const Vector3d axis_rate = F.w.cross(axis);
-  if (kind_ == Kind::angle) {
+  if (kind_ == Kind::gap) return curve_->bias(F, M, bias_F, bias_M);
+  const Vector3d axis = axis_now(F, M);
+  const Vector3d axis_rate = (kind_ == Kind::second_angle ? M.w : F.w).cross(axis);
+  if (is_angle()) {
     return axis.dot(bias_M.alpha - bias_F.alpha) + axis_rate.dot(M.w - F.w);
   }
   const Vector3d axis_bias = bias_F.alpha.cross(axis) + F.w.cross(axis_rate);
@@ -100,7 +134,7 @@ double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
 }
 
 CountedValue JointCoordinate::follow(const CountedValue& before, double fraction) const {
-  if (kind_ != Kind::angle) return {before.turns, fraction};
+  if (!is_angle()) return {before.turns, fraction};
   return follow_turns(before, fraction);
 }
 

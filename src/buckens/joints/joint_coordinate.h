@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "buckens/spatial/marker_motion.h"
 
 namespace buckens::joints {
+
+class CurveGap;
 
 /// A coordinate with its whole turns stored separately, so that no digits are lost after many.
 struct CountedValue {
@@ -15,24 +19,40 @@ struct CountedValue {
 };
 
 /// Angle or displacement of marker M relative to marker F about or along an axis fixed in F, both
-/// zero as placed; or the length of the line between them. The axis is also fixed in M if a joint
-/// ensures that.
+/// zero as placed; the length of the line between them; or the gap between M and a curve fixed in
+/// F. The axis is also fixed in M if a joint ensures that. The second angle, of a cross joint, is
+/// that about an axis fixed in M.
 class JointCoordinate {
  public:
-  enum class Kind { angle, displacement, length };
+  enum class Kind { angle, displacement, second_angle, length, gap };
 
   /// @param axis_F unit vector in F, @param R_FM_placed orientation of M in F as placed
   static JointCoordinate angle(const Eigen::Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed);
+  /// Both angles of a cross joint, whose arms stay perpendicular: θ₁ about the arm b that F holds,
+  /// θ₂ about the arm c that M holds,
+  ///
+  ///     R_FM = exp(θ₁ b) exp(θ₂ c) R_FM_placed,   θ̇₁ = b·(ω_M − ω_F),  θ̇₂ = c·(ω_M − ω_F)  (R33)
+  ///
+  /// @param arm_F b, unit vector in F, @param other_F c as placed, unit vector in F
+  static JointCoordinate first_angle(const Eigen::Vector3d& arm_F, const Eigen::Vector3d& other_F,
+                                     const Eigen::Matrix3d& R_FM_placed);
+  static JointCoordinate second_angle(const Eigen::Vector3d& arm_F, const Eigen::Vector3d& other_F,
+                                      const Eigen::Matrix3d& R_FM_placed);
   /// @param axis_F unit vector in F, @param r_F_placed position of M in F as placed [m]
   static JointCoordinate displacement(const Eigen::Vector3d& axis_F,
                                       const Eigen::Vector3d& r_F_placed);
 
   static JointCoordinate length();
+  /// Zero where the curve is touched, positive on the free side of it.
+  static JointCoordinate gap(std::shared_ptr<const CurveGap> curve);
 
   Kind kind() const { return kind_; }
+  /// Whether it is an angle [rad], and no length [m].
+  bool is_angle() const { return kind_ == Kind::angle || kind_ == Kind::second_angle; }
+  /// In F; of a second angle, where M holds it, as placed.
   const Eigen::Vector3d& axis() const { return axis_F_; }
 
-  /// Angle within the turn [rad], displacement or length [m].
+  /// Angle within the turn [rad], displacement, length or gap [m].
   double fraction(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
   /// J: the rate of the coordinate is J V.
   spatial::PairRow derivatives(const spatial::MarkerMotion& F,
@@ -45,11 +65,19 @@ class JointCoordinate {
   CountedValue follow(const CountedValue& before, double fraction) const;
 
  private:
+  /// The axis as it is now.
+  Eigen::Vector3d axis_now(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const {
+    return kind_ == Kind::second_angle ? Eigen::Vector3d(M.R * axis_M_)
+                                       : Eigen::Vector3d(F.R * axis_F_);
+  }
+
   Kind kind_ = Kind::displacement;
   Eigen::Vector3d axis_F_ = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d x_F_ = Eigen::Vector3d::UnitX();  // of an angle: perpendicular to the axis
-  Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();  // its image in M as placed
-  double offset_ = 0;                               // of a displacement [m]
+  Eigen::Vector3d x_F_ = Eigen::Vector3d::UnitX();     // of an angle: perpendicular to the axis
+  Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();     // its image in M as placed
+  Eigen::Vector3d axis_M_ = Eigen::Vector3d::UnitZ();  // of a second angle
+  double offset_ = 0;                                  // of a displacement [m]
+  std::shared_ptr<const CurveGap> curve_;              // of a gap
 };
 
 /// The counted angle that is reached from `before` on the shorter way.

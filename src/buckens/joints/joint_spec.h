@@ -13,6 +13,7 @@
 #include "buckens/base/signal_law.h"
 #include "buckens/joints/coupler_spec.h"
 #include "buckens/joints/coupling_specs.h"
+#include "buckens/joints/drive_laws.h"
 #include "buckens/joints/guide_specs.h"
 #include "buckens/joints/joint_ends.h"
 #include "buckens/joints/meshing_specs.h"
@@ -57,9 +58,14 @@ struct PrismaticSpec : JointEnds {
 struct FixedSpec : JointEnds {
   static constexpr const char* kKey = "fixed";
   static constexpr const char* kDoc = "weld: no relative motion of the markers";
+  bool as_found = false;
   template <class Visitor>
   void fields(Visitor& visit) {
     end_fields(visit);
+    visit(base::field("as-found", as_found,
+                      "whether an event that attaches it holds the markers as they are then, "
+                      "however far apart and turned, as a gripper does")
+              .on_off());
   }
 };
 
@@ -123,32 +129,12 @@ struct BushingSpec : JointEnds {
   }
 };
 
-/// What a drive follows: exactly one of the three is given.
-struct DriveLaws {
-  const std::optional<base::SignalLaw>&position, &rate, &acceleration;
-
-  int num_given() const {
-    return int{position.has_value()} + int{rate.has_value()} + int{acceleration.has_value()};
-  }
-  /// Whether it follows signals, so that no law of time is known.
-  bool is_steered() const {
-    for (const auto* law : {&position, &rate, &acceleration}) {
-      if (*law && (*law)->uses_signals()) return true;
-    }
-    return false;
-  }
-  /// The motion as a law of time; integrals begin at t = 0 with 0. @pre !is_steered()
-  base::TimeLaw of_time() const {
-    if (rate) return base::TimeLaw::integral(rate->law);
-    if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(acceleration->law));
-    return position ? position->law : base::TimeLaw();
-  }
-};
-
 struct PrescribedRotationSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "prescribed-rotation";
   static constexpr const char* kDoc =
-      "drives the rotation about the axis; add a joint for the other directions";
+      "drives the rotation about the axis; add a joint for the other directions. Between the "
+      "markers of a universal joint, about the arm that the first of them holds, it drives the "
+      "angle of that arm";
   static constexpr bool kTurns = true;
   // Exactly one of the three is given.
   std::optional<base::SignalLaw> angle;         ///< counted from the position as placed [rad]
@@ -249,6 +235,14 @@ struct JointSpec {
     return std::visit(
         []<class T>(const T&) {
           return requires { T::kTurns; };
+        },
+        kind);
+  }
+  /// Whether it has a second angle, about an arm that the second marker holds.
+  bool turns_twice() const {
+    return std::visit(
+        []<class T>(const T&) {
+          return requires { T::kTurnsTwice; };
         },
         kind);
   }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/joints/relative_turn.h"
 
 namespace buckens::joints {
 
@@ -55,9 +54,8 @@ PathRow::PathRow(std::shared_ptr<const SpaceCurve> curve, const std::optional<Ve
       hint_(normal ? *normal : direction_aside(*curve_)),
       number_(number) {}
 
-PathRow::View PathRow::look(const MarkerMotion& F, const MarkerMotion& M,
-                            const double* states) const {
-  View out;
+CurveTouch PathRow::look(const MarkerMotion& F, const MarkerMotion& M, const double* states) const {
+  CurveTouch out;
   out.place = F.R.transpose() * (M.p - F.p);
   const bool is_known = states != nullptr && states[0] > 0.0;
   out.s = is_known ? curve_->nearest(out.place, across_, states[1])
@@ -70,29 +68,16 @@ PathRow::View PathRow::look(const MarkerMotion& F, const MarkerMotion& M,
 
 RowValue PathRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
                            const double* states) const {
-  const View at = look(F, M, states);
-  const Vector3d n = F.R * at.n;
+  const CurveTouch at = look(F, M, states);
   RowValue out;
-  out.g = at.n.dot(at.place - at.at.p);
-  out.J.segment<3>(0) = -(M.p - F.p).cross(n).transpose();
-  out.J.segment<3>(3) = -n.transpose();
-  out.J.segment<3>(9) = n.transpose();
+  out.g = at.gap();
+  out.J = at.derivatives(F, M);
   return out;
 }
 
 double PathRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
                      const MarkerBias& bias_M, const double* states) const {
-  const View at = look(F, M, states);
-  const Vector3d n = F.R * at.n;
-  const Vector3d rate = M.v - F.v - F.w.cross(M.p - F.p);
-  // Along the curve, seen from above a plane one.
-  const Vector3d tangent = at.at.tangent - across_.dot(at.at.tangent) * across_;
-  const double square = tangent.squaredNorm();
-  const double curvature = at.n.dot(at.at.curvature) / square;
-  const double along = (F.R * tangent).dot(rate) / std::sqrt(square);
-  const double gap = at.n.dot(at.place - at.at.p);
-  return n.dot(relative_bias(F, M, bias_F, bias_M)) -
-         curvature * along * along / (1.0 - curvature * gap);
+  return look(F, M, states).bias(F, M, bias_F, bias_M, across_);
 }
 
 void PathRow::follow(const MarkerMotion& F, const MarkerMotion& M, double /*lambda*/,
@@ -113,16 +98,7 @@ std::vector<std::shared_ptr<const RowLaw>> make_path_rows(
     const std::shared_ptr<const SpaceCurve>& curve, const std::optional<Vector3d>& normal) {
   std::vector<std::shared_ptr<const RowLaw>> out;
   if (normal) {
-    if (!(normal->norm() > 0.0)) {
-      throw ModelError("`normal` has no direction; give three numbers, not all zero");
-    }
-    const Vector3d across = normal->normalized();
-    for (int k = 0; k <= kSamples; ++k) {
-      const Vector3d t = curve->at(curve->length() * k / kSamples).tangent.normalized();
-      if (t.cross(across).norm() > 1e-3) continue;
-      throw ModelError(
-          "`path` runs along its `normal`; give the direction across the plane of the curve");
-    }
+    const Vector3d across = unit_normal(*curve, *normal);
     out.push_back(std::make_shared<PathRow>(curve, across, 0));
     return out;
   }

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "buckens/joints/curve_gap.h"
 #include "buckens/joints/row_law.h"
-#include "buckens/joints/space_curve.h"
 
 namespace buckens::joints {
 
@@ -36,13 +36,8 @@ class PathRow final : public RowLaw {
               const double* before, double* after) const override;
 
  private:
-  struct View {
-    double s;
-    SpaceCurve::Point at;
-    Eigen::Vector3d place, n;  // in F
-  };
-  View look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-            const double* states) const;
+  CurveTouch look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                  const double* states) const;
 
   std::shared_ptr<const SpaceCurve> curve_;
   Eigen::Vector3d across_;  // of a plane curve, zero in space

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "buckens/spatial/marker_motion.h"
 
 namespace buckens::joints {
@@ -18,7 +20,7 @@ struct RowValue {
 };
 
 /// A constraint between two markers that remembers something from step to step, such as whole
-/// turns. Its residual is a length.
+/// turns.
 ///
 /// What it remembers is part of the state of the mechanism (model::RowMemory), from which it is
 /// handed in as `states`, num_states() numbers as at the start of the step; null where nothing is
@@ -30,6 +32,8 @@ class RowLaw {
   virtual int num_states() const = 0;
   /// Whether it takes a moment of the second marker; of the first it always does.
   virtual bool turns_second() const { return true; }
+  /// Whether its residual is a length, or without dimension.
+  virtual bool is_length() const { return true; }
   /// Whether it holds rates that are those of no position, so that its residual is always zero.
   virtual bool holds_rates_only() const { return false; }
   virtual RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
@@ -42,6 +46,12 @@ class RowLaw {
   /// @param before may be null, @param after may be `before`
   virtual void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
                       const double* before, double* after) const = 0;
+  /// What is remembered when an event attaches the joint: it looks anew. @param states as before
+  virtual void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                      double* states) const {
+    std::fill_n(states, num_states(), 0.0);
+    follow(F, M, 0.0, nullptr, states);
+  }
 };
 
 }  // namespace buckens::joints

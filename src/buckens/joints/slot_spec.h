@@ -2,32 +2,23 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
+#include "buckens/base/path_spec.h"
 #include "buckens/joints/joint_ends.h"
 
 namespace buckens::joints {
 
-struct SlotSpec : JointEnds {
+struct SlotSpec : JointEnds, base::PathSpec {
   static constexpr const char* kKey = "slot";
   static constexpr const char* kDoc =
       "a point on a curve that is fixed in the first body: a pin in a slot, the centre of a roller "
       "on a cam with its counter cam, a bead on a bent wire; all rotations are free";
-  std::vector<Eigen::Vector3d> path;  ///< in the first marker [m]
-  bool closed = false;
   std::optional<Eigen::Vector3d> normal;  ///< in the first marker
 
   template <class Visitor>
   void fields(Visitor& visit) {
     end_fields(visit);
-    visit(base::field("path", path,
-                      "points in the first marker's axes, joined by a smooth curve (cubic spline)")
-              .in(base::kLength)
-              .required()
-              .like("[[0, 0, 0], [50 mm, 20 mm, 0], [100 mm, 0, 0]]"));
-    visit(base::field("closed", closed,
-                      "whether the curve goes on from its last point to the first, smoothly")
-              .on_off());
+    path_fields(visit);
     visit(base::field("normal", normal,
                       "of a plane curve: direction across its plane in the first marker's axes, "
                       "along which the second marker may move as well")

@@ -40,7 +40,7 @@ void require_points(const std::vector<Vector3d>& points, bool is_closed) {
 }  // namespace
 
 SpaceCurve::SpaceCurve(const std::vector<Vector3d>& points, bool is_closed)
-    : is_closed_(is_closed), samples_(kSamplesPerPoint * static_cast<int>(points.size())) {
+    : is_closed_(is_closed) {
   require_points(points, is_closed);
   const std::size_t count = points.size();
   const auto point = [&](long i) {
@@ -64,19 +64,42 @@ SpaceCurve::SpaceCurve(const std::vector<Vector3d>& points, bool is_closed)
     laws_[k] =
         base::TimeLaw::table(s, values[k], base::Interpolation::spline, base::Extrapolation::hold);
   }
+  sample(0.0, length_, kSamplesPerPoint * static_cast<int>(count));
+}
+
+SpaceCurve::SpaceCurve(const CurvePieces& pieces, bool is_closed)
+    : pieces_(pieces), length_(pieces.length()), is_closed_(is_closed) {
+  if (is_closed) pieces_.require_closed();
+  for (const CurvePieces::Piece& piece : pieces_.all()) {
+    const double turn = piece.radius > 0.0 ? (piece.to - piece.from) / piece.radius : 0.0;
+    sample(piece.from, piece.to, kSamplesPerPoint * (1 + static_cast<int>(turn)));
+  }
+}
+
+void SpaceCurve::sample(double from, double to, int count) {
+  for (int k = 0; k <= count; ++k) {
+    sampled_.push_back(from + (to - from) * k / count);
+    places_.push_back(at(sampled_.back()).p);
+  }
+}
+
+SpaceCurve::Point SpaceCurve::inside(double s) const {
+  if (!pieces_.empty()) return pieces_.at(s);
+  Point out;
+  for (int k = 0; k < 3; ++k) {
+    const base::TimeLaw& law = laws_[static_cast<std::size_t>(k)];
+    out.p[k] = law.value(s);
+    out.tangent[k] = law.rate(s);
+    out.curvature[k] = law.acceleration(s);
+  }
+  return out;
 }
 
 SpaceCurve::Point SpaceCurve::at(double s) const {
   double inside = is_closed_ ? s - length_ * std::floor(s / length_) : std::clamp(s, 0.0, length_);
   // At the very end of a table that is held its rate is that beyond.
   if (!is_closed_) inside = std::min(inside, std::nextafter(length_, 0.0));
-  Point out;
-  for (int k = 0; k < 3; ++k) {
-    const base::TimeLaw& law = laws_[static_cast<std::size_t>(k)];
-    out.p[k] = law.value(inside);
-    out.tangent[k] = law.rate(inside);
-    out.curvature[k] = law.acceleration(inside);
-  }
+  Point out = this->inside(inside);
   if (!is_closed_ && s != inside && (s < 0.0 || s > length_)) {
     out.p += (s - inside) * out.tangent;
     out.curvature.setZero();
@@ -103,12 +126,11 @@ double SpaceCurve::nearest(const Vector3d& place, const Vector3d& across, double
 double SpaceCurve::nearest(const Vector3d& place, const Vector3d& across) const {
   double best = 0.0;
   double least = HUGE_VAL;
-  for (int k = 0; k <= samples_; ++k) {
-    const double s = length_ * k / samples_;
-    const double distance = flat(place - at(s).p, across).squaredNorm();
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const double distance = flat(place - places_[k], across).squaredNorm();
     if (distance >= least) continue;
     least = distance;
-    best = s;
+    best = sampled_[k];
   }
   return nearest(place, across, best);
 }

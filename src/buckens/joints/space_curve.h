@@ -2,30 +2,32 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "buckens/base/time_law.h"
+#include "buckens/joints/curve_pieces.h"
 
 namespace buckens::joints {
 
-/// A smooth curve through points: cubic splines of the length along the chords, natural at the ends
-/// of an open curve.
+/// A smooth curve: cubic splines through points, of the length along the chords, natural at the
+/// ends of an open curve; or straight lines and arcs one after the other, of the length along them.
 ///
 /// Beyond the ends of an open curve it goes on straight, so that an iteration may look there; a
 /// closed one is periodic.
 class SpaceCurve {
  public:
-  struct Point {
-    Eigen::Vector3d p, tangent, curvature;  ///< c, c′, c″ by the parameter
-  };
+  using Point = CurvePoint;
 
   /// @param points two or more, of a closed curve three or more; neighbours apart
   /// @throws ModelError if there are too few, or two in a row are the same
   SpaceCurve(const std::vector<Eigen::Vector3d>& points, bool is_closed);
+  /// @throws ModelError if they do not meet smoothly
+  SpaceCurve(const CurvePieces& pieces, bool is_closed);
 
-  /// @param s length along the chords from the first point [m]
+  /// @param s length from the first point [m]
   Point at(double s) const;
 
   double length() const { return length_; }
@@ -38,10 +40,16 @@ class SpaceCurve {
   double nearest(const Eigen::Vector3d& place, const Eigen::Vector3d& across) const;
 
  private:
-  std::array<base::TimeLaw, 3> laws_;
+  Point inside(double s) const;
+  /// Points from which the nearest is sought.
+  void sample(double from, double to, int count);
+
+  std::array<base::TimeLaw, 3> laws_;  // of a spline
+  CurvePieces pieces_;
   double length_ = 0;
   bool is_closed_ = false;
-  int samples_ = 0;
+  std::vector<double> sampled_;
+  std::vector<Eigen::Vector3d> places_;
 };
 
 }  // namespace buckens::joints

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "buckens/base/motion_dimensions.h"
-#include "buckens/base/time_law.h"
+#include "buckens/joints/drive_laws.h"
 #include "buckens/joints/joint_ends.h"
 
 namespace buckens::joints {
@@ -18,10 +18,10 @@ struct SliderOnBeamSpec : JointEnds {
   static constexpr const char* kDoc =
       "a point that slides along a flexible beam, deformed as it is; all rotations are free";
   static constexpr bool kSlides = true;
-  std::optional<std::string> from, to;        ///< nodes of the beam
-  std::optional<base::TimeLaw> displacement;  ///< along the beam, from as placed [m]
-  std::optional<base::TimeLaw> velocity;      ///< [m/s]
-  std::optional<base::TimeLaw> acceleration;  ///< [m/s²]
+  std::optional<std::string> from, to;          ///< nodes of the beam
+  std::optional<base::SignalLaw> displacement;  ///< along the beam, from as placed [m]
+  std::optional<base::SignalLaw> velocity;      ///< [m/s]
+  std::optional<base::SignalLaw> acceleration;  ///< [m/s²]
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -35,31 +35,33 @@ struct SliderOnBeamSpec : JointEnds {
     visit(base::field("to", to, "node where the way ends")
               .like("end")
               .otherwise("the other end of the only line of beams"));
-    visit(
-        base::field("displacement", displacement,
-                    "drives the slider: its way along the undeformed beam from where it is placed")
-            .in(base::kLength)
-            .like("\"2*t m\"")
-            .otherwise("it slides freely"));
-    visit(base::field("velocity", velocity,
-                      "drives the slider along the beam; its way is the integral from t = 0")
-              .in(base::kVelocity)
-              .like("20 m/s")
+    visit(base::field(
+              "displacement", displacement,
+              "drives the slider: its way along the undeformed beam from where it is placed; a "
+              "formula of t and signals whose rate has no jumps: of states of blocks, no "
+              "measured places or velocities")
+              .in(base::kLength)
+              .like("\"2*t m\"")
               .otherwise("it slides freely"));
-    visit(base::field("acceleration", acceleration,
-                      "drives the slider along the beam; it begins at rest")
+    visit(
+        base::field(
+            "velocity", velocity,
+            "drives the slider along the beam; its way is the integral from t = 0; a formula of t "
+            "and signals, but of measured velocities and forces only behind a `lag` or "
+            "an `integral`")
+            .in(base::kVelocity)
+            .like("20 m/s")
+            .otherwise("it slides freely"));
+    visit(base::field(
+              "acceleration", acceleration,
+              "drives the slider along the beam, a formula of t and signals; it begins at rest")
               .in(base::kAcceleration)
               .like("2 m/s^2")
               .otherwise("it slides freely"));
   }
 
-  bool is_driven() const { return displacement || velocity || acceleration; }
-  /// The way as a law of time.
-  base::TimeLaw way() const {
-    if (velocity) return base::TimeLaw::integral(*velocity);
-    if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(*acceleration));
-    return displacement.value_or(base::TimeLaw());
-  }
+  DriveLaws laws() const { return {displacement, velocity, acceleration}; }
+  bool is_driven() const { return laws().num_given() > 0; }
 };
 
 struct RollingSpec : JointEnds {

@@ -14,6 +14,8 @@ Vector least_norm_solution(const SparseMatrix& A, const Vector& b, double tolera
   for (int k = 0; k < equations.outerSize(); ++k) {
     longest = std::max(longest, equations.col(k).norm());
   }
+  // Nothing is held: of joints that have all let go. SPQR refuses matrices without entries.
+  if (longest == 0.0) return Vector::Zero(A.cols());
   return least_norm(equations, b, tolerance * longest);
 }
 

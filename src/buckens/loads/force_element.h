@@ -118,6 +118,10 @@ class ForceElement {
   virtual int num_states() const { return 0; }
   /// Writes these states as they are before the first step. @param states all zero
   virtual void start_states(const Sight& /*sight*/, double* /*states*/) const {}
+  /// The same when an event switches it on during a run. @param states all zero
+  virtual void restart_states(const Sight& sight, double* states) const {
+    start_states(sight, states);
+  }
   /// Writes these states as they are at the end of a step.
   /// @param sight at the end, with the states at the start
   virtual void find_states(const Sight& /*sight*/, double* /*states*/) const {}

@@ -13,9 +13,15 @@ namespace buckens::loads {
 // Laws on the coordinate of a joint: its angle, including whole turns, or its displacement. Both
 // are zero as placed.
 
+/// Which angle, of joints that turn about two axes.
+enum class AngleChoice { angle, second_angle };
+
+constexpr std::array<const char*, 2> choice_names(AngleChoice) { return {"angle", "second-angle"}; }
+
 /// What all of them have in common.
 struct JointLaw {
   std::string joint;
+  AngleChoice which = AngleChoice::angle;
 
   template <class Visitor>
   void joint_fields(Visitor& visit, bool turns) {
@@ -24,6 +30,10 @@ struct JointLaw {
                             : "name of a joint that slides along an axis")
               .required()
               .like(turns ? "hinge" : "slide"));
+    if (!turns) return;
+    visit(base::field("which", which,
+                      "of universal joints: `angle` about the arm that the first body holds, or "
+                      "`second-angle` about that of the second"));
   }
 };
 

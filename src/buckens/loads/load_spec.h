@@ -14,6 +14,7 @@
 #include "buckens/base/time_law.h"
 #include "buckens/loads/belt_spec.h"
 #include "buckens/loads/cable_spec.h"
+#include "buckens/loads/cam_spec.h"
 #include "buckens/loads/contact_spec.h"
 #include "buckens/loads/distributed_load_spec.h"
 #include "buckens/loads/elastic_gear_spec.h"
@@ -148,7 +149,7 @@ struct LoadSpec {
                SlideSpringSpec, HingeStopSpec, SlideStopSpec, HingeFrictionSpec, SlideFrictionSpec,
                RopeSpec, HingeMotorSpec, SlideMotorSpec, BallFrictionSpec, HingeBrakeSpec,
                SlideBrakeSpec, ContactSpec, ContactsSpec, ElasticBeltSpec, CableSpec,
-               ElasticGearSpec>
+               ElasticGearSpec, CamSpec>
       kind;
 
   /// Key of the kind in the model file.

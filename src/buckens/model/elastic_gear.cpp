@@ -29,7 +29,8 @@ std::array<ElasticGear::Flank, 2> ElasticGear::look(const Sight& sight) const {
     const joints::RowValue row = mesh_.evaluate(sight.first, sight.second, states.data());
     Flank& flank = out[k];
     flank.J = kSides[k] * row.J;
-    flank.depth = kSides[k] * row.g - 0.5 * data_.play;
+    const double middle = sight.states != nullptr ? sight.states[4] : meshed_at(row.g);
+    flank.depth = kSides[k] * (row.g - middle) - 0.5 * data_.play;
     flank.rate = flank.J.dot(V);
     if (!flank.touches()) continue;
     const double elastic = data_.stiffness * flank.depth;
@@ -79,10 +80,34 @@ void ElasticGear::append_tangent(const Sight& sight, std::vector<SoftRow>& rows)
   }
 }
 
+ElasticGear::Reading ElasticGear::read(const Sight& sight) const {
+  Reading out;
+  const std::array<Flank, 2> flanks = look(sight);
+  for (std::size_t k = 0; k < flanks.size(); ++k) {
+    const Flank& flank = flanks[k];
+    if (!flank.touches()) continue;
+    const double push = data_.stiffness * flank.depth + flank.viscous;
+    out.force += kSides[k] * push / data_.cosine;
+    out.deflection += kSides[k] * flank.depth * data_.cosine;
+  }
+  return out;
+}
+
+double ElasticGear::meshed_at(double g) const {
+  return mesh_.pitch() * std::round(g / mesh_.pitch());
+}
+
 void ElasticGear::start_states(const Sight& sight, double* states) const {
   Sight fresh = sight;
   fresh.states = nullptr;
   find_states(fresh, states);
+  states[4] = meshed_at(mesh_.evaluate(sight.first, sight.second, states).g);
+}
+
+void ElasticGear::restart_states(const Sight& sight, double* states) const {
+  start_states(sight, states);
+  states[4] = 0.0;
+  states[4] = mesh_.evaluate(sight.first, sight.second, states).g;
 }
 
 void ElasticGear::find_states(const Sight& sight, double* states) const {
@@ -90,7 +115,9 @@ void ElasticGear::find_states(const Sight& sight, double* states) const {
   if (sight.states != nullptr) std::copy_n(sight.states, 4, before.begin());
   mesh_.follow(sight.first, sight.second, 0.0, sight.states != nullptr ? before.data() : nullptr,
                after.data());
+  const double middle = sight.states != nullptr ? sight.states[4] : 0.0;
   std::copy_n(after.begin(), 4, states);
+  states[4] = middle;
 }
 
 }  // namespace buckens::model

@@ -13,14 +13,16 @@ namespace buckens::model {
 /// The gap of a flank is measured by the row of a gear joint, eq. (R8), as if this flank carried:
 /// x = ±g − j/2 along the line of action, j being the play there. Where x > 0 the flank pushes with
 /// k x + c ẋ, never pulls, and its damper gives at most the force of its spring. Both flanks can
-/// carry where centres come too near. States: the angles of both gears, as of the joint.
-/// Theory: docs/theory/22-rows.md §7.
+/// carry where centres come too near. States: the angles of both gears, as of the joint, and g
+/// where the teeth are in the middle of their play: a whole number of pitches, or where they were
+/// when they were switched on. Theory: docs/theory/22-rows.md §7.
 class ElasticGear final : public loads::ForceElement {
  public:
   struct Data {
     double stiffness = 0;  ///< along the line of action [N/m]
     double damping = 0;    ///< the same [N s/m]
     double play = 0;       ///< j [m]
+    double cosine = 1;     ///< cos β_b, from the line of action to the normal of the flanks
   };
   /// @throws ModelError if the centres coincide across the axis
   ElasticGear(const joints::GearMesh::Data& mesh, const Data& data)
@@ -32,9 +34,18 @@ class ElasticGear final : public loads::ForceElement {
   loads::Action respond(const loads::Sight& sight) const override;
   int num_soft_rows() const override { return 2; }
   void append_tangent(const loads::Sight& sight, std::vector<loads::SoftRow>& rows) const override;
-  int num_states() const override { return 4; }
+  int num_states() const override { return 5; }
   void start_states(const loads::Sight& sight, double* states) const override;
+  /// Teeth meet in the middle of their play, wherever gears have turned to.
+  void restart_states(const loads::Sight& sight, double* states) const override;
   void find_states(const loads::Sight& sight, double* states) const override;
+
+  /// Both normal to the flanks, positive where g > 0.
+  struct Reading {
+    double force = 0;       ///< [N]
+    double deflection = 0;  ///< [m]
+  };
+  Reading read(const loads::Sight& sight) const;
 
   /// Of the gears, unit vector in the first marker.
   const Eigen::Vector3d& axis() const { return axis_F_; }
@@ -50,6 +61,8 @@ class ElasticGear final : public loads::ForceElement {
     bool touches() const { return depth > 0.0; }
   };
   std::array<Flank, 2> look(const loads::Sight& sight) const;
+  /// The gap g in the middle of the play that is nearest.
+  double meshed_at(double g) const;
 
   joints::GearMesh mesh_;
   Data data_;

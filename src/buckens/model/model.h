@@ -46,6 +46,8 @@ struct Joint {
   joints::JointType type = joints::JointType::fixed;
   MarkerId first, second;
   Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();
+  /// Of a universal joint: the arm that the second body holds, as placed, unit vector in F.
+  Eigen::Vector3d arm_F = Eigen::Vector3d::Zero();
   std::vector<joints::ConstraintRow> rows;
   int first_row = 0;    ///< of λ
   int first_state = 0;  ///< of its rows in RowMemory::rows
@@ -72,7 +74,7 @@ struct Coordinate {
 
 /// A joint that is driven by a signal.
 struct Drive {
-  int joint = 0;   ///< index into Model::joints; its only row is steered
+  int joint = 0;   ///< index into Model::joints; its last row is steered
   int signal = 0;  ///< index into SignalSet::all: its angle [rad] or displacement [m]
 };
 

@@ -31,7 +31,8 @@ constexpr std::string_view kLimits =
 constexpr std::string_view kGears =
     "transmissions are the joints `gear`, `rack`, `belt` and `coupler` here";
 constexpr std::string_view kCam =
-    "a cam and its follower are the joint `slot` here, with `closed: on` for a cam all around";
+    "a cam that guides its follower both ways is the joint `slot` here, one that the follower can "
+    "leave is the load `cam`";
 constexpr std::string_view kControl =
     "a controller is one of the `signals` here, such as a `pid`; the loads `hinge-motor` and "
     "`slide-motor` take their torque or force from it";

@@ -35,8 +35,9 @@ std::unique_ptr<Sensor> make_coordinate_sensor(const model::BuiltModel& built,
                                                std::size_t coordinate) {
   const model::Coordinate& seen = built.model.coordinates[coordinate];
   const std::string& joint = built.model.joints[static_cast<std::size_t>(seen.joint)].name;
-  const bool is_angle = seen.law.kind() == joints::JointCoordinate::Kind::angle;
-  const char* what = is_angle ? "angle" : "displacement";
+  const bool is_angle = seen.law.is_angle();
+  const bool is_second = seen.law.kind() == joints::JointCoordinate::Kind::second_angle;
+  const char* what = is_second ? "second angle" : is_angle ? "angle" : "displacement";
   const std::string path = "sensors/" + spec.name;
   return std::make_unique<CoordinateSensor>(
       std::vector<Channel>{{path + ".value",

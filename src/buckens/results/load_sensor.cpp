@@ -57,8 +57,7 @@ class LoadSensor final : public Sensor {
 /// Whether a force element acts by a torque alone.
 bool turns(const model::Model& model, const model::Load& load) {
   if (load.coordinate < 0) return load.kind == "torsional-spring";
-  return model.coordinates[static_cast<std::size_t>(load.coordinate)].law.kind() ==
-         joints::JointCoordinate::Kind::angle;
+  return model.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
 }
 
 }  // namespace

@@ -244,7 +244,8 @@ Geometry model_geometry(const model::Model& model) {
                           load.kind == loads::CableSpec::kKey ||
                           load.kind == loads::ElasticBeltSpec::kKey;
     // What rubs in a joint is where the joint is drawn, too.
-    const bool is_in_joint = (load.coordinate >= 0 && !is_rope) || load.joint >= 0;
+    const bool is_cam = load.kind == loads::CamSpec::kKey;
+    const bool is_in_joint = (load.coordinate >= 0 && !is_rope && !is_cam) || load.joint >= 0;
     if (load.element->num_soft_rows() == 0 || is_drawn || is_in_joint) continue;
     if (const auto* teeth = dynamic_cast<const model::ElasticGear*>(load.element.get())) {
       out.joints.push_back({load.name,
@@ -256,6 +257,7 @@ Geometry model_geometry(const model::Model& model) {
     out.joints.push_back({load.name,
                           load.is_among_joints ? load.kind
                           : is_rope            ? joints::to_string(joints::JointType::distance)
+                          : is_cam             ? joints::to_string(joints::JointType::slot)
                                                : "spring-damper",
                           {side_of(model, load.first), side_of(model, load.second)},
                           Vector3d::UnitZ()});

@@ -20,6 +20,7 @@
 #include "buckens/results/coordinate_sensor.h"
 #include "buckens/results/deflection_sensor.h"
 #include "buckens/results/divided_body.h"
+#include "buckens/results/gear_sensor.h"
 #include "buckens/results/load_sensor.h"
 #include "buckens/results/model_geometry.h"
 #include "buckens/results/signal_sensor.h"
@@ -395,6 +396,9 @@ class Maker {
   }
   std::unique_ptr<Sensor> operator()(const model::CableSensor& s) const {
     return make_cable_sensor(built_, spec_, s.cable);
+  }
+  std::unique_ptr<Sensor> operator()(const model::GearSensor& s) const {
+    return make_gear_sensor(built_, spec_, s.gear);
   }
   std::unique_ptr<Sensor> operator()(const model::BeltSensor& s) const {
     return make_belt_sensor(built_, spec_, s.belt);

@@ -70,8 +70,8 @@ std::optional<SpringSensor::Part> part_of(const model::Model& model, const model
   using Part = SpringSensor::Part;
   const loads::ForceElement& element = *load.element;
   if (load.coordinate >= 0) {
-    const auto kind = model.coordinates[static_cast<std::size_t>(load.coordinate)].law.kind();
-    const bool is_torque = kind == joints::JointCoordinate::Kind::angle;
+    const bool is_torque =
+        model.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
     return torque == is_torque ? std::optional(Part::coordinate) : std::nullopt;
   }
   if (dynamic_cast<const loads::Bushing*>(&element) != nullptr) {

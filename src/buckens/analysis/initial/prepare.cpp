@@ -73,8 +73,7 @@ std::vector<char> released_at_start(const model::BuiltModel& built) {
 model::RowMemory memory_at_start(const model::BuiltModel& built,
                                  const std::vector<dynamics::BodyMotion>& motions) {
   const model::Model& model = built.model;
-  model::RowMemory out = dynamics::start_memory(model, motions);
-  out.released = released_at_start(built);
+  model::RowMemory out = dynamics::start_memory(model, motions, released_at_start(built));
   for (const std::string& name : built.description.initial.off) {
     out.off.resize(model.loads.size(), 0);
     for (std::size_t k = 0; k < model.loads.size(); ++k) {

@@ -30,7 +30,7 @@ StartRows::StartRows(const model::Model& model, const std::vector<model::StartCo
 
 bool StartRows::is_angle(const model::StartCoordinate& start) const {
   const auto index = static_cast<std::size_t>(start.coordinate);
-  return model_.coordinates[index].law.kind() == joints::JointCoordinate::Kind::angle;
+  return model_.coordinates[index].law.is_angle();
 }
 
 StartRows::Seen StartRows::look(const model::StartCoordinate& start,
@@ -105,8 +105,7 @@ void count_start_turns(const std::vector<model::StartCoordinate>& starts, const 
                        model::RowMemory& memory) {
   for (const model::StartCoordinate& start : starts) {
     const auto index = static_cast<std::size_t>(start.coordinate);
-    const bool is_angle =
-        model.coordinates[index].law.kind() == joints::JointCoordinate::Kind::angle;
+    const bool is_angle = model.coordinates[index].law.is_angle();
     if (!is_angle || !start.value) continue;
     joints::CountedValue& counted = memory.coordinates[index];
     counted.turns = static_cast<int>(std::lround((*start.value - counted.fraction) / kTurn));

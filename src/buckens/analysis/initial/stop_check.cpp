@@ -27,18 +27,18 @@ void refuse_beyond_stops(const model::Model& model, const model::State& state) {
                                     dynamics::evaluate_marker(model, load.second, motions).motion)
             .value;
     const auto* law = static_cast<const loads::RigidLaw*>(load.element.get());
-    const bool is_angle =
-        model.coordinates[coordinate].law.kind() == joints::JointCoordinate::Kind::angle;
+    const bool is_angle = model.coordinates[coordinate].law.is_angle();
     const auto contact = law->contact(value);
     if (contact.regime == 0 || contact.gap >= -kOnTheStop * (is_angle ? 1.0 : model.length)) {
       continue;
     }
     throw ModelError(fmt::format(
-        "load \"{}\": its joint stands at {:.6g} {}, {:.3g} beyond the end of its free way; a "
+        "load \"{}\": {} at {:.6g} {}, {:.3g} beyond the end of its free way; a "
         "rigid "
         "stop can neither push it back nor hold it in static analyses; start within the stops, or "
         "give this one a `stiffness`",
-        load.name, value, is_angle ? "rad" : "m", -contact.gap));
+        load.name, load.joint >= 0 ? "its joint stands" : "its markers stand", value,
+        is_angle ? "rad" : "m", -contact.gap));
   }
 }
 

@@ -45,10 +45,7 @@ DriveLaws::DriveLaws(const model::ModelDescription& description) {
     } else if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
       take(push->laws(), joint, "m");
     } else if (const auto* slide = std::get_if<joints::SliderOnBeamSpec>(&joint.kind)) {
-      const base::TimeLaw law = slide->way();
-      if (slide->is_driven() && !law.is_constant()) {
-        drives_.push_back({joint.name, joint.where, law, "m"});
-      }
+      if (slide->is_driven()) take(slide->laws(), joint, "m");
     }
   }
 }

@@ -31,9 +31,12 @@ double kinetic_energy(const model::Model& model, const model::State& state) {
   return dynamics::energy(model, state).kinetic;
 }
 
+/// Without any mark the list is empty, as it is restored: one of zeros would count as another one,
+/// and rows be selected anew.
 void mark(std::vector<char>& marks, std::size_t count, std::size_t which, bool is_marked) {
   marks.resize(count, 0);
   marks[which] = is_marked ? 1 : 0;
+  if (std::count(marks.begin(), marks.end(), 1) == 0) marks.clear();
 }
 
 }  // namespace
@@ -103,7 +106,7 @@ void EventActions::switch_loads(const std::vector<std::string>& names, bool on,
       states.setZero();
       if (!on) continue;
       const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, &state.memory);
-      load.element->start_states(
+      load.element->restart_states(
           dynamics::sight_of(model, k, state.t, dynamics::circumstances_of(state), ends),
           states.data());
     }
@@ -148,6 +151,16 @@ void EventActions::attach_joint(const std::string& name, const model::EventSpec&
     const model::Joint& joint = model.joints[j];
     if (joint.name != name || joint.is_tie || !state.memory.is_released(j)) continue;
     mark(state.memory.released, model.joints.size(), j, false);
+    const auto motions = dynamics::motions_of(model, state);
+    int place = joint.first_state;
+    for (const joints::ConstraintRow& row : joint.rows) {
+      if (row.law() != nullptr) {
+        row.law()->attach(dynamics::evaluate_marker(model, joint.first, motions).motion,
+                          dynamics::evaluate_marker(model, joint.second, motions).motion,
+                          state.memory.rows.data() + place);
+      }
+      place += row.num_states();
+    }
     dynamics::Constraints now;
     dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
                                    &state.memory, now);
@@ -164,7 +177,8 @@ void EventActions::attach_joint(const std::string& name, const model::EventSpec&
             "event \"{}\" at t = {:.6g} s: joint \"{}\" cannot be attached, its markers are {:.3g} "
             "m "
             "apart and turned by {:.3g} degrees against each other (at most {:.3g} m and {:.3g} "
-            "degrees); let the event wait until they have met, or raise its `tolerance`",
+            "degrees); let the event wait until they have met, raise its `tolerance`, or use a "
+            "`fixed` joint that holds them `as-found`",
             event.name, state.t, name, apart, std::asin(std::min(bent, 1.0)) * kDegrees, most,
             std::asin(kBent) * kDegrees));
   }

@@ -20,8 +20,11 @@ using Kind = joints::JointCoordinate::Kind;
 int coordinate_of(const joints::CouplerTermSpec& term, const joints::JointSpec& spec,
                   MarkerFinder& find) {
   if (term.which) {
-    const bool turns = *term.which == joints::CoordinateChoice::angle;
-    return find_coordinate(term.name, turns ? Kind::angle : Kind::displacement, find);
+    using joints::CoordinateChoice;
+    const Kind kind = *term.which == CoordinateChoice::angle          ? Kind::angle
+                      : *term.which == CoordinateChoice::displacement ? Kind::displacement
+                                                                      : Kind::second_angle;
+    return find_coordinate(term.name, kind, find);
   }
   const auto& joints = find.model().joints;
   const auto owner = std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) {
@@ -67,7 +70,7 @@ void add_coupler(const joints::JointSpec& spec, MarkerFinder& find) {
     const int index = coordinate_of(term, spec, find);
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     const Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
-    const bool turns = coordinate.law.kind() == Kind::angle;
+    const bool turns = coordinate.law.is_angle();
     find.require_moment(owner.first, what, spec.where);
     if (turns) find.require_moment(owner.second, what, spec.where);
     if (coupler.coupled.empty()) {

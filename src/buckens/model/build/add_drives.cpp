@@ -24,6 +24,7 @@ joints::DriveLaws laws_of(const joints::JointSpec& joint) {
   if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
     return push->laws();
   }
+  if (const auto* slide = std::get_if<joints::SliderOnBeamSpec>(&joint.kind)) return slide->laws();
   return {kNone, kNone, kNone};
 }
 
@@ -216,7 +217,7 @@ void settle_drives(const ModelDescription& description, Model& model) {
   model.signals.steering = steering_signals(model);
   const std::vector<double> values = start_values(model);
   for (const Drive& drive : model.drives) {
-    joints::ConstraintRow& row = model.joints[static_cast<std::size_t>(drive.joint)].rows.front();
+    joints::ConstraintRow& row = model.joints[static_cast<std::size_t>(drive.joint)].rows.back();
     row = row.steered(values[static_cast<std::size_t>(drive.signal) + 1]);
   }
 }

@@ -100,7 +100,7 @@ void set_gear_teeth(const loads::ElasticGearSpec& spec, MarkerFinder& find, Load
   const double normal = 1.0 - sine * sine;
   const double transverse = std::atan(std::tan(spec.pressure_angle) / std::cos(spec.helix_angle));
   const ElasticGear::Data data{spec.stiffness * normal, spec.damping * normal,
-                               spec.backlash * std::cos(transverse)};
+                               spec.backlash * std::cos(transverse), std::sqrt(normal)};
   try {
     load.element = std::make_unique<ElasticGear>(mesh, data);
   } catch (const ModelError& error) {

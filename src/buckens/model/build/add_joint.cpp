@@ -9,10 +9,21 @@
 #include "buckens/loads/bushing.h"
 #include "buckens/model/build/add_coupler.h"
 #include "buckens/model/build/add_slider.h"
+#include "buckens/model/build/curve_of_path.h"
 
 namespace buckens::model {
 
 namespace {
+
+// Sine of the angle up to which the axis of a drive is that of an arm.
+constexpr double kAlongArm = 1e-4;
+
+/// Whether both are the same marker, or the same frame of the ground.
+bool are_one(const MarkerId& a, const MarkerId& b) {
+  if (a.body != b.body) return false;
+  if (a.body != kGround) return a.marker == b.marker;
+  return a.X_WF.p == b.X_WF.p && a.X_WF.q.coeffs() == b.X_WF.q.coeffs();
+}
 
 class JointBuilder {
  public:
@@ -87,9 +98,14 @@ class JointBuilder {
     if constexpr (requires { kind.length; }) placement.length = kind.length;
     if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;
     place_teeth(kind, placement);
+    if constexpr (requires { kind.as_found; }) placement.as_found = kind.as_found;
+    if constexpr (requires { kind.laws(); }) {
+      if (type == joints::JointType::prescribed_rotation) place_mark(joint, what, spec, placement);
+    }
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
+      if (type == joints::JointType::universal) joint.arm_F = placement.second_axis_F->normalized();
       if (type == joints::JointType::rolling) joint.axis_F = axle_M(placement);
       if (type == joints::JointType::belt) {
         joint.pulleys = {placement.sizes[0],
@@ -105,6 +121,31 @@ class JointBuilder {
     joint.where = spec.where;
     joint.first_row = find_.model().num_constraint_rows();
     find_.model().joints.push_back(std::move(joint));
+  }
+
+  /// A drive between the markers of a cross joint counts the angle about the arm of its first
+  /// marker by where the other arm is: nothing else stays across this axis.
+  void place_mark(const Joint& drive, const std::string& what, const joints::JointSpec& spec,
+                  joints::Placement& placement) {
+    for (const Joint& cross : find_.model().joints) {
+      if (cross.type != joints::JointType::universal) continue;
+      const bool is_same = are_one(cross.first, drive.first) && are_one(cross.second, drive.second);
+      const bool is_swapped =
+          are_one(cross.first, drive.second) && are_one(cross.second, drive.first);
+      if (!is_same && !is_swapped) continue;
+      const Eigen::Matrix3d R_FC = placement.R_WF.transpose() * find_.placed(cross.first).R();
+      const Eigen::Vector3d own = R_FC * (is_same ? cross.axis_F : cross.arm_F);
+      const Eigen::Vector3d other = R_FC * (is_same ? cross.arm_F : cross.axis_F);
+      const Eigen::Vector3d axis = joints::unit_axis(placement);
+      if (axis.cross(own).norm() <= kAlongArm) placement.mark_F = other;
+      if (axis.cross(other).norm() > kAlongArm) continue;
+      throw ModelError(
+          spec.where,
+          fmt::format(
+              "{}: its axis is the arm of joint \"{}\" that the second marker holds, and an "
+              "axis is fixed in the first; swap the markers of `between`",
+              what, cross.name));
+    }
   }
 
   /// Axis of a wheel in its own marker.
@@ -127,6 +168,8 @@ class JointBuilder {
     }
     if constexpr (requires { kind.path; }) {
       placement.path = kind.path;
+      placement.path_start = kind.start.value_or(Eigen::Vector3d::Zero());
+      placement.path_steps = curve_steps(kind);
       placement.is_closed = kind.closed;
       placement.path_normal_F = kind.normal;
     }

@@ -79,7 +79,10 @@ class JointLawBuilder {
   template <class Spec>
   void add(const Spec& kind) {
     Model& model = find_.model();
-    const Kind asked = Spec::kTurns ? Kind::angle : Kind::displacement;
+    const bool is_second = kind.which == loads::AngleChoice::second_angle;
+    const Kind asked = !Spec::kTurns ? Kind::displacement
+                       : is_second   ? Kind::second_angle
+                                     : Kind::angle;
     const int index = find_coordinate(kind.joint, asked, find_);
     if (index < 0) {
       throw ModelError(spec_.where, fmt::format("load \"{}\": there is no joint \"{}\"", spec_.name,
@@ -145,7 +148,7 @@ class JointLawBuilder {
     if (kind.stiffness) {
       return std::make_shared<loads::CoordinateStop>(from, to, *kind.stiffness, kind.damping);
     }
-    const bool turns = coordinate.law.kind() == Kind::angle;
+    const bool turns = coordinate.law.is_angle();
     const double threshold =
         kind.threshold.value_or(loads::RigidStop::kAtRest * (turns ? 1.0 : length_));
     return std::make_shared<loads::RigidStop>(from, to, kind.restitution.value_or(0.0), threshold);
@@ -194,6 +197,19 @@ class JointLawBuilder {
   double length_;
 };
 
+joints::JointCoordinate law_of(const Joint& joint, Kind kind, MarkerFinder& find) {
+  using joints::JointCoordinate;
+  const joints::Placement placed = find.placement(joint.first, joint.second);
+  const Matrix3d R_FM = placed.R_WF.transpose() * placed.R_WM;
+  if (joint.type == joints::JointType::universal) {
+    return kind == Kind::second_angle
+               ? JointCoordinate::second_angle(joint.axis_F, joint.arm_F, R_FM)
+               : JointCoordinate::first_angle(joint.axis_F, joint.arm_F, R_FM);
+  }
+  return kind == Kind::angle ? JointCoordinate::angle(joint.axis_F, R_FM)
+                             : JointCoordinate::displacement(joint.axis_F, placed.r_F);
+}
+
 }  // namespace
 
 int find_coordinate(const std::string& joint, Kind kind, MarkerFinder& find) {
@@ -213,12 +229,7 @@ int find_coordinate(const std::string& joint, Kind kind, MarkerFinder& find) {
          joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero())});
     return static_cast<int>(model.coordinates.size()) - 1;
   }
-  const joints::Placement placed = find.placement(owner->first, owner->second);
-  model.coordinates.push_back(
-      {index, owner->first, owner->second,
-       kind == Kind::angle
-           ? joints::JointCoordinate::angle(owner->axis_F, placed.R_WF.transpose() * placed.R_WM)
-           : joints::JointCoordinate::displacement(owner->axis_F, placed.r_F)});
+  model.coordinates.push_back({index, owner->first, owner->second, law_of(*owner, kind, find)});
   return static_cast<int>(model.coordinates.size()) - 1;
 }
 
@@ -232,8 +243,11 @@ bool is_joint_law(const loads::LoadSpec& spec) {
 
 void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find) {
   Model& model = find.model();
-  for (const Kind kind : {Kind::angle, Kind::displacement}) {
-    if (!(kind == Kind::angle ? joint.turns() : joint.slides())) continue;
+  for (const Kind kind : {Kind::angle, Kind::displacement, Kind::second_angle}) {
+    const bool is_there = kind == Kind::angle          ? joint.turns()
+                          : kind == Kind::displacement ? joint.slides()
+                                                       : joint.turns_twice();
+    if (!is_there) continue;
     const int index = find_coordinate(joint.name, kind, find);
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     if (model.joints[static_cast<std::size_t>(coordinate.joint)].track) {

@@ -16,6 +16,7 @@
 #include "buckens/loads/spring_damper.h"
 #include "buckens/model/build/add_belt.h"
 #include "buckens/model/build/add_cable.h"
+#include "buckens/model/build/add_cam.h"
 #include "buckens/model/build/add_contact.h"
 #include "buckens/model/build/add_contacts.h"
 #include "buckens/model/build/add_gear_teeth.h"
@@ -60,6 +61,8 @@ class LoadBuilder {
       set_belt(*belt, find_, load, spec.where);
     } else if (const auto* cable = std::get_if<loads::CableSpec>(&spec.kind)) {
       set_cable(*cable, find_, load, spec.where);
+    } else if (const auto* cam = std::get_if<loads::CamSpec>(&spec.kind)) {
+      set_cam(*cam, find_, load, spec.where);
     } else if (const auto* teeth = std::get_if<loads::ElasticGearSpec>(&spec.kind)) {
       set_gear_teeth(*teeth, find_, load, spec.where);
     } else if (const auto* ball = std::get_if<loads::BallFrictionSpec>(&spec.kind)) {

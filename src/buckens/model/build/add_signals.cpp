@@ -97,6 +97,8 @@ class SignalBuilder {
     if (spec_.value) out_.input = *spec_.value;
     coordinate(spec_.joint_angle, Kind::angle, Signal::Kind::coordinate);
     coordinate(spec_.joint_speed, Kind::angle, Signal::Kind::coordinate_rate);
+    coordinate(spec_.joint_second_angle, Kind::second_angle, Signal::Kind::coordinate);
+    coordinate(spec_.joint_second_speed, Kind::second_angle, Signal::Kind::coordinate_rate);
     coordinate(spec_.joint_displacement, Kind::displacement, Signal::Kind::coordinate);
     coordinate(spec_.joint_velocity, Kind::displacement, Signal::Kind::coordinate_rate);
     marker(spec_.position, Signal::Kind::position);

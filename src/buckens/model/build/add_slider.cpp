@@ -203,7 +203,11 @@ class SliderBuilder {
   void add_rows(Joint& joint) const {
     joint.rows.push_back(joints::ConstraintRow::travelling(0));
     if (!find_.model().planar) joint.rows.push_back(joints::ConstraintRow::travelling(1));
-    if (kind_.is_driven()) joint.rows.push_back(joints::ConstraintRow::travelling(2, kind_.way()));
+    if (!kind_.is_driven()) return;
+    // What follows signals gets them when these are known, see add_drives().
+    const joints::DriveLaws laws = kind_.laws();
+    joint.rows.push_back(
+        joints::ConstraintRow::travelling(2, laws.is_steered() ? base::TimeLaw() : laws.of_time()));
   }
 
   // Of the beam's length: what counts as rounding.

@@ -18,6 +18,7 @@
 #include "buckens/model/build/add_load.h"
 #include "buckens/model/build/add_signals.h"
 #include "buckens/model/build/add_ties.h"
+#include "buckens/model/build/cross_shafts.h"
 #include "buckens/model/build/eliminate_links.h"
 #include "buckens/model/build/find_section.h"
 #include "buckens/model/build/held_damping.h"
@@ -93,6 +94,7 @@ class Builder {
       }
     }
     require_common_carriers(model_);
+    require_bent_shafts(find);
     connect_signals(d, model_);
     settle_drives(d, model_);
     number_states();
@@ -271,10 +273,11 @@ class Builder {
   /// The coordinate that a sensor of a joint means.
   joints::JointCoordinate::Kind kind_of(const JointCoordinateSensor& sensor) const {
     const auto* joint = base::find_named(out_->description.joints, sensor.joint);
-    const bool is_angle =
-        sensor.choice(joint != nullptr && joint->turns()) == CoordinateKind::angle;
-    return is_angle ? joints::JointCoordinate::Kind::angle
-                    : joints::JointCoordinate::Kind::displacement;
+    using Which = joints::JointCoordinate::Kind;
+    const CoordinateKind asked = sensor.choice(joint != nullptr && joint->turns());
+    return asked == CoordinateKind::angle          ? Which::angle
+           : asked == CoordinateKind::displacement ? Which::displacement
+                                                   : Which::second_angle;
   }
 
   /// Places of the states of joints, and of the states and rigid rows of force laws, one after the
@@ -312,8 +315,10 @@ class Builder {
       }
       out_->starts.push_back({coordinate, value, rate, spec.where});
     };
-    add(joints::JointCoordinate::Kind::angle, spec.angle, spec.speed);
-    add(joints::JointCoordinate::Kind::displacement, spec.displacement, spec.velocity);
+    using Which = joints::JointCoordinate::Kind;
+    add(Which::angle, spec.angle, spec.speed);
+    add(Which::second_angle, spec.second_angle, spec.second_speed);
+    add(Which::displacement, spec.displacement, spec.velocity);
   }
 
   // ---- sensors and drawing

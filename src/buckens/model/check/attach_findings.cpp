@@ -22,13 +22,15 @@ Found attached_problem(const std::vector<std::string>& joints, const char* key,
                                  "and off",
                                  name)};
     }
-    // Gears, racks, belts and couplers count from where they were placed; so do drives.
+    // Gears, racks, belts and couplers count from where they were placed; so do drives. Slots and
+    // wheels look anew.
     const std::string kind = joint->kind_name();
     const bool is_plain = kind == "revolute" || kind == "spherical" || kind == "prismatic" ||
                           kind == "fixed" || kind == "cylindrical" || kind == "planar" ||
                           kind == "universal" || kind == "constant-velocity" ||
                           kind == "point-on-line" || kind == "point-in-plane" ||
-                          kind == "parallel" || kind == "orientation" || kind == "distance";
+                          kind == "parallel" || kind == "orientation" || kind == "distance" ||
+                          kind == "slot" || kind == "rolling";
     if (is_plain) continue;
     return Finding{key, fmt::format("joint \"{}\" is a {}, which remembers how it was placed and "
                                     "cannot be attached during a run; use a revolute, spherical, "

@@ -91,6 +91,9 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
                                    "take; couple what moves the slider",
                                    term.name)};
   }
+  if (term.which == joints::CoordinateChoice::second_angle) {
+    return second_angle_problem(term.name, model, "which");
+  }
   const bool turns = term.which ? *term.which == joints::CoordinateChoice::angle : joint->turns();
   if (Found found = coordinate_problem(term.name, turns, model, "")) return found;
   return std::nullopt;
@@ -104,6 +107,24 @@ Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& mo
 
 Found own_joint_problem(const loads::ElasticGearSpec& spec, const ModelDescription& model) {
   return gear_problem(spec, model);
+}
+
+Found own_joint_problem(const GearSensor& spec, const ModelDescription& model) {
+  std::vector<std::string> known;
+  for (const loads::LoadSpec& load : model.loads) {
+    if (std::holds_alternative<loads::ElasticGearSpec>(load.kind)) known.push_back(load.name);
+  }
+  if (std::find(known.begin(), known.end(), spec.gear) != known.end()) return std::nullopt;
+  const auto* joint = base::find_named(model.joints, spec.gear);
+  if (joint != nullptr && std::holds_alternative<joints::GearSpec>(joint->kind)) {
+    return Finding{"gear",
+                   fmt::format("\"{}\" is a joint, whose teeth do not give way; observe its "
+                               "`joint-force`",
+                               spec.gear)};
+  }
+  return Finding{"gear", fmt::format("there is no elastic-gear \"{}\".{}", spec.gear,
+                                     known.empty() ? " The model has none."
+                                                   : base::suggestion(spec.gear, known))};
 }
 
 Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model) {

@@ -2,13 +2,12 @@
 #include "buckens/model/check/joint_findings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/model/check/give_findings.h"
 #include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/spec_findings.h"
 
@@ -32,6 +31,7 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
                        acts_on_coordinate(*load, true);
     const bool is_spring = turns || std::holds_alternative<loads::SpringDamperSpec>(load->kind) ||
                            std::holds_alternative<loads::RopeSpec>(load->kind) ||
+                           std::holds_alternative<loads::CamSpec>(load->kind) ||
                            acts_on_coordinate(*load, false);
     return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
                                         turns       ? "spring-torque"
@@ -60,26 +60,12 @@ Found coordinate_problem(const std::string& name, bool turns, const ModelDescrip
 
 namespace {
 
-/// Whether a stop or rope is asked to be elastic and rigid at once.
-template <class Spec>
-Found give_problem(const Spec& spec) {
-  if (spec.stiffness && (spec.restitution || spec.threshold)) {
-    return Finding{spec.restitution ? "restitution" : "threshold",
-                   "this key belongs to rigid stops and ropes; leave out `stiffness` to make it "
-                   "rigid, or remove this key"};
+/// The angle of a joint on which a law acts.
+Found angle_problem(const loads::JointLaw& law, const ModelDescription& model) {
+  if (law.which == loads::AngleChoice::second_angle) {
+    return second_angle_problem(law.joint, model, "which");
   }
-  if (!spec.stiffness && spec.damping > 0.0) {
-    return Finding{"damping",
-                   "without `stiffness` it is rigid and has no damping; give a `stiffness` as "
-                   "well, or `restitution` instead"};
-  }
-  if (spec.restitution.value_or(0.0) > 1.0) {
-    return Finding{
-        "restitution",
-        fmt::format("expected 0 to 1, found {:g}: no rebound is faster than the approach",
-                    *spec.restitution)};
-  }
-  return std::nullopt;
+  return coordinate_problem(law.joint, true, model);
 }
 
 Found stop_problem(const loads::JointStop& spec, const char* unit) {
@@ -186,25 +172,10 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
   return std::nullopt;
 }
 
-/// Both arms of a cross are given in the same axes.
-Found arms_problem(const joints::UniversalSpec& spec) {
-  const double size = spec.axis.norm() * spec.second_axis.norm();
-  if (size == 0.0) {
-    return Finding{"second-axis", "an axis cannot be [0, 0, 0]; give its direction"};
-  }
-  const double cosine = spec.axis.dot(spec.second_axis) / size;
-  if (std::abs(cosine) <= 1e-4) return std::nullopt;
-  return Finding{
-      "second-axis",
-      fmt::format("the arms of a universal joint are perpendicular, these meet at {:.4g} "
-                  "degrees; turn one of them",
-                  std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi)};
-}
-
 }  // namespace
 
 Found own_joint_problem(const loads::HingeSpringSpec& spec, const ModelDescription& model) {
-  return coordinate_problem(spec.joint, true, model);
+  return angle_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::SlideSpringSpec& spec, const ModelDescription& model) {
@@ -212,7 +183,7 @@ Found own_joint_problem(const loads::SlideSpringSpec& spec, const ModelDescripti
 }
 
 Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription& model) {
-  if (Found found = coordinate_problem(spec.joint, true, model)) return found;
+  if (Found found = angle_problem(spec, model)) return found;
   return stop_problem(spec, "rad");
 }
 
@@ -226,7 +197,13 @@ Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription&) {
 }
 
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model) {
-  if (Found found = coordinate_problem(spec.joint, true, model)) return found;
+  if (Found found = angle_problem(spec, model)) return found;
+  const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
+  if (joint.turns_twice()) {
+    return Finding{"joint", fmt::format("joint \"{}\" is a {}, which rubs on both of its arms; use "
+                                        "`ball-friction`",
+                                        spec.joint, joint.kind_name())};
+  }
   return friction_problem(spec);
 }
 
@@ -263,7 +240,7 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
 }
 
 Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model) {
-  if (Found found = coordinate_problem(spec.joint, true, model)) return found;
+  if (Found found = angle_problem(spec, model)) return found;
   return motor_problem(spec, true);
 }
 
@@ -273,7 +250,7 @@ Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescriptio
 }
 
 Found own_joint_problem(const loads::HingeBrakeSpec& spec, const ModelDescription& model) {
-  return coordinate_problem(spec.joint, true, model);
+  return angle_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::SlideBrakeSpec& spec, const ModelDescription& model) {
@@ -302,13 +279,11 @@ Found own_joint_problem(const BeltSensor& spec, const ModelDescription& model) {
 
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model) {
   const auto* joint = base::find_named(model.joints, spec.joint);
+  if (spec.which == CoordinateKind::second_angle) {
+    return second_angle_problem(spec.joint, model, "which");
+  }
   const bool turns = spec.choice(joint != nullptr && joint->turns()) == CoordinateKind::angle;
   return coordinate_problem(spec.joint, turns, model);
-}
-
-Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription&) {
-  if (Found found = axis_problem(spec.axis)) return found;
-  return arms_problem(spec);
 }
 
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription&) {

@@ -19,6 +19,11 @@ Found joint_problem(const std::string& name, const ModelDescription& model);
 Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
                          const std::string& key = "joint");
 
+/// Whether a joint does not exist or has no second angle.
+/// @param key field that asks for it
+Found second_angle_problem(const std::string& name, const ModelDescription& model,
+                           const std::string& key);
+
 /// Whether joints do not exist or cannot be attached during a run.
 /// @param key field that names them
 Found attached_problem(const std::vector<std::string>& joints, const char* key,
@@ -47,6 +52,9 @@ Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescriptio
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const loads::ElasticGearSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const GearSensor& spec, const ModelDescription& model);
+Found own_joint_problem(const loads::CamSpec& spec, const ModelDescription& model);
+Found own_joint_problem(const joints::SlotSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::SliderOnBeamSpec& spec, const ModelDescription& model);

@@ -16,7 +16,8 @@ namespace {
 int num_given(const SignalSpec& s) {
   return int{s.value.has_value()} + int{s.joint_angle.has_value()} +
          int{s.joint_speed.has_value()} + int{s.joint_displacement.has_value()} +
-         int{s.joint_velocity.has_value()} + int{s.position.has_value()} +
+         int{s.joint_velocity.has_value()} + int{s.joint_second_angle.has_value()} +
+         int{s.joint_second_speed.has_value()} + int{s.position.has_value()} +
          int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.integral.has_value()} +
          int{s.lag.has_value()} + int{s.transfer_function.has_value()} +
          int{s.state_space.has_value()} + int{s.pid.has_value()} + int{s.sample_hold.has_value()} +
@@ -30,6 +31,7 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
   if (num_given(spec) != 1) {
     return Finding{"",
                    "exactly one of the keys value, joint-angle, joint-speed, "
+                   "joint-second-angle, joint-second-speed, "
                    "joint-displacement, joint-velocity, position, velocity, force-of, "
                    "integral, lag, transfer-function, state-space, pid, sample-hold, "
                    "table, rate-limit, switch and setting is needed"};
@@ -45,6 +47,12 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
         Seen{spec.joint_velocity, false, "joint-velocity"}}) {
     if (!seen.joint) continue;
     if (Found found = coordinate_problem(*seen.joint, seen.turns, model, seen.key)) return found;
+  }
+  if (spec.joint_second_angle) {
+    return second_angle_problem(*spec.joint_second_angle, model, "joint-second-angle");
+  }
+  if (spec.joint_second_speed) {
+    return second_angle_problem(*spec.joint_second_speed, model, "joint-second-speed");
   }
   return std::nullopt;
 }

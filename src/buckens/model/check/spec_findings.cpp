@@ -91,7 +91,8 @@ Found spring_problem(const std::string& name, bool torque, const ModelDescriptio
   for (const loads::LoadSpec& load : model.loads) {
     const bool has_it = torque ? std::holds_alternative<loads::TorsionalSpringSpec>(load.kind)
                                : std::holds_alternative<loads::SpringDamperSpec>(load.kind) ||
-                                     std::holds_alternative<loads::RopeSpec>(load.kind);
+                                     std::holds_alternative<loads::RopeSpec>(load.kind) ||
+                                     std::holds_alternative<loads::CamSpec>(load.kind);
     if (has_it || acts_on_coordinate(load, torque)) known.push_back(load.name);
   }
   for (const joints::JointSpec& joint : model.joints) {

@@ -46,6 +46,7 @@ Found problem(const body::CouplingSpec& spec, const ModelDescription& model);
 Found problem(const body::MarkerSpec& spec, const ModelDescription& model);
 Found problem(const body::RigidSpec& spec, const ModelDescription& model);
 Found problem(const body::BodySpec& spec, const ModelDescription& model);
+Found problem(const base::PathSegmentSpec& spec, const ModelDescription& model);
 Found problem(const joints::JointSpec& spec, const ModelDescription& model);
 Found problem(const loads::LoadSpec& spec, const ModelDescription& model);
 Found problem(const SimulationSpec& spec, const ModelDescription& model);

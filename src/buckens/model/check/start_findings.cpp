@@ -9,14 +9,15 @@ namespace buckens::model {
 namespace {
 
 /// With which value the coordinate of a joint starts: zero as placed.
-double start_of(const std::string& joint, bool turns, const ModelDescription& model) {
-  const auto* given = base::find_named(model.initial.joints, joint);
+double start_of(const loads::JointStop& stop, bool turns, const ModelDescription& model) {
+  const auto* given = base::find_named(model.initial.joints, stop.joint);
   if (given == nullptr) return 0.0;
+  if (stop.which == loads::AngleChoice::second_angle) return given->second_angle.value_or(0.0);
   return (turns ? given->angle : given->displacement).value_or(0.0);
 }
 
 Found start_problem(const loads::JointStop& stop, bool turns, const ModelDescription& model) {
-  const double start = start_of(stop.joint, turns, model);
+  const double start = start_of(stop, turns, model);
   const bool is_before = stop.from && start < *stop.from;
   if (!is_before && !(stop.to && start > *stop.to)) return std::nullopt;
   const bool is_given = base::find_named(model.initial.joints, stop.joint) != nullptr;
@@ -51,9 +52,12 @@ Found stops_problem(const ModelDescription& model) {
 Found problem(const InitialJointSpec& spec, const ModelDescription& model) {
   const bool turns = spec.angle || spec.speed;
   const bool slides = spec.displacement || spec.velocity;
-  if (!turns && !slides) {
-    return Finding{"",
-                   "at least one of the keys angle, speed, displacement and velocity is needed"};
+  const bool turns_twice = spec.second_angle || spec.second_speed;
+  if (!turns && !slides && !turns_twice) {
+    return Finding{
+        "",
+        "at least one of the keys angle, speed, second-angle, second-speed, displacement "
+        "and velocity is needed"};
   }
   const auto* joint = base::find_named(model.joints, spec.name);
   if (joint != nullptr &&
@@ -68,6 +72,10 @@ Found problem(const InitialJointSpec& spec, const ModelDescription& model) {
     if (Found found = coordinate_problem(spec.name, true, model, spec.angle ? "angle" : "speed")) {
       return found;
     }
+  }
+  if (turns_twice) {
+    const char* key = spec.second_angle ? "second-angle" : "second-speed";
+    if (Found found = second_angle_problem(spec.name, model, key)) return found;
   }
   if (!spec.displacement && !spec.velocity) return std::nullopt;
   return coordinate_problem(spec.name, false, model,
@@ -94,10 +102,10 @@ Found problem(const InitialSpec& spec, const ModelDescription& model) {
   }
   if (spec.start != StartKind::static_equilibrium) return std::nullopt;
   for (const InitialJointSpec& joint : spec.joints) {
-    if (!joint.angle && !joint.displacement) continue;
+    if (!joint.angle && !joint.second_angle && !joint.displacement) continue;
     return Finding{"start", fmt::format("the equilibrium decides where joint \"{}\" starts; remove "
                                         "its {} under `joints`, or `start: static`",
-                                        joint.name, joint.angle ? "angle" : "displacement")};
+                                        joint.name, joint.displacement ? "displacement" : "angle")};
   }
   return std::nullopt;
 }

@@ -104,6 +104,8 @@ struct InitialJointSpec {
   SourceLocation where;
   std::optional<double> angle;         ///< [rad]
   std::optional<double> speed;         ///< [rad/s]
+  std::optional<double> second_angle;  ///< of a universal joint [rad]
+  std::optional<double> second_speed;  ///< [rad/s]
   std::optional<double> displacement;  ///< [m]
   std::optional<double> velocity;      ///< [m/s]
 
@@ -117,6 +119,15 @@ struct InitialJointSpec {
     visit(base::field("speed", speed, "rate of the angle")
               .in(base::kAngularVelocity)
               .like("2 rad/s")
+              .otherwise("as the velocities of bodies ask for"));
+    visit(base::field("second-angle", second_angle,
+                      "of a universal joint: about the arm that its second body holds")
+              .in(base::kAngle)
+              .like("-10 deg")
+              .otherwise("as placed, or as other joints ask for"));
+    visit(base::field("second-speed", second_speed, "rate of the second angle")
+              .in(base::kAngularVelocity)
+              .like("1 rad/s")
               .otherwise("as the velocities of bodies ask for"));
     visit(base::field("displacement", displacement,
                       "of a joint that slides, counted from the position as placed")

@@ -153,10 +153,10 @@ struct JointTorqueSensor : JointForceSensor {
   static constexpr const char* kDoc = "torque of a joint on its second marker";
 };
 
-enum class CoordinateKind { angle, displacement };
+enum class CoordinateKind { angle, displacement, second_angle };
 
-constexpr std::array<const char*, 2> choice_names(CoordinateKind) {
-  return {"angle", "displacement"};
+constexpr std::array<const char*, 3> choice_names(CoordinateKind) {
+  return {"angle", "displacement", "second-angle"};
 }
 
 /// Coordinate of a joint, and its rate.
@@ -176,7 +176,7 @@ struct JointCoordinateSensor {
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("joint", joint, "name of the joint").required().shorthand().like("hinge"));
-    visit(base::field("which", which, "for joints that rotate and slide")
+    visit(base::field("which", which, "for joints that rotate and slide, or rotate about two axes")
               .like("displacement")
               .otherwise("the angle of joints that rotate"));
   }
@@ -372,6 +372,22 @@ struct CableSensor {
   }
 };
 
+/// Force and deflection of elastic teeth.
+struct GearSensor {
+  static constexpr const char* kKey = "gear";
+  static constexpr const char* kDoc =
+      "of an elastic gear: the force of its teeth and how far they give way, both normal to their "
+      "flanks and positive where the first gear turned forwards about `axis` pushes the second; "
+      "zero while teeth pass their play";
+  std::string gear;
+
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(
+        base::field("gear", gear, "name of the elastic gear").required().shorthand().like("mesh"));
+  }
+};
+
 /// A signal of the model.
 struct SignalSensor {
   static constexpr const char* kKey = "signal";
@@ -393,7 +409,7 @@ struct SensorSpec {
                JointForceSensor, JointTorqueSensor, LoadForceSensor, LoadTorqueSensor,
                SpringForceSensor, SpringTorqueSensor, SectionForceSensor, StressSensor,
                EnergySensor, JointCoordinateSensor, SignalSensor, ContactSensor, BeltSensor,
-               CableSensor>
+               CableSensor, GearSensor>
       kind;
 
   template <class Visitor>

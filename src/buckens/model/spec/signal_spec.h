@@ -264,6 +264,7 @@ struct SignalSpec {
   SourceLocation where;
   std::optional<base::SignalLaw> value;
   std::optional<std::string> joint_angle, joint_speed, joint_displacement, joint_velocity;
+  std::optional<std::string> joint_second_angle, joint_second_speed;
   std::optional<MarkerSignalSpec> position, velocity;
   std::optional<std::string> force_of;
   std::optional<IntegralSpec> integral;
@@ -309,6 +310,11 @@ struct SignalSpec {
     visit(base::field("joint-angle", joint_angle, "angle of this joint from its position as placed")
               .like("elbow"));
     visit(base::field("joint-speed", joint_speed, "rate of the angle of this joint").like("elbow"));
+    visit(base::field("joint-second-angle", joint_second_angle,
+                      "angle of this universal joint about the arm that its second body holds")
+              .like("cross"));
+    visit(base::field("joint-second-speed", joint_second_speed, "rate of this second angle")
+              .like("cross"));
     visit(base::field("joint-displacement", joint_displacement,
                       "displacement of this joint from its position as placed")
               .like("slider"));

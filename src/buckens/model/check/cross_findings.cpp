@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with cross joints, and with what names their second angle.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "buckens/model/check/joint_findings.h"
+#include "buckens/model/check/spec_findings.h"
+
+namespace buckens::model {
+
+namespace {
+
+/// Both arms of a cross are given in the same axes.
+Found arms_problem(const joints::UniversalSpec& spec) {
+  const double size = spec.axis.norm() * spec.second_axis.norm();
+  if (size == 0.0) {
+    return Finding{"second-axis", "an axis cannot be [0, 0, 0]; give its direction"};
+  }
+  const double cosine = spec.axis.dot(spec.second_axis) / size;
+  if (std::abs(cosine) <= 1e-4) return std::nullopt;
+  return Finding{
+      "second-axis",
+      fmt::format("the arms of a universal joint are perpendicular, these meet at {:.4g} "
+                  "degrees; turn one of them",
+                  std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi)};
+}
+
+}  // namespace
+
+Found second_angle_problem(const std::string& name, const ModelDescription& model,
+                           const std::string& key) {
+  if (Found found = joint_problem(name, model)) return Finding{key, found->text};
+  const joints::JointSpec& joint = *base::find_named(model.joints, name);
+  if (joint.turns_twice()) return std::nullopt;
+  return Finding{key, fmt::format("joint \"{}\" is a {}, which has no second angle; only "
+                                  "universal joints turn about two axes",
+                                  name, joint.kind_name())};
+}
+
+Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription&) {
+  if (Found found = axis_problem(spec.axis)) return found;
+  return arms_problem(spec);
+}
+
+}  // namespace buckens::model
