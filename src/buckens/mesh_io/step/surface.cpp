@@ -12,7 +12,7 @@ namespace buckens::mesh_io {
 
 namespace {
 
-constexpr int kTriangles = 2, kTetrahedra = 4;  // Gmsh's types
+constexpr int kTriangleType = 2, kTetrahedronType = 4;  // Gmsh's types
 
 }  // namespace
 
@@ -23,9 +23,9 @@ PartMesh part_mesh(const GmshLibrary& gmsh) {
     out.positions[numbers[k]] = Eigen::Vector3d::Map(&places[3 * k]);
   }
   for (const GmshEntity& face : gmsh.entities(2)) {
-    out.faces.push_back({face.second, gmsh.element_nodes(kTriangles, face.second)});
+    out.faces.push_back({face.second, gmsh.element_nodes(kTriangleType, face.second)});
   }
-  out.tetrahedra = gmsh.element_nodes(kTetrahedra, -1);
+  out.tetrahedra = gmsh.element_nodes(kTetrahedronType, -1);
   return out;
 }
 
