@@ -76,6 +76,22 @@ def test_scalar_springs_points_and_masses(body):
     assert one["frequencies"] == pytest.approx(plain["frequencies"], rel=1e-12)
 
 
+def test_rigid_elements_turn_no_node_that_has_springs_alone(body):
+    """Six components of three nodes lead a fourth, which carries a mass by springs: nothing there has rotations."""
+    deck = stick("GRID,9,,0.,1.,0.\nGRID,10,,0.,1.,0.\nCONM2,14,10,,5.\n"
+                 "CELAS2,5,1.E6,9,1,10,1\nCELAS2,6,2.E6,9,2,10,2\nCELAS2,7,3.E6,9,3,10,3\n"
+                 "CRIGD3,8,1,123,2,23,3,3\n,MSET,9,{}\n")
+    whole, moved = body(deck.format("123456")), body(deck.format("123"))
+    assert whole["frequencies"] == pytest.approx(moved["frequencies"], rel=1e-12)
+
+
+def test_links_that_leave_nothing_to_deform(body):
+    """The stiffness of the beams is rounding then, which is no spring to ground."""
+    deck = stick("RBE2,5,1,123456,2,3\n").replace("1.,1.,0.", "1.3,1.7,.9").replace("GRID,4,,1.,0.,0.2\n", "")
+    body(deck, code=3).must(3, 'body "b": rigid links hold all of its nodes together', "mass: 30 kg", "[0.766667, 0.566667, 0.3]",
+                            "take nodes out")
+
+
 def frame(turn, last, hinge_node, pins):
     """A square of four beams in a plane, turned in space; the first may have pins at its first end."""
     def vector(x, y, z):

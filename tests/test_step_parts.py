@@ -83,6 +83,7 @@ def test_other_ways_are_tried_before_a_part_is_refused(buckens, bad):
     told = info(buckens, bad["thin_tube"], "--size", "12 mm")
     assert told["inverted"] == [] and told["pieces"] == 1
     assert "elements that fit the walls, for the usual way failed: Gmsh:" in notes(told)
+    assert re.search(r"faces cross in \d+ places, the first \(-?0\.0\d+, -?0\.0\d+, 0\.0\d+\) m on faces \d and \d", notes(told))
     assert told["volume"] == pytest.approx(math.pi * (0.0103**2 - 0.01**2) * 0.06, rel=5e-3)
 
 

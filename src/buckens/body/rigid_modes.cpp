@@ -26,6 +26,16 @@ int node_of_dof(const fem::DofMap& dofs, Eigen::Index dof) {
   return -1;
 }
 
+/// What is left of the stiffness of six variables is rounding.
+[[noreturn]] void refuse_rigid(const std::string& body, const fem::FeModel& fe) {
+  const Vector3d& com = fe.shape.com;
+  throw ModelError(fmt::format(
+      "body \"{}\": rigid links hold all of its nodes together, so it cannot deform; give it as "
+      "`rigid: {{mass: {:.6g} kg, com: [{:.6g}, {:.6g}, {:.6g}], inertia: …}}`, or take nodes out "
+      "of the links",
+      body, fe.shape.mass, com[0], com[1], com[2]));
+}
+
 }  // namespace
 
 Matrix rigid_modes(const std::vector<Vector3d>& node_positions, const fem::DofMap& dofs,
@@ -57,6 +67,7 @@ void check_stiffness_is_free(const std::string& body, const linalg::SparseMatrix
     const linalg::Vector residual = K * Phi.col(mode);
     const double limit = kStrainTolerance * stiffness * Phi.col(mode).norm();
     if (residual.norm() <= limit) continue;
+    if (fe.dofs.num_dofs == 6) refuse_rigid(body, fe);
     Eigen::Index worst = 0;
     residual.cwiseAbs().maxCoeff(&worst);
     throw ModelError(fmt::format(

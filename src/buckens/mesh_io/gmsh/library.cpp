@@ -156,6 +156,47 @@ std::vector<GmshEntity> GmshLibrary::boundary(const std::vector<GmshEntity>& ent
   return pairs(found, count);
 }
 
+std::vector<GmshEntity> GmshLibrary::boundary_of_each(
+    const std::vector<GmshEntity>& entities) const {
+  int error = 0;
+  std::vector<int> tags = flat(entities);
+  int* found = nullptr;
+  std::size_t count = 0;
+  BUCKENS_GMSH(gmshModelGetBoundary)(tags.data(), tags.size(), &found, &count, 0, 0, 0, &error);
+  check(error);
+  return pairs(found, count);
+}
+
+void GmshLibrary::replace_faces(const GmshEntity& solid,
+                                const std::vector<std::vector<int>>& shells,
+                                const std::map<int, std::vector<int>>& loops) {
+  int error = 0;
+  const auto take_away = [&](const GmshEntity& entity) {
+    std::vector<int> tags = flat({entity});
+    BUCKENS_GMSH(gmshModelOccRemove)(tags.data(), tags.size(), 0, &error);
+    check(error);
+  };
+  take_away(solid);
+  for (const auto& [face, curves] : loops) {
+    take_away({2, face});
+    std::vector<int> tags = curves;
+    const int wire = BUCKENS_GMSH(gmshModelOccAddWire)(tags.data(), tags.size(), -1, 1, &error);
+    check(error);
+    BUCKENS_GMSH(gmshModelOccAddSurfaceFilling)(wire, face, nullptr, 0, &error);
+    check(error);
+  }
+  std::vector<int> loop_tags;
+  for (std::vector<int> faces : shells) {
+    loop_tags.push_back(
+        BUCKENS_GMSH(gmshModelOccAddSurfaceLoop)(faces.data(), faces.size(), -1, 0, &error));
+    check(error);
+  }
+  BUCKENS_GMSH(gmshModelOccAddVolume)(loop_tags.data(), loop_tags.size(), solid.second, &error);
+  check(error);
+  BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
+  check(error);
+}
+
 std::vector<GmshEntity> GmshLibrary::entities(int dimension) const {
   int error = 0;
   int* found = nullptr;
@@ -296,9 +337,9 @@ void GmshLibrary::set_order(int order) {
   check(error);
 }
 
-void GmshLibrary::optimize_order() {
+void GmshLibrary::optimize(const char* way) {
   int error = 0;
-  BUCKENS_GMSH(gmshModelMeshOptimize)("HighOrder", 0, 1, nullptr, 0, &error);
+  BUCKENS_GMSH(gmshModelMeshOptimize)(way, 0, 1, nullptr, 0, &error);
   check(error);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,13 @@ class GmshLibrary {
   void heal(double tolerance);
   /// The boundary of all these entities together: the curves that belong to an odd number of faces.
   std::vector<GmshEntity> boundary(const std::vector<GmshEntity>& entities) const;
+  /// The boundaries of entities, with what several of them share.
+  std::vector<GmshEntity> boundary_of_each(const std::vector<GmshEntity>& entities) const;
+  /// Makes faces anew, each as a smooth surface through the curves of one loop, and the solid with
+  /// them, all under their numbers.
+  /// @param shells the faces of the solid, those of the outer shell first
+  void replace_faces(const GmshEntity& solid, const std::vector<std::vector<int>>& shells,
+                     const std::map<int, std::vector<int>>& loops);
   std::vector<GmshEntity> entities(int dimension) const;
   /// "" or a path of labels, "Shapes/rod".
   std::string name(const GmshEntity& entity) const;
@@ -68,8 +76,9 @@ class GmshLibrary {
   void bound_sizes(const SizeOf* size);
   /// Nodes in the middle of edges, on the true surface; 2 for the second order.
   void set_order(int order);
-  /// Moves nodes of badly shaped elements of higher order.
-  void optimize_order();
+  /// Improves elements: "" or "Netgen" by swapping edges and moving nodes, "Relocate3D" by moving
+  /// nodes, "HighOrder" those of higher order.
+  void optimize(const char* way);
   void write(const std::string& file);
   /// Says on the standard output what it does.
   void be_heard();

@@ -38,7 +38,8 @@ const Names& support_names() {
 }
 
 /// Cards named like elements that have neither mass nor stiffness for us: heat, fluids, air,
-/// contact, damping, and what numbers or names something.
+/// contact, damping, pressure that follows a surface (CPSE2 … 4), and what numbers or names
+/// something.
 const Names& harmless_names() {
   static const Names names = {
       "CHBDY",   "CHBDYE",  "CHBDYG",  "CHBDYP",  "CONV",    "CONVM",   "CAERO1",  "CAERO2",
@@ -49,7 +50,8 @@ const Names& harmless_names() {
       "CGAP",    "CBARAO",  "CGEN",    "CLOAD",   "CMFREE",  "CNGRNT",  "CREEP",   "CYAX",
       "CYJOIN",  "CYSUP",   "CYSYM",   "CSET",    "CSET1",   "CSUPER",  "CSUPEXT", "CEMLOOP",
       "CRAKTP",  "CONTRLT", "CONCHEM", "CONSTIT", "CAMPBEL", "CASECC",  "CBUTT",   "CELUSET",
-      "CIFQUAD", "CIFHEX",  "COMBWLD", "CORD3G",  "CSPOT",   "CONEAX0", "CNTRLT"};
+      "CIFQUAD", "CIFHEX",  "COMBWLD", "CORD3G",  "CSPOT",   "CONEAX0", "CNTRLT",  "CPSE2",
+      "CPSE3",   "CPSE4"};
   return names;
 }
 

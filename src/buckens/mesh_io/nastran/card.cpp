@@ -13,7 +13,7 @@ namespace buckens::mesh_io {
 
 namespace {
 
-constexpr std::int64_t kLargestId = 2147483647;
+constexpr std::int64_t kLargestId = 999999999999999;  // of which a double holds each
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/mesh_io/nastran/card_reader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,7 +74,27 @@ std::optional<NastranLine> NastranCardReader::from_source() {
     found_end_ = true;
     return std::nullopt;
   }
+  if (line) {
+    complete(*line);
+    before_ = *line;
+  }
   return line;
+}
+
+/// In NASTRAN-95 `==` in a continuation stands for the rest of the line before.
+void NastranCardReader::complete(NastranLine& line) {
+  const bool may_repeat = has_sign(line) && line.text.find("==") != std::string_view::npos;
+  if (!may_repeat || before_.text.empty()) return;
+  const NastranRow row = split_nastran_line(line), before = split_nastran_line(before_);
+  const auto rest = std::find(row.data.begin(), row.data.end(), "==");
+  if (rest == row.data.end() || row.num_data != before.num_data) return;
+  std::string text(row.head);
+  for (std::size_t i = 0; i < row.data.size(); ++i) {
+    const bool is_own = i < static_cast<std::size_t>(rest - row.data.begin());
+    text += fmt::format(",{}", is_own ? row.data[i] : before.data[i]);
+  }
+  if (!row.mark.empty()) text += fmt::format(",{}", row.mark);
+  line.text = completed_.emplace_back(std::move(text));
 }
 
 std::optional<NastranLine> NastranCardReader::take() {

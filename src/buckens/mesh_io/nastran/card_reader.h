@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -32,6 +33,7 @@ class NastranCardReader {
 
  private:
   std::optional<NastranLine> from_source();
+  void complete(NastranLine& line);
   std::optional<NastranLine> take();
   void put_back(const NastranLine& line);
   void gather();
@@ -43,6 +45,8 @@ class NastranCardReader {
   NastranSource& source_;
   std::optional<NastranLine> pending_;  // read ahead
   bool found_end_ = false, has_card_ = false;
+  NastranLine before_;                 // the line that came last
+  std::deque<std::string> completed_;  // lines whose rest stood in the line before
   NastranReplication replication_;
   NastranLine repeating_;  // the line being executed by replication_
 

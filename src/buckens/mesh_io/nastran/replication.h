@@ -10,8 +10,8 @@
 namespace buckens::mesh_io {
 
 /// Lines that refer to the line before: `=` repeats a field, `==` the rest of the line,
-/// `*4` or `*(4)` adds to a number, `/` adds the same as the field before, `%(7)` goes to 7 in
-/// equal steps; `=3` or `=(3)` in the first field repeats the whole three times.
+/// `*4` or `*(4)` adds to a number, `/` adds the same as the field before (`//` twice), `%(7)` goes
+/// to 7 in equal steps; `=3` or `=(3)` in the first field repeats the whole three times.
 class NastranReplication {
  public:
   /// Takes a line with a name, which others may repeat; in NASTRAN-95 `==` in it, too, takes the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ class RigidBuilder {
   void add_crigd1(const NastranCard& card);
   void add_crigd2(const NastranCard& card);
   void add_rrod(const NastranCard& card);
+  void drop_idle();
 
  private:
   int node(const NastranCard& card, int field) const {
@@ -57,6 +59,8 @@ class RigidBuilder {
   const NastranCoordinates& coordinates_;
   NastranNotes& notes_;
   fem::ImportedMesh& mesh_;
+  std::vector<std::size_t> led_;  // equations of bodies that several nodes lead
+  std::optional<NastranPlace> led_at_;
 };
 
 /// Single components in turned axes are equations, which only nodes at one place need no arm for.
@@ -172,8 +176,19 @@ void RigidBuilder::add_led_body(const NastranCard& card, const std::vector<Membe
       }
     }
   }
+  const std::size_t first = mesh_.equations.size();
   if (!add_led_components(leads, followers, coordinates_.positions(), card.line, mesh_)) {
     card.fail("the six independent components do not hold the rigid body in place");
+  }
+  for (std::size_t k = first; k < mesh_.equations.size(); ++k) led_.push_back(k);
+  if (!led_at_) led_at_ = {card.file, card.line};
+}
+
+/// To be called once all links are there.
+void RigidBuilder::drop_idle() {
+  const int count = drop_idle_rotations(led_, mesh_);
+  for (int k = 0; k < count; ++k) {
+    notes_.add("rotations of rigid elements are left out at nodes where nothing turns", *led_at_);
   }
 }
 
@@ -326,6 +341,7 @@ void add_nastran_rigid_elements(const NastranBulk& bulk, const NastranCoordinate
   for (const NastranCard& card : bulk.cards_named("CRIGD2")) builder.add_crigd2(card);
   for (const NastranCard& card : bulk.cards_named("RROD")) builder.add_rrod(card);
   for (const NastranCard& card : bulk.cards_named("CRIGDR")) builder.add_rrod(card);
+  builder.drop_idle();
 }
 
 }  // namespace buckens::mesh_io

@@ -90,6 +90,17 @@ void place_fields(Fields& fields) {
   fields = std::move(out);
 }
 
+/// `///` in a line that repeats another is three fields `/`.
+void part_slashes(Fields& fields) {
+  Fields out;
+  for (const std::string_view field : fields) {
+    const bool is_many = field.size() > 1 && field.find_first_not_of('/') == field.npos;
+    for (std::size_t k = 0; is_many && k < field.size(); ++k) out.push_back(field.substr(k, 1));
+    if (!is_many) out.push_back(field);
+  }
+  fields = std::move(out);
+}
+
 Fields free_fields(std::string_view text) {
   Fields out;
   std::size_t begin = 0;
@@ -99,6 +110,7 @@ Fields free_fields(std::string_view text) {
     begin = end + 1;
   }
   if (text.find(')') != std::string_view::npos) place_fields(out);
+  if (out[0].starts_with('=')) part_slashes(out);
   while (out.size() > 1 && out.back().empty()) out.pop_back();
   return out;
 }

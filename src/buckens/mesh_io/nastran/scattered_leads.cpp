@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -74,6 +76,32 @@ bool add_led_components(const std::vector<NodeComponent>& leads,
     mesh.equations.push_back(std::move(equation));
   }
   return true;
+}
+
+int drop_idle_rotations(const std::vector<std::size_t>& places, fem::ImportedMesh& mesh) {
+  std::set<int> turning;
+  for (const fem::ImportedBlock& block : mesh.blocks) {
+    if (fem::dimension_of(block.kind) < 3) turning.insert(block.nodes.begin(), block.nodes.end());
+  }
+  for (const fem::ImportedMass& mass : mesh.masses) {
+    if (!mass.inertia.isZero(0.0)) turning.insert(mass.node);
+  }
+  for (const fem::ImportedAverage& average : mesh.averages) turning.insert(average.reference);
+  for (const fem::ImportedRigidLink& link : mesh.rigid_links) {
+    turning.insert(link.reference);
+    turning.insert(link.nodes.begin(), link.nodes.end());
+  }
+  std::set<std::size_t> idle;
+  for (const std::size_t place : places) {
+    const fem::ImportedEquation::Term& first = mesh.equations[place].terms.front();
+    if (first.variable > 2 && !turning.contains(first.node)) idle.insert(place);
+  }
+  std::vector<fem::ImportedEquation> kept;
+  for (std::size_t k = 0; k < mesh.equations.size(); ++k) {
+    if (!idle.contains(k)) kept.push_back(std::move(mesh.equations[k]));
+  }
+  mesh.equations = std::move(kept);
+  return static_cast<int>(idle.size());
 }
 
 }  // namespace buckens::mesh_io

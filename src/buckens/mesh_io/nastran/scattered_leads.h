@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,5 +28,11 @@ bool add_led_components(const std::vector<NodeComponent>& leads,
                         const std::vector<NodeComponent>& followers,
                         const std::vector<Eigen::Vector3d>& positions, int line,
                         fem::ImportedMesh& mesh);
+
+/// Takes away equations that turn a node at which nothing has rotations: neither a beam nor a
+/// shell, an inertia, nor another link.
+/// @param places of equations that say no more than what their first component is
+/// @return how many
+int drop_idle_rotations(const std::vector<std::size_t>& places, fem::ImportedMesh& mesh);
 
 }  // namespace buckens::mesh_io

@@ -21,9 +21,11 @@
 #include "buckens/mesh_io/gmsh/mesh.h"
 #include "buckens/mesh_io/step/estimate.h"
 #include "buckens/mesh_io/step/faults.h"
+#include "buckens/mesh_io/step/flat_elements.h"
 #include "buckens/mesh_io/step/glued_part.h"
 #include "buckens/mesh_io/step/progress.h"
 #include "buckens/mesh_io/step/shapes.h"
+#include "buckens/mesh_io/step/surface.h"
 #include "buckens/mesh_io/step/walls.h"
 
 namespace buckens::mesh_io {
@@ -43,7 +45,7 @@ constexpr std::size_t kMostAtWalls = 40000;
 // Of processor time for it and again for its second order, beyond that of the first mesh: 40 000
 // elements take five seconds.
 constexpr double kWallSeconds = 15;
-constexpr int kTriangles = 2, kTetrahedra = 4;  // Gmsh's types
+constexpr int kTetrahedra = 4;  // Gmsh's type
 // Of processor time, for the mesh and again for its second order. Parts take up to 1e-4 s per
 // element; 350 000 elements instead of a few thousand took 20 s. What takes much longer usually
 // never ends.
@@ -96,11 +98,23 @@ class Trial {
     files::limit_time_from_now(seconds);
     out += fmt::format("size {:.17g} {:.17g}\n", wanted, part_.volume);
     set_options(used * metre_);
-    add_groups();
+    const Labels labels = labels_of_solids();
     gmsh_.mesh(3);
-    if (const std::string reason = failure(); !reason.empty()) {
+    std::string reason = failure();
+    if (!reason.empty()) {
+      const MendedSurface surface = mend_surface(gmsh_, metre_);
+      if (!surface.notes.empty()) {
+        gmsh_.mesh(3);
+        reason = failure();
+        out += surface.notes;
+      }
+      if (!reason.empty() && !surface.crossings.empty()) reason += "; " + surface.crossings;
+    }
+    if (reason.empty()) reason = mend_flat_elements(gmsh_, metre_);
+    if (!reason.empty()) {
       return open.empty() ? "failed " + reason : fmt::format("{}; {}", open, reason);
     }
+    add_groups(labels);
     out += mesh_times();
     if (!task_.request.size) {
       if (const auto followed = follow_walls(used)) return out + *followed;
@@ -115,19 +129,6 @@ class Trial {
     const double triangles = expected_triangles(face_extents(gmsh_), size * metre_,
                                                 trial_.smallest * size * metre_, trial_.in_a_turn);
     return expected_mesh(part_.volume, size, triangles, task_.request.order);
-  }
-
-  PartMesh part_mesh() const {
-    PartMesh out;
-    const auto [numbers, places] = gmsh_.nodes();
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-      out.positions[numbers[k]] = Eigen::Vector3d::Map(&places[3 * k]);
-    }
-    for (const GmshEntity& face : gmsh_.entities(2)) {
-      out.faces.push_back({face.second, gmsh_.element_nodes(kTriangles, face.second)});
-    }
-    out.tetrahedra = gmsh_.element_nodes(kTetrahedra, -1);
-    return out;
   }
 
   /// Writes the mesh, in the wanted order.
@@ -147,7 +148,7 @@ class Trial {
   /// @return what it says of its mesh; nothing if it came to none
   std::optional<std::string> follow_walls(double size) {
     if (gmsh_.element_nodes(kTetrahedra, -1).size() > 4 * kMostAtWalls) return std::nullopt;
-    const auto flat = flat_faces(part_mesh());
+    const auto flat = flat_faces(part_mesh(gmsh_));
     const auto sizes = sizes_for_walls(flat, trial_.smallest * size * metre_, size * metre_,
                                        static_cast<double>(kMostAtWalls));
     if (sizes.empty()) return std::nullopt;
@@ -175,7 +176,7 @@ class Trial {
       gmsh_.clear_mesh();
       gmsh_.bound_sizes(&bound);
       gmsh_.mesh(3);
-      if (!failure().empty()) return std::string();
+      if (!failure().empty() || !mend_flat_elements(gmsh_, metre_).empty()) return std::string();
       const std::string time = time_line("walls", watch_.lap());
       return time + note + thin_walls(least / metre_) + finished(wall_seconds());
     };
@@ -279,11 +280,18 @@ class Trial {
     gmsh_.set_number("General.AbortOnError", 1);
   }
 
-  void add_groups() {
-    std::map<std::string, std::vector<int>> solids;
+  /// Numbers of the solids of each name.
+  using Labels = std::map<std::string, std::vector<int>>;
+
+  Labels labels_of_solids() const {
+    Labels out;
     for (const GmshEntity& solid : gmsh_.entities(3)) {
-      solids[label_of_solid(gmsh_, solid)].push_back(solid.second);
+      out[label_of_solid(gmsh_, solid)].push_back(solid.second);
     }
+    return out;
+  }
+
+  void add_groups(const Labels& solids) {
     for (const auto& [name, tags] : solids) gmsh_.add_group(3, tags, name);
     std::vector<int> faces;
     for (const GmshEntity& face : gmsh_.entities(2)) faces.push_back(face.second);
@@ -336,7 +344,7 @@ class Trial {
     gmsh_.write(task_.mesh);
     fem::ImportedMesh unmoved = read_gmsh_mesh(task_.mesh);
     if (fem::straighten_inverted(unmoved) > kMostMoved) return;
-    gmsh_.optimize_order();
+    gmsh_.optimize("HighOrder");
     const std::string moved = task_.mesh + ".moved.msh";
     gmsh_.write(moved);
     try {

@@ -69,10 +69,11 @@ std::vector<TrialOutcome> try_all(const StepTask& task, const UnitTrials& wanted
   GluedPart part(task, wanted.trials.front().in_millimetres, wanted.without);
   std::vector<TrialOutcome> out;
   int timeouts = 0;
-  bool has_solid = true;
+  bool has_solid = true, is_open = false;
   for (std::size_t k = 0; k < wanted.trials.size() && timeouts < wanted.most_timeouts; ++k) {
     const StepTrial& trial = wanted.trials[k];
-    if (!has_solid && trial.tolerance == 0) continue;
+    // Of a surface that is open one way may tell that it only seems so.
+    if ((!has_solid || is_open) && trial.tolerance == 0) continue;
     if (k > 0) say_trial(wanted.first_number + static_cast<int>(k));
     out.push_back(outcome_of(files::do_isolated([&] { return mesh_in_trial(part, task, trial); },
                                                 kSecondsToRead,
@@ -85,6 +86,7 @@ std::vector<TrialOutcome> try_all(const StepTask& task, const UnitTrials& wanted
     out.back().smaller_share = part.smaller_share();
     if (out.back().has_mesh() || out.back().kind() == "error") break;
     if (out.back().timed_out) ++timeouts;
+    is_open = is_open || out.back().kind() == "open";
     has_solid = has_solid && !is_without_solid(out.back());
   }
   return out;

@@ -20,9 +20,9 @@ TEST(NastranMalformed, fields_that_are_no_numbers) {
   expect_words(refusal("GRID,1,,0.,0.\nGRID,2,,nan,0.\n"),
                {"deck.bdf:2:9: ", "GRID 2, field 4", "\"nan\" is not a number"});
   expect_words(refusal("GRID,1.5\n"), {"deck.bdf:1:6: ", "\"1.5\" is not an integer"});
-  expect_words(refusal("GRID,0\n"), {"0 is not a number from 1 to 2147483647"});
+  expect_words(refusal("GRID,0\n"), {"0 is not a number from 1 to 999999999999999"});
   expect_words(refusal("GRID,99999999999999999999\n"), {"is not an integer"});
-  expect_words(refusal("GRID,3000000000\n"), {"3000000000 is not a number from 1"});
+  expect_words(refusal("GRID,1000000000000000\n"), {"1000000000000000 is not a number from 1"});
   expect_words(refusal("GRID    1               1.0.0\n"), {"deck.bdf:1:25: ", "field 4"});
   expect_words(refusal("GRID\n"), {"deck.bdf:1:1: ", "field 2: is blank"});
   expect_words(refusal(kTetra + "MAT1,2,2.+400,,.3\nPSOLID,2,2\nCTETRA,2,2,1,2,3,4\n"),

@@ -100,8 +100,8 @@ TEST(NastranRepetition, two_equals_signs_take_the_rest_of_the_line_before) {
 
 TEST(NastranRigid, components_of_several_nodes_lead_a_body_that_is_rigid) {
   // Three, two and one: the other components of these nodes are free.
-  const auto mesh =
-      read_deck(kTetra + "GRID,9,,3.,4.,5.\nCRIGD3,9,1,123,2,23,3,3\n,MSET,9,123456\n");
+  const std::string deck = kTetra + "GRID,9,,3.,4.,5.\nCRIGD3,9,1,123,2,23,3,3\n,MSET,9,123456\n";
+  const auto mesh = read_deck(deck + "CONM2,7,9,,1.\n,2.,,2.,,,2.\n");
   ASSERT_EQ(mesh.equations.size(), 6u);
   const Vector3d shift(0.3, -0.2, 0.7), turn(0.11, 0.5, -0.4);
   for (const auto& equation : mesh.equations) {
@@ -117,6 +117,11 @@ TEST(NastranRigid, components_of_several_nodes_lead_a_body_that_is_rigid) {
     }
     EXPECT_NEAR(sum, 0.0, 1e-13 * largest);  // rounding of a system of six
   }
+  // Nothing at the node turns.
+  const auto still = read_deck(deck + "CONM2,7,9,,1.\n");
+  ASSERT_EQ(still.equations.size(), 3u);
+  for (const auto& equation : still.equations) EXPECT_LT(equation.terms[0].variable, 3);
+  EXPECT_TRUE(has_note(still, "left out at nodes where nothing turns"));
   // Nothing keeps the body from turning about the line between two nodes.
   test::expect_words(
       test::refusal(kTetra + "GRID,9,,3.,4.,5.\nCRIGD3,9,1,123,2,123\n,MSET,9,123456\n"),

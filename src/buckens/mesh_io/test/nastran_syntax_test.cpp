@@ -38,9 +38,32 @@ TEST(NastranSyntax, a_slash_adds_what_the_field_before_adds) {
     deck += "GRID," + std::to_string(i) + ",," + std::to_string(i) + ".," + std::to_string(i * i) +
             "." + "," + std::to_string(i * i * i) + ".\n";
   }
-  const auto mesh = read_deck(deck + "CTETRA,1,1,1,2,3,4\n=(1),*(1),=,*(4),/,/,/\n");
-  EXPECT_THAT(mesh.blocks.at(0).nodes, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
-  EXPECT_THAT(mesh.blocks.at(0).ids, ElementsAre(1, 2));
+  for (const std::string slashes : {"/,/,/", "///", "//,/"}) {
+    const auto mesh = read_deck(deck + "CTETRA,1,1,1,2,3,4\n=(1),*(1),=,*(4)," + slashes + "\n");
+    EXPECT_THAT(mesh.blocks.at(0).nodes, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7)) << slashes;
+    EXPECT_THAT(mesh.blocks.at(0).ids, ElementsAre(1, 2));
+  }
+}
+
+TEST(NastranSyntax, continuations_repeat_the_rest_of_the_line_before) {
+  const auto mesh = read_deck(
+      "GRID,1\nGRID,2,,1.\nMAT1,1,1.,,.3\n"
+      "PBAR,1,1,1.,1.,1.,1.,,,+P1\n"
+      "PBAR,2,1,2.,2.,2.,2.,,,+P2\n"
+      "PBAR,3,1,3.,3.,3.,3.,,,+P3\n"
+      "CBAR,1,1,1,2,0.,0.,1.\nCBAR,2,2,1,2,0.,0.,1.\nCBAR,3,3,1,2,0.,0.,1.\n"
+      "+P1,.125,0.,.5,.75\n"
+      "+P2,==\n"
+      "+P3,2.,==\n");
+  const auto points = [&](std::size_t property) {
+    return std::get<fem::GeneralSectionSpec>(mesh.properties.at(property).section->shape)
+        .stress_points;
+  };
+  EXPECT_EQ(points(1), points(0));
+  EXPECT_THAT(points(2).at(0), ElementsAre(2.0, 0.0));
+  EXPECT_THAT(points(2).at(1), ElementsAre(0.5, 0.75));
+  // Nothing to repeat: what stands there is named.
+  test::expect_words(test::refusal("+A,==\n"), {"continues a card", "none before"});
 }
 
 TEST(NastranSyntax, continuations_stand_anywhere_behind_their_card) {

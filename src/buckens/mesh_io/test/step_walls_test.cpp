@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which faces have a wall of one flat element behind them, and which sizes follow from that.
+// Which faces have a wall of one flat element behind them, and which sizes follow from that; which
+// elements have no volume.
 #include <gtest/gtest.h>
 
+#include "buckens/mesh_io/step/flat_elements.h"
 #include "buckens/mesh_io/step/walls.h"
 
 namespace buckens::mesh_io {
@@ -55,6 +57,14 @@ TEST(StepWalls, few_elements_are_spread_over_all_faces) {
   const double elements = 1.5 / 0.433 * (1 / (0.08 * 0.08) + 2 / (0.04 * 0.04));
   const auto bounded = sizes_for_walls(faces, 1e-3, 1.0, elements / 4);
   for (const int face : {1, 2}) EXPECT_NEAR(bounded.at(face), 2 * free.at(face), 1e-12);
+}
+
+TEST(StepWalls, elements_without_volume_are_told) {
+  EXPECT_TRUE(tetrahedra_without_volume(box(1e-6)).empty());
+  EXPECT_EQ(tetrahedra_without_volume(box(1e-13)).size(), 5u);
+  PartMesh mesh = box(1);
+  mesh.positions[15] = {0.7, 0.2, 0};  // in the plane of one of its elements
+  EXPECT_EQ(tetrahedra_without_volume(mesh), (std::vector<std::size_t>{0}));
 }
 
 }  // namespace
