@@ -17,7 +17,8 @@ namespace {
 /// For each face of a box of the test assembly whether, with a smooth one in its place, numbers,
 /// areas and volumes are the same and elements fill it.
 std::string replaced_one_by_one(const std::string& solid) {
-  const std::string file = std::string(test::kSourceDirectory) + "/tests/parts/assembly.step";
+  const std::string file =
+      std::string(buckens::test::kSourceDirectory) + "/tests/parts/assembly.step";
   std::string out;
   std::size_t count = 0;
   for (std::size_t k = 0; k == 0 || k < count; ++k) {
