@@ -248,12 +248,15 @@ def test_the_log_says_what_took_how_long(buckens, tmp_path):
 
 def test_solids_are_glued_once_for_all_ways(buckens, bad):
     """Five ways are tried: the solids are glued in metres and in millimetres, not each time."""
-    code, shown = told_on_terminal(PROGRAM, "mesh-info", bad["capped_tube"], "--size", "12 mm")
-    assert code == 0
-    ways = {int(number) for number in re.findall(r"way (\d+): ", shown)}
-    glued = set(re.findall(r"(?:way (\d+): )?gluing 2 solids", shown))
-    # A line is drawn ten times a second at most: on a busy machine a stage may be over before its turn.
-    assert max(ways) >= 4 and glued <= {"", "3"}
+    glued = set()
+    for _ in range(5):  # a line is drawn ten times a second at most: on a busy machine a stage can be over before its turn
+        code, shown = told_on_terminal(PROGRAM, "mesh-info", bad["capped_tube"], "--size", "12 mm")
+        assert code == 0
+        assert max(int(number) for number in re.findall(r"way (\d+): ", shown)) >= 4
+        glued |= set(re.findall(r"(?:way (\d+): )?gluing 2 solids", shown))
+        if len(glued) > 1:
+            break
+    assert glued == {"", "3"}
     told = info(buckens, bad["capped_tube"], "--size", "12 mm")
     assert "for the usual way failed: Gmsh:" in notes(told)
     exact = math.pi * (0.0103**2 - 0.01**2) * 0.06 + math.pi * 0.0103**2 * 0.01
