@@ -23,12 +23,7 @@ double difference(const CountedValue& from, const CountedValue& to) {
 }
 
 JointCoordinate JointCoordinate::angle(const Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed) {
-  JointCoordinate out;
-  out.kind_ = Kind::angle;
-  out.axis_F_ = axis_F;
-  out.x_F_ = axis_F.unitOrthogonal();
-  out.x_M_ = R_FM_placed.transpose() * out.x_F_;
-  return out;
+  return first_angle(axis_F, axis_F.unitOrthogonal(), R_FM_placed);
 }
 
 JointCoordinate JointCoordinate::first_angle(const Vector3d& arm_F, const Vector3d& other_F,
