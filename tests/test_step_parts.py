@@ -66,6 +66,15 @@ def test_one_solid_of_several_is_chosen_by_name_or_number(buckens, tmp_path):
     buckens("mesh-info", ASSEMBLY, "--solid", "plat").must(2, 'no solid "plat"', 'Did you mean "plate"?')
 
 
+def test_a_face_that_folds_is_replaced(buckens):
+    """The top of the box turns back behind an edge: triangles there lie on each other, and elements between have no volume."""
+    told = info(buckens, PARTS / "folded.step", "--size", "10 mm")
+    assert told["volume"] == pytest.approx(BOX, rel=1e-6) and told["inverted"] == []
+    assert told["face_sets"]["face_1"]["area"] == pytest.approx(6e-3, rel=1e-6)
+    assert "the surface of face 1 folds at an edge: a smooth one through the same edges was put in its place" in notes(told)
+    assert "elements have no volume, the first near (0, 0.0" in notes(told), "why the usual way failed"
+
+
 def test_elements_that_gmsh_cannot_bend_are_straightened(buckens, bad):
     """Large elements in a wall of 0.6 mm around a bore of 20: Gmsh does not reach its target, which is no reason to fail."""
     told = info(buckens, bad["tube"], "--size", "12 mm")

@@ -35,10 +35,27 @@ class Kernel:
     def face(self, corners):
         """A separate plane face: it shares no edge with others."""
         points = [self.call("gmshModelOccAddPoint", *map(ctypes.c_double, (*p, 0.0)), -1) for p in corners]
-        lines = [self.call("gmshModelOccAddLine", a, b, -1) for a, b in zip(points, points[1:] + points[:1])]
-        array = ctypes.c_int * len(lines)
-        loop = self.call("gmshModelOccAddCurveLoop", array(*lines), ctypes.c_size_t(len(lines)), -1)
+        return self.plane([self.line(a, b) for a, b in zip(points, points[1:] + points[:1])])
+
+    def line(self, first, last):
+        return self.call("gmshModelOccAddLine", first, last, -1)
+
+    def plane(self, lines):
+        array = (ctypes.c_int * len(lines))(*lines)
+        loop = self.call("gmshModelOccAddCurveLoop", array, ctypes.c_size_t(len(lines)), -1)
         return self.call("gmshModelOccAddPlaneSurface", (ctypes.c_int * 1)(loop), ctypes.c_size_t(1), -1)
+
+    def ends(self, dimension, tag):
+        """What bounds a face or a curve."""
+        out, count = ctypes.POINTER(ctypes.c_int)(), ctypes.c_size_t(0)
+        self.call("gmshModelGetBoundary", (ctypes.c_int * 2)(dimension, tag), ctypes.c_size_t(2), ctypes.byref(out),
+                  ctypes.byref(count), 0, 0, 0)
+        return [out[k] for k in range(1, count.value, 2)]
+
+    def corner(self, point):
+        out = [ctypes.c_double(0) for _ in range(6)]
+        self.call("gmshModelGetBoundingBox", 0, point, *map(ctypes.byref, out))
+        return [number.value for number in out[:3]]
 
     def join(self, operation, objects, tools):
         """A Boolean operation between lists of dimensions and tags."""
@@ -141,6 +158,30 @@ def screwed(width, tilt):
     return build
 
 
+def folded(kernel):
+    """The box, its top a Bezier surface whose parameters turn back behind one edge: triangles there lie on each other."""
+    x, y, z = BOX
+    grid = [(-20 if i == 1 and j in (1, 2) else i * x / 3, j * y / 3, z) for j in range(4) for i in range(4)]
+    point = [kernel.call("gmshModelOccAddPoint", *map(ctypes.c_double, (*p, 0.0)), -1) for p in grid]
+    size = ctypes.c_size_t
+    top = kernel.call("gmshModelOccAddBezierSurface", (ctypes.c_int * 16)(*point), size(16), 4, -1, None, size(0), 0)
+    kernel.call("gmshModelOccSynchronize")
+    ends = {curve: kernel.ends(1, curve) for curve in kernel.ends(2, top)}
+    corners = {corner for pair in ends.values() for corner in pair}
+    below = {}
+    for corner in corners:
+        box = kernel.corner(corner)
+        below[corner] = kernel.call("gmshModelOccAddPoint", *map(ctypes.c_double, (box[0], box[1], 0.0, 0.0)), -1)
+    upright = {corner: kernel.line(below[corner], corner) for corner in corners}
+    bottom = {curve: kernel.line(below[a], below[b]) for curve, (a, b) in ends.items()}
+    faces = [top, kernel.plane(list(bottom.values()))]
+    faces += [kernel.plane([bottom[c], upright[b], c, upright[a]]) for c, (a, b) in ends.items()]
+    shell = kernel.call("gmshModelOccAddSurfaceLoop", (ctypes.c_int * 6)(*faces), size(6), -1, 0)
+    kernel.call("gmshModelOccAddVolume", (ctypes.c_int * 1)(shell), size(1), -1)
+    flat = [number for face in faces for number in (2, face)]
+    kernel.call("gmshModelOccRemove", (ctypes.c_int * 12)(*flat), size(12), 0)
+
+
 def sieve(columns, rows):
     """A plate of 2 mm with square holes of 1 mm, 3 mm apart: four faces each."""
     def loop(kernel, corner, side_x, side_y):
@@ -181,14 +222,16 @@ PARTS = {
     "two_chambers": two_chambers,
     "pinched": pinched,
 }
+# Kept beside this file, since tests in C++ read it.
+KEPT = {"folded": folded}
 
 
 def make(directory, *names):
-    """@return the files, in the order of the names; without names all"""
+    """@return the files, in the order of the names; without names all of PARTS"""
     kernel = Kernel()
     paths = [pathlib.Path(directory) / f"{name}.step" for name in names or PARTS]
     for path in paths:
-        kernel.part(path, PARTS[path.stem])
+        kernel.part(path, {**PARTS, **KEPT}[path.stem])
     return paths
 
 

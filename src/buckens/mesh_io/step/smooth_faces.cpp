@@ -132,8 +132,14 @@ std::string smooth_folded_faces(GmshLibrary& gmsh, const std::vector<int>& faces
   if (std::abs(std::abs(gmsh.size(solids[0])) - volume) > kSameVolume * volume) {
     throw IoError(fmt::format("face {} folds, and a smooth one makes another volume", faces[0]));
   }
+  if (faces.size() == 1) {
+    return fmt::format(
+        "note the surface of face {} folds at an edge: a smooth one through the same edges was put "
+        "in its place\n",
+        faces[0]);
+  }
   return fmt::format(
-      "note the surfaces of {} faces fold at an edge (face {}): smooth ones through the same edges "
+      "note the surfaces of {} faces fold at an edge (faces {}): smooth ones through the same edges "
       "were put in their place\n",
       faces.size(), fmt::join(faces, ", "));
 }

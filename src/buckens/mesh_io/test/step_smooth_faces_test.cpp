@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smooth faces in place of folded ones. The library works in a process of its own.
+#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "buckens/base/errors.h"
 #include "buckens/base/test/source_directory.h"
+#include "buckens/base/test/temporary_directory.h"
 #include "buckens/files/isolated_work.h"
+#include "buckens/files/output_file.h"
 #include "buckens/mesh_io/gmsh/library.h"
 #include "buckens/mesh_io/step/shapes.h"
 #include "buckens/mesh_io/step/smooth_faces.h"
@@ -47,6 +51,52 @@ std::string replaced_one_by_one(const std::string& solid) {
 
 TEST(StepSmoothFaces, plane_faces_stay_where_they_are) {
   EXPECT_EQ(replaced_one_by_one("plate"), "new new new new new new ");
+}
+
+/// What comes of the box whose top folds at an edge: its inner points at this height in the file,
+/// which is 40 where the top is plane.
+std::string replaced_top(const std::string& height) {
+  std::string text =
+      files::read_text_file(std::string(buckens::test::kSourceDirectory) + "/tests/parts/folded.step");
+  for (const char* y : {"20", "40"}) {
+    const std::string point = fmt::format("(66.666666666667,{}.,", y);
+    const std::size_t at = text.find(point + "40.)");
+    text.replace(at + point.size(), 3, height);
+  }
+  const buckens::test::TemporaryDirectory directory;
+  const std::string file = directory.path() / "folded.step";
+  std::ofstream(file) << text;
+  const files::IsolatedResult result = files::do_isolated([&]() -> std::string {
+    GmshLibrary gmsh;
+    gmsh.set_text("Geometry.OCCTargetUnit", "MM");
+    load_part(gmsh, "part", file, {});
+    gmsh.set_number("Mesh.Algorithm", 1);
+    gmsh.set_number("Mesh.MeshSizeMax", 10);
+    gmsh.mesh(2);
+    const auto folded = folded_faces(gmsh);
+    if (folded.empty()) return "no face folds";
+    try {
+      const std::string note = smooth_folded_faces(gmsh, folded);
+      gmsh.mesh(3);
+      if (!folded_faces(gmsh).empty()) return "folds again";
+      return fmt::format("{:.0f} mm3, {}", gmsh.size(gmsh.entities(3).at(0)), note);
+    } catch (const IoError& error) {
+      return error.what();
+    }
+  });
+  EXPECT_TRUE(result.is_complete);
+  return result.output;
+}
+
+TEST(StepSmoothFaces, a_fold_is_found_and_replaced) {
+  EXPECT_EQ(replaced_top("40."),
+            "240000 mm3, note the surface of face 1 folds at an edge: a smooth one through the same "
+            "edges was put in its place\n");
+}
+
+TEST(StepSmoothFaces, a_bulge_is_not_cut_off) {
+  EXPECT_EQ(replaced_top("44."), "face 1 folds, and a smooth one makes another volume");
+  EXPECT_EQ(replaced_top("70."), "face 1 folds, and a smooth one has another area");
 }
 
 TEST(StepSmoothFaces, nothing_to_replace) {
