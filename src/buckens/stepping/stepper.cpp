@@ -84,6 +84,8 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
     : model_(model),
       settings_(settings),
       scheme_(settings.method, settings.step, settings.method_parameter()),
+      forecast_(scheme_, model.length),
+      forecasts_(RigidRows(model).empty()),
       bodies_(model.bodies.size()) {
   std::vector<const BodyAnswer*> views;
   for (const body::Body& body : model.bodies) {
@@ -254,6 +256,7 @@ void Stepper::form_next_state(const model::State& state) {
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.inputs = state.inputs;
+  note_past(state, next);
   dynamics::advance_memory(model_, newton_->motions_at_end(), next.t, newton_->around(),
                            next.memory);
   for_bodies([&](std::size_t b) {
@@ -345,6 +348,8 @@ void Stepper::compute_round(const model::State& state, int round, StepReport& re
   const auto solved = Clock::now();
   if (round == 0) {
     newton_->prepare(bodies_, state.t);
+    // After it: matrix and directions belong to where the last accelerations lead.
+    if (forecasts_ && forecast_.foretells(state)) forecast_.apply(state, bodies_, lambda_);
     newton_->iterate(bodies_, state.t, lambda_, report);
   } else {
     newton_->iterate_on(bodies_, state.t, lambda_, report);

@@ -8,6 +8,7 @@
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/factor_group.h"
+#include "buckens/stepping/forecast.h"
 #include "buckens/stepping/impacts.h"
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
@@ -111,6 +112,8 @@ class Stepper {
   Scheme scheme_;
   std::vector<std::unique_ptr<BodyStepOperator>> operators_;
   std::unique_ptr<SmallNewton> newton_;
+  Forecast forecast_;
+  bool forecasts_;  // no rows that come and go, which a forecast does not know
   std::unique_ptr<Impacts> impacts_;
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<FlexibleStep>> flexible_;  // null: rigid
