@@ -46,17 +46,22 @@ constexpr int kPartsPerThread = 4;
 
 namespace {
 
-/// @param known operators of other bodies, one of which may have the factor already
-std::unique_ptr<BodyStepOperator> factorised(
-    const body::Body& body, const Scheme& scheme,
-    const std::vector<std::unique_ptr<BodyStepOperator>>& known, const StepSettings& settings) {
+using Operators = std::vector<std::shared_ptr<BodyStepOperator>>;
+
+/// @param known operators of other bodies, one of which may be that of this body or have its factor
+std::shared_ptr<BodyStepOperator> factorised(const body::Body& body, const Scheme& scheme,
+                                             const Operators& known, const StepSettings& settings) {
   if (!body.is_flexible()) return nullptr;
+  const auto same = std::find_if(known.begin(), known.end(), [&](const auto& other) {
+    return other != nullptr && other->serves(*body.flexible);
+  });
+  if (same != known.end()) return *same;
   const auto twin = std::find_if(known.begin(), known.end(), [&](const auto& other) {
     return other != nullptr && other->fits(*body.flexible);
   });
   try {
     const BodyStepOperator* first = twin == known.end() ? nullptr : twin->get();
-    return std::make_unique<BodyStepOperator>(
+    return std::make_shared<BodyStepOperator>(
         *body.flexible, scheme, FactorSource{first, settings.exchange, settings.make_factor});
   } catch (const NumericalError& error) {
     throw NumericalError(fmt::format("body \"{}\": {}", body.name, error.what()));
@@ -89,7 +94,10 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       bodies_(model.bodies.size()) {
   std::vector<const BodyAnswer*> views;
   for (const body::Body& body : model.bodies) {
-    operators_.push_back(factorised(body, scheme_, operators_, settings_));
+    auto op = factorised(body, scheme_, operators_, settings_);
+    has_own_operator_.push_back(
+        op != nullptr && std::find(operators_.begin(), operators_.end(), op) == operators_.end());
+    operators_.push_back(std::move(op));
     flexible_.push_back(
         body.is_flexible() ? std::make_unique<FlexibleStep>(body, *operators_.back()) : nullptr);
     views.push_back(operators_.back().get());
@@ -230,9 +238,8 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
     const bool matters = flexible_[b] && bodies_[b].terms.are_lagged();
     gaps_[b] = {};
     if (!matters) return;
-    gaps_[b] =
-        flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b], state.t,
-                                        settings_.outer_tolerance, model_.length, pool_.get());
+    gaps_[b] = flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b],
+                                               state.t, settings_, model_.length, pool_.get());
   });
   bool settled = true;
   report.coupling_change = 0;
@@ -412,16 +419,16 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
 
 double Stepper::factor_entries() const {
   double sum = 0;
-  for (const auto& op : operators_) {
-    if (op) sum += op->factor_entries();
+  for (std::size_t b = 0; b < operators_.size(); ++b) {
+    if (has_own_operator_[b]) sum += operators_[b]->factor_entries();
   }
   return sum;
 }
 
 double Stepper::factor_bytes() const {
   double sum = 0;
-  for (const auto& op : operators_) {
-    if (op) sum += op->factor_bytes();
+  for (std::size_t b = 0; b < operators_.size(); ++b) {
+    if (has_own_operator_[b]) sum += operators_[b]->factor_bytes();
   }
   return sum;
 }
@@ -447,7 +454,8 @@ SolveCounts Stepper::counts(std::size_t body) const {
   if (!operators_[body]) return {};
   const BodyStepOperator& op = *operators_[body];
   const FlexibleStep& step = *flexible_[body];
-  return {op.factorisations(), step.solves, step.recycled, op.setup_solves()};
+  const bool owns = has_own_operator_[body] != 0;
+  return {owns ? op.factorisations() : 0, step.solves, step.recycled, owns ? op.setup_solves() : 0};
 }
 
 }  // namespace buckens::stepping

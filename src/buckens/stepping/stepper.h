@@ -110,7 +110,8 @@ class Stepper {
   const model::Model& model_;
   StepSettings settings_;
   Scheme scheme_;
-  std::vector<std::unique_ptr<BodyStepOperator>> operators_;
+  std::vector<std::shared_ptr<BodyStepOperator>> operators_;  // equal small bodies have one
+  std::vector<char> has_own_operator_;                        // not that of a body before
   std::unique_ptr<SmallNewton> newton_;
   Forecast forecast_;
   bool forecasts_;  // no rows that come and go, which a forecast does not know
