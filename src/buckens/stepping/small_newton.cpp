@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/model_scales.h"
+#include "buckens/stepping/iteration_limits.h"
 #include "buckens/stepping/row_selection.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -27,19 +28,6 @@ constexpr double kPivotDrop = 1e-3;
 // moves what the lever drives by more than the iteration's end admits: the step has hit a dead
 // centre.
 constexpr double kDeadCentre = 1e-10;
-// Convergence is linear with the frozen matrix of the step: what the next iteration would change is
-// known from the last two. It has to be this much smaller than what the tolerance admits.
-constexpr double kForeseen = 0.01;
-// What rounding of positions leaves open, relative to the model's length, or to the distance from
-// the origin where that is more.
-constexpr double kRounding = 1e-15;
-// A change that no longer falls is rounding if it is below these shares of the same lengths.
-constexpr double kStalled = 1e-11;
-constexpr double kStalledFarAway = 1e-14;
-// Rows whose pivots have fallen below this hold their bodies by a short lever, the root of the
-// pivot; rounding moves these bodies by its inverse more.
-constexpr double kWeaklyHeld = 1e-6;
-constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
 template <class F>

@@ -23,6 +23,8 @@ struct StepSettings {
   int max_newton = 40;
   int max_outer = 30;
   int threads = 1;  ///< ≥ 1; does not influence results
+  /// Mechanisms of many small bodies step eight at a time; else one by one, which takes longer.
+  bool side_by_side = true;
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
   /// Factorises the step matrices of bodies; an exchange has its own.

@@ -21,22 +21,6 @@ using Eigen::Vector3d;
 using linalg::Vector;
 
 namespace {
-// Positions are known to rounding, accelerations to that over h². A coupling load that stops
-// falling from solve to solve has converged, whatever the outer tolerance, if the remainder is this
-// small: relative to the load, or as motion relative to the model's length (where a motion has
-// barely begun).
-constexpr double kCouplingRounding = 1e-9;
-constexpr double kPositionRounding = 1e-15;
-// Rounding changes from solve to solve without falling. A body whose inertia about some axis is
-// much larger deformed than undeformed, such as a thin bent rod about its length, converges by a
-// factor of about 0.7: that is not rounding, the remainder is several times the last change.
-constexpr double kNoLongerFalls = 0.9;
-// What a second large solve may leave in the coupling load: its effect on the motion in a step is
-// smaller by (h ω)², far below the error of the method.
-constexpr double kSecondSolve = 1e-4;
-// Where the coupling load passes through zero, the criterion is the motion that the rest would
-// cause in the step, relative to the model's length.
-constexpr double kSecondSolveMotion = 1e-9;
 // Ends of steps are counted elsewhere, not summed.
 constexpr double kSameInstant = 1e-6;
 // With fewer variables in all bodies together, waking a thread does not pay.
@@ -105,6 +89,9 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
   impacts_ = std::make_unique<Impacts>(model, scheme_, views);
   newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
                                           std::move(rows_in_use));
+  StrandMechanism::Operators small;
+  for (const auto& op : operators_) small.push_back(op.get());
+  strand_ = StrandStep::make(model, settings_, scheme_, small);
   gaps_.resize(bodies_.size());
   use_threads(settings_.threads);
   group_factors();
@@ -233,7 +220,7 @@ void Stepper::complete(const model::State& state) {
   });
 }
 
-bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
+CouplingRounds::Gap Stepper::compare_coupling(const model::State& state) {
   for_bodies([&](std::size_t b) {
     const bool matters = flexible_[b] && bodies_[b].terms.are_lagged();
     gaps_[b] = {};
@@ -241,29 +228,32 @@ bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
     gaps_[b] = flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b],
                                                state.t, settings_, model_.length, pool_.get());
   });
-  bool settled = true;
-  report.coupling_change = 0;
-  coupling_motion_ = 0;
+  CouplingRounds::Gap out;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!flexible_[b] || !bodies_[b].terms.are_lagged()) continue;
     const LaggedCoupling::Gap& gap = gaps_[b];
-    settled = settled && gap.is_settled();
-    coupling_motion_ = std::max(coupling_motion_, gap.motion);
-    if (!(gap.change <= report.coupling_change)) least_settled_ = b;
-    report.coupling_change = std::max(report.coupling_change, gap.change);
+    out.is_settled = out.is_settled && gap.is_settled();
+    out.motion = std::max(out.motion, gap.motion);
+    if (!(gap.change <= out.change)) least_settled_ = b;
+    out.change = std::max(out.change, gap.change);
   }
-  return settled;
+  return out;
 }
 
-void Stepper::form_next_state(const model::State& state) {
+void Stepper::form_next_instant(const model::State& state) {
   model::State& next = next_;
   next.t = state.t + scheme_.h;
-  next.lambda = lambda_;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.inputs = state.inputs;
   note_past(state, next);
+}
+
+void Stepper::form_next_state(const model::State& state) {
+  model::State& next = next_;
+  form_next_instant(state);
+  next.lambda = lambda_;
   dynamics::advance_memory(model_, newton_->motions_at_end(), next.t, newton_->around(),
                            next.memory);
   for_bodies([&](std::size_t b) {
@@ -378,6 +368,28 @@ StepReport Stepper::step(const model::State& before, model::State& after) {
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   recall_solves(state);
+  if (!take_strand_step(state, report)) report = take_general_step(state);
+  stepped_to_ = next_.t;
+  finish_lesson(next_);
+  std::swap(end, next_);  // the buffers of `end` are reused in the next step
+  return report;
+}
+
+bool Stepper::take_strand_step(const model::State& state, StepReport& report) {
+  if (!strand_ || !strand_->takes(state, newton_->rows_in_use())) return false;
+  const auto start = std::chrono::steady_clock::now();
+  if (!strand_->step(state, next_, report)) return false;
+  form_next_instant(state);
+  dynamics::advance_memory(model_, strand_->motions_at_end(), next_.t,
+                           {&state.inputs, &state.memory, &next_.lambda}, next_.memory);
+  has_stepped_ = false;  // loads on bodies are not kept
+  seconds_.newton +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return true;
+}
+
+StepReport Stepper::take_general_step(const model::State& state) {
+  StepReport report;
   lambda_ = state.lambda;
   next_.bodies.resize(bodies_.size());
   newton_->use({&state.inputs, &state.memory, &lambda_});
@@ -385,35 +397,26 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   if (impacts_->can_happen()) {
     impacts_->start(dynamics::motions_of(model_, state), state.memory);
   }
-  double last_change = HUGE_VAL;
+  CouplingRounds rounds(settings_);
   for (int round = 0;; ++round) {
     compute_round(state, round, report);
-    if (coupling_settled(state, report)) break;
-    const double change = report.coupling_change;
-    const bool is_last = round + 1 >= settings_.max_outer;
-    if (change <= kCouplingRounding && (is_last || change > kNoLongerFalls * last_change)) break;
-    if (coupling_motion_ <= kPositionRounding && change > 0.5 * last_change) break;
-    const bool is_second =
-        report.large_solve_rounds + report.recycled_rounds >= 2 && !settings_.iterate_coupling;
-    const bool is_small = coupling_motion_ <= kSecondSolveMotion && change <= 0.5 * last_change;
-    if (is_second && (change <= kSecondSolve || is_small)) break;
-    last_change = change;
-    if (is_last || !std::isfinite(change)) {
-      throw StepFailure(
-          fmt::format("step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not "
-                      "converge (relative change {:.3g} after {} solves); the deformation is too "
-                      "large for linear elasticity in one frame, or the step {:.3g} s is too long",
-                      state.t, model_.bodies[least_settled_].name, change, round + 1, scheme_.h));
+    const CouplingRounds::Gap gap = compare_coupling(state);
+    report.coupling_change = gap.change;
+    const auto verdict = rounds.judge(gap, report.large_solve_rounds + report.recycled_rounds);
+    if (verdict == CouplingRounds::Verdict::ends) break;
+    if (verdict == CouplingRounds::Verdict::fails) {
+      throw StepFailure(fmt::format(
+          "step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not "
+          "converge (relative change {:.3g} after {} solves); the deformation is too "
+          "large for linear elasticity in one frame, or the step {:.3g} s is too long",
+          state.t, model_.bodies[least_settled_].name, gap.change, round + 1, scheme_.h));
     }
     take_over_coupling();
   }
   form_next_state(state);
   report.must_settle = newton_->rigid_rows_changed();
   take_impacts(report);
-  stepped_to_ = next_.t;
   has_stepped_ = true;
-  finish_lesson(next_);
-  std::swap(end, next_);  // the buffers of `end` are reused in the next step
   return report;
 }
 
@@ -455,7 +458,8 @@ SolveCounts Stepper::counts(std::size_t body) const {
   const BodyStepOperator& op = *operators_[body];
   const FlexibleStep& step = *flexible_[body];
   const bool owns = has_own_operator_[body] != 0;
-  return {owns ? op.factorisations() : 0, step.solves, step.recycled, owns ? op.setup_solves() : 0};
+  const long solves = step.solves + (strand_ ? strand_->solves(body) : 0);
+  return {owns ? op.factorisations() : 0, solves, step.recycled, owns ? op.setup_solves() : 0};
 }
 
 }  // namespace buckens::stepping

@@ -1,0 +1,452 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/strand_mechanism.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <new>
+#include <utility>
+
+#include "buckens/body/body_lengths.h"
+#include "buckens/body/second_moments.h"
+
+namespace buckens::stepping {
+
+using Eigen::Index;
+using linalg::Matrix;
+using strand::BodyRows;
+using strand::entry;
+using strand::JointRows;
+using strand::kLanes;
+using strand::kSlots;
+using strand::MeshRows;
+using strand::Plane;
+using strand::SlotRows;
+using strand::Space;
+
+namespace {
+
+/// Pairs (a, b) of W_ab and of patterns in the order of the tables, as numbers of body::kPairs.
+template <class S>
+constexpr std::array<int, S::P> pairs() {
+  if constexpr (S::T == 2) {
+    return {0, 1, 3};
+  } else {
+    return {0, 1, 2, 3, 4, 5};
+  }
+}
+
+/// Places of an inertia's entries in a matrix.
+template <class S>
+constexpr std::array<std::array<int, 2>, S::J> inertia_entries() {
+  if constexpr (S::T == 2) {
+    return {{{2, 2}, {0, 0}, {1, 1}, {0, 1}}};
+  } else {
+    return {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+  }
+}
+
+/// Variable of a node along one of the components of the tables: translations, then rotations.
+template <class S>
+int component(int k) {
+  if constexpr (S::T == 2) return k < 2 ? k : 5;
+  return k;
+}
+
+void fill_ground(double* at, bool is_planar) {
+  const auto fill = [&]<class S>(S) {
+    using Row = BodyRows<S>;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      double* const t = at + lane;
+      entry(t, Row::q) = 1.0;
+      for (int k = 0; k < S::T; ++k) {
+        const int diagonal = S::T == 2 ? 0 : 4 * k;
+        entry(t, Row::turn + diagonal) = entry(t, Row::turn0 + diagonal) = 1.0;
+      }
+    }
+  };
+  is_planar ? fill(Plane{}) : fill(Space{});
+}
+
+}  // namespace
+
+double* StrandMechanism::rows(int count) {
+  const std::size_t bytes = static_cast<std::size_t>(kLanes * count) * sizeof(double);
+  memory_.emplace_back(static_cast<double*>(std::aligned_alloc(64, bytes)), &std::free);
+  double* const out = memory_.back().get();
+  if (out == nullptr) throw std::bad_alloc();
+  std::fill_n(out, kLanes * count, 0.0);
+  return out;
+}
+
+StrandMechanism::StrandMechanism(const model::Model& model, const Scheme& scheme,
+                                 const Operators& operators)
+    : model_(model), is_planar_(model.planar.has_value()) {
+  const linalg::SimdLevel level = linalg::best_simd_level();
+  kernels_ = is_planar_ ? &strand::plane_kernels(level) : &strand::space_kernels(level);
+  set_constants(scheme, operators);
+  is_planar_ ? lay_out<Plane>(operators) : lay_out<Space>(operators);
+}
+
+void StrandMechanism::set_constants(const Scheme& scheme, const Operators& operators) {
+  const auto of_rate = scheme.history(1.0, 0.0, 0.0);
+  const auto of_accel = scheme.history(0.0, 1.0, 0.0);
+  const auto of_alg = scheme.history(0.0, 0.0, 1.0);
+  const auto weights = [&](double History<double>::*member) {
+    return strand::Weights{0.0, of_rate.*member, of_accel.*member, of_alg.*member};
+  };
+  strand::Constants& is = constants_;
+  is.s1 = scheme.end_rate;
+  is.s2 = scheme.acceleration_rate;
+  is.c = scheme.force;
+  is.mass = scheme.mass;
+  is.damping = scheme.damping;
+  is.side_load = scheme.force;
+  is.velocity = weights(&History<double>::velocity);
+  is.acceleration = weights(&History<double>::acceleration);
+  is.predicted = weights(&History<double>::predicted);
+  is.alg_before = scheme.algorithmic(1.0, 0.0, 0.0);
+  is.alg_old = scheme.algorithmic(0.0, 1.0, 0.0);
+  is.alg_new = scheme.algorithmic(0.0, 0.0, 1.0);
+  is.L = model_.length;
+  for (int k = 0; k < 3; ++k) is.gravity[k] = model_.gravity[k];
+  // As in LargeStep, with θ = 1 and no offset.
+  const auto combine = [](double d, const strand::Weights& a, double factor) {
+    return strand::Weights{d + factor * a.d, factor * a.rate, factor * a.accel, factor * a.alg};
+  };
+  is.with_mass = combine(scheme.mass, is.acceleration, -scheme.force);
+  for (BodyStepOperator* const op : operators) {
+    if (op == nullptr || !op->inertial().is_damped()) continue;
+    const strand::Weights with_damping = combine(scheme.damping, is.velocity, -scheme.force);
+    is.is_damped = true;
+    is.with_mass.d += op->inertial().zeta() * with_damping.d;
+    is.with_mass.rate += op->inertial().zeta() * with_damping.rate;
+    is.with_mass.accel += op->inertial().zeta() * with_damping.accel;
+    is.with_mass.alg += op->inertial().zeta() * with_damping.alg;
+    is.beside = combine(0.0, with_damping, op->inertial().share());
+    break;  // suits() has compared the others
+  }
+  for (const body::Body& body : model_.bodies) {
+    if (!body.is_flexible()) continue;
+    const body::CouplingTerms& terms = body.flexible->coupling.terms;
+    is.jvar = terms.jvar;
+    is.cor_ref = terms.cor_ref;
+    is.cent0 = terms.cent0;
+    is.quad_ref = terms.quad_ref;
+    is.cent1 = terms.cent1;
+    is.cor_fe = terms.cor_fe;
+    is.eul_fe = terms.eul_fe;
+    break;
+  }
+}
+
+template <class S>
+void StrandMechanism::lay_out(const Operators& operators) {
+  const std::size_t count = model_.bodies.size();
+  bodies_.resize(count);
+  orders_.resize(count);
+  slots_.assign(count, {-1, -1});
+  for (const model::Joint& joint : model_.joints) {
+    for (const model::MarkerId* id : {&joint.first, &joint.second}) {
+      if (id->body == model::kGround) continue;
+      const auto b = static_cast<std::size_t>(id->body);
+      if (model_.bodies[b].is_flexible()) continue;
+      auto& slots = slots_[b];
+      if (slots[0] == id->marker || slots[1] == id->marker) continue;
+      slots[slots[0] < 0 ? 0 : 1] = id->marker;
+    }
+  }
+  for (const bool has_mesh : {false, true}) {
+    std::vector<std::size_t> kind;
+    for (std::size_t b = 0; b < count; ++b) {
+      if (model_.bodies[b].is_flexible() == has_mesh) kind.push_back(b);
+    }
+    for (std::size_t first = 0; first < kind.size(); first += kLanes) {
+      strand::BodyBlock& block = body_blocks_.emplace_back();
+      block.has_mesh = has_mesh;
+      block.rows = rows(has_mesh ? MeshRows<S>::count : BodyRows<S>::count);
+      std::vector<std::size_t> members;
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const bool is_idle = first + k >= kind.size();
+        const std::size_t b = kind[is_idle ? first : first + k];
+        const Place before = bodies_[b];
+        bodies_[b] = {block.rows + k, has_mesh};
+        fill_body<S>(b, operators[b]);
+        if (is_idle) {
+          // Like the first body, so that its numbers are ordinary ones, but never moved.
+          entry(bodies_[b].at, BodyRows<S>::mass) = 0.0;
+          bodies_[b] = before;
+        } else {
+          members.push_back(b);
+        }
+      }
+      if (has_mesh) collect_integrals<S>(members, block);
+    }
+  }
+  ground_ = rows(BodyRows<S>::count);
+  fill_ground(ground_, S::T == 2);
+  lay_out_joints<S>();
+  lay_out_pairs<S>();
+}
+
+template <class S>
+void StrandMechanism::fill_body(std::size_t b, BodyStepOperator* op) {
+  using Row = BodyRows<S>;
+  const body::Body& body = model_.bodies[b];
+  double* const t = bodies_[b].at;
+  entry(t, Row::q) = 1.0;
+  entry(t, Row::mass) = body.mass;
+  entry(t, Row::tau) = 1.0 / (constants_.mass * body.mass);
+  for (int k = 0; k < S::J; ++k) {
+    const auto [i, j] = inertia_entries<S>()[static_cast<std::size_t>(k)];
+    entry(t, Row::J0 + k) = body.J0(i, j);
+  }
+  if (op != nullptr) {
+    fill_mesh<S>(b, *op);
+    return;
+  }
+  for (int slot = 0; slot < kSlots; ++slot) {
+    const int marker = slots_[b][static_cast<std::size_t>(slot)];
+    if (marker < 0) continue;
+    const Eigen::Vector3d& z = body.markers[static_cast<std::size_t>(marker)].X_BF.p;
+    for (int k = 0; k < S::T; ++k) entry(t, Row::z0 + slot * S::T + k) = z[k];
+  }
+}
+
+template <class S>
+void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op) {
+  using Row = MeshRows<S>;
+  constexpr int N = Row::N;
+  const body::Body& body = model_.bodies[b];
+  const body::FlexiblePart& part = *body.flexible;
+  double* const t = bodies_[b].at;
+  std::vector<int>& order = orders_[b];
+  order.assign(static_cast<std::size_t>(N), 0);
+  for (std::size_t node = 0; node < kSlots; ++node) {
+    for (int k = 0; k < S::F; ++k) {
+      const int dof = part.fe.dofs.node_dofs[node][static_cast<std::size_t>(component<S>(k))];
+      order[static_cast<std::size_t>(dof)] = static_cast<int>(node) * S::F + k;
+    }
+    const Eigen::Vector3d z = part.fe.nodes[node].position - body.com;
+    for (int k = 0; k < S::T; ++k) {
+      entry(t, Row::z0 + static_cast<int>(node) * S::T + k) = z[k];
+    }
+  }
+  const auto at = [&](Index i) { return order[static_cast<std::size_t>(i)]; };
+  const auto set_vector = [&](int row, const linalg::Vector& values) {
+    for (Index i = 0; i < N; ++i) entry(t, row + at(i)) = values[i];
+  };
+  const auto set_matrix = [&](int row, const Matrix& values) {
+    for (Index i = 0; i < N; ++i) {
+      for (Index j = 0; j < N; ++j) entry(t, row + N * at(i) + at(j)) = values(i, j);
+    }
+  };
+  Matrix inverse(N, N);
+  for (Index j = 0; j < N; ++j) {
+    linalg::Vector unit = linalg::Vector::Unit(N, j);
+    op.solve_right_side(unit);
+    inverse.col(j) = unit;
+  }
+  Matrix inertia = op.scheme().mass * Matrix(part.fe.M);
+  if (part.is_damped()) inertia += op.scheme().damping * Matrix(part.C);
+  set_matrix(Row::A, inverse);
+  set_matrix(Row::B, inverse * (inertia * inverse) - inverse);
+  set_matrix(Row::Mass, Matrix(part.fe.M));
+  for (int k = 0; k < part.sieve.Phi().cols(); ++k) {
+    set_vector(Row::Phi + k * N, part.sieve.Phi().col(k));
+    set_vector(Row::Pi + k * N, part.sieve.P().col(k));
+  }
+  const linalg::Vector inverse_diagonal = op.K_hat_diagonal().cwiseInverse();
+  set_vector(Row::inverse, inverse_diagonal);
+  set_vector(Row::per_load, body::coordinate_lengths(body).cwiseProduct(inverse_diagonal));
+  if (op.patterns() == nullptr) return;
+  const Matrix& patterns = part.invariants.centrifugal_patterns();
+  const Matrix undeformed = patterns.transpose() * (inverse_diagonal.asDiagonal() * patterns);
+  entry(t, Row::per_pattern) = 1.0 / (body.mass * body.length_scale());
+  for (int i = 0; i < S::P; ++i) {
+    const int pair = pairs<S>()[static_cast<std::size_t>(i)];
+    set_vector(Row::pat + i * N, patterns.col(pair));
+    for (int j = 0; j < S::P; ++j) {
+      entry(t, Row::und + S::P * i + j) = undeformed(pair, pairs<S>()[static_cast<std::size_t>(j)]);
+    }
+  }
+}
+
+template <class S>
+void StrandMechanism::collect_integrals(const std::vector<std::size_t>& bodies,
+                                        strand::BodyBlock& block) {
+  // Per pair and column the entries that some lane has.
+  std::map<std::array<int, 3>, std::array<double, kLanes>> found;
+  for (std::size_t lane = 0; lane < bodies.size(); ++lane) {
+    const std::vector<int>& order = orders_[bodies[lane]];
+    const auto& shape = model_.bodies[bodies[lane]].flexible->fe.shape;
+    for (const int pair : pairs<S>()) {
+      const linalg::SparseMatrix& W = shape.W[static_cast<std::size_t>(pair)];
+      for (int j = 0; j < W.outerSize(); ++j) {
+        for (linalg::SparseMatrix::InnerIterator it(W, j); it; ++it) {
+          if (it.value() == 0.0) continue;
+          auto& values = found[{pair, order[static_cast<std::size_t>(j)],
+                                order[static_cast<std::size_t>(it.row())]}];
+          values[lane] += it.value();
+        }
+      }
+    }
+  }
+  Integrals& out = *integrals_.emplace_back(std::make_unique<Integrals>());
+  out.values = rows(std::max(1, static_cast<int>(found.size())));
+  for (const auto& [key, values] : found) {
+    const auto [pair, column, row] = key;
+    const auto [a, b] = body::kPairs[static_cast<std::size_t>(pair)];
+    const int count = static_cast<int>(out.entries.size());
+    if (out.columns.empty() || out.columns.back().a != a || out.columns.back().b != b ||
+        out.columns.back().column != column) {
+      out.columns.push_back({a, b, column, count, count});
+    }
+    std::copy(values.begin(), values.end(), out.values + kLanes * count);
+    out.entries.push_back(row);
+    out.columns.back().end = count + 1;
+  }
+  block.num_columns = static_cast<int>(out.columns.size());
+  block.columns = out.columns.data();
+  block.entries = out.entries.data();
+  block.values = out.values;
+}
+
+template <class S>
+Eigen::Matrix3d StrandMechanism::place_end(const model::MarkerId& id, int end, int lane,
+                                           strand::JointBlock& block) {
+  using Row = BodyRows<S>;
+  if (id.body == model::kGround) {
+    // One of its own: forces on it are not looked at.
+    double* const own = rows(Row::count);
+    fill_ground(own, S::T == 2);
+    double* const slot = own + kLanes * Row::slots;
+    for (int k = 0; k < S::T; ++k) {
+      entry(slot, SlotRows<S>::p + k) = id.X_WF.p[k];
+      entry(slot, SlotRows<S>::axes + (S::T == 2 ? 0 : 4 * k)) = 1.0;
+    }
+    block.body[end][lane] = own;
+    block.slot[end][lane] = slot;
+    return id.X_WF.R();
+  }
+  const auto b = static_cast<std::size_t>(id.body);
+  const int which = slot_of(id);
+  block.body[end][lane] = bodies_[b].at;
+  block.which[end][lane] = which;
+  block.slot[end][lane] = bodies_[b].at + kLanes * (Row::slots + which * SlotRows<S>::count);
+  if (bodies_[b].has_mesh) entry(bodies_[b].at, MeshRows<S>::seen + which) = 1.0;
+  return model_.bodies[b].markers[static_cast<std::size_t>(id.marker)].X_BF.R();
+}
+
+int StrandMechanism::slot_of(const model::MarkerId& id) const {
+  const auto b = static_cast<std::size_t>(id.body);
+  if (!bodies_[b].has_mesh) return slots_[b][0] == id.marker ? 0 : 1;
+  const body::Body& body = model_.bodies[b];
+  return node_of(body, body.markers[static_cast<std::size_t>(id.marker)]);
+}
+
+template <class S>
+void StrandMechanism::place_joint(std::size_t j, int lane, strand::JointBlock& block) {
+  using Row = JointRows<S>;
+  const model::Joint& joint = model_.joints[j];
+  double* const t = block.rows + lane;
+  block.first_row[lane] = joint.first_row;
+  const Eigen::Matrix3d first = place_end<S>(joint.first, 0, lane, block);
+  const Eigen::Matrix3d second = place_end<S>(joint.second, 1, lane, block);
+  for (int k = 0; k < block.num_directions; ++k) {
+    const joints::ConstraintRow& row = joint.rows[static_cast<std::size_t>(S::T + k)];
+    const Eigen::Vector3d b = first * row.direction();
+    const Eigen::Vector3d c = second * row.second_direction();
+    for (int i = 0; i < S::T; ++i) {
+      entry(t, Row::b + k * S::T + i) = b[i];
+      entry(t, Row::c + k * S::T + i) = c[i];
+    }
+  }
+  multipliers_[j] = t + kLanes * Row::lambda;
+  sides_[j] = {t + kLanes * Row::side, t + kLanes * (Row::side + Row::side_count)};
+}
+
+template <class S>
+void StrandMechanism::lay_out_joints() {
+  const std::size_t count = model_.joints.size();
+  multipliers_.resize(count);
+  sides_.resize(count);
+  for (int directions = 0; directions <= S::R; ++directions) {
+    int lane = kLanes;
+    for (std::size_t j = 0; j < count; ++j) {
+      if (std::ssize(model_.joints[j].rows) != S::T + directions) continue;
+      if (lane == kLanes) {
+        lane = 0;
+        strand::JointBlock& fresh = joint_blocks_.emplace_back();
+        fresh.rows = rows(JointRows<S>::count);
+        fresh.num_directions = directions;
+        for (int end = 0; end < 2; ++end) {
+          std::fill_n(fresh.body[end], kLanes, ground_);
+          std::fill_n(fresh.slot[end], kLanes, ground_ + kLanes * BodyRows<S>::slots);
+        }
+      }
+      place_joint<S>(j, lane, joint_blocks_.back());
+      joint_blocks_.back().num_lanes = ++lane;
+    }
+  }
+}
+
+template <class S>
+void StrandMechanism::lay_out_pairs() {
+  struct End {
+    int joint, side, which;
+  };
+  std::vector<std::vector<End>> on_body(model_.bodies.size());
+  std::vector<int> sizes;
+  std::vector<std::pair<int, int>> couples;
+  for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+    const model::Joint& joint = model_.joints[j];
+    sizes.push_back(static_cast<int>(joint.rows.size()));
+    for (int side = 0; side < 2; ++side) {
+      const model::MarkerId& id = side == 0 ? joint.first : joint.second;
+      if (id.body == model::kGround) continue;
+      on_body[static_cast<std::size_t>(id.body)].push_back(
+          {static_cast<int>(j), side, slot_of(id)});
+    }
+  }
+  for (const auto& ends : on_body) {
+    for (const End& i : ends) {
+      for (const End& j : ends) couples.emplace_back(i.joint, j.joint);
+    }
+  }
+  matrix_ = std::make_unique<linalg::BlockLu>(sizes, couples);
+  for (const bool has_mesh : {false, true}) {
+    int lane = kLanes;
+    for (std::size_t b = 0; b < on_body.size(); ++b) {
+      if (bodies_[b].has_mesh != has_mesh) continue;
+      for (const End& i : on_body[b]) {
+        for (const End& j : on_body[b]) {
+          if (lane == kLanes) {
+            lane = 0;
+            pair_blocks_.emplace_back().has_mesh = has_mesh;
+          }
+          strand::PairBlock& block = pair_blocks_.back();
+          const int place = matrix_->place(i.joint, j.joint);
+          // Lanes behind stay where this one is until they are needed.
+          for (int k = lane; k < kLanes; ++k) {
+            const auto set = [&](int side, const End& end) {
+              block.side[side][k] =
+                  sides_[static_cast<std::size_t>(end.joint)][static_cast<std::size_t>(end.side)];
+              block.which[side][k] = end.which;
+              block.sign[side][k] = end.side == 0 ? -1.0 : 1.0;
+              block.directions[side][k] = sizes[static_cast<std::size_t>(end.joint)] - S::T;
+            };
+            set(0, i);
+            set(1, j);
+            block.body[k] = bodies_[b].at;
+            block.out[k] = matrix_->block(place);
+            block.stride[k] = matrix_->stride(place);
+          }
+          block.num_lanes = ++lane;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace buckens::stepping
