@@ -14,9 +14,10 @@
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
 #include "buckens/stepping/step_settings.h"
-#include "buckens/stepping/strand_step.h"
 
 namespace buckens::stepping {
+
+class StrandStep;
 
 /// Large-solve counts of one body.
 struct SolveCounts {

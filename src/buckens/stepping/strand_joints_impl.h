@@ -8,14 +8,34 @@
 namespace buckens::stepping::strand {
 namespace {
 
-/// K rows of a table per lane, each lane's table being another.
-template <int K>
-BUCKENS_LANES Numbers<K> gather(double* const (&from)[kLanes], int row) {
+/// What f says of every lane.
+template <class F>
+BUCKENS_LANES Lanes of_lanes(F&& f) {
+  static_assert(kLanes == 8);
+  return Lanes{f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)};
+}
+/// The same row of a table per lane, each lane's table being another.
+template <class Table>
+BUCKENS_LANES Lanes gather_row(Table* const (&from)[kLanes], int row) {
+  return of_lanes([&](int lane) { return from[lane][static_cast<std::ptrdiff_t>(kLanes) * row]; });
+}
+template <int K, class Table>
+BUCKENS_LANES Numbers<K> gather(Table* const (&from)[kLanes], int row) {
   Numbers<K> out;
+#pragma GCC unroll 16
+  for (int k = 0; k < K; ++k) out[k] = gather_row(from, row + k);
+  return out;
+}
+/// Rows of a slot; every lane may use another.
+template <int K, class Table>
+BUCKENS_LANES Numbers<K> gather_of_slot(Table* const (&from)[kLanes], const int (&which)[kLanes],
+                                        int row, int per_slot) {
+  Numbers<K> out;
+#pragma GCC unroll 16
   for (int k = 0; k < K; ++k) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      out[k][lane] = from[lane][static_cast<std::ptrdiff_t>(kLanes) * (row + k)];
-    }
+    out[k] = of_lanes([&](int lane) {
+      return from[lane][static_cast<std::ptrdiff_t>(kLanes) * (row + which[lane] * per_slot + k)];
+    });
   }
   return out;
 }
@@ -94,17 +114,9 @@ void freeze_joints(JointBlock& block) {
   for (int end = 0; end < 2; ++end) {
     const int side = Row::side + end * Row::side_count;
     const auto A = gather<S::M>(block.body[end], BodyRows<S>::turn0);
-    Numbers<S::T> z;
-    Numbers<S::R * S::R> jl;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const double* const body = block.body[end][lane];
-      const int which = block.which[end][lane];
-      for (int i = 0; i < S::T; ++i)
-        z[i][lane] = body[kLanes * (BodyRows<S>::zf + which * S::T + i)];
-      for (int i = 0; i < S::R * S::R; ++i) {
-        jl[i][lane] = body[kLanes * (BodyRows<S>::jlf + which * S::R * S::R + i)];
-      }
-    }
+    const auto z = gather_of_slot<S::T>(block.body[end], block.which[end], BodyRows<S>::zf, S::T);
+    constexpr int kMap = S::R * S::R;
+    const auto jl = gather_of_slot<kMap>(block.body[end], block.which[end], BodyRows<S>::jlf, kMap);
     for (int i = 0; i < S::T; ++i) {
       give(t, side + Row::rot_point + i * S::R, In::cross(z, In::row(A, i)));
     }
@@ -154,17 +166,12 @@ struct Derivatives {
 
   BUCKENS_LANES void read(const PairBlock& block, int which) {
     using Row = JointRows<S>;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const double* const side = block.side[which][lane];
-      for (int i = 0; i < S::R; ++i) {
-        for (int k = 0; k < S::T; ++k) {
-          rot_point[k][i][lane] = side[kLanes * (Row::rot_point + k * S::R + i)];
-        }
-        for (int k = 0; k < S::R; ++k) {
-          rot_direction[k][i][lane] = side[kLanes * (Row::rot_direction + k * S::R + i)];
-          node_direction[k][i][lane] = side[kLanes * (Row::node_direction + k * S::R + i)];
-        }
-      }
+    for (int k = 0; k < S::T; ++k) {
+      rot_point[k] = gather<S::R>(block.side[which], Row::rot_point + k * S::R);
+    }
+    for (int k = 0; k < S::R; ++k) {
+      rot_direction[k] = gather<S::R>(block.side[which], Row::rot_direction + k * S::R);
+      node_direction[k] = gather<S::R>(block.side[which], Row::node_direction + k * S::R);
     }
   }
 };
@@ -178,17 +185,18 @@ struct Compliance {
   Numbers<S::F> node[S::F];  // rows
 
   BUCKENS_LANES void read(const PairBlock& block) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const double* const body = block.body[lane];
-      for (int i = 0; i < S::R * S::R; ++i) W[i][lane] = body[kLanes * (BodyRows<S>::W + i)];
-      tau[lane] = body[kLanes * BodyRows<S>::tau];
-      for (int i = 0; i < S::M; ++i) turn[i][lane] = body[kLanes * (BodyRows<S>::turn0 + i)];
-      if (!block.has_mesh) continue;
-      constexpr int N = MeshRows<S>::N;
-      for (int i = 0; i < S::F; ++i) {
-        const int row =
-            MeshRows<S>::A + N * (S::F * block.which[0][lane] + i) + S::F * block.which[1][lane];
-        for (int k = 0; k < S::F; ++k) node[i][k][lane] = body[kLanes * (row + k)];
+    W = gather<S::R * S::R>(block.body, BodyRows<S>::W);
+    tau = gather_row(block.body, BodyRows<S>::tau);
+    turn = gather<S::M>(block.body, BodyRows<S>::turn0);
+    constexpr int N = MeshRows<S>::N;
+    for (int i = 0; i < S::F; ++i) {
+      for (int k = 0; k < S::F; ++k) {
+        node[i][k] = of_lanes([&](int lane) {
+          if (!block.has_mesh) return 0.0;
+          const int row =
+              MeshRows<S>::A + N * (S::F * block.which[0][lane] + i) + S::F * block.which[1][lane];
+          return block.body[lane][static_cast<std::ptrdiff_t>(kLanes) * (row + k)];
+        });
       }
     }
   }
@@ -222,8 +230,7 @@ void add_pair_block(const PairBlock& block) {
   acting.read(block, 1);
   Compliance<S> of;
   of.read(block);
-  Lanes sign;
-  for (int lane = 0; lane < kLanes; ++lane) sign[lane] = block.sign[0][lane] * block.sign[1][lane];
+  const Lanes sign = of_lanes([&](int lane) { return block.sign[0][lane] * block.sign[1][lane]; });
   for (int column = 0; column < S::F; ++column) {
     const bool is_point = column < S::T;
     const auto turned =

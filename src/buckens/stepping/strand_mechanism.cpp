@@ -80,9 +80,8 @@ double* StrandMechanism::rows(int count) {
 }
 
 StrandMechanism::StrandMechanism(const model::Model& model, const Scheme& scheme,
-                                 const Operators& operators)
+                                 const Operators& operators, linalg::SimdLevel level)
     : model_(model), is_planar_(model.planar.has_value()) {
-  const linalg::SimdLevel level = linalg::best_simd_level();
   kernels_ = is_planar_ ? &strand::plane_kernels(level) : &strand::space_kernels(level);
   set_constants(scheme, operators);
   is_planar_ ? lay_out<Plane>(operators) : lay_out<Space>(operators);

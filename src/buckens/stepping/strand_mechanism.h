@@ -43,7 +43,8 @@ class StrandMechanism {
   static int node_of(const body::Body& body, const body::Marker& marker);
 
   /// @param operators of a model that suits()
-  StrandMechanism(const model::Model& model, const Scheme& scheme, const Operators& operators);
+  StrandMechanism(const model::Model& model, const Scheme& scheme, const Operators& operators,
+                  linalg::SimdLevel level);
   StrandMechanism(const StrandMechanism&) = delete;
   StrandMechanism& operator=(const StrandMechanism&) = delete;
 

@@ -89,7 +89,9 @@ bool are_plain_rows(const std::vector<joints::ConstraintRow>& rows, bool is_plan
   const std::size_t most = is_planar ? 3 : 6;
   if (rows.size() < points || rows.size() > most) return false;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].depends_on_time()) return false;
+    if (rows[k].depends_on_time() || rows[k].num_states() > 0 || rows[k].law() != nullptr) {
+      return false;
+    }
     if (k < points) {
       if (rows[k].kind() != Kind::point_world) return false;
       if (rows[k].direction() != Vector3d::Unit(static_cast<Index>(k))) return false;
@@ -98,6 +100,11 @@ bool are_plain_rows(const std::vector<joints::ConstraintRow>& rows, bool is_plan
     }
   }
   return true;
+}
+
+bool feels_only_gravity(const model::Model& model) {
+  return model.loads.empty() && model.contact_groups.empty() && model.signals.empty() &&
+         model.drives.empty();
 }
 
 class JointCheck {
@@ -181,8 +188,8 @@ int StrandMechanism::node_of(const body::Body& body, const body::Marker& marker)
 
 bool StrandMechanism::suits(const model::Model& model, const Scheme& scheme,
                             const Operators& operators) {
-  if (scheme.weight != 1.0 || model.bodies.size() < kLeastBodies || model.joints.empty() ||
-      !model.loads.empty() || !model.contact_groups.empty() || !model.signals.empty()) {
+  if (scheme.method != Method::generalized_alpha && scheme.method != Method::hht) return false;
+  if (model.bodies.size() < kLeastBodies || model.joints.empty() || !feels_only_gravity(model)) {
     return false;
   }
   const bool is_planar = is_in_plane(model);

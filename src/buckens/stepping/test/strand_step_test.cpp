@@ -6,9 +6,11 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "buckens/linalg/simd_level.h"
 #include "buckens/stepping/stepper.h"
 #include "buckens/stepping/test/row_of_rods.h"
 #include "buckens/stepping/test/same_state.h"
@@ -88,8 +90,11 @@ model::State turning(const model::Model& model) {
   return out;
 }
 
-StepSettings settings_of(const Case& of, bool side_by_side) {
+using linalg::SimdLevel;
+
+StepSettings settings_of(const Case& of, bool side_by_side, SimdLevel simd) {
   StepSettings out;
+  out.simd = simd;
   out.method = of.method;
   out.alpha = -0.1;
   out.step = of.step;
@@ -101,13 +106,23 @@ double largest_difference(const Vector& a, const Vector& b) {
   return a.size() == 0 ? 0.0 : (a - b).cwiseAbs().maxCoeff();
 }
 
-class Strand : public testing::TestWithParam<Case> {};
+class Strand : public testing::TestWithParam<std::tuple<Case, SimdLevel>> {
+ protected:
+  void SetUp() override {
+    if (level() > linalg::best_simd_level()) GTEST_SKIP() << "not on this processor";
+  }
+  static const Case& mechanism() { return std::get<Case>(GetParam()); }
+  static SimdLevel level() { return std::get<SimdLevel>(GetParam()); }
+  static StepSettings settings(bool side_by_side) {
+    return settings_of(mechanism(), side_by_side, level());
+  }
+};
 
 TEST_P(Strand, StepsLikeTheGeneralRoute) {
-  const model::Model model = GetParam().make();
-  const StepSettings together = settings_of(GetParam(), true);
+  const model::Model model = mechanism().make();
+  const StepSettings together = settings(true);
   Stepper fast(model, together, rows_of(model));
-  Stepper slow(model, settings_of(GetParam(), false), rows_of(model));
+  Stepper slow(model, settings(false), rows_of(model));
   ASSERT_TRUE(fast.steps_side_by_side());
   ASSERT_FALSE(slow.steps_side_by_side());
   model::State a = turning(model);
@@ -148,35 +163,41 @@ TEST_P(Strand, StepsLikeTheGeneralRoute) {
 }
 
 TEST_P(Strand, DependsOnTheStateAlone) {
-  const model::Model model = GetParam().make();
-  Stepper stepper(model, settings_of(GetParam(), true), rows_of(model));
+  const model::Model model = mechanism().make();
+  Stepper stepper(model, settings(true), rows_of(model));
   model::State state = turning(model);
   for (int k = 0; k < 5; ++k) stepper.step(state);
   model::State once = state;
   stepper.step(once);
   stepper.step(once);
-  StepSettings settings = settings_of(GetParam(), true);
-  settings.threads = 2;
-  Stepper other(model, settings, rows_of(model));
+  StepSettings by_two_threads = settings(true);
+  by_two_threads.threads = 2;
+  Stepper other(model, by_two_threads, rows_of(model));
   model::State again = state;
   other.step(again);
   other.step(again);
   test::expect_same(once, again);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, Strand,
-    testing::Values(
-        Case{"rods_in_the_plane", [] { return test::row_of_rods(13, spatial::Plane::xy); }},
-        Case{"rods_in_space", [] { return test::row_of_rods(11, std::nullopt); }},
-        Case{"rods_by_hht", [] { return test::row_of_rods(9, std::nullopt); }, Method::hht},
-        Case{"links_in_the_plane", [] { return rigid_links(9, spatial::Plane::xy); }},
-        Case{"links_in_space", [] { return rigid_links(20, std::nullopt); },
-             Method::generalized_alpha, 1e-3},
-        Case{"rods_on_a_bar", rods_on_a_bar}),
-    [](const auto& one) { return one.param.name; });
+const Case kCases[] = {
+    {"rods_in_the_plane", [] { return test::row_of_rods(13, spatial::Plane::xy); }},
+    {"rods_in_space", [] { return test::row_of_rods(11, std::nullopt); }},
+    {"rods_by_hht", [] { return test::row_of_rods(9, std::nullopt); }, Method::hht},
+    {"links_in_the_plane", [] { return rigid_links(9, spatial::Plane::xy); }},
+    {"links_in_space", [] { return rigid_links(20, std::nullopt); }, Method::generalized_alpha,
+     1e-3},
+    {"rods_on_a_bar", rods_on_a_bar}};
 
-TEST(Strand, LeavesOtherMechanismsToTheGeneralRoute) {
+INSTANTIATE_TEST_SUITE_P(Of, Strand,
+                         testing::Combine(testing::ValuesIn(kCases),
+                                          testing::Values(SimdLevel::portable, SimdLevel::avx2,
+                                                          SimdLevel::avx512)),
+                         [](const auto& one) {
+                           return std::get<Case>(one.param).name + "_" +
+                                  linalg::to_string(std::get<SimdLevel>(one.param));
+                         });
+
+TEST(StrandStep, LeavesOtherMechanismsToTheGeneralRoute) {
   const auto steps_side_by_side = [](const model::Model& model, StepSettings settings = {}) {
     settings.step = 1e-4;
     return Stepper(model, settings, rows_of(model)).steps_side_by_side();
@@ -190,7 +211,7 @@ TEST(Strand, LeavesOtherMechanismsToTheGeneralRoute) {
   EXPECT_FALSE(steps_side_by_side(test::row_of_rods(8, spatial::Plane::xy), newmark));
 }
 
-TEST(Strand, LeavesFastTurnsToTheGeneralRoute) {
+TEST(StrandStep, LeavesFastTurnsToTheGeneralRoute) {
   // Wheels on the ground, which turn by 1.5 rad in a step.
   test::Mechanism m(spatial::Plane::xy);
   for (int k = 0; k < 8; ++k) {
