@@ -1,136 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/stepping/strand_lanes.h"
+#include "buckens/stepping/strand_motion_impl.h"
 
-// Included by the sources strand_kernels_*.cpp only. Blocks of bodies: equations of
-// docs/theory/05-time-integration.md, sections 2 to 4, for eight bodies at once.
+// Included by the sources strand_kernels_*.cpp only. Equations of motion of blocks of bodies
+// (docs/theory/05-time-integration.md) for eight bodies at once.
 namespace buckens::stepping::strand {
 namespace {
-
-template <class S>
-constexpr int slot_rows(int slot) {
-  return BodyRows<S>::slots + slot * SlotRows<S>::count;
-}
-
-/// Takes the rigid motion out of x.
-template <class S>
-BUCKENS_LANES void sieve(const double* t, Numbers<MeshRows<S>::N>& x) {
-  using Row = MeshRows<S>;
-  Numbers<S::F> amplitude;
-  for (int k = 0; k < S::F; ++k) {
-    amplitude[k] = dot(take<Row::N>(t, Row::Pi + k * Row::N), x);
-  }
-  for (int k = 0; k < S::F; ++k) {
-    x = x - scaled(amplitude[k], take<Row::N>(t, Row::Phi + k * Row::N));
-  }
-}
-
-template <class S>
-void start_mesh(const Constants& is, double* t) {
-  using Row = MeshRows<S>;
-  constexpr int N = Row::N;
-  const auto past = [&](const Weights& w, bool with_d) {
-    return combination<N>(w, t, with_d ? Row::d : -1, Row::d1, Row::d2, Row::da);
-  };
-  give(t, Row::dv, past(is.velocity, false));
-  give(t, Row::end, take<N>(t, Row::d) + past(is.predicted, false));
-  const Numbers<N> side =
-      product<N>(t, Row::Mass, past(is.with_mass, true)) + is.side_load * take<N>(t, Row::load);
-  Numbers<N> free = product<N>(t, Row::A, side);
-  if (is.is_damped) {
-    free = free + past(is.beside, true);
-    sieve<S>(t, free);
-  }
-  give(t, Row::free, free);
-  clear<N>(t, Row::f);
-  clear<N>(t, Row::e);
-  clear<N>(t, Row::dc);
-}
-
-template <class S>
-void start(const Constants& is, BodyBlock& block) {
-  using Row = BodyRows<S>;
-  double* const t = block.rows;
-  const auto past = [&](const Weights& w) {
-    return combination<S::F>(w, t, -1, Row::rate, Row::accel, Row::alg);
-  };
-  give(t, Row::vel, past(is.velocity));
-  give(t, Row::acc, past(is.acceleration));
-  give(t, Row::u, past(is.predicted));
-  clear<S::F>(t, Row::corr);
-  if (block.has_mesh) start_mesh<S>(is, t);
-}
-
-/// First S::R or S::T of a frame vector.
-template <class S>
-BUCKENS_LANES Numbers<S::R> rotation_of(const double* t, int row) {
-  return take<S::R>(t, row);
-}
-template <class S>
-BUCKENS_LANES Numbers<S::T> translation_of(const double* t, int row) {
-  return take<S::T>(t, row + S::R);
-}
-
-template <class S, bool HasMesh>
-double move_block(const Constants& is, double* t) {
-  using Row = MeshRows<S>;
-  using Slot = SlotRows<S>;
-  using In = Of<S>;
-  Lanes furthest;
-  const auto u_turn = rotation_of<S>(t, Row::u), u_shift = translation_of<S>(t, Row::u);
-  Numbers<S::Q> q = In::product(take<S::Q>(t, Row::q),
-                                In::half_turn(u_turn + rotation_of<S>(t, Row::corr), furthest));
-  normalize(q);
-  const auto A = In::matrix(q);
-  const auto p = take<S::T>(t, Row::p) + (u_shift + translation_of<S>(t, Row::corr));
-  const auto w = is.s1 * u_turn + rotation_of<S>(t, Row::vel);
-  const auto v = is.s1 * u_shift + translation_of<S>(t, Row::vel);
-  give(t, Row::qe, q);
-  give(t, Row::turn, A);
-  give(t, Row::pe, p);
-  give(t, Row::we, w);
-  give(t, Row::ve, v);
-#pragma GCC unroll 2
-  for (int k = 0; k < kSlots; ++k) {
-    const int slot = slot_rows<S>(k);
-    auto z = take<S::T>(t, Row::z0 + k * S::T);
-    auto z_dot = In::swing(w, z);
-    auto spin = w;
-    auto axes = A;
-    if constexpr (HasMesh) {
-      const int node = k * S::F;
-      const auto moved = take<S::T>(t, Row::end + node);
-      const auto moving =
-          is.s1 * (moved - take<S::T>(t, Row::d + node)) + take<S::T>(t, Row::dv + node);
-      z = z + (moved + take<S::T>(t, Row::dc + node));
-      z_dot = moving + In::swing(w, z);
-      const int turning = node + S::T;
-      const auto turned = take<S::R>(t, Row::end + turning);
-      const auto rate =
-          is.s1 * (turned - take<S::R>(t, Row::d + turning)) + take<S::R>(t, Row::dv + turning);
-      Lanes far;
-      Numbers<S::R * S::R> jl;
-      axes = In::turned_by(A, turned + take<S::R>(t, Row::dc + turning), far, jl);
-      furthest = larger(furthest, far);
-      spin = w + In::left(jl, rate);
-      give(t, Row::jl + k * S::R * S::R, jl);
-    }
-    give(t, Row::z + k * S::T, z);
-    give(t, slot + Slot::p, p + In::turn(A, z));
-    give(t, slot + Slot::v, v + In::turn(A, z_dot));
-    give(t, slot + Slot::axes, axes);
-    give(t, slot + Slot::w, In::turn_rotation(A, spin));
-    clear<S::F>(t, slot + Slot::f);
-  }
-  return largest(furthest);
-}
-
-template <class S>
-double move(const Constants& is, BodyBlock& block) {
-  return block.has_mesh ? move_block<S, true>(is, block.rows)
-                        : move_block<S, false>(is, block.rows);
-}
 
 /// Moments of the frame equation.
 template <class S>
@@ -148,8 +24,9 @@ BUCKENS_LANES Numbers<S::P> doubled(const Numbers<S::P>& z) {
 }
 
 template <class S, bool HasMesh>
-BUCKENS_LANES Moments<S> moments(const Constants& is, const double* t) {
+BUCKENS_LANES Moments<S> moments(const Constants& is, const BodyBlock& block) {
   using Row = MeshRows<S>;
+  const double* const t = block.rows;
   using In = Of<S>;
   Moments<S> out;
   out.J = take<S::J>(t, Row::J0);
@@ -159,9 +36,9 @@ BUCKENS_LANES Moments<S> moments(const Constants& is, const double* t) {
     const auto d = end + take<N>(t, Row::dc);
     const auto rate = is.s1 * (end - take<N>(t, Row::d)) + take<N>(t, Row::dv);
     out.J = out.J + take<S::J>(t, Row::J2) +
-            is.jvar * In::to_inertia(doubled<S>(product<S::P>(t, Row::pat, d)));
-    out.J_dot = take<S::J>(t, Row::Jd2) +
-                is.cor_ref * In::to_inertia(doubled<S>(product<S::P>(t, Row::pat, rate)));
+            is.jvar * In::to_inertia(doubled<S>(product<S::P>(block.fixed, FixedRows<S>::pat, d)));
+    out.J_dot = take<S::J>(t, Row::Jd2) + is.cor_ref * In::to_inertia(doubled<S>(product<S::P>(
+                                                           block.fixed, FixedRows<S>::pat, rate)));
     out.l = take<S::R>(t, Row::l);
     out.l_dot = take<S::R>(t, Row::ld);
   } else {
@@ -173,15 +50,16 @@ BUCKENS_LANES Moments<S> moments(const Constants& is, const double* t) {
 }
 
 template <class S, bool HasMesh>
-void freeze_block(const Constants& is, double* t) {
+void freeze_block(const Constants& is, const BodyBlock& block) {
   using Row = MeshRows<S>;
+  double* const t = block.rows;
   using In = Of<S>;
   give(t, Row::turn0, take<S::M>(t, Row::turn));
   give(t, Row::zf, take<kSlots * S::T>(t, Row::z));
   if constexpr (HasMesh) {
     give(t, Row::jlf, take<kSlots * S::R * S::R>(t, Row::jl));
   }
-  const Moments<S> of = moments<S, HasMesh>(is, t);
+  const Moments<S> of = moments<S, HasMesh>(is, block);
   const auto w = take<S::R>(t, Row::we);
   give(t, Row::W,
        In::invert_tangent(of.J, of.J_dot, w, In::inertia(of.J, w) + of.l, is.mass, is.damping));
@@ -189,7 +67,7 @@ void freeze_block(const Constants& is, double* t) {
 
 template <class S>
 void freeze(const Constants& is, BodyBlock& block) {
-  block.has_mesh ? freeze_block<S, true>(is, block.rows) : freeze_block<S, false>(is, block.rows);
+  block.has_mesh ? freeze_block<S, true>(is, block) : freeze_block<S, false>(is, block);
 }
 
 /// Load on the frame by loads on markers; on nodes too where there are some.
@@ -224,8 +102,9 @@ BUCKENS_LANES void load_of_slots(double* t, Numbers<S::F>& frame,
 }
 
 template <class S, bool HasMesh>
-void collect_block(const Constants& is, double* t) {
+void collect_block(const Constants& is, const BodyBlock& block) {
   using Row = MeshRows<S>;
+  double* const t = block.rows;
   Numbers<S::F> frame = {};
   const Lanes mass = load(t, Row::mass);
 #pragma GCC unroll 3
@@ -235,14 +114,14 @@ void collect_block(const Constants& is, double* t) {
   give(t, Row::fr, frame);
   if constexpr (HasMesh) {
     const auto weights = is.cent0 * Of<S>::centrifugal(take<S::R>(t, Row::we));
-    nodes = nodes + transposed_product<S::P, Row::N>(t, Row::pat, weights);
+    nodes = nodes + transposed_product<S::P, Row::N>(block.fixed, FixedRows<S>::pat, weights);
     give(t, Row::f, nodes);
   }
 }
 
 template <class S>
 void collect(const Constants& is, BodyBlock& block) {
-  block.has_mesh ? collect_block<S, true>(is, block.rows) : collect_block<S, false>(is, block.rows);
+  block.has_mesh ? collect_block<S, true>(is, block) : collect_block<S, false>(is, block);
 }
 
 /// W⁻¹ f.
@@ -274,12 +153,13 @@ BUCKENS_LANES Lanes frame_size(const Numbers<S::F>& u, double L) {
   return larger(L * turned, shifted);
 }
 template <class S>
-BUCKENS_LANES Lanes node_size(const double* t, const Numbers<MeshRows<S>::N>& x, double L) {
+BUCKENS_LANES Lanes node_size(const BodyBlock& block, const Numbers<MeshRows<S>::N>& x, double L) {
   using Row = MeshRows<S>;
-  Lanes out = largest_of(product<S::P>(t, Row::pat, x)) * load(t, Row::per_pattern);
+  Lanes out = largest_of(product<S::P>(block.fixed, FixedRows<S>::pat, x)) *
+              load(block.fixed, FixedRows<S>::per_pattern);
 #pragma GCC unroll 2
   for (int k = 0; k < kSlots; ++k) {
-    const Lanes seen = load(t, Row::seen + k);
+    const Lanes seen = load(block.rows, Row::seen + k);
 #pragma GCC unroll 3
     for (int i = 0; i < S::T; ++i) out = larger(out, seen * absolute(x[k * S::F + i]));
 #pragma GCC unroll 3
@@ -289,8 +169,9 @@ BUCKENS_LANES Lanes node_size(const double* t, const Numbers<MeshRows<S>::N>& x,
 }
 
 template <class S, bool HasMesh>
-double find_residual_of_block(const Constants& is, double* t) {
+double find_residual_of_block(const Constants& is, const BodyBlock& block) {
   using Row = MeshRows<S>;
+  double* const t = block.rows;
   using In = Of<S>;
   const auto u = take<S::F>(t, Row::u);
   const auto acceleration = is.s2 * u + take<S::F>(t, Row::acc);
@@ -298,7 +179,7 @@ double find_residual_of_block(const Constants& is, double* t) {
 #pragma GCC unroll 3
   for (int i = 0; i < S::R; ++i) w_dot[i] = acceleration[i];
   const auto w = take<S::R>(t, Row::we);
-  const Moments<S> of = moments<S, HasMesh>(is, t);
+  const Moments<S> of = moments<S, HasMesh>(is, block);
   const auto inertia = In::inertia(of.J, w_dot) + of.l_dot + In::inertia(of.J_dot, w) +
                        In::gyrate(w, In::inertia(of.J, w) + of.l);
   auto open = take<S::F>(t, Row::fr);
@@ -313,23 +194,24 @@ double find_residual_of_block(const Constants& is, double* t) {
   if constexpr (HasMesh) {
     constexpr int N = Row::N;
     const auto moving = take<N>(t, Row::free) - take<N>(t, Row::end) +
-                        product<N>(t, Row::A, is.c * take<N>(t, Row::f)) +
-                        product<N>(t, Row::B, take<N>(t, Row::e));
+                        product<N>(block.fixed, FixedRows<S>::A, is.c * take<N>(t, Row::f)) +
+                        product<N>(block.fixed, FixedRows<S>::B, take<N>(t, Row::e));
     give(t, Row::mov, moving);
-    size = larger(size, node_size<S>(t, moving, is.L));
+    size = larger(size, node_size<S>(block, moving, is.L));
   }
   return largest(size);
 }
 
 template <class S>
 double find_residual(const Constants& is, BodyBlock& block) {
-  return block.has_mesh ? find_residual_of_block<S, true>(is, block.rows)
-                        : find_residual_of_block<S, false>(is, block.rows);
+  return block.has_mesh ? find_residual_of_block<S, true>(is, block)
+                        : find_residual_of_block<S, false>(is, block);
 }
 
 template <class S, bool HasMesh>
-void correct_block(double* t) {
+void correct_block(const BodyBlock& block) {
   using Row = MeshRows<S>;
+  double* const t = block.rows;
   using Slot = SlotRows<S>;
   using In = Of<S>;
   Numbers<S::F> frame = {};
@@ -339,8 +221,8 @@ void correct_block(double* t) {
   if constexpr (HasMesh) {
     constexpr int N = Row::N;
     give(t, Row::de, nodes);
-    give(t, Row::ye, product<N>(t, Row::A, nodes));
-    give(t, Row::mov, take<N>(t, Row::mov) + product<N>(t, Row::B, nodes));
+    give(t, Row::ye, product<N>(block.fixed, FixedRows<S>::A, nodes));
+    give(t, Row::mov, take<N>(t, Row::mov) + product<N>(block.fixed, FixedRows<S>::B, nodes));
   }
   const auto A = take<S::M>(t, Row::turn0);
   const auto turned = rotation_of<S>(t, Row::res);
@@ -362,12 +244,13 @@ void correct_block(double* t) {
 
 template <class S>
 void correct(const Constants&, BodyBlock& block) {
-  block.has_mesh ? correct_block<S, true>(block.rows) : correct_block<S, false>(block.rows);
+  block.has_mesh ? correct_block<S, true>(block) : correct_block<S, false>(block);
 }
 
 template <class S, bool HasMesh>
-Largest advance_block(const Constants& is, double* t) {
+Largest advance_block(const Constants& is, const BodyBlock& block) {
   using Row = MeshRows<S>;
+  double* const t = block.rows;
   Numbers<S::F> frame = {};
   Numbers<HasMesh ? Row::N : 1> nodes;
   load_of_slots<S, HasMesh, true>(t, frame, nodes);
@@ -381,19 +264,18 @@ Largest advance_block(const Constants& is, double* t) {
   out.motion = largest(frame_size<S>(u, is.L));
   if constexpr (HasMesh) {
     constexpr int N = Row::N;
-    const auto change = take<N>(t, Row::mov) + product<N>(t, Row::A, nodes);
+    const auto change = take<N>(t, Row::mov) + product<N>(block.fixed, FixedRows<S>::A, nodes);
     give(t, Row::end, take<N>(t, Row::end) + change);
     give(t, Row::e, take<N>(t, Row::e) + take<N>(t, Row::de));
     give(t, Row::dc, take<N>(t, Row::dc) + take<N>(t, Row::ye));
-    out.interface = largest(node_size<S>(t, change, is.L));
+    out.interface = largest(node_size<S>(block, change, is.L));
   }
   return out;
 }
 
 template <class S>
 Largest advance(const Constants& is, BodyBlock& block) {
-  return block.has_mesh ? advance_block<S, true>(is, block.rows)
-                        : advance_block<S, false>(is, block.rows);
+  return block.has_mesh ? advance_block<S, true>(is, block) : advance_block<S, false>(is, block);
 }
 
 template <class S>
@@ -404,8 +286,8 @@ void complete(const Constants& is, BodyBlock& block) {
   double* const t = block.rows;
   const auto d = take<N>(t, Row::d);
   const auto increment = take<N>(t, Row::free) - d +
-                         product<N>(t, Row::A, is.c * take<N>(t, Row::f)) +
-                         product<N>(t, Row::B, take<N>(t, Row::e));
+                         product<N>(block.fixed, FixedRows<S>::A, is.c * take<N>(t, Row::f)) +
+                         product<N>(block.fixed, FixedRows<S>::B, take<N>(t, Row::e));
   give(t, Row::nd, d + increment + take<N>(t, Row::dc));
   give(t, Row::nd1, is.s1 * increment + take<N>(t, Row::dv));
   const auto acceleration =

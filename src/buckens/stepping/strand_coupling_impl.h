@@ -73,13 +73,13 @@ void evaluate_coupling(const Constants& is, BodyBlock& block) {
   Lanes changed = {}, size = {}, moved = {};
 #pragma GCC unroll 12
   for (int i = 0; i < N; ++i) {
-    const Lanes inverse = load(t, Row::inverse + i);
+    const Lanes inverse = load(block.fixed, FixedRows<S>::inverse + i);
     changed += change[i] * change[i] * inverse;
     size += pass.load_[i] * pass.load_[i] * inverse;
-    moved = larger(moved, absolute(change[i] * load(t, Row::per_load + i)));
+    moved = larger(moved, absolute(change[i] * load(block.fixed, FixedRows<S>::per_load + i)));
   }
   const auto weights = is.cent0 * In::centrifugal(w);
-  size += dot(weights, product<S::P>(t, Row::und, weights));
+  size += dot(weights, product<S::P>(block.fixed, FixedRows<S>::und, weights));
   store(t, Row::changed, changed);
   store(t, Row::size, size);
   store(t, Row::moved, is.c * moved);
@@ -109,7 +109,8 @@ void take_over(const Constants& is, BodyBlock& block) {
   for (int i = 0; i < N; ++i) {
     store(t, Row::load + i, mask != 0.0 ? load(t, Row::eload + i) : used[i]);
   }
-  give(t, Row::free, take<N>(t, Row::free) + product<N>(t, Row::A, is.c * change));
+  give(t, Row::free,
+       take<N>(t, Row::free) + product<N>(block.fixed, FixedRows<S>::A, is.c * change));
 }
 
 }  // namespace

@@ -188,14 +188,14 @@ struct Compliance {
     W = gather<S::R * S::R>(block.body, BodyRows<S>::W);
     tau = gather_row(block.body, BodyRows<S>::tau);
     turn = gather<S::M>(block.body, BodyRows<S>::turn0);
-    constexpr int N = MeshRows<S>::N;
+    constexpr int N = FixedRows<S>::N;
     for (int i = 0; i < S::F; ++i) {
       for (int k = 0; k < S::F; ++k) {
         node[i][k] = of_lanes([&](int lane) {
           if (!block.has_mesh) return 0.0;
           const int row =
-              MeshRows<S>::A + N * (S::F * block.which[0][lane] + i) + S::F * block.which[1][lane];
-          return block.body[lane][static_cast<std::ptrdiff_t>(kLanes) * (row + k)];
+              FixedRows<S>::A + N * (S::F * block.which[0][lane] + i) + S::F * block.which[1][lane];
+          return block.fixed[lane][static_cast<std::ptrdiff_t>(kLanes) * (row + k)];
         });
       }
     }

@@ -115,15 +115,21 @@ struct MeshRows : BodyRows<S> {
   static constexpr int fc = moved + 1;        ///< change of the frame's inertia
   static constexpr int turned = fc + S::R;    ///< rotation by it
   static constexpr int mask = turned + S::R;  ///< 1 where another solve follows, else 0
-  // Constant.
-  static constexpr int inverse = mask + 1;      ///< of the diagonal of K̂
+  static constexpr int seen = mask + 1;       ///< 1 of slots that joints use, else 0
+  static constexpr int count = seen + kSlots;
+};
+
+/// Rows of what is constant of a block of beam parts. Blocks of equal parts share them.
+template <class S>
+struct FixedRows {
+  static constexpr int N = MeshRows<S>::N;
+  static constexpr int inverse = 0;             ///< of the diagonal of K̂
   static constexpr int per_load = inverse + N;  ///< the same as displacements
   static constexpr int per_pattern = per_load + N;
-  static constexpr int seen = per_pattern + 1;  ///< 1 of slots that joints use, else 0
-  static constexpr int pat = seen + kSlots;     ///< patterns, P×N
-  static constexpr int und = pat + S::P * N;    ///< undeformed, P×P
-  static constexpr int A = und + S::P * S::P;   ///< Y K̂⁻¹, N×N by rows
-  static constexpr int B = A + N * N;           ///< of corrections
+  static constexpr int pat = per_pattern + 1;  ///< patterns, P×N
+  static constexpr int und = pat + S::P * N;   ///< undeformed, P×P
+  static constexpr int A = und + S::P * S::P;  ///< Y K̂⁻¹, N×N by rows
+  static constexpr int B = A + N * N;          ///< of corrections
   static constexpr int Mass = B + N * N;
   static constexpr int Phi = Mass + N * N;   ///< rigid motions N×F, by columns
   static constexpr int Pi = Phi + N * S::F;  ///< and what finds them
@@ -156,6 +162,8 @@ struct Weights {
 struct IntegralColumn {
   int a, b, column;
   int first, end;  ///< of its entries
+
+  bool operator==(const IntegralColumn&) const = default;
 };
 /// What is constant in a step and the same for all bodies.
 struct Constants {
@@ -171,6 +179,7 @@ struct Constants {
 /// A block of bodies.
 struct BodyBlock {
   double* rows = nullptr;
+  const double* fixed = nullptr;  ///< FixedRows of parts
   bool has_mesh = false;
   int num_columns = 0;
   const IntegralColumn* columns = nullptr;
@@ -193,8 +202,9 @@ struct PairBlock {
   bool has_mesh = false;
   const double* side[2][kLanes] = {};  ///< side rows of the joints
   const double* body[kLanes] = {};
-  int which[2][kLanes] = {};    ///< slots on the body
-  double sign[2][kLanes] = {};  ///< −1 of first ends, 1 of second ones
+  const double* fixed[kLanes] = {};  ///< FixedRows of parts
+  int which[2][kLanes] = {};         ///< slots on the body
+  double sign[2][kLanes] = {};       ///< −1 of first ends, 1 of second ones
   int directions[2][kLanes] = {};
   double* out[kLanes] = {};  ///< block of S by columns
   int stride[kLanes] = {};

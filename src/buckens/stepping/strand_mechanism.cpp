@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <new>
 #include <utility>
@@ -16,12 +17,11 @@ using Eigen::Index;
 using linalg::Matrix;
 using strand::BodyRows;
 using strand::entry;
-using strand::JointRows;
+using strand::FixedRows;
 using strand::kLanes;
 using strand::kSlots;
 using strand::MeshRows;
 using strand::Plane;
-using strand::SlotRows;
 using strand::Space;
 
 namespace {
@@ -35,6 +35,9 @@ constexpr std::array<int, S::P> pairs() {
     return {0, 1, 2, 3, 4, 5};
   }
 }
+
+// Of blocks laid out last, to find equal ones.
+constexpr std::size_t kTablesCompared = 8;
 
 /// Places of an inertia's entries in a matrix.
 template <class S>
@@ -51,21 +54,6 @@ template <class S>
 int component(int k) {
   if constexpr (S::T == 2) return k < 2 ? k : 5;
   return k;
-}
-
-void fill_ground(double* at, bool is_planar) {
-  const auto fill = [&]<class S>(S) {
-    using Row = BodyRows<S>;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      double* const t = at + lane;
-      entry(t, Row::q) = 1.0;
-      for (int k = 0; k < S::T; ++k) {
-        const int diagonal = S::T == 2 ? 0 : 4 * k;
-        entry(t, Row::turn + diagonal) = entry(t, Row::turn0 + diagonal) = 1.0;
-      }
-    }
-  };
-  is_planar ? fill(Plane{}) : fill(Space{});
 }
 
 }  // namespace
@@ -161,35 +149,58 @@ void StrandMechanism::lay_out(const Operators& operators) {
       if (model_.bodies[b].is_flexible() == has_mesh) kind.push_back(b);
     }
     for (std::size_t first = 0; first < kind.size(); first += kLanes) {
-      strand::BodyBlock& block = body_blocks_.emplace_back();
-      block.has_mesh = has_mesh;
-      block.rows = rows(has_mesh ? MeshRows<S>::count : BodyRows<S>::count);
-      std::vector<std::size_t> members;
+      std::array<std::size_t, kLanes> members;
       for (std::size_t k = 0; k < kLanes; ++k) {
-        const bool is_idle = first + k >= kind.size();
-        const std::size_t b = kind[is_idle ? first : first + k];
-        const Place before = bodies_[b];
-        bodies_[b] = {block.rows + k, has_mesh};
-        fill_body<S>(b, operators[b]);
-        if (is_idle) {
-          // Like the first body, so that its numbers are ordinary ones, but never moved.
-          entry(bodies_[b].at, BodyRows<S>::mass) = 0.0;
-          bodies_[b] = before;
-        } else {
-          members.push_back(b);
-        }
+        // Idle lanes are like the first, so that their numbers are ordinary ones.
+        members[k] = kind[first + k < kind.size() ? first + k : first];
       }
-      if (has_mesh) collect_integrals<S>(members, block);
+      lay_out_block<S>(members, operators, has_mesh);
+      const auto end = std::min(first + kLanes, kind.size());
+      members_.emplace_back(kind.begin() + static_cast<std::ptrdiff_t>(first),
+                            kind.begin() + static_cast<std::ptrdiff_t>(end));
     }
   }
-  ground_ = rows(BodyRows<S>::count);
-  fill_ground(ground_, S::T == 2);
   lay_out_joints<S>();
   lay_out_pairs<S>();
 }
 
 template <class S>
-void StrandMechanism::fill_body(std::size_t b, BodyStepOperator* op) {
+void StrandMechanism::lay_out_block(const std::array<std::size_t, kLanes>& members,
+                                    const Operators& operators, bool has_mesh) {
+  strand::BodyBlock& block = body_blocks_.emplace_back();
+  block.has_mesh = has_mesh;
+  block.rows = rows(has_mesh ? MeshRows<S>::count : BodyRows<S>::count);
+  double* const fixed = has_mesh ? rows(FixedRows<S>::count) : nullptr;
+  for (std::size_t k = kLanes; k-- > 0;) {  // the first last: idle lanes are not where it is
+    const std::size_t b = members[k];
+    bodies_[b] = {block.rows + k, has_mesh};
+    fill_body<S>(b);
+    if (has_mesh) fill_mesh<S>(b, *operators[b], fixed + k);
+    if (k > 0 && b == members[0]) entry(bodies_[b].at, BodyRows<S>::mass) = 0.0;
+  }
+  if (!has_mesh) return;
+  block.fixed = shared_table(fixed, FixedRows<S>::count);
+  for (std::size_t k = kLanes; k-- > 0;) bodies_[members[k]].fixed = block.fixed + k;
+  collect_integrals<S>(members, block);
+}
+
+const double* StrandMechanism::shared_table(double* table, int count) {
+  const std::size_t size = sizeof(double) * static_cast<std::size_t>(kLanes * count);
+  const auto same = std::find_if(fixed_.begin(), fixed_.end(), [&](const Table& known) {
+    return known.count == count && std::memcmp(known.rows, table, size) == 0;
+  });
+  if (same != fixed_.end()) {
+    memory_.pop_back();
+    return same->rows;
+  }
+  // Alike blocks follow one another.
+  if (fixed_.size() == kTablesCompared) fixed_.erase(fixed_.begin());
+  fixed_.push_back({table, count});
+  return table;
+}
+
+template <class S>
+void StrandMechanism::fill_body(std::size_t b) {
   using Row = BodyRows<S>;
   const body::Body& body = model_.bodies[b];
   double* const t = bodies_[b].at;
@@ -200,10 +211,7 @@ void StrandMechanism::fill_body(std::size_t b, BodyStepOperator* op) {
     const auto [i, j] = inertia_entries<S>()[static_cast<std::size_t>(k)];
     entry(t, Row::J0 + k) = body.J0(i, j);
   }
-  if (op != nullptr) {
-    fill_mesh<S>(b, *op);
-    return;
-  }
+  if (body.is_flexible()) return;
   for (int slot = 0; slot < kSlots; ++slot) {
     const int marker = slots_[b][static_cast<std::size_t>(slot)];
     if (marker < 0) continue;
@@ -213,8 +221,9 @@ void StrandMechanism::fill_body(std::size_t b, BodyStepOperator* op) {
 }
 
 template <class S>
-void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op) {
+void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op, double* fixed) {
   using Row = MeshRows<S>;
+  using Fixed = FixedRows<S>;
   constexpr int N = Row::N;
   const body::Body& body = model_.bodies[b];
   const body::FlexiblePart& part = *body.flexible;
@@ -233,11 +242,11 @@ void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op) {
   }
   const auto at = [&](Index i) { return order[static_cast<std::size_t>(i)]; };
   const auto set_vector = [&](int row, const linalg::Vector& values) {
-    for (Index i = 0; i < N; ++i) entry(t, row + at(i)) = values[i];
+    for (Index i = 0; i < N; ++i) entry(fixed, row + at(i)) = values[i];
   };
   const auto set_matrix = [&](int row, const Matrix& values) {
     for (Index i = 0; i < N; ++i) {
-      for (Index j = 0; j < N; ++j) entry(t, row + N * at(i) + at(j)) = values(i, j);
+      for (Index j = 0; j < N; ++j) entry(fixed, row + N * at(i) + at(j)) = values(i, j);
     }
   };
   Matrix inverse(N, N);
@@ -248,31 +257,32 @@ void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op) {
   }
   Matrix inertia = op.scheme().mass * Matrix(part.fe.M);
   if (part.is_damped()) inertia += op.scheme().damping * Matrix(part.C);
-  set_matrix(Row::A, inverse);
-  set_matrix(Row::B, inverse * (inertia * inverse) - inverse);
-  set_matrix(Row::Mass, Matrix(part.fe.M));
+  set_matrix(Fixed::A, inverse);
+  set_matrix(Fixed::B, inverse * (inertia * inverse) - inverse);
+  set_matrix(Fixed::Mass, Matrix(part.fe.M));
   for (int k = 0; k < part.sieve.Phi().cols(); ++k) {
-    set_vector(Row::Phi + k * N, part.sieve.Phi().col(k));
-    set_vector(Row::Pi + k * N, part.sieve.P().col(k));
+    set_vector(Fixed::Phi + k * N, part.sieve.Phi().col(k));
+    set_vector(Fixed::Pi + k * N, part.sieve.P().col(k));
   }
   const linalg::Vector inverse_diagonal = op.K_hat_diagonal().cwiseInverse();
-  set_vector(Row::inverse, inverse_diagonal);
-  set_vector(Row::per_load, body::coordinate_lengths(body).cwiseProduct(inverse_diagonal));
+  set_vector(Fixed::inverse, inverse_diagonal);
+  set_vector(Fixed::per_load, body::coordinate_lengths(body).cwiseProduct(inverse_diagonal));
   if (op.patterns() == nullptr) return;
   const Matrix& patterns = part.invariants.centrifugal_patterns();
   const Matrix undeformed = patterns.transpose() * (inverse_diagonal.asDiagonal() * patterns);
-  entry(t, Row::per_pattern) = 1.0 / (body.mass * body.length_scale());
+  entry(fixed, Fixed::per_pattern) = 1.0 / (body.mass * body.length_scale());
   for (int i = 0; i < S::P; ++i) {
     const int pair = pairs<S>()[static_cast<std::size_t>(i)];
-    set_vector(Row::pat + i * N, patterns.col(pair));
+    set_vector(Fixed::pat + i * N, patterns.col(pair));
     for (int j = 0; j < S::P; ++j) {
-      entry(t, Row::und + S::P * i + j) = undeformed(pair, pairs<S>()[static_cast<std::size_t>(j)]);
+      entry(fixed, Fixed::und + S::P * i + j) =
+          undeformed(pair, pairs<S>()[static_cast<std::size_t>(j)]);
     }
   }
 }
 
 template <class S>
-void StrandMechanism::collect_integrals(const std::vector<std::size_t>& bodies,
+void StrandMechanism::collect_integrals(const std::array<std::size_t, kLanes>& bodies,
                                         strand::BodyBlock& block) {
   // Per pair and column the entries that some lane has.
   std::map<std::array<int, 3>, std::array<double, kLanes>> found;
@@ -291,8 +301,10 @@ void StrandMechanism::collect_integrals(const std::vector<std::size_t>& bodies,
       }
     }
   }
-  Integrals& out = *integrals_.emplace_back(std::make_unique<Integrals>());
-  out.values = rows(std::max(1, static_cast<int>(found.size())));
+  auto made = std::make_unique<Integrals>();
+  Integrals& out = *made;
+  const int size = std::max(1, static_cast<int>(found.size()));
+  double* const table = rows(size);
   for (const auto& [key, values] : found) {
     const auto [pair, column, row] = key;
     const auto [a, b] = body::kPairs[static_cast<std::size_t>(pair)];
@@ -301,151 +313,21 @@ void StrandMechanism::collect_integrals(const std::vector<std::size_t>& bodies,
         out.columns.back().column != column) {
       out.columns.push_back({a, b, column, count, count});
     }
-    std::copy(values.begin(), values.end(), out.values + kLanes * count);
+    std::copy(values.begin(), values.end(), table + kLanes * count);
     out.entries.push_back(row);
     out.columns.back().end = count + 1;
   }
-  block.num_columns = static_cast<int>(out.columns.size());
-  block.columns = out.columns.data();
-  block.entries = out.entries.data();
-  block.values = out.values;
-}
-
-template <class S>
-Eigen::Matrix3d StrandMechanism::place_end(const model::MarkerId& id, int end, int lane,
-                                           strand::JointBlock& block) {
-  using Row = BodyRows<S>;
-  if (id.body == model::kGround) {
-    // One of its own: forces on it are not looked at.
-    double* const own = rows(Row::count);
-    fill_ground(own, S::T == 2);
-    double* const slot = own + kLanes * Row::slots;
-    for (int k = 0; k < S::T; ++k) {
-      entry(slot, SlotRows<S>::p + k) = id.X_WF.p[k];
-      entry(slot, SlotRows<S>::axes + (S::T == 2 ? 0 : 4 * k)) = 1.0;
-    }
-    block.body[end][lane] = own;
-    block.slot[end][lane] = slot;
-    return id.X_WF.R();
+  out.values = shared_table(table, size);
+  if (!integrals_.empty() && integrals_.back()->is_same(out)) {
+    made.reset();
+  } else {
+    integrals_.push_back(std::move(made));
   }
-  const auto b = static_cast<std::size_t>(id.body);
-  const int which = slot_of(id);
-  block.body[end][lane] = bodies_[b].at;
-  block.which[end][lane] = which;
-  block.slot[end][lane] = bodies_[b].at + kLanes * (Row::slots + which * SlotRows<S>::count);
-  if (bodies_[b].has_mesh) entry(bodies_[b].at, MeshRows<S>::seen + which) = 1.0;
-  return model_.bodies[b].markers[static_cast<std::size_t>(id.marker)].X_BF.R();
-}
-
-int StrandMechanism::slot_of(const model::MarkerId& id) const {
-  const auto b = static_cast<std::size_t>(id.body);
-  if (!bodies_[b].has_mesh) return slots_[b][0] == id.marker ? 0 : 1;
-  const body::Body& body = model_.bodies[b];
-  return node_of(body, body.markers[static_cast<std::size_t>(id.marker)]);
-}
-
-template <class S>
-void StrandMechanism::place_joint(std::size_t j, int lane, strand::JointBlock& block) {
-  using Row = JointRows<S>;
-  const model::Joint& joint = model_.joints[j];
-  double* const t = block.rows + lane;
-  block.first_row[lane] = joint.first_row;
-  const Eigen::Matrix3d first = place_end<S>(joint.first, 0, lane, block);
-  const Eigen::Matrix3d second = place_end<S>(joint.second, 1, lane, block);
-  for (int k = 0; k < block.num_directions; ++k) {
-    const joints::ConstraintRow& row = joint.rows[static_cast<std::size_t>(S::T + k)];
-    const Eigen::Vector3d b = first * row.direction();
-    const Eigen::Vector3d c = second * row.second_direction();
-    for (int i = 0; i < S::T; ++i) {
-      entry(t, Row::b + k * S::T + i) = b[i];
-      entry(t, Row::c + k * S::T + i) = c[i];
-    }
-  }
-  multipliers_[j] = t + kLanes * Row::lambda;
-  sides_[j] = {t + kLanes * Row::side, t + kLanes * (Row::side + Row::side_count)};
-}
-
-template <class S>
-void StrandMechanism::lay_out_joints() {
-  const std::size_t count = model_.joints.size();
-  multipliers_.resize(count);
-  sides_.resize(count);
-  for (int directions = 0; directions <= S::R; ++directions) {
-    int lane = kLanes;
-    for (std::size_t j = 0; j < count; ++j) {
-      if (std::ssize(model_.joints[j].rows) != S::T + directions) continue;
-      if (lane == kLanes) {
-        lane = 0;
-        strand::JointBlock& fresh = joint_blocks_.emplace_back();
-        fresh.rows = rows(JointRows<S>::count);
-        fresh.num_directions = directions;
-        for (int end = 0; end < 2; ++end) {
-          std::fill_n(fresh.body[end], kLanes, ground_);
-          std::fill_n(fresh.slot[end], kLanes, ground_ + kLanes * BodyRows<S>::slots);
-        }
-      }
-      place_joint<S>(j, lane, joint_blocks_.back());
-      joint_blocks_.back().num_lanes = ++lane;
-    }
-  }
-}
-
-template <class S>
-void StrandMechanism::lay_out_pairs() {
-  struct End {
-    int joint, side, which;
-  };
-  std::vector<std::vector<End>> on_body(model_.bodies.size());
-  std::vector<int> sizes;
-  std::vector<std::pair<int, int>> couples;
-  for (std::size_t j = 0; j < model_.joints.size(); ++j) {
-    const model::Joint& joint = model_.joints[j];
-    sizes.push_back(static_cast<int>(joint.rows.size()));
-    for (int side = 0; side < 2; ++side) {
-      const model::MarkerId& id = side == 0 ? joint.first : joint.second;
-      if (id.body == model::kGround) continue;
-      on_body[static_cast<std::size_t>(id.body)].push_back(
-          {static_cast<int>(j), side, slot_of(id)});
-    }
-  }
-  for (const auto& ends : on_body) {
-    for (const End& i : ends) {
-      for (const End& j : ends) couples.emplace_back(i.joint, j.joint);
-    }
-  }
-  matrix_ = std::make_unique<linalg::BlockLu>(sizes, couples);
-  for (const bool has_mesh : {false, true}) {
-    int lane = kLanes;
-    for (std::size_t b = 0; b < on_body.size(); ++b) {
-      if (bodies_[b].has_mesh != has_mesh) continue;
-      for (const End& i : on_body[b]) {
-        for (const End& j : on_body[b]) {
-          if (lane == kLanes) {
-            lane = 0;
-            pair_blocks_.emplace_back().has_mesh = has_mesh;
-          }
-          strand::PairBlock& block = pair_blocks_.back();
-          const int place = matrix_->place(i.joint, j.joint);
-          // Lanes behind stay where this one is until they are needed.
-          for (int k = lane; k < kLanes; ++k) {
-            const auto set = [&](int side, const End& end) {
-              block.side[side][k] =
-                  sides_[static_cast<std::size_t>(end.joint)][static_cast<std::size_t>(end.side)];
-              block.which[side][k] = end.which;
-              block.sign[side][k] = end.side == 0 ? -1.0 : 1.0;
-              block.directions[side][k] = sizes[static_cast<std::size_t>(end.joint)] - S::T;
-            };
-            set(0, i);
-            set(1, j);
-            block.body[k] = bodies_[b].at;
-            block.out[k] = matrix_->block(place);
-            block.stride[k] = matrix_->stride(place);
-          }
-          block.num_lanes = ++lane;
-        }
-      }
-    }
-  }
+  const Integrals& kept = *integrals_.back();
+  block.num_columns = static_cast<int>(kept.columns.size());
+  block.columns = kept.columns.data();
+  block.entries = kept.entries.data();
+  block.values = kept.values;
 }
 
 }  // namespace buckens::stepping

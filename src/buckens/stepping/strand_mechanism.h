@@ -33,6 +33,7 @@ class StrandMechanism {
   struct Place {
     double* at = nullptr;  ///< first row, its lane
     bool has_mesh = false;
+    const double* fixed = nullptr;  ///< the same of what is constant of a part
   };
 
   /// Whether all bodies and joints of a model are of this kind, nothing else acts but gravity, and
@@ -53,6 +54,8 @@ class StrandMechanism {
   strand::Constants& constants() { return constants_; }
   const strand::Constants& constants() const { return constants_; }
   std::vector<strand::BodyBlock>& body_blocks() { return body_blocks_; }
+  /// Bodies of a block, by lanes.
+  const std::vector<std::size_t>& members(std::size_t block) const { return members_[block]; }
   std::vector<strand::JointBlock>& joint_blocks() { return joint_blocks_; }
   const std::vector<strand::PairBlock>& pair_blocks() const { return pair_blocks_; }
   linalg::BlockLu& matrix() { return *matrix_; }
@@ -66,11 +69,17 @@ class StrandMechanism {
   template <class S>
   void lay_out(const Operators& operators);
   template <class S>
-  void fill_body(std::size_t b, BodyStepOperator* op);
+  void lay_out_block(const std::array<std::size_t, strand::kLanes>& members,
+                     const Operators& operators, bool has_mesh);
   template <class S>
-  void fill_mesh(std::size_t b, BodyStepOperator& op);
+  void fill_body(std::size_t b);
   template <class S>
-  void collect_integrals(const std::vector<std::size_t>& bodies, strand::BodyBlock& block);
+  void fill_mesh(std::size_t b, BodyStepOperator& op, double* fixed);
+  template <class S>
+  void collect_integrals(const std::array<std::size_t, strand::kLanes>& bodies,
+                         strand::BodyBlock& block);
+  /// The last result of rows(), or another table with the same numbers, which then is given up.
+  const double* shared_table(double* table, int count);
   /// @return the marker's turn in its body
   template <class S>
   Eigen::Matrix3d place_end(const model::MarkerId& id, int end, int lane,
@@ -89,7 +98,15 @@ class StrandMechanism {
   struct Integrals {
     std::vector<strand::IntegralColumn> columns;
     std::vector<int> entries;
-    double* values = nullptr;
+    const double* values = nullptr;
+
+    bool is_same(const Integrals& other) const {
+      return values == other.values && entries == other.entries && columns == other.columns;
+    }
+  };
+  struct Table {
+    const double* rows;
+    int count;
   };
 
   const model::Model& model_;
@@ -97,7 +114,9 @@ class StrandMechanism {
   const strand::Kernels* kernels_;
   strand::Constants constants_;
   std::vector<std::unique_ptr<double[], void (*)(void*)>> memory_;
+  std::vector<Table> fixed_;  // the last ones that are shared
   std::vector<strand::BodyBlock> body_blocks_;
+  std::vector<std::vector<std::size_t>> members_;
   std::vector<std::unique_ptr<Integrals>> integrals_;
   std::vector<strand::JointBlock> joint_blocks_;
   std::vector<strand::PairBlock> pair_blocks_;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "buckens/dynamics/coupling_terms.h"
+#include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/strand_step.h"
 
 namespace buckens::stepping {
@@ -119,23 +120,32 @@ void StrandStep::load_mesh(const model::State& state, std::size_t b) {
 }
 
 template <class S>
-void StrandStep::load(const model::State& state) {
+void StrandStep::load_body(const model::State& state, std::size_t b) {
   using Row = BodyRows<S>;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    double* const at = mechanism_.body(b).at;
-    const model::BodyState& s = state.bodies[b];
-    const Eigen::Quaterniond& q = s.frame.X_WB.q;
-    entry(at, Row::q) = q.w();
-    if constexpr (S::T == 2) {
-      entry(at, Row::q + 1) = q.z();
-    } else {
-      for (int k = 0; k < 3; ++k) entry(at, Row::q + 1 + k) = q.vec()[k];
-    }
-    for (int k = 0; k < S::T; ++k) entry(at, Row::p + k) = s.frame.X_WB.p[k];
-    put_frame<S>(at, Row::rate, s.frame.w, s.frame.v);
-    put_frame<S>(at, Row::accel, s.w_dot, s.v_dot);
-    put_frame<S>(at, Row::alg, s.w_alg, s.v_alg);
-    if (mechanism_.body(b).has_mesh) load_mesh<S>(state, b);
+  double* const at = mechanism_.body(b).at;
+  const model::BodyState& s = state.bodies[b];
+  const Eigen::Quaterniond& q = s.frame.X_WB.q;
+  entry(at, Row::q) = q.w();
+  if constexpr (S::T == 2) {
+    entry(at, Row::q + 1) = q.z();
+  } else {
+    for (int k = 0; k < 3; ++k) entry(at, Row::q + 1 + k) = q.vec()[k];
+  }
+  for (int k = 0; k < S::T; ++k) entry(at, Row::p + k) = s.frame.X_WB.p[k];
+  put_frame<S>(at, Row::rate, s.frame.w, s.frame.v);
+  put_frame<S>(at, Row::accel, s.w_dot, s.v_dot);
+  put_frame<S>(at, Row::alg, s.w_alg, s.v_alg);
+  if (mechanism_.body(b).has_mesh) load_mesh<S>(state, b);
+}
+
+template <class S>
+void StrandStep::load(const model::State& state) {
+  furthest_ = 0;
+  for (std::size_t k = 0; k < mechanism_.body_blocks().size(); ++k) {
+    strand::BodyBlock& block = mechanism_.body_blocks()[k];
+    for (const std::size_t b : mechanism_.members(k)) load_body<S>(state, b);
+    kernels_.start(mechanism_.constants(), block);
+    furthest_ = larger(furthest_, kernels_.move(mechanism_.constants(), block));
   }
 }
 

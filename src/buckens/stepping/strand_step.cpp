@@ -68,20 +68,23 @@ bool StrandStep::takes(const model::State& state, const std::vector<int>& rows_i
   return true;
 }
 
-bool StrandStep::evaluate() {
-  double furthest = 0;
+void StrandStep::move_bodies() {
+  furthest_ = 0;
   for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    furthest = larger(furthest, kernels_.move(mechanism_.constants(), block));
+    furthest_ = larger(furthest_, kernels_.move(mechanism_.constants(), block));
   }
+}
+
+bool StrandStep::evaluate_joints() {
   for (strand::JointBlock& block : mechanism_.joint_blocks()) {
     kernels_.evaluate_joints(block, residuals_.g.data(), residuals_.g_dot.data());
   }
-  return furthest <= kFurthestTurn;
+  return furthest_ <= kFurthestTurn;
 }
 
 bool StrandStep::prepare() {
   contraction_ = 1.0;
-  if (!evaluate()) return false;
+  if (!evaluate_joints()) return false;
   for (strand::BodyBlock& block : mechanism_.body_blocks()) {
     kernels_.freeze(mechanism_.constants(), block);
   }
@@ -92,10 +95,13 @@ bool StrandStep::prepare() {
   return matrix.factorise() && matrix.pivot_ratio() >= kWeaklyHeld;
 }
 
-double StrandStep::find_residuals() {
+double StrandStep::collect_loads(bool find_residuals) {
   double open = 0;
   for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
+    kernels_.collect(mechanism_.constants(), block);
+    if (find_residuals) {
+      open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
+    }
   }
   return open;
 }
@@ -113,12 +119,14 @@ bool StrandStep::move(StepReport& report, Change& change) {
   mechanism_.matrix().solve_in_place(X_);
   for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.apply(block, X_.data());
   change = {};
+  furthest_ = 0;
   double interface = 0;
   for (strand::BodyBlock& block : mechanism_.body_blocks()) {
     const strand::Largest moved = kernels_.advance(is, block);
     change.size = larger(change.size, moved.frame);
     interface = larger(interface, moved.interface);
     change.motion = larger(change.motion, moved.motion);
+    furthest_ = larger(furthest_, kernels_.move(is, block));
   }
   change.size = larger(change.size, interface);
   lambda_ += X_ / scheme_.force;
@@ -174,14 +182,12 @@ void StrandStep::record_residuals(StepReport& report) const {
 bool StrandStep::settle(StepReport& report, Change change) {
   Change before;
   for (int iteration = 1;; ++iteration) {
-    if (!evaluate()) return false;
-    for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-      kernels_.collect(mechanism_.constants(), block);
-    }
-    record_residuals(report);
+    if (!evaluate_joints()) return false;
     if (before.size > 0.0) contraction_ = change.size / before.size;
-    if (settled(change, before)) break;
-    if (is_balanced(find_residuals(), change.motion)) break;
+    const bool is_settled = settled(change, before);
+    const double open = collect_loads(!is_settled);
+    record_residuals(report);
+    if (is_settled || is_balanced(open, change.motion)) break;
     before = change;
     if (iteration >= settings_.max_newton || !move(report, change)) return false;
   }
@@ -233,20 +239,15 @@ template <class S>
 bool StrandStep::compute(const model::State& state, StepReport& report) {
   using Row = MeshRows<S>;
   load<S>(state);
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    kernels_.start(mechanism_.constants(), block);
-  }
   if (!prepare()) return false;
   rounding_length_ = rounding_length<S>();
   lambda_ = state.lambda;
   if (forecast_.foretells(state)) apply_forecast<S>(state);
   put_multipliers<S>();
-  if (!evaluate()) return false;
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    kernels_.collect(mechanism_.constants(), block);
-  }
+  move_bodies();
+  if (!evaluate_joints()) return false;
+  collect_loads(true);
   record_residuals(report);
-  find_residuals();
   Change change;
   if (!move(report, change) || !settle(report, change)) return false;
   CouplingRounds rounds(settings_);
@@ -271,10 +272,12 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
       ++solves_[b];
     }
     if (any_solves) ++report.large_solve_rounds;
+    double open = 0;
     for (strand::BodyBlock& block : mechanism_.body_blocks()) {
       kernels_.take_over(mechanism_.constants(), block);
+      open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
     }
-    if (find_residuals() <= negligible(motion_)) continue;
+    if (open <= negligible(motion_)) continue;
     if (!move(report, change) || !settle(report, change)) return false;
   }
 }

@@ -47,8 +47,11 @@ class StrandStep {
   struct Change {
     double size = 0, motion = 0;
   };
+  /// Everything at the start of a step, and moves the bodies to where it leads.
   template <class S>
   void load(const model::State& state);
+  template <class S>
+  void load_body(const model::State& state, std::size_t b);
   template <class S>
   void load_mesh(const model::State& state, std::size_t b);
   template <class S>
@@ -66,10 +69,13 @@ class StrandStep {
   template <class S>
   void put_multipliers();
 
-  bool evaluate();
+  void move_bodies();
+  /// Residuals of rows and loads on markers. @return false if a body turns too far
+  bool evaluate_joints();
   bool prepare();
-  double find_residuals();
-  /// @return false if the motion has diverged
+  /// Loads on bodies. @return the size of their residuals, if these are to be found
+  double collect_loads(bool find_residuals);
+  /// One iteration; bodies are then where it leads. @return false if the motion has diverged
   bool move(StepReport& report, Change& change);
   bool settle(StepReport& report, Change change);
   bool settled(const Change& change, const Change& before) const;
@@ -90,6 +96,7 @@ class StrandStep {
   dynamics::JointResiduals residuals_;
   linalg::Vector lambda_, E_, X_;
   double contraction_ = 1, motion_ = 0, rounding_length_ = 0;
+  double furthest_ = 0;  // largest square of half an angle by which something turns
   std::vector<long> solves_;
   std::vector<dynamics::BodyMotion> motions_;
   model::Coupling coupling_;  // scratch

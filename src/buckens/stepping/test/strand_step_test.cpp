@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/linalg/simd_level.h"
+#include "buckens/loads/spring_damper.h"
 #include "buckens/stepping/stepper.h"
 #include "buckens/stepping/test/row_of_rods.h"
 #include "buckens/stepping/test/same_state.h"
@@ -209,6 +211,54 @@ TEST(StrandStep, LeavesOtherMechanismsToTheGeneralRoute) {
   StepSettings newmark;
   newmark.method = Method::newmark;
   EXPECT_FALSE(steps_side_by_side(test::row_of_rods(8, spatial::Plane::xy), newmark));
+}
+
+TEST(StrandStep, LeavesMechanismsWithAnythingElseToTheGeneralRoute) {
+  using joints::JointType;
+  const auto steps_side_by_side = [](const std::function<void(test::Mechanism&, int)>& change) {
+    test::Mechanism m;
+    m.set_gravity({0, -9.81, 0});
+    int last = -1;
+    for (int k = 0; k < 8; ++k) {
+      const Vector3d place(0.1 * k, 0, 0);
+      const int link = test::add_rod(m, 1.0, 0.1, {place, Quaterniond::Identity()});
+      m.add_joint(JointType::revolute,
+                  k == 0 ? test::Mechanism::ground(place) : m.rigid_marker(last, {0.05, 0, 0}),
+                  m.rigid_marker(link, {k == 0 ? 0.0 : -0.05, 0, 0}));
+      last = link;
+    }
+    change(m, last);
+    const model::Model model = m.take();
+    StepSettings settings;
+    settings.step = 1e-4;
+    return Stepper(model, settings, rows_of(model)).steps_side_by_side();
+  };
+  EXPECT_TRUE(steps_side_by_side([](test::Mechanism&, int) {}));
+  EXPECT_TRUE(steps_side_by_side([](test::Mechanism& m, int) {
+    m.add_coordinate(3, joints::JointCoordinate::Kind::angle);  // for sensors
+  }));
+  EXPECT_FALSE(steps_side_by_side([](test::Mechanism& m, int last) {
+    m.add_load(std::make_unique<loads::SpringDamper>(0.0, 0.0, 1.0, std::nullopt),
+               test::Mechanism::ground({0, 1, 0}), m.rigid_marker(last, {0, 0, 0}));
+  }));
+  // Rows of other kinds: lines, distances, laws of time and several coordinates.
+  for (const JointType type : {JointType::point_on_line, JointType::distance,
+                               JointType::constant_velocity, JointType::prismatic}) {
+    EXPECT_FALSE(steps_side_by_side([&](test::Mechanism& m, int last) {
+      m.add_joint(type, test::Mechanism::ground({0.8, 0.3, 0}), m.rigid_marker(last, {0.05, 0, 0}),
+                  Vector3d::UnitY());
+    })) << joints::to_string(type);
+  }
+  EXPECT_FALSE(steps_side_by_side([](test::Mechanism& m, int last) {
+    m.add_joint(JointType::prescribed_rotation, test::Mechanism::ground({0, 0, 0}),
+                m.rigid_marker(last, {0, 0, 0}), Vector3d::UnitZ(),
+                base::TimeLaw::expression(base::Expression("t", {"t"}, {}, {})));
+  }));
+  // A third marker of a rigid body.
+  EXPECT_FALSE(steps_side_by_side([](test::Mechanism& m, int) {
+    m.add_joint(JointType::spherical, test::Mechanism::ground({0.3, 0.1, 0}),
+                m.rigid_marker(3, {0, 0.1, 0}));
+  }));
 }
 
 TEST(StrandStep, LeavesFastTurnsToTheGeneralRoute) {
