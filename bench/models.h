@@ -23,19 +23,23 @@ struct Running {
   std::unique_ptr<stepping::Stepper> stepper;
 };
 
-inline Running start(model::ModelDescription description, double step, int threads = 1,
-                     linalg::SolveExchange* exchange = nullptr) {
+inline Running start(model::ModelDescription description, stepping::StepSettings settings) {
   Running run;
   run.built = model::build_model(std::move(description));
   run.metric = std::make_unique<dynamics::MassMetric>(run.built->model);
   run.prepared = analysis::prepare(*run.built, *run.metric);
+  run.stepper =
+      std::make_unique<stepping::Stepper>(run.built->model, settings, run.prepared.rows_in_use);
+  return run;
+}
+
+inline Running start(model::ModelDescription description, double step, int threads = 1,
+                     linalg::SolveExchange* exchange = nullptr) {
   stepping::StepSettings settings;
   settings.step = step;
   settings.threads = threads;
   settings.exchange = exchange;
-  run.stepper =
-      std::make_unique<stepping::Stepper>(run.built->model, settings, run.prepared.rows_in_use);
-  return run;
+  return start(std::move(description), settings);
 }
 
 inline Running start(const std::string& text, double step, int threads = 1,

@@ -163,6 +163,16 @@ json time_ratios() {
   out["64 over 16 frames of a beam in the plane"] =
       ratio_of_times(buckens::bench::start(planar_beam_pendulum(64), kStep),
                      buckens::bench::start(planar_beam_pendulum(16), kStep));
+  const auto beam = [](bool side_by_side) {
+    buckens::stepping::StepSettings settings;
+    settings.step = kStep;
+    settings.side_by_side = side_by_side;
+    settings.simd = buckens::linalg::SimdLevel::portable;  // the same ratio on every processor
+    return buckens::bench::start(
+        buckens::model_file::read_model_text(planar_beam_pendulum(64), "bench.yaml", {}), settings);
+  };
+  out["side by side over one by one, 64 frames of a beam in the plane"] =
+      ratio_of_times(beam(true), beam(false));
   return out;
 }
 

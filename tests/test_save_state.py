@@ -250,7 +250,36 @@ simulation: {duration: 0.4 s, step: 0.5 ms, STEP}
 output: {every: 7 ms, sensors: {y: {position: follower}, push: {spring-force: cam}, one: {joint-coordinate: cross}, two: {joint-coordinate: {joint: cross, which: second-angle}}, stone: {position: stone}}}
 """
 
+# Small bodies that step side by side: the parts of a beam, with more frames than lanes, and links in space.
+BEAM = """buckens: 1
+PLANE
+gravity: [0, -9.81, 0]
+bodies:
+  rod:
+    beam: {to: [0.6, 0.3, 0], elements: 11, section: {circle: {diameter: 8 mm}}, material: {E: 70 GPa, nu: 0.3, rho: 2700, damping: {mass: 0.1}}}
+    frames: per-element
+joints: {pin: {PIN: {between: [ground, rod/start]}}}
+simulation: {duration: 60 ms, step: 0.2 ms, STEP}
+output: {every: 0.7 ms, sensors: {tip: {position: rod/end}, mid: {deflection: {of: rod/mid, from: chord}}, pin: {joint-force: pin}, balance: {energy: balance}}}
+"""
+PLANAR = BEAM.replace("PLANE", "planar: xy").replace("PIN", "revolute")
+SPATIAL = BEAM.replace("PLANE\n", "").replace("PIN", "spherical")
+LINKS = "buckens: 1\ngravity: [0, -9.81, 2]\nbodies:\n" + "".join(
+    f"  b{k}: {{rigid: {{mass: 1, com: [0.05, 0, 0], inertia: [1e-4, 1e-3, 1e-3]}}, at: {{position: [{k / 10}, 0, 0]}}, "
+    "markers: {a: {position: [0, 0, 0]}, b: {position: [0.1, 0, 0]}}}\n" for k in range(10)) + "joints:\n" + "".join(
+        f"  j{k}: {{revolute: {{between: [{f'b{k - 1}/b' if k else 'ground'}, b{k}/a], axis: [0, {k % 2}, {1 - k % 2}]}}}}\n"
+        for k in range(10)) + """simulation: {duration: 0.3 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {tip: {position: b9}, turns: {joint-coordinate: j3}, j5: {joint-force: j5}}}
+"""
+
 CASES = {
+    "strands in the plane": (model(PLANAR), 0.0301),
+    "strands in the plane, step control": (model(PLANAR, step="tolerance: 1e-4"), 0.0301),
+    "strands in the plane, hht": (model(PLANAR, step="method: hht"), 0.0301),
+    "strands in space": (model(SPATIAL), 0.0301),
+    "strands in space, threads": (model(SPATIAL), 0.0301),
+    "strands of links": (model(LINKS), 0.1501),
+    "strands of links, step control": (model(LINKS, step="tolerance: 1e-4"), 0.1501),
     "surfaces in contact": (model(PAIRS), 0.1011),
     "surfaces in contact, reduced": (model(PAIRS, "reduction: {craig-bampton: 4}"), 0.1011),
     "surfaces in contact, step control": (model(PAIRS, step="tolerance: 1e-4"), 0.1011),

@@ -51,6 +51,13 @@ void visit_body(const base::SaveVisit& visit, const body::Body& body, int histor
   }
 }
 
+void visit_past(const base::SaveVisit& visit, const Model& model, PastStep& past) {
+  visit.number("t", past.t);
+  visit.vector_or_none("lambda", past.lambda, model.num_constraint_rows());
+  visit.vector_or_none("accelerations", past.accelerations,
+                       6 * static_cast<Eigen::Index>(model.bodies.size()));
+}
+
 void visit_inputs(const base::SaveVisit& visit, const Model& model, LoadInputs& inputs) {
   std::vector<int> given;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
@@ -175,6 +182,8 @@ void visit_saved(const base::SaveVisit& visit, const Model& model, State& state)
   visit.number("lambda_time", state.lambda_time);
   visit.number("last_step", state.last_step);
   visit.count("history", state.history, 0, 3);
+  visit_past(visit.inside("before"), model, state.before);
+  visit_past(visit.inside("earlier"), model, state.earlier);
   visit_inputs(visit.inside("inputs"), model, state.inputs);
   visit_memory(visit.inside("memory"), model, state.memory);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

@@ -63,6 +63,13 @@ struct RowMemory {
 /// of a force [N] or torque [N m] in the axes of the load. Empty: none given.
 using LoadInputs = std::vector<std::optional<Eigen::Vector3d>>;
 
+/// What a step before the last leaves for the forecast of the next.
+struct PastStep {
+  double t = 0;                  ///< instant to which it refers [s]
+  linalg::Vector lambda;         ///< [N, N m]; empty if nothing is known
+  linalg::Vector accelerations;  ///< six per body: ẇ in body axes, v̇ in world axes
+};
+
 /// State of the mechanism.
 struct State {
   double t = 0;  ///< [s]
@@ -70,9 +77,10 @@ struct State {
   linalg::Vector lambda;   ///< joint multipliers [N, N m]
   double lambda_time = 0;  ///< instant to which λ refers [s]
   double last_step = 0;    ///< length of the step that led here [s]
-  int history = 0;         ///< number of valid coupling entries: 0 … 3
-  LoadInputs inputs;       ///< in effect from here on
-  RowMemory memory;        ///< of joint coordinates and force laws
+  int history = 0;  ///< number of valid coupling entries and of steps without a jump: 0 … 3
+  PastStep before, earlier;  ///< of the two previous steps
+  LoadInputs inputs;         ///< in effect from here on
+  RowMemory memory;          ///< of joint coordinates and force laws
 };
 
 /// All bodies as placed, undeformed and at rest.

@@ -63,7 +63,8 @@ bool have_one_matrix(const Scheme& a, const Scheme& b) {
 }
 
 /// Equal to the last bit.
-bool are_equal(const SparseMatrix& A, const SparseMatrix& B) {
+template <class Sparse>
+bool are_equal(const Sparse& A, const Sparse& B) {
   if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
   const auto same = [](const auto* a, const auto* b, Eigen::Index count) {
     return std::equal(a, a + count, b);
@@ -73,11 +74,27 @@ bool are_equal(const SparseMatrix& A, const SparseMatrix& B) {
          same(A.outerIndexPtr(), B.outerIndexPtr(), A.outerSize() + 1);
 }
 
+bool have_same_rigid_modes(const body::FlexiblePart& a, const body::FlexiblePart& b) {
+  const Matrix& patterns = a.invariants.centrifugal_patterns();
+  return a.sieve.Phi().cols() == b.sieve.Phi().cols() && a.sieve.Phi() == b.sieve.Phi() &&
+         a.sieve.P() == b.sieve.P() && patterns == b.invariants.centrifugal_patterns();
+}
+
 }  // namespace
 
 bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
   return are_equal(part.fe.M, part_->fe.M) && are_equal(part.fe.K, part_->fe.K) &&
          are_equal(part.C, part_->C);
+}
+
+bool BodyStepOperator::serves(const body::FlexiblePart& part) const {
+  if (part.num_dofs() > kSmall || !fits(part)) return false;
+  if (part.is_quasi_static != is_quasi_static_ || part.fe.mass_damping != part_->fe.mass_damping ||
+      part.num_interface_rows != part_->num_interface_rows ||
+      part.coupling.may_use_patterns() != part_->coupling.may_use_patterns()) {
+    return false;
+  }
+  return have_same_rigid_modes(part, *part_) && are_equal(rows_of(part), N_);
 }
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
@@ -160,8 +177,8 @@ void BodyStepOperator::solve_right_side(Vector& x, TaskPool* pool) {
   if (is_diagonal()) {
     x = x.cwiseProduct(diagonal_inverse_);
   } else if (inverse_.size() > 0) {
-    scratch_ = x;
-    x.noalias() = inverse_ * scratch_;
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSmall, 1> side = x;
+    x.noalias() = inverse_ * side;
   } else {
     factor_->solve_in_place(x, pool);
   }

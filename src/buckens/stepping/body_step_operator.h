@@ -39,8 +39,13 @@ class BodyStepOperator final : public BodyAnswer {
                    const FactorSource& source = {});
   /// Whether a body has the same step matrix as this one.
   bool fits(const body::FlexiblePart& part) const;
+  /// Whether it can stand for another body: one with few variables that has bitwise the same
+  /// matrices, rows and rigid modes. The parts of a divided beam then read one operator, which
+  /// stays in the cache, instead of thousands that are equal.
+  bool serves(const body::FlexiblePart& part) const;
 
-  /// x ← K̂⁻¹ x; small bodies sieve the result, others leave that to the caller.
+  /// x ← K̂⁻¹ x; small bodies sieve the result, others leave that to the caller. Several threads may
+  /// solve for small bodies at once.
   void solve_right_side(linalg::Vector& x, TaskPool* pool = nullptr);
   /// The factor that several bodies may share; empty if the solve needs none.
   const linalg::Factor* shared_factor() const {
@@ -110,7 +115,6 @@ class BodyStepOperator final : public BodyAnswer {
   linalg::Matrix D_less_G_;  // for interface rows, D of a correction's effect on x⁺; empty: D = G
   linalg::Matrix rigid_row_values_;
   InertialLoad inertial_;
-  linalg::Vector scratch_;
   long setup_solves_ = 0;
 };
 

@@ -15,6 +15,11 @@ namespace buckens::stepping {
 using Eigen::Index;
 using Eigen::Vector3d;
 
+namespace {
+// Of a body's length: a thousandth of what rounding of its position is.
+constexpr double kNoMotion = 1e-19;
+}  // namespace
+
 LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& op)
     : body_(&body),
       scheme_(op.scheme()),
@@ -62,9 +67,26 @@ LaggedCoupling::Sizes LaggedCoupling::compare_loads(TaskPool* pool) {
   return out;
 }
 
+LaggedCoupling::Gap LaggedCoupling::judge(const Change& of, const body::Body& body,
+                                          const StepSettings& settings, double L) {
+  Gap gap;
+  gap.motion = std::max(of.moved / L, of.turned);
+  const bool moves_nothing = !settings.iterate_coupling &&
+                             body.num_dofs() <= SmallBodyAnswers::kMostVariables &&
+                             of.moved <= kNoMotion * body.length_scale() && of.turned <= kNoMotion;
+  if (moves_nothing) return gap;
+  const double load = of.load_size != 0.0 ? of.load / of.load_size : 0.0;
+  const double frame = of.frame_size > 0.0 ? of.frame / of.frame_size : 0.0;
+  gap.load_changed = load > settings.outer_tolerance;
+  gap.frame_changed = frame > settings.outer_tolerance;
+  gap.change = std::max(load, frame);
+  return gap;
+}
+
 LaggedCoupling::Gap LaggedCoupling::evaluate(const BodyStep& step, const LargeStep& large,
                                              const model::BodyState& after, double t,
-                                             double tolerance, double L, TaskPool* pool) {
+                                             const StepSettings& settings, double L,
+                                             TaskPool* pool) {
   const Vector6 rate = scheme_.mean_rate * step.u + step.frame.mean_velocity;
   const Vector6 acceleration = step.frame_acceleration(scheme_);
   const Vector3d w = rate.head<3>();
@@ -73,26 +95,24 @@ LaggedCoupling::Gap LaggedCoupling::evaluate(const BodyStep& step, const LargeSt
                               large.acceleration_e(after), w, w_dot, evaluated_, pool);
   evaluated_.t = scheme_.evaluation_time(t);
 
-  Gap gap;
-  double load_change = 0;
+  Change change;
   if (step.terms.have_load()) {
     const Sizes sizes = compare_loads(pool);
     const Vector6 weights = dynamics::centrifugal_weights(step.terms, w);
     load_size_ = std::sqrt(sizes.load + weights.dot(undeformed_ * weights));
-    if (load_size_ != 0.0) load_change = std::sqrt(sizes.change) / load_size_;
-    gap.motion = scheme_.force * sizes.moved / L;
+    change.load = std::sqrt(sizes.change);
+    change.load_size = load_size_;
+    change.moved = scheme_.force * sizes.moved;
   }
   const Vector3d frame_change =
       (dynamics::frame_inertia(*body_, evaluated_.moments, w, w_dot, Vector3d::Zero()) -
        dynamics::frame_inertia(*body_, used_.moments, w, w_dot, Vector3d::Zero()))
           .head<3>();
-  const double frame_size = body_->J0.norm() * (w_dot.norm() + w.squaredNorm());
-  const double frame_relative = frame_size > 0.0 ? frame_change.norm() / frame_size : 0.0;
-  gap.motion = std::max(
-      gap.motion, scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm());
-  gap.load_changed = load_changed_ = load_change > tolerance;
-  gap.frame_changed = frame_relative > tolerance;
-  gap.change = std::max(load_change, frame_relative);
+  change.frame = frame_change.norm();
+  change.frame_size = body_->J0.norm() * (w_dot.norm() + w.squaredNorm());
+  change.turned = scheme_.force * (step.compliance.topLeftCorner<3, 3>() * frame_change).norm();
+  const Gap gap = judge(change, *body_, settings, L);
+  load_changed_ = gap.load_changed;
   return gap;
 }
 

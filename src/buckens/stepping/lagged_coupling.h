@@ -5,6 +5,7 @@
 #include "buckens/linalg/row_parts.h"
 #include "buckens/stepping/body_step.h"
 #include "buckens/stepping/large_step.h"
+#include "buckens/stepping/step_settings.h"
 
 namespace buckens::stepping {
 
@@ -31,6 +32,22 @@ class LaggedCoupling {
     bool is_settled() const { return !load_changed && !frame_changed; }
   };
 
+  /// Sizes of a change, by which it is judged.
+  struct Change {
+    double load = 0;        ///< of the nodal load
+    double load_size = 0;   ///< of the whole coupling load, √(‖F‖² + ‖ĉ‖²)
+    double moved = 0;       ///< by it in this step [m]
+    double frame = 0;       ///< of the inertia of the frame
+    double frame_size = 0;  ///< of this inertia
+    double turned = 0;      ///< by it in this step [rad]
+  };
+  /// Where the coupling is not iterated, a change that moves a small body by less than what
+  /// rounding leaves of its motion counts as none: short parts of a divided beam deform so little
+  /// that their coupling never matters.
+  /// @param L length of the model, for Gap::motion [m]
+  static Gap judge(const Change& change, const body::Body& body, const StepSettings& settings,
+                   double L);
+
   /// Extrapolates the coupling from the last steps for the step from `state`.
   /// @param history number of valid coupling entries in the state
   void start(const model::BodyState& state, int history, double t, TaskPool* pool);
@@ -39,7 +56,7 @@ class LaggedCoupling {
   /// @param t start of the step [s]
   /// @param L length of the model, for Gap::motion [m]
   Gap evaluate(const BodyStep& step, const LargeStep& large, const model::BodyState& after,
-               double t, double tolerance, double L, TaskPool* pool);
+               double t, const StepSettings& settings, double L, TaskPool* pool);
   /// Adopts what was evaluated: the moments and, if it changed, the load.
   void take_over();
 

@@ -33,6 +33,7 @@ std::string describe_joint(const model::Joint& joint) {
 RowWatch::RowWatch(const model::Model& model) : model_(model) {
   for (const model::Joint& joint : model.joints) {
     for (const joints::ConstraintRow& row : joint.rows) {
+      is_length_.push_back(row.is_length());
       size_.push_back(row.is_length() ? model.length : 1.0);
     }
   }

@@ -41,10 +41,14 @@ class RowWatch {
                                      const std::vector<dynamics::BodyCompliance>& compliance,
                                      const std::vector<int>& in_use) const;
 
+  /// Whether a row of λ closes a length, not an angle.
+  bool is_length(int row) const { return is_length_[static_cast<std::size_t>(row)] != 0; }
+
  private:
   const model::Model& model_;
-  std::vector<double> size_;  // model's length for rows that are lengths, 1 for angles
-  double largest_gap_ = 0;    // of rows not in use so far
+  std::vector<char> is_length_;  // of every row
+  std::vector<double> size_;     // model's length for rows that are lengths, 1 for angles
+  double largest_gap_ = 0;       // of rows not in use so far
   bool has_open_rows_ = false;
 };
 

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/model_scales.h"
+#include "buckens/stepping/iteration_limits.h"
 #include "buckens/stepping/row_selection.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -27,19 +28,6 @@ constexpr double kPivotDrop = 1e-3;
 // moves what the lever drives by more than the iteration's end admits: the step has hit a dead
 // centre.
 constexpr double kDeadCentre = 1e-10;
-// Convergence is linear with the frozen matrix of the step: what the next iteration would change is
-// known from the last two. It has to be this much smaller than what the tolerance admits.
-constexpr double kForeseen = 0.01;
-// What rounding of positions leaves open, relative to the model's length, or to the distance from
-// the origin where that is more.
-constexpr double kRounding = 1e-15;
-// A change that no longer falls is rounding if it is below these shares of the same lengths.
-constexpr double kStalled = 1e-11;
-constexpr double kStalledFarAway = 1e-14;
-// Rows whose pivots have fallen below this hold their bodies by a short lever, the root of the
-// pivot; rounding moves these bodies by its inverse more.
-constexpr double kWeaklyHeld = 1e-6;
-constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
 template <class F>
@@ -390,6 +378,30 @@ bool SmallNewton::settled(const Change& change, const Change& before) const {
          change.size <= rounding_of_changes();
 }
 
+bool SmallNewton::is_balanced(double open, double motion) const {
+  // Where rows hold their bodies by short levers, or by rows that come and go, a residual does not
+  // tell how far they move.
+  if (has_quasi_static_ || !rigid_.empty()) return false;
+  const double pivots = condensation_->pivot_ratio();
+  if (pivots > 0.0 && pivots < kWeaklyHeld) return false;
+  const double enough = negligible(motion);
+  if (!(open <= enough)) return false;
+  const bool with_positions = corrects_positions();
+  return std::all_of(rows_in_use_.begin(), rows_in_use_.end(), [&](int row) {
+    const double length = watch_.is_length(row) ? 1.0 : model_.length;
+    return std::abs(residuals_.g_dot[row]) * length <= enough * scheme_.end_rate &&
+           (!with_positions || rates_only_[static_cast<std::size_t>(row)] ||
+            std::abs(residuals_.g[row]) * length <= enough);
+  });
+}
+
+double SmallNewton::negligible(double motion) const {
+  // If left in every step, rounding of positions accumulates in rates, which are 1/h of them: this
+  // matters when the coupling is iterated to convergence.
+  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
+  return kForeseen * admitted(motion) + rounding;
+}
+
 void SmallNewton::record_residuals(StepReport& report) const {
   if (residuals_.g.size() == 0) return;
   Eigen::Index worst = 0;
@@ -432,6 +444,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
       evaluate(bodies, t, lambda);
       are_formed = regimes_hold(bodies, t, report);
     }
+    if (are_formed && is_balanced(find_residuals(bodies), change.motion)) break;
     if (are_formed) {
       before = change;
     } else {
@@ -442,7 +455,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     if (iteration >= settings_.max_newton) {
       fail(t, report, "the step's iteration does not converge");
     }
-    find_residuals(bodies);
+    if (!are_formed) find_residuals(bodies);
     change = move(bodies, t, lambda, report);
   }
   watch_rows(t, report);
@@ -460,11 +473,7 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
 void SmallNewton::iterate_on(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                              StepReport& report) {
   // Motions, rows and forces are those of the last evaluation.
-  const double open = find_residuals(bodies);
-  // If left in every step, rounding of positions accumulates in rates, which are 1/h of them: this
-  // matters when the coupling is iterated to convergence.
-  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
-  if (open <= kForeseen * admitted(motion_) + rounding) return;
+  if (find_residuals(bodies) <= negligible(motion_)) return;
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }
 

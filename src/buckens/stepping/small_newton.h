@@ -75,6 +75,9 @@ class SmallNewton {
   void steer(double t);
   /// @return size of the residual of the bodies' equations of motion [m]
   double find_residuals(const std::vector<BodyStep>& bodies);
+  /// Whether what the residuals leave to be moved is negligible, so that no iteration is needed to
+  /// tell. @param open of find_residuals() [m], @param motion of the step [m]
+  bool is_balanced(double open, double motion) const;
   /// One iteration from the results of evaluate() and find_residuals().
   Change move(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
   /// Evaluates and moves until converged. @param change of the previous iteration, if any
@@ -86,6 +89,8 @@ class SmallNewton {
   bool settled(const Change& change, const Change& before) const;
   /// Below this a change that no longer falls is rounding.
   double rounding_of_changes() const;
+  /// What may remain to be moved [m]. @param motion of the step [m]
+  double negligible(double motion) const;
   /// Change that ends the iteration [m].
   double admitted(double motion) const { return settings_.newton_tolerance * motion; }
   void record_residuals(StepReport& report) const;

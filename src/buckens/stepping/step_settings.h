@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/linalg/simd_level.h"
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/scheme.h"
 
@@ -23,6 +24,10 @@ struct StepSettings {
   int max_newton = 40;
   int max_outer = 30;
   int threads = 1;  ///< ≥ 1; does not influence results
+  /// Mechanisms of many small bodies step eight at a time; else one by one, which takes longer.
+  bool side_by_side = true;
+  /// Instructions that these are stepped with; the processor must have them.
+  linalg::SimdLevel simd = linalg::best_simd_level();
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
   /// Factorises the step matrices of bodies; an exchange has its own.

@@ -14,6 +14,7 @@
 #include "buckens/stepping/change_of_step.h"
 #include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/step_failure.h"
+#include "buckens/stepping/strand_step.h"
 
 namespace buckens::stepping {
 
@@ -21,22 +22,6 @@ using Eigen::Vector3d;
 using linalg::Vector;
 
 namespace {
-// Positions are known to rounding, accelerations to that over h². A coupling load that stops
-// falling from solve to solve has converged, whatever the outer tolerance, if the remainder is this
-// small: relative to the load, or as motion relative to the model's length (where a motion has
-// barely begun).
-constexpr double kCouplingRounding = 1e-9;
-constexpr double kPositionRounding = 1e-15;
-// Rounding changes from solve to solve without falling. A body whose inertia about some axis is
-// much larger deformed than undeformed, such as a thin bent rod about its length, converges by a
-// factor of about 0.7: that is not rounding, the remainder is several times the last change.
-constexpr double kNoLongerFalls = 0.9;
-// What a second large solve may leave in the coupling load: its effect on the motion in a step is
-// smaller by (h ω)², far below the error of the method.
-constexpr double kSecondSolve = 1e-4;
-// Where the coupling load passes through zero, the criterion is the motion that the rest would
-// cause in the step, relative to the model's length.
-constexpr double kSecondSolveMotion = 1e-9;
 // Ends of steps are counted elsewhere, not summed.
 constexpr double kSameInstant = 1e-6;
 // With fewer variables in all bodies together, waking a thread does not pay.
@@ -46,17 +31,22 @@ constexpr int kPartsPerThread = 4;
 
 namespace {
 
-/// @param known operators of other bodies, one of which may have the factor already
-std::unique_ptr<BodyStepOperator> factorised(
-    const body::Body& body, const Scheme& scheme,
-    const std::vector<std::unique_ptr<BodyStepOperator>>& known, const StepSettings& settings) {
+using Operators = std::vector<std::shared_ptr<BodyStepOperator>>;
+
+/// @param known operators of other bodies, one of which may be that of this body or have its factor
+std::shared_ptr<BodyStepOperator> factorised(const body::Body& body, const Scheme& scheme,
+                                             const Operators& known, const StepSettings& settings) {
   if (!body.is_flexible()) return nullptr;
+  const auto same = std::find_if(known.begin(), known.end(), [&](const auto& other) {
+    return other != nullptr && other->serves(*body.flexible);
+  });
+  if (same != known.end()) return *same;
   const auto twin = std::find_if(known.begin(), known.end(), [&](const auto& other) {
     return other != nullptr && other->fits(*body.flexible);
   });
   try {
     const BodyStepOperator* first = twin == known.end() ? nullptr : twin->get();
-    return std::make_unique<BodyStepOperator>(
+    return std::make_shared<BodyStepOperator>(
         *body.flexible, scheme, FactorSource{first, settings.exchange, settings.make_factor});
   } catch (const NumericalError& error) {
     throw NumericalError(fmt::format("body \"{}\": {}", body.name, error.what()));
@@ -84,10 +74,15 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
     : model_(model),
       settings_(settings),
       scheme_(settings.method, settings.step, settings.method_parameter()),
+      forecast_(scheme_, model.length),
+      forecasts_(RigidRows(model).empty()),
       bodies_(model.bodies.size()) {
   std::vector<const BodyAnswer*> views;
   for (const body::Body& body : model.bodies) {
-    operators_.push_back(factorised(body, scheme_, operators_, settings_));
+    auto op = factorised(body, scheme_, operators_, settings_);
+    has_own_operator_.push_back(
+        op != nullptr && std::find(operators_.begin(), operators_.end(), op) == operators_.end());
+    operators_.push_back(std::move(op));
     flexible_.push_back(
         body.is_flexible() ? std::make_unique<FlexibleStep>(body, *operators_.back()) : nullptr);
     views.push_back(operators_.back().get());
@@ -95,6 +90,9 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
   impacts_ = std::make_unique<Impacts>(model, scheme_, views);
   newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
                                           std::move(rows_in_use));
+  StrandMechanism::Operators small;
+  for (const auto& op : operators_) small.push_back(op.get());
+  strand_ = StrandStep::make(model, settings_, scheme_, small);
   gaps_.resize(bodies_.size());
   use_threads(settings_.threads);
   group_factors();
@@ -223,37 +221,40 @@ void Stepper::complete(const model::State& state) {
   });
 }
 
-bool Stepper::coupling_settled(const model::State& state, StepReport& report) {
+CouplingRounds::Gap Stepper::compare_coupling(const model::State& state) {
   for_bodies([&](std::size_t b) {
     const bool matters = flexible_[b] && bodies_[b].terms.are_lagged();
     gaps_[b] = {};
     if (!matters) return;
-    gaps_[b] =
-        flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b], state.t,
-                                        settings_.outer_tolerance, model_.length, pool_.get());
+    gaps_[b] = flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b],
+                                               state.t, settings_, model_.length, pool_.get());
   });
-  bool settled = true;
-  report.coupling_change = 0;
-  coupling_motion_ = 0;
+  CouplingRounds::Gap out;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!flexible_[b] || !bodies_[b].terms.are_lagged()) continue;
     const LaggedCoupling::Gap& gap = gaps_[b];
-    settled = settled && gap.is_settled();
-    coupling_motion_ = std::max(coupling_motion_, gap.motion);
-    if (!(gap.change <= report.coupling_change)) least_settled_ = b;
-    report.coupling_change = std::max(report.coupling_change, gap.change);
+    out.is_settled = out.is_settled && gap.is_settled();
+    out.motion = std::max(out.motion, gap.motion);
+    if (!(gap.change <= out.change)) least_settled_ = b;
+    out.change = std::max(out.change, gap.change);
   }
-  return settled;
+  return out;
 }
 
-void Stepper::form_next_state(const model::State& state) {
+void Stepper::form_next_instant(const model::State& state) {
   model::State& next = next_;
   next.t = state.t + scheme_.h;
-  next.lambda = lambda_;
   next.lambda_time = scheme_.evaluation_time(state.t);
   next.last_step = scheme_.h;
   next.history = std::min(3, state.history + 1);
   next.inputs = state.inputs;
+  note_past(state, next);
+}
+
+void Stepper::form_next_state(const model::State& state) {
+  model::State& next = next_;
+  form_next_instant(state);
+  next.lambda = lambda_;
   dynamics::advance_memory(model_, newton_->motions_at_end(), next.t, newton_->around(),
                            next.memory);
   for_bodies([&](std::size_t b) {
@@ -345,6 +346,8 @@ void Stepper::compute_round(const model::State& state, int round, StepReport& re
   const auto solved = Clock::now();
   if (round == 0) {
     newton_->prepare(bodies_, state.t);
+    // After it: matrix and directions belong to where the last accelerations lead.
+    if (forecasts_ && forecast_.foretells(state)) forecast_.apply(state, bodies_, lambda_);
     newton_->iterate(bodies_, state.t, lambda_, report);
   } else {
     newton_->iterate_on(bodies_, state.t, lambda_, report);
@@ -366,6 +369,28 @@ StepReport Stepper::step(const model::State& before, model::State& after) {
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   recall_solves(state);
+  if (!take_strand_step(state, report)) report = take_general_step(state);
+  stepped_to_ = next_.t;
+  finish_lesson(next_);
+  std::swap(end, next_);  // the buffers of `end` are reused in the next step
+  return report;
+}
+
+bool Stepper::take_strand_step(const model::State& state, StepReport& report) {
+  if (!strand_ || !strand_->takes(state, newton_->rows_in_use())) return false;
+  const auto start = std::chrono::steady_clock::now();
+  if (!strand_->step(state, next_, report)) return false;
+  form_next_instant(state);
+  dynamics::advance_memory(model_, strand_->motions_at_end(), next_.t,
+                           {&state.inputs, &state.memory, &next_.lambda}, next_.memory);
+  has_stepped_ = false;  // loads on bodies are not kept
+  seconds_.newton +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return true;
+}
+
+StepReport Stepper::take_general_step(const model::State& state) {
+  StepReport report;
   lambda_ = state.lambda;
   next_.bodies.resize(bodies_.size());
   newton_->use({&state.inputs, &state.memory, &lambda_});
@@ -373,50 +398,41 @@ StepReport Stepper::take_step(const model::State& state, model::State& end) {
   if (impacts_->can_happen()) {
     impacts_->start(dynamics::motions_of(model_, state), state.memory);
   }
-  double last_change = HUGE_VAL;
+  CouplingRounds rounds(settings_);
   for (int round = 0;; ++round) {
     compute_round(state, round, report);
-    if (coupling_settled(state, report)) break;
-    const double change = report.coupling_change;
-    const bool is_last = round + 1 >= settings_.max_outer;
-    if (change <= kCouplingRounding && (is_last || change > kNoLongerFalls * last_change)) break;
-    if (coupling_motion_ <= kPositionRounding && change > 0.5 * last_change) break;
-    const bool is_second =
-        report.large_solve_rounds + report.recycled_rounds >= 2 && !settings_.iterate_coupling;
-    const bool is_small = coupling_motion_ <= kSecondSolveMotion && change <= 0.5 * last_change;
-    if (is_second && (change <= kSecondSolve || is_small)) break;
-    last_change = change;
-    if (is_last || !std::isfinite(change)) {
-      throw StepFailure(
-          fmt::format("step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not "
-                      "converge (relative change {:.3g} after {} solves); the deformation is too "
-                      "large for linear elasticity in one frame, or the step {:.3g} s is too long",
-                      state.t, model_.bodies[least_settled_].name, change, round + 1, scheme_.h));
+    const CouplingRounds::Gap gap = compare_coupling(state);
+    report.coupling_change = gap.change;
+    const auto verdict = rounds.judge(gap, report.large_solve_rounds + report.recycled_rounds);
+    if (verdict == CouplingRounds::Verdict::ends) break;
+    if (verdict == CouplingRounds::Verdict::fails) {
+      throw StepFailure(fmt::format(
+          "step at t = {:.6g} s failed: the inertial coupling of body \"{}\" does not "
+          "converge (relative change {:.3g} after {} solves); the deformation is too "
+          "large for linear elasticity in one frame, or the step {:.3g} s is too long",
+          state.t, model_.bodies[least_settled_].name, gap.change, round + 1, scheme_.h));
     }
     take_over_coupling();
   }
   form_next_state(state);
   report.must_settle = newton_->rigid_rows_changed();
   take_impacts(report);
-  stepped_to_ = next_.t;
   has_stepped_ = true;
-  finish_lesson(next_);
-  std::swap(end, next_);  // the buffers of `end` are reused in the next step
   return report;
 }
 
 double Stepper::factor_entries() const {
   double sum = 0;
-  for (const auto& op : operators_) {
-    if (op) sum += op->factor_entries();
+  for (std::size_t b = 0; b < operators_.size(); ++b) {
+    if (has_own_operator_[b]) sum += operators_[b]->factor_entries();
   }
   return sum;
 }
 
 double Stepper::factor_bytes() const {
   double sum = 0;
-  for (const auto& op : operators_) {
-    if (op) sum += op->factor_bytes();
+  for (std::size_t b = 0; b < operators_.size(); ++b) {
+    if (has_own_operator_[b]) sum += operators_[b]->factor_bytes();
   }
   return sum;
 }
@@ -442,7 +458,9 @@ SolveCounts Stepper::counts(std::size_t body) const {
   if (!operators_[body]) return {};
   const BodyStepOperator& op = *operators_[body];
   const FlexibleStep& step = *flexible_[body];
-  return {op.factorisations(), step.solves, step.recycled, op.setup_solves()};
+  const bool owns = has_own_operator_[body] != 0;
+  const long solves = step.solves + (strand_ ? strand_->solves(body) : 0);
+  return {owns ? op.factorisations() : 0, solves, step.recycled, owns ? op.setup_solves() : 0};
 }
 
 }  // namespace buckens::stepping

@@ -7,13 +7,17 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/coupling_rounds.h"
 #include "buckens/stepping/factor_group.h"
+#include "buckens/stepping/forecast.h"
 #include "buckens/stepping/impacts.h"
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
 #include "buckens/stepping/step_settings.h"
 
 namespace buckens::stepping {
+
+class StrandStep;
 
 /// Large-solve counts of one body.
 struct SolveCounts {
@@ -57,6 +61,8 @@ class Stepper {
   /// Threads for the following steps, ≥ 1.
   void use_threads(int threads);
 
+  /// Whether this model's small bodies step eight at a time.
+  bool steps_side_by_side() const { return strand_ != nullptr; }
   SolveCounts counts(std::size_t body) const;
   /// What a flexible body would leave out at a state if it kept only these terms, see
   /// neglected_share(). No product with K or C is formed where has_balance() holds.
@@ -87,6 +93,9 @@ class Stepper {
   /// How the large solves of a round were answered.
   enum class Answers { none_asked, all_recycled, solved };
   StepReport take_step(const model::State& state, model::State& end);
+  StepReport take_general_step(const model::State& state);
+  /// @return false if the general route has to take this step
+  bool take_strand_step(const model::State& state, StepReport& report);
   void start_bodies(const model::State& state);
   Answers free_responses(const model::State& state, int round);
   /// Keeps the solves of the last step if this one goes on from it; forgets all of them if not, so
@@ -96,7 +105,9 @@ class Stepper {
   void complete(const model::State& state);
   void take_over_coupling();
   void compute_round(const model::State& state, int round, StepReport& report);
-  bool coupling_settled(const model::State& state, StepReport& report);
+  CouplingRounds::Gap compare_coupling(const model::State& state);
+  /// What a state has besides bodies and memory.
+  void form_next_instant(const model::State& state);
   void form_next_state(const model::State& state);
   /// Lets what has run into rigid stops leave them again, at the end of the step.
   void take_impacts(StepReport& report);
@@ -109,9 +120,13 @@ class Stepper {
   const model::Model& model_;
   StepSettings settings_;
   Scheme scheme_;
-  std::vector<std::unique_ptr<BodyStepOperator>> operators_;
+  std::vector<std::shared_ptr<BodyStepOperator>> operators_;  // equal small bodies have one
+  std::vector<char> has_own_operator_;                        // not that of a body before
   std::unique_ptr<SmallNewton> newton_;
+  Forecast forecast_;
+  bool forecasts_;  // no rows that come and go, which a forecast does not know
   std::unique_ptr<Impacts> impacts_;
+  std::unique_ptr<StrandStep> strand_;  // null: never
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<FlexibleStep>> flexible_;  // null: rigid
   std::vector<FactorGroup> groups_;
@@ -125,7 +140,6 @@ class Stepper {
   Eigen::Index num_dofs_ = 0;  // of all bodies
   std::size_t least_settled_ = 0;  // body with the largest change of coupling
   StepSeconds seconds_;
-  double coupling_motion_ = 0;  // caused by the last change of coupling loads, relative to L
 };
 
 }  // namespace buckens::stepping

@@ -18,6 +18,12 @@ inline void expect_same(const model::Coupling& a, const model::Coupling& b) {
   EXPECT_EQ(a.moments.l_dot, b.moments.l_dot);
 }
 
+inline void expect_same(const model::PastStep& a, const model::PastStep& b) {
+  EXPECT_EQ(a.t, b.t);
+  EXPECT_EQ(a.lambda, b.lambda);
+  EXPECT_EQ(a.accelerations, b.accelerations);
+}
+
 /// All numbers of both are bitwise equal.
 inline void expect_same(const model::State& a, const model::State& b) {
   EXPECT_EQ(a.t, b.t);
@@ -25,6 +31,8 @@ inline void expect_same(const model::State& a, const model::State& b) {
   EXPECT_EQ(a.lambda_time, b.lambda_time);
   EXPECT_EQ(a.last_step, b.last_step);
   EXPECT_EQ(a.history, b.history);
+  expect_same(a.before, b.before);
+  expect_same(a.earlier, b.earlier);
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t k = 0; k < a.bodies.size(); ++k) {
     const model::BodyState& x = a.bodies[k];

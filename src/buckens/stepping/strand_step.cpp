@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/strand_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "buckens/stepping/body_iteration.h"
+#include "buckens/stepping/iteration_limits.h"
+#include "buckens/stepping/lagged_coupling.h"
+
+namespace buckens::stepping {
+
+using linalg::Vector;
+using strand::BodyRows;
+using strand::kLanes;
+using strand::MeshRows;
+using strand::Plane;
+using strand::Space;
+
+namespace {
+
+// Squares of half an angle up to which the series of rotations hold.
+constexpr double kFurthestTurn = 0.25;
+
+}  // namespace
+
+std::unique_ptr<StrandStep> StrandStep::make(const model::Model& model,
+                                             const StepSettings& settings, const Scheme& scheme,
+                                             const StrandMechanism::Operators& operators) {
+  if (!settings.side_by_side || !StrandMechanism::suits(model, scheme, operators)) return nullptr;
+  return std::make_unique<StrandStep>(model, settings, scheme, operators);
+}
+
+StrandStep::StrandStep(const model::Model& model, const StepSettings& settings,
+                       const Scheme& scheme, const StrandMechanism::Operators& operators)
+    : model_(model),
+      settings_(settings),
+      scheme_(scheme),
+      mechanism_(model, scheme, operators, settings.simd),
+      kernels_(mechanism_.kernels()),
+      forecast_(scheme, model.length),
+      watch_(model),
+      all_rows_(static_cast<std::size_t>(model.num_constraint_rows())),
+      is_touched_(model.bodies.size(), 0),
+      solves_(model.bodies.size(), 0),
+      motions_(model.bodies.size()) {
+  std::iota(all_rows_.begin(), all_rows_.end(), 0);
+  for (const model::Coordinate& coordinate : model.coordinates) {
+    for (const model::MarkerId* id : {&coordinate.first, &coordinate.second}) {
+      if (id->body != model::kGround) is_touched_[static_cast<std::size_t>(id->body)] = 1;
+    }
+  }
+  const auto rows = model.num_constraint_rows();
+  for (Vector* v : {&residuals_.g, &residuals_.g_dot, &E_, &X_}) v->setZero(rows);
+}
+
+bool StrandStep::takes(const model::State& state, const std::vector<int>& rows_in_use) const {
+  if (rows_in_use != all_rows_ || state.lambda.size() != std::ssize(all_rows_)) return false;
+  const auto& released = state.memory.released;
+  if (std::any_of(released.begin(), released.end(), [](char is) { return is != 0; })) return false;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    const body::Body& body = model_.bodies[b];
+    const Eigen::Quaterniond& q = state.bodies[b].frame.X_WB.q;
+    if (mechanism_.is_planar() && (q.x() != 0.0 || q.y() != 0.0)) return false;
+    if (body.is_flexible() && state.bodies[b].terms != body.flexible->coupling.terms) return false;
+  }
+  return true;
+}
+
+void StrandStep::move_bodies() {
+  furthest_ = 0;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    furthest_ = larger(furthest_, kernels_.move(mechanism_.constants(), block));
+  }
+}
+
+bool StrandStep::evaluate_joints() {
+  for (strand::JointBlock& block : mechanism_.joint_blocks()) {
+    kernels_.evaluate_joints(block, residuals_.g.data(), residuals_.g_dot.data());
+  }
+  return furthest_ <= kFurthestTurn;
+}
+
+bool StrandStep::prepare() {
+  contraction_ = 1.0;
+  if (!evaluate_joints()) return false;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    kernels_.freeze(mechanism_.constants(), block);
+  }
+  for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.freeze_joints(block);
+  linalg::BlockLu& matrix = mechanism_.matrix();
+  matrix.clear();
+  for (const strand::PairBlock& block : mechanism_.pair_blocks()) kernels_.add_pairs(block);
+  return matrix.factorise() && matrix.pivot_ratio() >= kWeaklyHeld;
+}
+
+double StrandStep::collect_loads(bool find_residuals) {
+  double open = 0;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    kernels_.collect(mechanism_.constants(), block);
+    if (find_residuals) {
+      open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
+    }
+  }
+  return open;
+}
+
+bool StrandStep::move(StepReport& report, Change& change) {
+  const strand::Constants& is = mechanism_.constants();
+  E_ = residuals_.g_dot / scheme_.end_rate - residuals_.g;
+  mechanism_.matrix().solve_in_place(E_);
+  for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.apply(block, E_.data());
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) kernels_.correct(is, block);
+  for (strand::JointBlock& block : mechanism_.joint_blocks()) {
+    kernels_.find_changes(block, X_.data());
+  }
+  X_ = -X_ - residuals_.g_dot / scheme_.end_rate;
+  mechanism_.matrix().solve_in_place(X_);
+  for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.apply(block, X_.data());
+  change = {};
+  furthest_ = 0;
+  double interface = 0;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    const strand::Largest moved = kernels_.advance(is, block);
+    change.size = larger(change.size, moved.frame);
+    interface = larger(interface, moved.interface);
+    change.motion = larger(change.motion, moved.motion);
+    furthest_ = larger(furthest_, kernels_.move(is, block));
+  }
+  change.size = larger(change.size, interface);
+  lambda_ += X_ / scheme_.force;
+  mechanism_.is_planar() ? put_multipliers<Plane>() : put_multipliers<Space>();
+  ++report.newton_iterations;
+  motion_ = change.motion;
+  return change.size < HUGE_VAL;
+}
+
+template <class S>
+void StrandStep::put_multipliers() {
+  for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+    double* const at = mechanism_.multipliers(j);
+    const model::Joint& joint = model_.joints[j];
+    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+      at[kLanes * k] = lambda_[joint.first_row + static_cast<int>(k)];
+    }
+  }
+}
+
+bool StrandStep::settled(const Change& change, const Change& before) const {
+  const double enough = settings_.newton_tolerance * change.motion;
+  if (change.size <= enough + kRounding * rounding_length_) return true;
+  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
+  return before.size > 0.0 && change.size > 0.3 * before.size &&
+         change.size <= kStalled * model_.length + kStalledFarAway * rounding_length_;
+}
+
+double StrandStep::negligible(double motion) const {
+  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
+  return kForeseen * settings_.newton_tolerance * motion + rounding;
+}
+
+bool StrandStep::is_balanced(double open, double motion) const {
+  const double enough = negligible(motion);
+  if (!(open <= enough)) return false;
+  for (std::size_t row = 0; row < all_rows_.size(); ++row) {
+    const auto k = static_cast<Eigen::Index>(row);
+    const double length = watch_.is_length(static_cast<int>(row)) ? 1.0 : model_.length;
+    if (!(std::abs(residuals_.g_dot[k]) * length <= enough * scheme_.end_rate)) return false;
+    if (!(std::abs(residuals_.g[k]) * length <= enough)) return false;
+  }
+  return true;
+}
+
+void StrandStep::record_residuals(StepReport& report) const {
+  Eigen::Index worst = 0;
+  report.position_residual = residuals_.g.cwiseAbs().maxCoeff(&worst);
+  report.velocity_residual = residuals_.g_dot.cwiseAbs().maxCoeff();
+  report.worst_row = static_cast<int>(worst);
+}
+
+bool StrandStep::settle(StepReport& report, Change change) {
+  Change before;
+  for (int iteration = 1;; ++iteration) {
+    if (!evaluate_joints()) return false;
+    if (before.size > 0.0) contraction_ = change.size / before.size;
+    const bool is_settled = settled(change, before);
+    const double open = collect_loads(!is_settled);
+    record_residuals(report);
+    if (is_settled || is_balanced(open, change.motion)) break;
+    before = change;
+    if (iteration >= settings_.max_newton || !move(report, change)) return false;
+  }
+  return watch_.look(residuals_, all_rows_, report) < 0;
+}
+
+template <class S>
+CouplingRounds::Gap StrandStep::compare_coupling() {
+  using Row = MeshRows<S>;
+  CouplingRounds::Gap out;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    kernels_.complete(mechanism_.constants(), block);
+    kernels_.evaluate_coupling(mechanism_.constants(), block);
+  }
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    double* const t = mechanism_.body(b).at;
+    if (!mechanism_.body(b).has_mesh) continue;
+    const auto number = [&](int row) -> double& { return t[kLanes * row]; };
+    const auto norm = [&](int first, int count) {
+      double sum = 0;
+      for (int k = 0; k < count; ++k) sum += number(first + k) * number(first + k);
+      return std::sqrt(sum);
+    };
+    LaggedCoupling::Change change;
+    change.load = std::sqrt(number(Row::changed));
+    change.load_size = std::sqrt(number(Row::size));
+    change.moved = number(Row::moved);
+    change.frame = norm(Row::fc, S::R);
+    change.turned = norm(Row::turned, S::R);
+    double w_dot = 0, w = 0;
+    for (int k = 0; k < S::R; ++k) {
+      const double acceleration =
+          scheme_.acceleration_rate * number(Row::u + k) + number(Row::acc + k);
+      w_dot += acceleration * acceleration;
+      w += number(Row::we + k) * number(Row::we + k);
+    }
+    change.frame_size = model_.bodies[b].J0.norm() * (std::sqrt(w_dot) + w);
+    const LaggedCoupling::Gap gap =
+        LaggedCoupling::judge(change, model_.bodies[b], settings_, model_.length);
+    number(Row::mask) = gap.load_changed ? 1.0 : 0.0;
+    out.is_settled = out.is_settled && gap.is_settled();
+    out.motion = std::max(out.motion, gap.motion);
+    if (!(gap.change <= out.change)) out.change = std::max(out.change, gap.change);
+  }
+  return out;
+}
+
+template <class S>
+bool StrandStep::compute(const model::State& state, StepReport& report) {
+  using Row = MeshRows<S>;
+  load<S>(state);
+  if (!prepare()) return false;
+  rounding_length_ = rounding_length<S>();
+  lambda_ = state.lambda;
+  if (forecast_.foretells(state)) apply_forecast<S>(state);
+  put_multipliers<S>();
+  move_bodies();
+  if (!evaluate_joints()) return false;
+  collect_loads(true);
+  record_residuals(report);
+  Change change;
+  if (!move(report, change) || !settle(report, change)) return false;
+  CouplingRounds rounds(settings_);
+  bool has_meshes = false;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (!mechanism_.body(b).has_mesh) continue;
+    has_meshes = true;
+    ++solves_[b];
+  }
+  if (has_meshes) report.large_solve_rounds = 1;
+  for (;;) {
+    const CouplingRounds::Gap gap = compare_coupling<S>();
+    report.coupling_change = gap.change;
+    const auto verdict = rounds.judge(gap, report.large_solve_rounds);
+    if (verdict == CouplingRounds::Verdict::ends) return true;
+    if (verdict == CouplingRounds::Verdict::fails) return false;
+    bool any_solves = false;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const StrandMechanism::Place& place = mechanism_.body(b);
+      if (!place.has_mesh || place.at[kLanes * Row::mask] == 0.0) continue;
+      any_solves = true;
+      ++solves_[b];
+    }
+    if (any_solves) ++report.large_solve_rounds;
+    double open = 0;
+    for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+      kernels_.take_over(mechanism_.constants(), block);
+      open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
+    }
+    if (open <= negligible(motion_)) continue;
+    if (!move(report, change) || !settle(report, change)) return false;
+  }
+}
+
+bool StrandStep::step(const model::State& state, model::State& next, StepReport& report) {
+  const bool is_planar = mechanism_.is_planar();
+  if (!(is_planar ? compute<Plane>(state, report) : compute<Space>(state, report))) return false;
+  is_planar ? write<Plane>(state, next) : write<Space>(state, next);
+  return true;
+}
+
+}  // namespace buckens::stepping

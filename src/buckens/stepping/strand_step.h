@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/dynamics/joint_set.h"
+#include "buckens/model/state.h"
+#include "buckens/stepping/coupling_rounds.h"
+#include "buckens/stepping/forecast.h"
+#include "buckens/stepping/row_watch.h"
+#include "buckens/stepping/step_settings.h"
+#include "buckens/stepping/strand_mechanism.h"
+
+namespace buckens::stepping {
+
+/// Steps of a StrandMechanism: the same equations and criteria as LargeStep, SmallNewton and
+/// LaggedCoupling, for eight bodies at once. The result is that of the general route to rounding
+/// (test/strand_step_test.cpp), and depends on the state alone.
+///
+/// What is rare is left to the general route: takes() tells beforehand, and step() gives up where
+/// an iteration does not converge, a body turns by more than 1 rad in a step, or joints come near
+/// a dead centre. The step is then to be taken again from the same state.
+class StrandStep {
+ public:
+  /// Null if the model is none that StrandMechanism can lay out.
+  static std::unique_ptr<StrandStep> make(const model::Model& model, const StepSettings& settings,
+                                          const Scheme& scheme,
+                                          const StrandMechanism::Operators& operators);
+  StrandStep(const model::Model& model, const StepSettings& settings, const Scheme& scheme,
+             const StrandMechanism::Operators& operators);
+
+  /// Whether a step from this state can be tried. @param rows_in_use of λ, ascending
+  bool takes(const model::State& state, const std::vector<int>& rows_in_use) const;
+  /// @param next state at the end, except for memory; its buffers are reused
+  /// @return false if the general route has to take this step; `next` is then undefined
+  bool step(const model::State& state, model::State& next, StepReport& report);
+
+  /// Motions at the end of the last step, with row values of bodies that coordinates of the model
+  /// belong to.
+  const std::vector<dynamics::BodyMotion>& motions_at_end() const { return motions_; }
+  /// Large solves of a body so far.
+  long solves(std::size_t body) const { return solves_[body]; }
+
+ private:
+  /// As in SmallNewton.
+  struct Change {
+    double size = 0, motion = 0;
+  };
+  /// Everything at the start of a step, and moves the bodies to where it leads.
+  template <class S>
+  void load(const model::State& state);
+  template <class S>
+  void load_body(const model::State& state, std::size_t b);
+  template <class S>
+  void load_mesh(const model::State& state, std::size_t b);
+  template <class S>
+  void apply_forecast(const model::State& state);
+  template <class S>
+  double rounding_length() const;
+  template <class S>
+  bool compute(const model::State& state, StepReport& report);
+  template <class S>
+  void write(const model::State& state, model::State& next);
+  template <class S>
+  void write_mesh(const model::State& state, std::size_t b, model::BodyState& out) const;
+  template <class S>
+  CouplingRounds::Gap compare_coupling();
+  template <class S>
+  void put_multipliers();
+
+  void move_bodies();
+  /// Residuals of rows and loads on markers. @return false if a body turns too far
+  bool evaluate_joints();
+  bool prepare();
+  /// Loads on bodies. @return the size of their residuals, if these are to be found
+  double collect_loads(bool find_residuals);
+  /// One iteration; bodies are then where it leads. @return false if the motion has diverged
+  bool move(StepReport& report, Change& change);
+  bool settle(StepReport& report, Change change);
+  bool settled(const Change& change, const Change& before) const;
+  bool is_balanced(double open, double motion) const;
+  double negligible(double motion) const;
+  void record_residuals(StepReport& report) const;
+  model::Coupling& extrapolated(const model::State& state, std::size_t b);
+
+  const model::Model& model_;
+  StepSettings settings_;
+  Scheme scheme_;
+  StrandMechanism mechanism_;
+  const strand::Kernels& kernels_;
+  Forecast forecast_;
+  RowWatch watch_;
+  std::vector<int> all_rows_;
+  std::vector<char> is_touched_;  // bodies that coordinates belong to
+  dynamics::JointResiduals residuals_;
+  linalg::Vector lambda_, E_, X_;
+  double contraction_ = 1, motion_ = 0, rounding_length_ = 0;
+  double furthest_ = 0;  // largest square of half an angle by which something turns
+  std::vector<long> solves_;
+  std::vector<dynamics::BodyMotion> motions_;
+  model::Coupling coupling_;  // scratch
+};
+
+}  // namespace buckens::stepping
