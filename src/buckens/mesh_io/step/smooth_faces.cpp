@@ -139,7 +139,8 @@ std::string smooth_folded_faces(GmshLibrary& gmsh, const std::vector<int>& faces
         faces[0]);
   }
   return fmt::format(
-      "note the surfaces of {} faces fold at an edge (faces {}): smooth ones through the same edges "
+      "note the surfaces of {} faces fold at an edge (faces {}): smooth ones through the same "
+      "edges "
       "were put in their place\n",
       faces.size(), fmt::join(faces, ", "));
 }

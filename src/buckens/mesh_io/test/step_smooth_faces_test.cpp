@@ -56,8 +56,8 @@ TEST(StepSmoothFaces, plane_faces_stay_where_they_are) {
 /// What comes of the box whose top folds at an edge: its inner points at this height in the file,
 /// which is 40 where the top is plane.
 std::string replaced_top(const std::string& height) {
-  std::string text =
-      files::read_text_file(std::string(buckens::test::kSourceDirectory) + "/tests/parts/folded.step");
+  std::string text = files::read_text_file(std::string(buckens::test::kSourceDirectory) +
+                                           "/tests/parts/folded.step");
   for (const char* y : {"20", "40"}) {
     const std::string point = fmt::format("(66.666666666667,{}.,", y);
     const std::size_t at = text.find(point + "40.)");
@@ -89,9 +89,10 @@ std::string replaced_top(const std::string& height) {
 }
 
 TEST(StepSmoothFaces, a_fold_is_found_and_replaced) {
-  EXPECT_EQ(replaced_top("40."),
-            "240000 mm3, note the surface of face 1 folds at an edge: a smooth one through the same "
-            "edges was put in its place\n");
+  EXPECT_EQ(
+      replaced_top("40."),
+      "240000 mm3, note the surface of face 1 folds at an edge: a smooth one through the same "
+      "edges was put in its place\n");
 }
 
 TEST(StepSmoothFaces, a_bulge_is_not_cut_off) {
