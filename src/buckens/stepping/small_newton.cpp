@@ -444,7 +444,10 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
       evaluate(bodies, t, lambda);
       are_formed = regimes_hold(bodies, t, report);
     }
-    if (are_formed && is_balanced(find_residuals(bodies), change.motion)) break;
+    if (are_formed && is_balanced(find_residuals(bodies), change.motion) &&
+        iteration <= settings_.max_newton) {
+      break;
+    }
     if (are_formed) {
       before = change;
     } else {

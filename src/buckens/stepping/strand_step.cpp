@@ -187,7 +187,8 @@ bool StrandStep::settle(StepReport& report, Change change) {
     const bool is_settled = settled(change, before);
     const double open = collect_loads(!is_settled);
     record_residuals(report);
-    if (is_settled || is_balanced(open, change.motion)) break;
+    if (is_settled) break;
+    if (iteration <= settings_.max_newton && is_balanced(open, change.motion)) break;
     before = change;
     if (iteration >= settings_.max_newton || !move(report, change)) return false;
   }
