@@ -42,6 +42,13 @@ void for_other_rows(const std::vector<int>& rows_in_use, Eigen::Index count, F&&
   }
 }
 
+bool has_rows_with_laws(const model::Model& model) {
+  return std::any_of(model.joints.begin(), model.joints.end(), [](const model::Joint& joint) {
+    return std::any_of(joint.rows.begin(), joint.rows.end(),
+                       [](const joints::ConstraintRow& row) { return row.law() != nullptr; });
+  });
+}
+
 }  // namespace
 
 SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
@@ -61,6 +68,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       reaction_slopes_(model) {
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
+  has_laws_ = has_rows_with_laws(model);
   const std::size_t count = model.bodies.size();
   for (auto* motions : {&end_, &evaluation_, &uncorrected_}) motions->resize(count);
   compliance_.resize(count);
@@ -380,8 +388,9 @@ bool SmallNewton::settled(const Change& change, const Change& before) const {
 
 bool SmallNewton::is_balanced(double open, double motion) const {
   // Where rows hold their bodies by short levers, or by rows that come and go, a residual does not
-  // tell how far they move.
-  if (has_quasi_static_ || !rigid_.empty()) return false;
+  // tell how far they move. Teeth, paths and wheels turn with what they hold, and forces on both
+  // sides are equal to what is left over h².
+  if (has_quasi_static_ || has_laws_ || !rigid_.empty()) return false;
   const double pivots = condensation_->pivot_ratio();
   if (pivots > 0.0 && pivots < kWeaklyHeld) return false;
   const double enough = negligible(motion);

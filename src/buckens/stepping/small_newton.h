@@ -155,6 +155,7 @@ class SmallNewton {
   double trusted_pivots_ = 0;   // largest pivot ratio since rows were last selected
   RowWatch watch_;
   bool has_quasi_static_ = false;
+  bool has_laws_ = false;  // rows with laws of their own: gears, paths, wheels
   dynamics::Circumstances around_;
   model::RowMemory steered_;  // of models with drives by signals: around_.memory, steered
   dynamics::SignalValues steering_signals_;
