@@ -248,12 +248,18 @@ def memory_table(results):
 
 
 def origin(results):
+    """When and where; sections measured elsewhere than most are named."""
+    machines = {}
+    for name, section in results.items():
+        context = section["context"]
+        machine = f"{context['processor']}, {context['cores']} cores, Linux {context['system']}"
+        machines.setdefault(machine, []).append(name)
+    usual, *others = sorted(machines, key=lambda machine: -len(machines[machine]))
+    elsewhere = "".join(f"; {', '.join(f'`{name}`' for name in machines[machine])} on {machine}" for machine in others)
     dates = sorted(section["context"]["date"] for section in results.values())
-    last = max(results.values(), key=lambda section: section["context"]["date"])["context"]
     loads = [section["context"]["load"] for section in results.values()]
-    return (f"Measured from {dates[0]} to {dates[-1]} on {last['processor']}, {last['cores']} cores, "
-            f"Linux {last['system']}; load when a section began: {min(loads):.1f} to {max(loads):.1f}. "
-            "Times are the shortest of several.")
+    return (f"Measured from {dates[0]} to {dates[-1]} on {usual}{elsewhere}; load when a section began: "
+            f"{min(loads):.1f} to {max(loads):.1f}. Times are the shortest of several.")
 
 
 def tables(results):

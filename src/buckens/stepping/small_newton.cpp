@@ -11,7 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/model_scales.h"
-#include "buckens/stepping/iteration_limits.h"
+#include "buckens/stepping/iteration_end.h"
 #include "buckens/stepping/row_selection.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -62,7 +62,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       watch_(model),
       rigid_(model),
       held_(model),
-      rounding_length_(model.length),
+      ending_(settings, model.length),
       joints_(model),
       rates_only_(dynamics::rate_only_rows(model)),
       reaction_slopes_(model) {
@@ -145,7 +145,6 @@ void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, doub
 }
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
-  contraction_ = 1.0;
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
@@ -154,7 +153,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
     compliance_[b].frame = bodies[b].compliance;
     compliance_[b].interface = answers_[b] ? &answers_[b]->interface_compliance() : nullptr;
   }
-  rounding_length_ = dynamics::rounding_length(model_, end_);
+  ending_.begin(dynamics::rounding_length(model_, end_));
   steer(t);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
   reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
@@ -350,7 +349,7 @@ void SmallNewton::solve_multipliers(double t) {
   condensation_->gather(X_, response_);
 }
 
-SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& lambda) {
+IterationEnd::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& lambda) {
   Change change;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyIteration::Moved moved = shares_[b].advance(bodies[b], correction_[b], response_[b]);
@@ -371,21 +370,6 @@ SmallNewton::Change SmallNewton::update(std::vector<BodyStep>& bodies, Vector& l
   return change;
 }
 
-double SmallNewton::rounding_of_changes() const {
-  const double rounding = kStalled * model_.length + kStalledFarAway * rounding_length_;
-  const double pivots = condensation_->pivot_ratio();
-  return pivots > 0.0 && pivots < kWeaklyHeld ? rounding / std::sqrt(pivots) : rounding;
-}
-
-bool SmallNewton::settled(const Change& change, const Change& before) const {
-  // Rounding of positions bounds what any iteration can reach, or a change that no longer falls.
-  const double enough = admitted(change.motion);
-  if (change.size <= enough + kRounding * rounding_length_) return true;
-  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
-  return before.size > 0.0 && change.size > 0.3 * before.size &&
-         change.size <= rounding_of_changes();
-}
-
 bool SmallNewton::is_balanced(double open, double motion) const {
   // Where rows hold their bodies by short levers, or by rows that come and go, a residual does not
   // tell how far they move. Teeth, paths and wheels turn with what they hold, and forces on both
@@ -393,7 +377,7 @@ bool SmallNewton::is_balanced(double open, double motion) const {
   if (has_quasi_static_ || has_laws_ || !rigid_.empty()) return false;
   const double pivots = condensation_->pivot_ratio();
   if (pivots > 0.0 && pivots < kWeaklyHeld) return false;
-  const double enough = negligible(motion);
+  const double enough = ending_.negligible(motion);
   if (!(open <= enough)) return false;
   const bool with_positions = corrects_positions();
   return std::all_of(rows_in_use_.begin(), rows_in_use_.end(), [&](int row) {
@@ -402,21 +386,6 @@ bool SmallNewton::is_balanced(double open, double motion) const {
            (!with_positions || rates_only_[static_cast<std::size_t>(row)] ||
             std::abs(residuals_.g[row]) * length <= enough);
   });
-}
-
-double SmallNewton::negligible(double motion) const {
-  // If left in every step, rounding of positions accumulates in rates, which are 1/h of them: this
-  // matters when the coupling is iterated to convergence.
-  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
-  return kForeseen * admitted(motion) + rounding;
-}
-
-void SmallNewton::record_residuals(StepReport& report) const {
-  if (residuals_.g.size() == 0) return;
-  Eigen::Index worst = 0;
-  report.position_residual = residuals_.g.cwiseAbs().maxCoeff(&worst);
-  report.velocity_residual = residuals_.g_dot.cwiseAbs().maxCoeff();
-  report.worst_row = static_cast<int>(worst);
 }
 
 double SmallNewton::find_residuals(const std::vector<BodyStep>& bodies) {
@@ -428,8 +397,8 @@ double SmallNewton::find_residuals(const std::vector<BodyStep>& bodies) {
   return open;
 }
 
-SmallNewton::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, Vector& lambda,
-                                      StepReport& report) {
+IterationEnd::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, Vector& lambda,
+                                       StepReport& report) {
   solve_correction(bodies);
   solve_multipliers(t);
   held_.release();
@@ -445,10 +414,9 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
   Change before;
   for (int iteration = 1;; ++iteration) {
     evaluate(bodies, t, lambda);
-    record_residuals(report);
-    if (before.size > 0.0) contraction_ = change.size / before.size;
+    record_residuals(residuals_, report);
     bool are_formed = regimes_hold(bodies, t, report);
-    if (are_formed && settled(change, before)) {
+    if (are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio())) {
       if (!move_rigid_rows(t, report)) break;
       evaluate(bodies, t, lambda);
       are_formed = regimes_hold(bodies, t, report);
@@ -462,7 +430,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     } else {
       evaluate(bodies, t, lambda);
       before = {};  // another tangent converges at its own rate
-      contraction_ = 1.0;
+      ending_.begin_anew();
     }
     if (iteration >= settings_.max_newton) {
       fail(t, report, "the step's iteration does not converge");
@@ -477,7 +445,7 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
                           StepReport& report) {
   leave_to_rows_in_use(lambda);
   evaluate(bodies, t, lambda);
-  record_residuals(report);
+  record_residuals(residuals_, report);
   find_residuals(bodies);
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }
@@ -485,7 +453,7 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
 void SmallNewton::iterate_on(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                              StepReport& report) {
   // Motions, rows and forces are those of the last evaluation.
-  if (find_residuals(bodies) <= negligible(motion_)) return;
+  if (find_residuals(bodies) <= ending_.negligible(motion_)) return;
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }
 

@@ -12,6 +12,7 @@
 #include "buckens/dynamics/reaction_slopes.h"
 #include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/held_laws.h"
+#include "buckens/stepping/iteration_end.h"
 #include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
@@ -66,10 +67,7 @@ class SmallNewton {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  struct Change {
-    double size = 0;    ///< largest change of this iteration [m]
-    double motion = 0;  ///< largest motion of the step [m]
-  };
+  using Change = IterationEnd::Change;
   void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda);
   /// Tells drives by signals where they are to be at the end of the step.
   void steer(double t);
@@ -86,14 +84,6 @@ class SmallNewton {
   void solve_correction(const std::vector<BodyStep>& bodies);
   void solve_multipliers(double t);
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
-  bool settled(const Change& change, const Change& before) const;
-  /// Below this a change that no longer falls is rounding.
-  double rounding_of_changes() const;
-  /// What may remain to be moved [m]. @param motion of the step [m]
-  double negligible(double motion) const;
-  /// Change that ends the iteration [m].
-  double admitted(double motion) const { return settings_.newton_tolerance * motion; }
-  void record_residuals(StepReport& report) const;
   /// Motions at the instant at which the equations hold.
   const std::vector<dynamics::BodyMotion>& at_evaluation() const {
     return scheme_.weight == 1.0 ? end_ : evaluation_;
@@ -165,7 +155,7 @@ class SmallNewton {
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()
 
-  double rounding_length_;  // at the predicted configuration [m]
+  IterationEnd ending_;
   dynamics::JointSet joints_;
   std::vector<char> rates_only_;   // of each row of λ
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
@@ -190,7 +180,6 @@ class SmallNewton {
   std::vector<BodyIteration> shares_;                          // per body
   std::vector<dynamics::BodyResponse> correction_, response_;  // row forces on them
   linalg::Vector E_, X_, corrected_;
-  double contraction_ = 1;         // of the last two changes in this step
   double motion_ = 0;              // of the step, at the last iteration [m]
   std::size_t restless_body_ = 0;  // whose frame moved most in the last iteration
 };

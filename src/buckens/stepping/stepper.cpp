@@ -14,7 +14,7 @@
 #include "buckens/stepping/change_of_step.h"
 #include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/step_failure.h"
-#include "buckens/stepping/strand_step.h"
+#include "buckens/stepping/strand/step.h"
 
 namespace buckens::stepping {
 

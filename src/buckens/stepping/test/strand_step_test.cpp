@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mechanisms of small bodies step eight at a time as one by one.
-#include "buckens/stepping/strand_step.h"
-
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "buckens/linalg/simd_level.h"
 #include "buckens/loads/spring_damper.h"
 #include "buckens/stepping/stepper.h"
+#include "buckens/stepping/strand/step.h"
 #include "buckens/stepping/test/row_of_rods.h"
 #include "buckens/stepping/test/same_state.h"
 #include "buckens/stepping/test/simulate.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "buckens/stepping/strand_mechanism.h"
+#include "buckens/stepping/strand/mechanism.h"
 
 namespace buckens::stepping {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/stepping/strand_rotations.h"
+#include "buckens/stepping/strand/rotations.h"
 
-// Included by the sources strand_kernels_*.cpp only. Start of a step and motion at its end, for
+// Included by the sources kernels_*.cpp only. Start of a step and motion at its end, for
 // eight bodies at once (docs/theory/05-time-integration.md).
 namespace buckens::stepping::strand {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <cstddef>
 
-#include "buckens/stepping/strand_layout.h"
+#include "buckens/stepping/strand/layout.h"
 
 // All functions with arguments of this kind are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// Included by the sources strand_kernels_*.cpp only, each compiled for another instruction set. As
+// Included by the sources kernels_*.cpp only, each compiled for another instruction set. As
 // in linalg/panel_kernels_impl.h, functions of the standard library must not be used here.
 namespace buckens::stepping::strand {
 namespace {

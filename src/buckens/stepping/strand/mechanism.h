@@ -10,7 +10,7 @@
 #include "buckens/linalg/block_lu.h"
 #include "buckens/model/model.h"
 #include "buckens/stepping/body_step_operator.h"
-#include "buckens/stepping/strand_layout.h"
+#include "buckens/stepping/strand/layout.h"
 
 namespace buckens::stepping {
 
@@ -23,7 +23,7 @@ inline double& entry(double* at, int row) { return at[static_cast<std::ptrdiff_t
 /// markers, held by coincident points and perpendicular directions.
 ///
 /// Bodies stand in blocks of eight, each number of theirs in a row of eight lanes
-/// (strand_layout.h); rigid bodies and parts have blocks of their own. Joints and the pairs of
+/// (layout.h); rigid bodies and parts have blocks of their own. Joints and the pairs of
 /// joints that meet on a body stand in blocks likewise. All parts may have matrices of their own.
 class StrandMechanism {
  public:

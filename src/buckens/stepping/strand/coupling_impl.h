@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/stepping/strand_bodies_impl.h"
+#include "buckens/stepping/strand/bodies_impl.h"
 
-// Included by the sources strand_kernels_*.cpp only. Inertial coupling of eight parts at once, as
+// Included by the sources kernels_*.cpp only. Inertial coupling of eight parts at once, as
 // body::evaluate_deformation and LaggedCoupling do it for one.
 namespace buckens::stepping::strand {
 namespace {

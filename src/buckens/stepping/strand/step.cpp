@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/strand_step.h"
+#include "buckens/stepping/strand/step.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "buckens/stepping/body_iteration.h"
-#include "buckens/stepping/iteration_limits.h"
 #include "buckens/stepping/lagged_coupling.h"
 
 namespace buckens::stepping {
@@ -43,6 +42,7 @@ StrandStep::StrandStep(const model::Model& model, const StepSettings& settings,
       watch_(model),
       all_rows_(static_cast<std::size_t>(model.num_constraint_rows())),
       is_touched_(model.bodies.size(), 0),
+      ending_(settings, model.length),
       solves_(model.bodies.size(), 0),
       motions_(model.bodies.size()) {
   std::iota(all_rows_.begin(), all_rows_.end(), 0);
@@ -83,7 +83,6 @@ bool StrandStep::evaluate_joints() {
 }
 
 bool StrandStep::prepare() {
-  contraction_ = 1.0;
   if (!evaluate_joints()) return false;
   for (strand::BodyBlock& block : mechanism_.body_blocks()) {
     kernels_.freeze(mechanism_.constants(), block);
@@ -147,21 +146,8 @@ void StrandStep::put_multipliers() {
   }
 }
 
-bool StrandStep::settled(const Change& change, const Change& before) const {
-  const double enough = settings_.newton_tolerance * change.motion;
-  if (change.size <= enough + kRounding * rounding_length_) return true;
-  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
-  return before.size > 0.0 && change.size > 0.3 * before.size &&
-         change.size <= kStalled * model_.length + kStalledFarAway * rounding_length_;
-}
-
-double StrandStep::negligible(double motion) const {
-  const double rounding = settings_.iterate_coupling ? 0.0 : kRounding * rounding_length_;
-  return kForeseen * settings_.newton_tolerance * motion + rounding;
-}
-
 bool StrandStep::is_balanced(double open, double motion) const {
-  const double enough = negligible(motion);
+  const double enough = ending_.negligible(motion);
   if (!(open <= enough)) return false;
   for (std::size_t row = 0; row < all_rows_.size(); ++row) {
     const auto k = static_cast<Eigen::Index>(row);
@@ -172,21 +158,13 @@ bool StrandStep::is_balanced(double open, double motion) const {
   return true;
 }
 
-void StrandStep::record_residuals(StepReport& report) const {
-  Eigen::Index worst = 0;
-  report.position_residual = residuals_.g.cwiseAbs().maxCoeff(&worst);
-  report.velocity_residual = residuals_.g_dot.cwiseAbs().maxCoeff();
-  report.worst_row = static_cast<int>(worst);
-}
-
 bool StrandStep::settle(StepReport& report, Change change) {
   Change before;
   for (int iteration = 1;; ++iteration) {
     if (!evaluate_joints()) return false;
-    if (before.size > 0.0) contraction_ = change.size / before.size;
-    const bool is_settled = settled(change, before);
+    const bool is_settled = ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio());
     const double open = collect_loads(!is_settled);
-    record_residuals(report);
+    record_residuals(residuals_, report);
     if (is_settled) break;
     if (iteration <= settings_.max_newton && is_balanced(open, change.motion)) break;
     before = change;
@@ -241,14 +219,14 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
   using Row = MeshRows<S>;
   load<S>(state);
   if (!prepare()) return false;
-  rounding_length_ = rounding_length<S>();
+  ending_.begin(rounding_length<S>());
   lambda_ = state.lambda;
   if (forecast_.foretells(state)) apply_forecast<S>(state);
   put_multipliers<S>();
   move_bodies();
   if (!evaluate_joints()) return false;
   collect_loads(true);
-  record_residuals(report);
+  record_residuals(residuals_, report);
   Change change;
   if (!move(report, change) || !settle(report, change)) return false;
   CouplingRounds rounds(settings_);
@@ -278,7 +256,7 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
       kernels_.take_over(mechanism_.constants(), block);
       open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
     }
-    if (open <= negligible(motion_)) continue;
+    if (open <= ending_.negligible(motion_)) continue;
     if (!move(report, change) || !settle(report, change)) return false;
   }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/stepping/strand_lanes.h"
+#include "buckens/stepping/strand/lanes.h"
 
-// Included by the sources strand_kernels_*.cpp only: rotations and inertias of eight bodies in the
+// Included by the sources kernels_*.cpp only: rotations and inertias of eight bodies in the
 // plane and in space.
 namespace buckens::stepping::strand {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/strand_joints_impl.h"
+#include "buckens/stepping/strand/joints_impl.h"
 
 #if defined(__x86_64__)
 
 namespace buckens::stepping::strand {
 
-const Kernels kAvx512Plane = kernels_of<Plane>();
-const Kernels kAvx512Space = kernels_of<Space>();
+const Kernels kAvx2Plane = kernels_of<Plane>();
+const Kernels kAvx2Space = kernels_of<Space>();
 
 }  // namespace buckens::stepping::strand
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/stepping/strand_motion_impl.h"
+#include "buckens/stepping/strand/motion_impl.h"
 
-// Included by the sources strand_kernels_*.cpp only. Equations of motion of blocks of bodies
+// Included by the sources kernels_*.cpp only. Equations of motion of blocks of bodies
 // (docs/theory/05-time-integration.md) for eight bodies at once.
 namespace buckens::stepping::strand {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/stepping/body_iteration.h"
-#include "buckens/stepping/strand_step.h"
+#include "buckens/stepping/strand/step.h"
 
 namespace buckens::stepping {
 

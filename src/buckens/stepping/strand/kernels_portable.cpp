@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/strand_joints_impl.h"
+#include "buckens/stepping/strand/joints_impl.h"
 
 namespace buckens::stepping::strand {
 

@@ -8,15 +8,16 @@
 #include "buckens/model/state.h"
 #include "buckens/stepping/coupling_rounds.h"
 #include "buckens/stepping/forecast.h"
+#include "buckens/stepping/iteration_end.h"
 #include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
-#include "buckens/stepping/strand_mechanism.h"
+#include "buckens/stepping/strand/mechanism.h"
 
 namespace buckens::stepping {
 
 /// Steps of a StrandMechanism: the same equations and criteria as LargeStep, SmallNewton and
 /// LaggedCoupling, for eight bodies at once. The result is that of the general route to rounding
-/// (test/strand_step_test.cpp), and depends on the state alone.
+/// (stepping/test/strand_step_test.cpp), and depends on the state alone.
 ///
 /// What is rare is left to the general route: takes() tells beforehand, and step() gives up where
 /// an iteration does not converge, a body turns by more than 1 rad in a step, or joints come near
@@ -43,10 +44,7 @@ class StrandStep {
   long solves(std::size_t body) const { return solves_[body]; }
 
  private:
-  /// As in SmallNewton.
-  struct Change {
-    double size = 0, motion = 0;
-  };
+  using Change = IterationEnd::Change;
   /// Everything at the start of a step, and moves the bodies to where it leads.
   template <class S>
   void load(const model::State& state);
@@ -78,10 +76,7 @@ class StrandStep {
   /// One iteration; bodies are then where it leads. @return false if the motion has diverged
   bool move(StepReport& report, Change& change);
   bool settle(StepReport& report, Change change);
-  bool settled(const Change& change, const Change& before) const;
   bool is_balanced(double open, double motion) const;
-  double negligible(double motion) const;
-  void record_residuals(StepReport& report) const;
   model::Coupling& extrapolated(const model::State& state, std::size_t b);
 
   const model::Model& model_;
@@ -95,7 +90,8 @@ class StrandStep {
   std::vector<char> is_touched_;  // bodies that coordinates belong to
   dynamics::JointResiduals residuals_;
   linalg::Vector lambda_, E_, X_;
-  double contraction_ = 1, motion_ = 0, rounding_length_ = 0;
+  IterationEnd ending_;
+  double motion_ = 0;    // of the step, at the last iteration [m]
   double furthest_ = 0;  // largest square of half an angle by which something turns
   std::vector<long> solves_;
   std::vector<dynamics::BodyMotion> motions_;

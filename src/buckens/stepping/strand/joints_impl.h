@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/stepping/strand_coupling_impl.h"
+#include "buckens/stepping/strand/coupling_impl.h"
 
-// Included by the sources strand_kernels_*.cpp only. Blocks of joints: rows of eight joints at
+// Included by the sources kernels_*.cpp only. Blocks of joints: rows of eight joints at
 // once, as dynamics::JointSet and MultiplierCondensation have them for one.
 namespace buckens::stepping::strand {
 namespace {

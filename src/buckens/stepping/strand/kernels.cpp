@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/simd_level.h"
-#include "buckens/stepping/strand_layout.h"
+#include "buckens/stepping/strand/layout.h"
 
 namespace buckens::stepping::strand {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/strand_mechanism.h"
+#include "buckens/stepping/strand/mechanism.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/iteration_end.h"
+
+#include <cmath>
+
+namespace buckens::stepping {
+
+namespace {
+
+// Convergence is linear with the frozen matrix of the step: what the next iteration would change is
+// known from the last two. It has to be this much smaller than what the tolerance admits.
+constexpr double kForeseen = 0.01;
+// What rounding of positions leaves open, relative to the model's length, or to the distance from
+// the origin where that is more.
+constexpr double kRounding = 1e-15;
+// A change that no longer falls is rounding if it is below these shares of the same lengths.
+constexpr double kStalled = 1e-11;
+constexpr double kStalledFarAway = 1e-14;
+constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
+
+}  // namespace
+
+void IterationEnd::begin(double rounding_length) {
+  rounding_length_ = rounding_length;
+  begin_anew();
+}
+
+bool IterationEnd::is_settled(const Change& change, const Change& before, double pivots) {
+  if (before.size > 0.0) contraction_ = change.size / before.size;
+  // Rounding of positions bounds what any iteration can reach, or a change that no longer falls.
+  const double enough = tolerance_ * change.motion;
+  if (change.size <= enough + kRounding * rounding_length_) return true;
+  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
+  double rounding = kStalled * length_ + kStalledFarAway * rounding_length_;
+  if (pivots > 0.0 && pivots < kWeaklyHeld) rounding /= std::sqrt(pivots);
+  return before.size > 0.0 && change.size > kSlow * before.size && change.size <= rounding;
+}
+
+double IterationEnd::negligible(double motion) const {
+  // If left in every step, rounding of positions accumulates in rates, which are 1/h of them: this
+  // matters when the coupling is iterated to convergence.
+  const double rounding = keeps_rounding_ ? kRounding * rounding_length_ : 0.0;
+  return kForeseen * tolerance_ * motion + rounding;
+}
+
+void record_residuals(const dynamics::JointResiduals& residuals, StepReport& report) {
+  if (residuals.g.size() == 0) return;
+  Eigen::Index worst = 0;
+  report.position_residual = residuals.g.cwiseAbs().maxCoeff(&worst);
+  report.velocity_residual = residuals.g_dot.cwiseAbs().maxCoeff();
+  report.worst_row = static_cast<int>(worst);
+}
+
+}  // namespace buckens::stepping
