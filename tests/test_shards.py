@@ -82,6 +82,65 @@ def test_a_killed_shard_goes_on(buckens, start, models, tmp_path):
     buckens("sweep", "--merge", "out").must(2, "1 of 2 shards", "2/2")
 
 
+def test_status_tells_how_far_it_is(buckens, models, tmp_path):
+    model = models / "pendulum.yaml"
+    buckens("sweep", model, *RANGES, "-o", "out", "--shard", "1/2", "-q").must(0)
+    told = buckens("sweep", "--status", "out", "--json").must(0).json
+    first, second = told["shards"]
+    assert (first["state"], second["state"]) == ("ended", "not begun")
+    assert first["finished"] == first["variants"] == told["finished"] > 0 and told["failed"] == told["running"] == 0
+    text = buckens("sweep", "--status", "out").must(0).out
+    assert f"{first['variants']} of {first['variants']} variants finished, 0 failed, 0 running" in text
+    assert "1/2" in text and "not begun" in text
+    # As it looks while it runs: two have not ended; of the others nothing is known before the shard has begun.
+    (tmp_path / "out" / ".parts" / "1-of-2.ended").unlink()
+    runs = sorted(path.parent for path in (tmp_path / "out").glob("*/summary.json"))
+    for run in runs[:2]:
+        (run / "summary.json").write_text(json.dumps({"status": "running"}))
+    told = buckens("sweep", "--status", "out", "--json").must(0).json
+    assert told["shards"][0]["state"] == "begun"
+    assert (told["finished"], told["failed"], told["running"]) == (first["variants"] - 2, 0, 2)
+    assert told["slowest"] in [run.name for run in runs[:2]] and told["to_go"] > 0
+    # A sweep that is not divided.
+    buckens("sweep", model, "--vary", "gravity.1=[1, 2]", "-o", "whole", "-q").must(0)
+    told = buckens("sweep", "--status", "whole", "--json").must(0).json
+    assert told["finished"] == told["variants"] == 2 and told["shards"][0]["state"] == "ended"
+
+
+def test_status_counts_failures_and_a_sweep_that_goes_on(buckens, start, models, tmp_path):
+    ranges = ("--vary", "bodies.beam.beam.elements=[2, -1, 4]")
+    buckens("sweep", models / "beam.yaml", *ranges, "-o", "out", "-q").must(4)
+    told = buckens("sweep", "--status", "out", "--json").must(0).json
+    assert (told["variants"], told["finished"], told["failed"]) == (3, 2, 1)
+    assert told["to_go"] == 0 and told["shards"][0]["state"] == "ended"
+    # Again while it is interrupted: what it had finished counts, what it has not begun does not run.
+    steps = ("--vary", "gravity.1=[" + ", ".join(map(str, range(1, 31))) + "]", "--set", "simulation.step=20 us")
+    process = start("sweep", models / "pendulum.yaml", *steps, "-o", "long", "--together", "1", "-q")
+    for _ in range(2000):
+        if (tmp_path / "long" / "003" / "summary.json").exists():
+            break
+        time.sleep(0.01)
+    told = buckens("sweep", "--status", "long", "--json").must(0).json
+    assert told["shards"][0]["state"] == "begun" and told["finished"] >= 2 and told["running"] <= 1
+    assert 0 < told["to_go"] < 1000 * told["seconds"]
+    process.send_signal(signal.SIGINT)
+    process.wait()
+    told = buckens("sweep", "--status", "long", "--json").must(0).json
+    assert told["shards"][0]["state"] == "interrupted" and told["running"] == told["failed"] == 0
+    assert 2 <= told["finished"] < 30
+
+
+def test_status_says_what_is_wrong(buckens, models, tmp_path):
+    model = models / "pendulum.yaml"
+    buckens("sweep", "--status", "nowhere").must(2, "nowhere", "no sweep has begun here")
+    buckens("sweep", model, "--status", "out").must(2, "--status OUT", "nothing but the directory")
+    for shard in ("1/2", "2/3"):
+        buckens("sweep", model, *RANGES, "-o", "out", "--shard", shard, "-q").must(0)
+    buckens("sweep", "--status", "out").must(2, "2-of-3", "one of 3", "one of 2")
+    (tmp_path / "out" / ".parts" / "2-of-3.begun").write_text("{}")
+    buckens("sweep", "--status", "out").must(5, "2-of-3", "damaged", "start its shard again")
+
+
 def test_says_what_is_wrong(buckens, models, tmp_path):
     model = models / "pendulum.yaml"
     for shard in ("0/4", "5/4", "half", "2"):

@@ -11,6 +11,7 @@
 #include "cli/interruption.h"
 #include "cli/output.h"
 #include "cli/progress_display.h"
+#include "cli/sweep_status.h"
 #include "cli/text_table.h"
 #include "cli/verbs.h"
 
@@ -19,6 +20,7 @@
 #include "buckens/files/output_file.h"
 #include "buckens/sweep/parts.h"
 #include "buckens/sweep/shards.h"
+#include "buckens/sweep/status.h"
 #include "buckens/sweep/summary.h"
 #include "buckens/sweep/table.h"
 #include "buckens/sweep/variant_runs.h"
@@ -32,7 +34,7 @@ namespace fs = std::filesystem;
 struct SweepArguments {
   std::string model, table, out;
   std::vector<std::string> overrides, ranges;
-  std::string shard, merge;
+  std::string shard, merge, status;
   int together = sweep::SweepOptions{}.together;
   bool quiet = false;
 
@@ -149,13 +151,18 @@ void tell_outcome(const SweepArguments& arguments, const sweep::SweepOutcome& ou
 }
 
 sweep::SweepOutcome run(const SweepArguments& arguments, const sweep::SweepTable& variants,
-                        bool json) {
+                        const sweep::ShardNotes& notes, bool json) {
   const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   SweepDisplay display(arguments.quiet || json);
   sweep::SweepOptions options;
   options.together = arguments.together;
+  options.on_begin = [&] { notes.begin(); };
   options.on_progress = [&](const sweep::SweepProgress& progress) {
     display.show(progress);
+    const sweep::VariantOutcome* ended = progress.ended;
+    if (ended != nullptr && ended->status == sweep::VariantStatus::failed) {
+      notes.add_failure(ended->name);
+    }
     return !interruption.requested();
   };
   return sweep::run_variants(arguments.model, arguments.overrides, variants, arguments.directory(),
@@ -171,21 +178,36 @@ ExitCode run_shard(const SweepArguments& arguments, const sweep::SweepTable& tab
   const auto shards = sweep::divide_into_shards(groups, shard.count);
   const std::vector<std::size_t>& mine = shards[static_cast<std::size_t>(shard.index) - 1];
   const sweep::SweepTable variants = sweep::selected(table, mine);
-  const sweep::SweepOutcome outcome = run(arguments, variants, json);
+  const sweep::ShardNotes notes(directory, shard, variants);
+  const sweep::SweepOutcome outcome = run(arguments, variants, notes, json);
   sweep::write_part(directory, shard, study, mine,
                     sweep::sweep_summary(directory, variants, outcome));
+  notes.end();
   tell_outcome(arguments, outcome, directory / sweep::kPartsName / (shard.name() + ".json"), json);
   return exit_code_of(outcome.variants);
 }
 
-ExitCode merge(const SweepArguments& arguments, bool json) {
+/// @throws InputError if there is more than --merge or --status
+void require_alone(const SweepArguments& arguments, const char* option) {
   const bool has_more = !arguments.model.empty() || !arguments.table.empty() ||
                         !arguments.ranges.empty() || !arguments.shard.empty() ||
-                        !arguments.out.empty() || !arguments.overrides.empty();
-  if (has_more) {
-    throw InputError({},
-                     "`buckens sweep --merge OUT` takes nothing but the directory of the parts");
-  }
+                        !arguments.out.empty() || !arguments.overrides.empty() ||
+                        (!arguments.merge.empty() && !arguments.status.empty());
+  if (!has_more) return;
+  throw InputError({}, fmt::format("`buckens sweep {} OUT` takes nothing but the directory of the "
+                                   "sweep",
+                                   option));
+}
+
+ExitCode status(const SweepArguments& arguments, bool json) {
+  require_alone(arguments, "--status");
+  const sweep::SweepStatus found = sweep::read_status(arguments.status);
+  print(json ? status_json(found) : status_text(found));
+  return ExitCode::ok;
+}
+
+ExitCode merge(const SweepArguments& arguments, bool json) {
+  require_alone(arguments, "--merge");
   const fs::path directory = arguments.merge;
   const sweep::MergedSweep merged = sweep::merge_parts(directory);
   write_table(directory, merged.summary);
@@ -197,6 +219,7 @@ ExitCode merge(const SweepArguments& arguments, bool json) {
 
 ExitCode sweep(const SweepArguments& arguments, bool json) {
   if (arguments.quiet) base::set_work_sink({});
+  if (!arguments.status.empty()) return status(arguments, json);
   if (!arguments.merge.empty()) return merge(arguments, json);
   if (arguments.model.empty()) {
     throw InputError({}, "MODEL is required: `buckens sweep MODEL TABLE`, or `--merge OUT`");
@@ -204,8 +227,10 @@ ExitCode sweep(const SweepArguments& arguments, bool json) {
   const sweep::SweepTable variants = variants_of(arguments);
   if (!arguments.shard.empty()) return run_shard(arguments, variants, json);
   const fs::path directory = arguments.directory();
-  const sweep::SweepOutcome outcome = run(arguments, variants, json);
+  const sweep::ShardNotes notes(directory, {}, variants);
+  const sweep::SweepOutcome outcome = run(arguments, variants, notes, json);
   write_table(directory, sweep::sweep_summary(directory, variants, outcome));
+  notes.end();
   tell_outcome(arguments, outcome, directory / sweep::kSweepName, json);
   return exit_code_of(outcome.variants);
 }
@@ -225,7 +250,8 @@ equal matrices advance side by side: one factorisation serves all, and their sol
 
 With --shard I/N this process runs the I-th of N parts of the table, as tasks of a job array do;
 variants that share factors stay together. When all have ended, `buckens sweep --merge OUT` makes
-the table. Every shard may be started again: it keeps what is finished.
+the table. Every shard may be started again: it keeps what is finished. `--status OUT` tells, from
+any process that sees the directory, how far they are.
 
 A variant that fails does not stop the others. Ctrl-C ends the sweep after the steps that go on; the
 same command later keeps what is finished and runs the rest.
@@ -255,6 +281,8 @@ void add_sweep_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("--shard", arguments->shard, "Only the I-th of N parts of the variants")
       ->type_name("I/N");
   verb.add_option("--merge", arguments->merge, "Make the table of the parts that lie in OUT")
+      ->type_name("OUT");
+  verb.add_option("--status", arguments->status, "Tell how far the sweep into OUT is")
       ->type_name("OUT");
   verb.add_flag("-q,--quiet", arguments->quiet, "Failures only");
   add_json_option(verb, invocation);

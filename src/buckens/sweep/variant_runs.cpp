@@ -83,6 +83,7 @@ class Sweep {
         model_file::read_model_file(model, overrides, step_meshes_);
     if (!base.simulation) throw InputError(base.where, kNoSimulation);
     make_directory();
+    if (options_.on_begin) options_.on_begin();
     for (std::size_t begin = 0; begin < table_.variants.size() && !stopped_;) {
       begin = run_wave(begin);
     }

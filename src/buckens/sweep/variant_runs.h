@@ -39,6 +39,8 @@ struct SweepProgress {
 
 struct SweepOptions {
   int together = 6;  ///< variants that advance together and share solves
+  /// Called when the directory of the sweep is there, before the first variant.
+  std::function<void()> on_begin;
   /// Called when variants end and after steps; returning false ends the sweep after these steps.
   std::function<bool(const SweepProgress&)> on_progress;
 };
