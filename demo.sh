@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program, simulates the slider-crank and makes its page.
-# usage: ./demo.sh [OUT]   OUT: run directory, default build/demo
+# usage: ./demo.sh [--mpi] [OUT]   OUT: run directory, default build/demo
+# --mpi: also what large bodies need, PETSc and MPI (docs/tutorials/large.md)
 set -euo pipefail
 case "${1:-}" in
   -h | --help)
-    sed -n '2,3s/^# //p' "${BASH_SOURCE[0]}"
+    sed -n '2,4s/^# //p' "${BASH_SOURCE[0]}"
     exit 0
     ;;
 esac
+with_mpi=no
+if [ "${1:-}" = --mpi ]; then
+  with_mpi=yes
+  shift
+fi
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 out="$(realpath -m "${1:-$here/build/demo}")"
 cd "$here"
@@ -16,12 +22,18 @@ cd "$here"
 # Only what the demonstration needs, unless this is already configured for more.
 buckens_packages=("${buckens_build_packages[@]}")
 buckens_needs_browser=no
+[ "$with_mpi" = no ] || buckens_packages+=("${buckens_mpi_packages[@]}")
 buckens_setup
 only=()
 [ -f build/release/CMakeCache.txt ] || only=(-DBUCKENS_TESTS=OFF -DBUCKENS_BENCH=OFF -DBUCKENS_PYTHON_MODULE=OFF)
+parts=(buckens_program buckens_viewer)
+if [ "$with_mpi" = yes ]; then
+  only+=(-DBUCKENS_MPI=ON)
+  parts+=(buckens_petsc)
+fi
 configure_release "${only[@]}"
 say "Building the program and the viewer page"
-build_release buckens_program buckens_viewer
+build_release "${parts[@]}"
 
 program=build/release/bin/buckens
 model=examples/slider_crank/slider_crank.yaml

@@ -80,6 +80,8 @@ foreach(source IN LISTS python_tests)
       ENVIRONMENT
       "BUCKENS_PROGRAM=${PROJECT_BINARY_DIR}/bin/buckens;BUCKENS_SOURCE_DIR=${PROJECT_SOURCE_DIR};BUCKENS_BINARY_DIR=${PROJECT_BINARY_DIR};PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+# Processes that wait for each other: beside other tests they would wait for processors, too.
+set_tests_properties(cli.mpi PROPERTIES PROCESSORS 2)
 
 foreach(check IN ITEMS equations floors pages sizes streams)
   add_test(NAME structure.${check} COMMAND ${BUCKENS_PYTHON} -B

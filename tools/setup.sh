@@ -21,6 +21,8 @@ buckens_packages=(
   python3-dev python3-venv pybind11-dev mypy
   python3-matplotlib python3-pandas python3-scipy python3-distributed python3-nbclient python3-ipykernel python3-yaml python3-jsonschema
 )
+# For large bodies: iterative solves, runs over several processes (-DBUCKENS_MPI=ON).
+buckens_mpi_packages=(libpetsc-real-dev openmpi-bin)
 # Whether a browser belongs to them: pages are tested with it.
 buckens_needs_browser=yes
 

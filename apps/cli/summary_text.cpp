@@ -2,6 +2,7 @@
 #include "cli/summary_text.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,17 @@ std::string headline(const results::RunSummary& summary) {
   return line + fmt::format("NOT FINISHED: {}\n", summary.interrupted);
 }
 
+std::optional<double> measure(const results::BodyEffort& body, const char* name) {
+  for (const auto& [known, value] : body.measures) {
+    if (known == name) return value;
+  }
+  return std::nullopt;
+}
+
+bool iterates(const results::BodyEffort& body) {
+  return measure(body, "iterations_per_solve").has_value();
+}
+
 std::string bodies_table(const results::RunSummary& summary) {
   std::vector<std::vector<std::string>> rows = {
       {"body", "nodal DOF", "coupling", "factorisations", "solves", "solves/step"}};
@@ -36,6 +48,11 @@ std::string bodies_table(const results::RunSummary& summary) {
       std::any_of(summary.bodies.begin(), summary.bodies.end(),
                   [](const results::BodyEffort& body) { return body.recycled > 0; });
   if (any_recycled) rows.front().emplace_back("recycled");
+  if (std::any_of(summary.bodies.begin(), summary.bodies.end(), iterates)) {
+    for (const char* title : {"iterations/solve", "s/solve", "solver GB"}) {
+      rows.front().emplace_back(title);
+    }
+  }
   for (const results::BodyEffort& body : summary.bodies) {
     if (body.dof == 0) {
       rows.push_back({body.name, "rigid"});
@@ -48,6 +65,10 @@ std::string bodies_table(const results::RunSummary& summary) {
     rows.push_back({body.name, fmt::to_string(body.dof), body.coupling,
                     fmt::to_string(body.factorisations), fmt::to_string(body.solves), per_step});
     if (any_recycled) rows.back().push_back(fmt::to_string(body.recycled));
+    if (!iterates(body)) continue;
+    rows.back().push_back(fmt::format("{:.1f}", *measure(body, "iterations_per_solve")));
+    rows.back().push_back(fmt::format("{:.3g}", measure(body, "seconds_per_solve").value_or(0.0)));
+    rows.back().push_back(fmt::format("{:.3g}", measure(body, "solver_bytes").value_or(0.0) / 1e9));
   }
   return text_table(rows);
 }

@@ -11,6 +11,7 @@
 #include "buckens/body/marker.h"
 #include "buckens/body/nodal_recovery.h"
 #include "buckens/body/sieve.h"
+#include "buckens/body/solver_choice.h"
 #include "buckens/fem/assembly/geometric_stiffness.h"
 #include "buckens/fem/fe_model.h"
 
@@ -55,6 +56,8 @@ struct FlexiblePart {
   int num_interface_rows = 0;
   /// The last of the interface rows: patterns of distributed loads, which no joint holds.
   int num_pattern_rows = 0;
+
+  SolverChoice solver;  ///< of systems with M, K and C
 
   /// @throws ModelError if rigid motion strains the mesh or the mesh is a mechanism
   FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice);

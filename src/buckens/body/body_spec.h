@@ -13,6 +13,7 @@
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/frame_division.h"
 #include "buckens/body/reduction_spec.h"
+#include "buckens/body/solver_spec.h"
 #include "buckens/fem/assembly/matrices_spec.h"
 #include "buckens/fem/mesh/region_spec.h"
 #include "buckens/fem/mesh/spec.h"
@@ -180,8 +181,9 @@ struct RigidSpec {
 struct LikeSpec {
   static constexpr const char* kKey = "like";
   static constexpr const char* kDoc =
-      "mesh or mass properties, markers and damping of a body defined above; with its own position "
-      "and coupling";
+      "mesh or mass properties, markers and damping of a body defined above; with its own "
+      "position, "
+      "coupling and solver";
   SourceLocation where;
   std::string body;
 
@@ -253,6 +255,7 @@ struct BodySpec {
   FrameDivision frames;
   CouplingSpec coupling;
   ReductionSpec reduction;
+  SolverSpec solver;
   Flexibility flexibility = Flexibility::elastic;
   bool geometric_stiffness = false;
   std::optional<fem::DampingSpec> damping;  ///< in place of that of the materials
@@ -279,6 +282,9 @@ struct BodySpec {
     visit(base::field("reduction", reduction, "reduced basis of the mesh")
               .like("{free-free: 8}")
               .otherwise("none"));
+    visit(base::field("solver", solver, "how the large systems of the mesh are solved")
+              .like("iterative")
+              .otherwise("direct"));
     visit(base::field("flexibility", flexibility,
                       "elastic, or quasi-static: the body moves like a rigid body of deformed "
                       "shape and deforms under the loads of that motion without vibrating"));

@@ -62,11 +62,12 @@ SparseMatrix grounded(const SparseMatrix& K, const std::vector<int>& held) {
   return out;
 }
 
-linalg::SparseCholesky factorise(const std::string& body, const SparseMatrix& K,
-                                 const std::vector<int>& held) {
+std::shared_ptr<const linalg::Factor> factorise(const std::string& body, const SparseMatrix& K,
+                                                const std::vector<int>& held,
+                                                const linalg::MakeFactor& make) {
   return of_body(body, [&] {
     try {
-      return linalg::SparseCholesky(grounded(K, held));
+      return make(grounded(K, held));
     } catch (const linalg::IndefiniteMatrix&) {
       refuse(body);
     }
@@ -76,17 +77,17 @@ linalg::SparseCholesky factorise(const std::string& body, const SparseMatrix& K,
 }  // namespace
 
 ElasticInverse::ElasticInverse(const std::string& body, const fem::FeModel& fe, const Sieve& sieve,
-                               double length)
+                               double length, const linalg::MakeFactor& make)
     : body_(body),
       fe_(&fe),
       sieve_(&sieve),
       held_(isostatic_variables(fe, sieve, length)),
-      factor_(factorise(body, fe.K, held_)) {}
+      factor_(factorise(body, fe.K, held_, make)) {}
 
 Vector ElasticInverse::solve(Vector load) const {
   sieve_->apply_transposed(load);
   for (const int k : held_) load[k] = 0.0;
-  factor_.solve_in_place(load);
+  factor_->solve_in_place(load);
   ++solves_;
   sieve_->apply(load);
   return load;

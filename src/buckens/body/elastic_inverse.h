@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ class ElasticInverse {
  public:
   /// @param length scale that makes rotations and translations comparable [m]
   /// @throws ModelError naming the body if the mesh has strain-free motions other than rigid ones
-  ElasticInverse(const std::string& body, const fem::FeModel& fe, const Sieve& sieve,
-                 double length);
+  /// @param make factorises K_g, or makes what takes the place of a factor
+  ElasticInverse(const std::string& body, const fem::FeModel& fe, const Sieve& sieve, double length,
+                 const linalg::MakeFactor& make = linalg::make_cholesky);
 
   /// K⁺ f. Cost: one solve.
   linalg::Vector solve(linalg::Vector load) const;
@@ -42,7 +44,7 @@ class ElasticInverse {
   const fem::FeModel* fe_;
   const Sieve* sieve_;
   std::vector<int> held_;
-  linalg::SparseCholesky factor_;
+  std::shared_ptr<const linalg::Factor> factor_;
   mutable long solves_ = 0;
 };
 

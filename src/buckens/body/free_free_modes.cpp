@@ -9,6 +9,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/dense_free_modes.h"
 #include "buckens/body/iterated_modes.h"
+#include "buckens/body/mesh_solver.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/tall_products.h"
 
@@ -33,20 +34,22 @@ IteratedModes iterate(const FlexiblePart& part, const FreeModesSettings& setting
       return iterate_modes(M, part.sieve, augmented_operator(K, part.sieve), count,
                            settings.tolerance);
     case FreeModeMethod::penalty:
-      return iterate_modes(
-          M, part.sieve,
-          penalty_operator(M, K, part.sieve, highest_square(M, K), first_shift(part)), count,
-          settings.tolerance);
+      return iterate_modes(M, part.sieve,
+                           penalty_operator(M, K, part.sieve, highest_square(M, K),
+                                            first_shift(part), solver_of(part)),
+                           count, settings.tolerance);
     case FreeModeMethod::spectra: {
       // The shift comes from the iteration for one mode, which corrects the estimate.
-      IteratedModes probe = iterate_with_shift(M, K, part.sieve, first_shift(part), 1, 1e-3);
+      IteratedModes probe =
+          iterate_with_shift(M, K, part.sieve, first_shift(part), 1, 1e-3, solver_of(part));
       IteratedModes out = lanczos_modes(M, std::move(probe.op), count, settings.tolerance);
       out.solves += probe.solves;
       out.factorisations = probe.factorisations;
       return out;
     }
     default:
-      return iterate_with_shift(M, K, part.sieve, first_shift(part), count, settings.tolerance);
+      return iterate_with_shift(M, K, part.sieve, first_shift(part), count, settings.tolerance,
+                                solver_of(part));
   }
 }
 

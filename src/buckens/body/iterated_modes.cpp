@@ -121,7 +121,8 @@ IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOpera
 }
 
 IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
-                                 double first_shift, int count, double tolerance) {
+                                 double first_shift, int count, double tolerance,
+                                 const linalg::MakeFactor& make) {
   const double least = kOverRounding * highest_square(M, K);
   double shift = std::max(first_shift, least);
   double drowned = 0.0;  // largest shift that did not work
@@ -130,7 +131,7 @@ IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, c
   for (int attempt = 1; attempt <= kMostShifts; ++attempt) {
     std::optional<ModeOperator> op;
     try {
-      op = sieved_operator(M, K, sieve, shift);
+      op = sieved_operator(M, K, sieve, shift, make);
     } catch (const linalg::IndefiniteMatrix&) {
       if (attempt == kMostShifts) throw;
       drowned = shift;

@@ -25,7 +25,8 @@ IteratedModes iterate_modes(const linalg::SparseMatrix& M, const Sieve& sieve, M
 /// K is raised.
 IteratedModes iterate_with_shift(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
                                  const Sieve& sieve, double first_shift, int count,
-                                 double tolerance);
+                                 double tolerance,
+                                 const linalg::MakeFactor& make = linalg::make_cholesky);
 
 /// Lanczos with implicit restarts of the Spectra library.
 /// @throws NumericalError if it does not converge

@@ -10,7 +10,6 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/factor_threads.h"
-#include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/sparse_lu.h"
 #include "buckens/linalg/tall_products.h"
 
@@ -71,9 +70,9 @@ double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen
 }  // namespace
 
 ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
-                             double shift) {
+                             double shift, const linalg::MakeFactor& make) {
   const auto A = std::make_shared<SparseMatrix>(K + shift * M);
-  const auto factor = std::make_shared<linalg::SparseCholesky>(*A);
+  const auto factor = make(*A);
   ModeOperator op;
   op.shift = shift;
   op.factor_entries = factor->num_factor_entries();
@@ -160,9 +159,10 @@ ModeOperator full_penalty_operator(const SparseMatrix& K, const Matrix& P, doubl
 }
 
 ModeOperator woodbury_penalty_operator(const SparseMatrix& M, const SparseMatrix& K,
-                                       const Sieve& sieve, double penalty, double shift) {
+                                       const Sieve& sieve, double penalty, double shift,
+                                       const linalg::MakeFactor& make) {
   const auto A = std::make_shared<SparseMatrix>(K + shift * M);
-  const auto factor = std::make_shared<linalg::SparseCholesky>(*A);
+  const auto factor = make(*A);
   const auto P = std::make_shared<Matrix>(sieve.P());
   const auto Z = std::make_shared<Matrix>(factor->solve(*P));
   const Matrix small = Matrix::Identity(P->cols(), P->cols()) / penalty + P->transpose() * *Z;
@@ -187,10 +187,10 @@ ModeOperator woodbury_penalty_operator(const SparseMatrix& M, const SparseMatrix
 }  // namespace
 
 ModeOperator penalty_operator(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
-                              double penalty, double shift) {
+                              double penalty, double shift, const linalg::MakeFactor& make) {
   ModeOperator op = K.rows() <= kFullPenalty
                         ? full_penalty_operator(K, sieve.P(), penalty)
-                        : woodbury_penalty_operator(M, K, sieve, penalty, shift);
+                        : woodbury_penalty_operator(M, K, sieve, penalty, shift, make);
   op.penalty = penalty;
   return op;
 }

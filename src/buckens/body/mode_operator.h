@@ -7,6 +7,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/body/sieve.h"
 #include "buckens/linalg/inverse_iteration.h"
+#include "buckens/linalg/sparse_cholesky.h"
 
 namespace buckens::body {
 
@@ -24,10 +25,11 @@ struct ModeOperator {
   std::shared_ptr<TaskPool> pool;
 };
 
-/// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor.
+/// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor, or what `make` makes in its place.
 /// @throws NumericalError if μ is lost in the rounding of K
 ModeOperator sieved_operator(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
-                             const Sieve& sieve, double shift);
+                             const Sieve& sieve, double shift,
+                             const linalg::MakeFactor& make = linalg::make_cholesky);
 
 /// The upper left part of [K −P; −Pᵀ 0]⁻¹, FM (28): a sparse LU factor of an indefinite matrix with
 /// full rows and columns. No shift is needed: the bordered matrix is regular.
@@ -41,7 +43,8 @@ ModeOperator augmented_operator(const linalg::SparseMatrix& K, const Sieve& siev
 /// and n³/6 multiplications. Above, the same inverse comes from the factor of K + μM with a
 /// rank-six correction (Woodbury), then with the shift μ.
 ModeOperator penalty_operator(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
-                              const Sieve& sieve, double penalty, double shift);
+                              const Sieve& sieve, double penalty, double shift,
+                              const linalg::MakeFactor& make = linalg::make_cholesky);
 
 /// λ_max/λ_min of the scaled matrix A by twenty power iterations each.
 double estimate_condition(const ModeOperator& op);

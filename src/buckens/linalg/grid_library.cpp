@@ -86,6 +86,11 @@ const GridLibrary& grid_library() {
 
 std::string missing_grid_solver() { return grid_library().reason; }
 
+std::mutex& turn_of_grid_solver() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 const BuckensGridPlugin& grid_solver() {
   if (grid_library().plugin == nullptr) {
     throw IoError("iterative solves need the multigrid solver: " + grid_library().reason);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include "buckens/linalg/grid_plugin.h"
@@ -15,5 +16,8 @@ std::string missing_grid_solver();
 /// program or library that holds this code, in ../lib and in ../lib/buckens.
 /// @throws IoError with missing_grid_solver()
 const BuckensGridPlugin& grid_solver();
+
+/// To be held while the plug-in works: the libraries behind it know one thread.
+std::mutex& turn_of_grid_solver();
 
 }  // namespace buckens::linalg

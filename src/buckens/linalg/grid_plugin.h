@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 1 };
+enum { kBuckensGridVersion = 2 };
 
 /// A symmetric positive definite matrix by columns. The arrays must live as long as its solver.
 struct BuckensGridMatrix {
@@ -18,6 +18,7 @@ struct BuckensGridMatrix {
   int block;              ///< variables per node, 1 where it varies
   int num_motions;        ///< rigid motions
   const double* motions;  ///< size × num_motions, by columns
+  const char* options;    ///< of the library, in its own words; null or empty: none
 };
 
 /// When an iteration may stop: ‖r‖ ≤ clamp(absolute, least ‖r₀‖, most ‖r₀‖), in the norm of the
@@ -44,6 +45,13 @@ struct BuckensGridPlugin {
   /// Bytes held by the solver, without the arrays of its matrix.
   double (*bytes)(void* solver);
   void (*release)(void* solver);
+  /// Begins MPI and tells which of how many processes this one is. From then on solvers are shared
+  /// by all.
+  void (*join)(int* rank, int* count);
+  /// Of all processes but the first: takes part in its solves, until it leaves.
+  void (*serve)();
+  /// Of the first: ends the others and MPI, when no solver is left.
+  void (*leave)();
 };
 
 /// The one function that a plug-in exports.

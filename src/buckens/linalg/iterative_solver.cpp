@@ -25,22 +25,16 @@ constexpr double kLeftOfEstimate = 1e-8;
 // Matrices from this size on are worth a word to those who wait.
 constexpr Eigen::Index kToldSize = 100000;
 
-/// The libraries behind a plug-in know one thread.
-std::mutex& turn_of_plugin() {
-  static std::mutex mutex;
-  return mutex;
-}
-
 }  // namespace
 
 struct IterativeSolver::Solver {
   const BuckensGridPlugin* plugin = nullptr;
   void* handle = nullptr;
   double bytes = 0;
-  IterationCounts counts;  // guarded by turn_of_plugin()
+  IterationCounts counts;  // guarded by turn_of_grid_solver()
 
   ~Solver() {
-    const std::scoped_lock lock(turn_of_plugin());
+    const std::scoped_lock lock(turn_of_grid_solver());
     if (handle != nullptr) plugin->release(handle);
   }
 };
@@ -62,10 +56,11 @@ IterativeSolver::IterativeSolver(SparseMatrix A, const Matrix& motions,
                                  A_.valuePtr(),
                                  settings.block,
                                  static_cast<int>(motions.cols()),
-                                 motions.data()};
+                                 motions.data(),
+                                 settings_.options.c_str()};
   std::array<char, 400> error{};
   {
-    const std::scoped_lock lock(turn_of_plugin());
+    const std::scoped_lock lock(turn_of_grid_solver());
     const SingleThread single;
     solver_->handle = solver_->plugin->make(&matrix, error.data(), static_cast<int>(error.size()));
     if (solver_->handle != nullptr) solver_->bytes = solver_->plugin->bytes(solver_->handle);
@@ -73,9 +68,10 @@ IterativeSolver::IterativeSolver(SparseMatrix A, const Matrix& motions,
   work.stage.clear();
   if (A_.rows() >= kToldSize) base::report_work(work);
   if (solver_->handle == nullptr) {
-    throw NumericalError(fmt::format(
-        "multigrid for a matrix of size {} failed: {}; factorise it, or use a coarser mesh",
-        A_.rows(), error.data()));
+    throw NumericalError(
+        fmt::format("multigrid for a matrix of size {} failed: {}; {}", A_.rows(), error.data(),
+                    settings_.options.empty() ? "factorise it, or use a coarser mesh"
+                                              : "correct the options of PETSc, or leave them out"));
   }
   solver_->counts.setup_seconds = watch.seconds();
 }
@@ -89,7 +85,7 @@ double IterativeSolver::bytes() const {
 }
 
 IterationCounts IterativeSolver::iteration_counts() const {
-  const std::scoped_lock lock(turn_of_plugin());
+  const std::scoped_lock lock(turn_of_grid_solver());
   return solver_->counts;
 }
 
@@ -100,7 +96,7 @@ void IterativeSolver::iterate(const double* b, double* x, double energy) const {
                                  settings_.most_iterations};
   BuckensGridOutcome outcome{};
   std::array<char, 400> error{};
-  const std::scoped_lock lock(turn_of_plugin());
+  const std::scoped_lock lock(turn_of_grid_solver());
   const SingleThread single;
   const int failure = solver_->plugin->solve(solver_->handle, b, x, &limits, &outcome, error.data(),
                                              static_cast<int>(error.size()));

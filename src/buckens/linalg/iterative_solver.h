@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "buckens/linalg/factor.h"
 
@@ -11,6 +12,7 @@ struct IterationSettings {
   int block = 1;             ///< variables per node if all nodes have as many, node by node; else 1
   double tolerance = 1e-11;  ///< of an answer, in the norm of energy
   int most_iterations = 500;
+  std::string options;  ///< of PETSc, such as "-mg_levels_ksp_max_it 3"
 };
 
 /// Solves A x = b by conjugate gradients with smoothed-aggregation multigrid (grid_library.h)
@@ -24,7 +26,7 @@ class IterativeSolver final : public Factor {
   /// @param A symmetric positive definite, both triangles stored; kept
   /// @param motions n×(0…6), motions with little energy: those of a rigid body
   /// @throws IoError if there is no multigrid solver
-  /// @throws NumericalError if A is not finite or it cannot be made
+  /// @throws NumericalError if A is not finite, or it cannot be made, as with unknown options
   IterativeSolver(SparseMatrix A, const Matrix& motions, const IterationSettings& settings);
   ~IterativeSolver() override;
   IterativeSolver(const IterativeSolver&) = delete;

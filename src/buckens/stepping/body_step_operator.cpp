@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "buckens/body/mesh_solver.h"
 #include "buckens/linalg/row_parts.h"
 
 namespace buckens::stepping {
@@ -83,8 +84,8 @@ bool have_same_rigid_modes(const body::FlexiblePart& a, const body::FlexiblePart
 }  // namespace
 
 bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
-  return are_equal(part.fe.M, part_->fe.M) && are_equal(part.fe.K, part_->fe.K) &&
-         are_equal(part.C, part_->C);
+  return part.solver == part_->solver && are_equal(part.fe.M, part_->fe.M) &&
+         are_equal(part.fe.K, part_->fe.K) && are_equal(part.C, part_->C);
 }
 
 bool BodyStepOperator::serves(const body::FlexiblePart& part) const {
@@ -104,12 +105,12 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
       N_(rows_of(part)),
       inertial_(part, scheme) {
   {
-    const SparseMatrix K_hat = step_matrix(part, scheme);
+    SparseMatrix K_hat = step_matrix(part, scheme);
     diagonal_ = K_hat.diagonal();
     if (is_division_enough(part, K_hat)) {
       diagonal_inverse_ = diagonal_.cwiseInverse();
     } else {
-      find_factor(K_hat, source);
+      find_factor(std::move(K_hat), source);
     }
   }
   if (!is_diagonal() && part.num_dofs() <= kSmall) {
@@ -148,12 +149,19 @@ SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
 
 SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_); }
 
-void BodyStepOperator::find_factor(const SparseMatrix& K_hat, const FactorSource& source) {
+void BodyStepOperator::find_factor(SparseMatrix K_hat, const FactorSource& source) {
   const BodyStepOperator* twin = source.twin;
   if (twin != nullptr && twin->factor_ && have_one_matrix(scheme_, twin->scheme_) &&
       twin->fits(*part_)) {
     factor_ = twin->factor_;
+    why_solver_ = twin->why_solver_;
     is_shared_ = true;
+    return;
+  }
+  const body::SolverDecision decision = body::decide_solver(part_->solver, K_hat);
+  why_solver_ = decision.why;
+  if (decision.iterates) {
+    factor_ = body::make_iterative(*part_, std::move(K_hat));
   } else if (source.exchange != nullptr) {
     const long factorisations = source.exchange->num_factorisations();
     factor_ = source.exchange->factor(K_hat);

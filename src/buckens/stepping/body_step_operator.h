@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "buckens/body/body.h"
+#include "buckens/linalg/ranks.h"
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/inertial_load.h"
@@ -19,7 +21,7 @@ struct FactorSource {
   /// Exchange through which other simulations may have the factor; null: none.
   linalg::SolveExchange* exchange = nullptr;
   /// Makes the factor if nobody has it.
-  linalg::MakeFactor make = linalg::make_cholesky;
+  linalg::MakeFactor make = linalg::make_large_factor;
 };
 
 /// Everything a step of fixed length needs of one flexible body: one factorisation of K̂ = m M + c
@@ -91,15 +93,19 @@ class BodyStepOperator final : public BodyAnswer {
   const linalg::Vector& K_hat_diagonal() const { return diagonal_; }
   const InertialLoad& inertial() const { return inertial_; }
   bool is_diagonal() const { return diagonal_inverse_.size() > 0; }
+  /// Why bodies whose solver is chosen automatically have theirs; empty for others.
+  const std::string& why_solver() const { return why_solver_; }
+  bool iterates() const { return factor_ && factor_->iterates(); }
   double factor_entries() const { return factor_ ? factor_->num_factor_entries() : 0.0; }
   /// Bytes that each of the two passes of a solve reads; 0 if the factor is that of a twin.
   double factor_bytes() const { return factor_ && !is_shared_ ? factor_->bytes() : 0.0; }
-  /// 1, or 0 if the factor is that of a twin or of another simulation, or K̂ is diagonal.
-  long factorisations() const { return is_shared_ || is_diagonal() ? 0 : 1; }
+  /// 1, or 0 if the factor is that of a twin or of another simulation, K̂ is diagonal, or solves
+  /// iterate.
+  long factorisations() const { return is_shared_ || is_diagonal() || iterates() ? 0 : 1; }
   long setup_solves() const { return setup_solves_; }
 
  private:
-  void find_factor(const linalg::SparseMatrix& K_hat, const FactorSource& source);
+  void find_factor(linalg::SparseMatrix K_hat, const FactorSource& source);
   SmallBodyAnswers answers_by_variables() const;
   /// X ← Y K̂⁻¹ X, as part of the set-up.
   void solve_columns(linalg::Matrix& X);
@@ -109,6 +115,7 @@ class BodyStepOperator final : public BodyAnswer {
   bool is_shared_ = false;
   linalg::Vector diagonal_inverse_;  // of diagonal K̂, else empty; then there is no factor
   std::shared_ptr<const linalg::Factor> factor_;
+  std::string why_solver_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
   linalg::Matrix G_;         // Y K̂⁻¹ Nᵀ

@@ -22,7 +22,9 @@ struct FlexibleStep {
   linalg::RecycledSolves::Request request;  ///< of the first change of load of this step
   body::FrameMotion frame_at_end;           ///< of the last step; tells whether the next goes on
   long solves = 0;
-  long recycled = 0;  ///< answers combined from kept solves
+  long recycled = 0;         ///< answers combined from kept solves
+  long iterations = 0;       ///< of solves that iterate
+  double solve_seconds = 0;  ///< the same, wall time
 };
 
 }  // namespace buckens::stepping

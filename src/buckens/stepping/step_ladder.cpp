@@ -14,6 +14,9 @@ void add(SolveCounts& sum, const SolveCounts& counts) {
   sum.solves += counts.solves;
   sum.recycled += counts.recycled;
   sum.setup_solves += counts.setup_solves;
+  sum.iterations += counts.iterations;
+  sum.solve_seconds += counts.solve_seconds;
+  sum.solver_bytes = std::max(sum.solver_bytes, counts.solver_bytes);
 }
 
 void add(StepSeconds& sum, const StepSeconds& seconds) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/linalg/ranks.h"
 #include "buckens/linalg/simd_level.h"
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/scheme.h"
@@ -31,7 +32,7 @@ struct StepSettings {
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
   /// Factorises the step matrices of bodies; an exchange has its own.
-  linalg::MakeFactor make_factor = linalg::make_cholesky;
+  linalg::MakeFactor make_factor = linalg::make_large_factor;
 
   /// The parameter of the method, for Scheme.
   double method_parameter() const {

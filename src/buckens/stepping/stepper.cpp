@@ -460,7 +460,17 @@ SolveCounts Stepper::counts(std::size_t body) const {
   const FlexibleStep& step = *flexible_[body];
   const bool owns = has_own_operator_[body] != 0;
   const long solves = step.solves + (strand_ ? strand_->solves(body) : 0);
-  return {owns ? op.factorisations() : 0, solves, step.recycled, owns ? op.setup_solves() : 0};
+  return {owns ? op.factorisations() : 0,
+          solves,
+          step.recycled,
+          owns ? op.setup_solves() : 0,
+          step.iterations,
+          step.solve_seconds,
+          owns && op.iterates() ? op.factor_bytes() : 0.0};
+}
+
+std::string Stepper::why_solver(std::size_t body) const {
+  return operators_[body] ? operators_[body]->why_solver() : std::string();
 }
 
 }  // namespace buckens::stepping

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "buckens/base/task_pool.h"
@@ -22,9 +23,12 @@ class StrandStep;
 /// Large-solve counts of one body.
 struct SolveCounts {
   long factorisations = 0;
-  long solves = 0;        ///< inside steps
-  long recycled = 0;      ///< inside steps, combined from earlier solves
-  long setup_solves = 0;  ///< for interface columns
+  long solves = 0;           ///< inside steps
+  long recycled = 0;         ///< inside steps, combined from earlier solves
+  long setup_solves = 0;     ///< for interface columns
+  long iterations = 0;       ///< of the solves inside steps, where they iterate
+  double solve_seconds = 0;  ///< the same, wall time
+  double solver_bytes = 0;   ///< of a solver that iterates, with its matrix; the largest
 };
 
 /// Wall time of all steps so far, by phase [s].
@@ -72,6 +76,8 @@ class Stepper {
   /// end of the last step by a method that satisfies them there, with the terms of that step.
   bool has_balance(std::size_t body, const model::State& state,
                    const body::CouplingTerms& kept) const;
+  /// Why the solver of a body, chosen automatically, is what it is; empty if it was not.
+  std::string why_solver(std::size_t body) const;
   /// Lowest elastic frequency of a flexible body [rad/s], see lowest_frequency.h.
   double lowest_frequency(std::size_t body);
   const StepSeconds& seconds() const { return seconds_; }

@@ -129,6 +129,7 @@ void SimulationRun::set_up() {
   statistics_.emplace(built_);
   watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
   summary_.redundant_constraints = prepared_->redundant_text;
+  note_solvers();
   for (const std::string& text : prepared_->warnings) warn(text);
   for (const AssemblyMove& move : prepared_->moves) {
     if (!move.is_large) summary_.notes.push_back(move.text());
@@ -138,6 +139,16 @@ void SimulationRun::set_up() {
   for (const std::string& text : drives_->corners(spec_.duration)) warn(text);
   advise_on_step();
   watch_->start(march_->stepper(), prepared_->state);
+}
+
+/// How bodies are solved whose solver was left to the program.
+void SimulationRun::note_solvers() {
+  for (const model::WholeBody& whole : built_.model.wholes) {
+    const std::string why = march_->stepper().why_solver(static_cast<std::size_t>(whole.first));
+    if (why.empty()) continue;
+    summary_.notes.push_back(fmt::format("body \"{}\": `solver: auto` is {}", whole.name, why));
+    base::log(base::LogLevel::info, summary_.notes.back());
+  }
 }
 
 void SimulationRun::warn(const std::string& text) {

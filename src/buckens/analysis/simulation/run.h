@@ -69,6 +69,7 @@ class SimulationRun {
   void check_samples() const;
   void begin_march(double start);
   void set_up();
+  void note_solvers();
   void warn(const std::string& text);
   void advise_on_step();
   void advise(const std::string& body, const ExcitedBand& band);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/simulation/run_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -108,6 +109,8 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
   results::BodyEffort effort;
   effort.name = whole.name;
   const auto first = static_cast<std::size_t>(whole.first);
+  long iterations = 0;
+  double solve_seconds = 0, solver_bytes = 0;
   std::size_t bent = first;  // the part with the largest rotation
   DeformationMeasure deformation;
   std::size_t fast = first;  // the part that spins fastest relative to its lowest frequency
@@ -117,10 +120,19 @@ void RunStatistics::add_whole(const model::WholeBody& whole, const stepping::Ste
     effort.factorisations += counts.factorisations;
     effort.solves += counts.solves;
     effort.recycled += counts.recycled;
+    iterations += counts.iterations;
+    solve_seconds += counts.solve_seconds;
+    solver_bytes += counts.solver_bytes;
     summary.setup_solves += counts.setup_solves;
     if (deformation_[b].rotation > deformation_[bent].rotation) bent = b;
     deformation.include(deformation_[b]);
     if (spin_ratio(b) > spin_ratio(fast)) fast = b;
+  }
+  if (solver_bytes > 0.0 || iterations > 0) {  // no bytes: another body's solver serves this one
+    const auto solves = static_cast<double>(std::max(1L, effort.solves));
+    effort.measures.emplace_back("iterations_per_solve", static_cast<double>(iterations) / solves);
+    effort.measures.emplace_back("seconds_per_solve", solve_seconds / solves);
+    effort.measures.emplace_back("solver_bytes", solver_bytes);
   }
   if (whole.is_divided()) effort.measures.emplace_back("frames", whole.count);
   add_reduction(built_.model.bodies[first], effort);

@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/mesh_solver.h"
 
 namespace buckens::analysis {
 
@@ -131,7 +132,7 @@ void SystemPencil::factorise(double mu) {
     const fem::FeModel& fe = body.flexible->fe;
     const body::Sieve& sieve = body.flexible->sieve;
     try {
-      block.factor = linalg::make_cholesky(SparseMatrix(fe.K + mu * fe.M));
+      block.factor = body::solver_of(*body.flexible)(SparseMatrix(fe.K + mu * fe.M));
     } catch (const NumericalError& error) {
       throw NumericalError("body \"" + body.name + "\": " + error.text());
     }

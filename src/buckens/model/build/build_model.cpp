@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/usable_memory.h"
+#include "buckens/linalg/grid_library.h"
 #include "buckens/model/build/add_coupler.h"
 #include "buckens/model/build/add_distributed_load.h"
 #include "buckens/model/build/add_drives.h"
@@ -157,7 +159,7 @@ class Builder {
     auto mesh = std::make_shared<fem::FeModel>(assemble(*meshes_[w], model_.planar));
     MeshDivision division = divide_mesh(*meshes_[w], spec.frames);
     if (division.parts.size() == 1) return;
-    require_memory(division, usable_memory());
+    require_memory(division, base::usable_memory());
     whole.count = static_cast<int>(division.parts.size());
     whole.mesh = std::move(mesh);
     divisions_[w] = std::make_unique<MeshDivision>(std::move(division));
@@ -208,6 +210,18 @@ class Builder {
     }
   }
 
+  /// @throws InputError if it iterates and this installation cannot
+  static body::SolverChoice solver_of(const body::BodySpec& spec) {
+    body::SolverChoice choice = spec.solver.choice();
+    if (choice.kind != body::SolverKind::iterative) return choice;
+    const std::string missing = linalg::missing_grid_solver();
+    if (missing.empty()) return choice;
+    throw InputError(spec.where,
+                     fmt::format("body \"{}\": `solver: iterative` needs the multigrid solver of "
+                                 "PETSc: {}; or leave `solver` out",
+                                 spec.name, missing));
+  }
+
   /// Adds one body of the model: a rigid one, a mesh, or a part of a mesh.
   void add_part(const WholeBody& whole, int index, const body::BodySpec& spec,
                 const NamedStructure* mesh) {
@@ -241,6 +255,7 @@ class Builder {
       if (spec.geometric_stiffness) body.flexible->stiffen();
       eliminate_links(*mesh, body, model_.notes);
       if (has_links) refuse_mechanisms(body);
+      body.flexible->solver = solver_of(spec);
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,

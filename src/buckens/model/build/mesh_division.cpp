@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "buckens/base/errors.h"
 
@@ -42,11 +41,6 @@ void add_interface(const InterfaceRegion& interface,
 }
 
 }  // namespace
-
-double usable_memory() {
-  return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 double predicted_bytes(const MeshDivision& division) {
   std::vector<double> cut(division.parts.size(), 0.0);

@@ -27,9 +27,6 @@ double predicted_bytes(const MeshDivision& division);
 /// @throws ModelError if the prediction exceeds it, as for solids cut in many places
 void require_memory(const MeshDivision& division, double memory);
 
-/// Half of the memory of this machine [bytes].
-double usable_memory();
-
 /// @throws ModelError if there are more frames than elements, or links inside the mesh
 MeshDivision divide_mesh(const NamedStructure& whole, const body::FrameDivision& frames);
 

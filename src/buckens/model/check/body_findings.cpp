@@ -113,6 +113,15 @@ Found problem(const body::CouplingSpec& spec, const ModelDescription&) {
   return std::nullopt;
 }
 
+Found problem(const body::SolverSpec& spec, const ModelDescription&) {
+  if (spec.petsc.empty() || spec.choice().kind == body::SolverKind::iterative ||
+      spec.choice().kind == body::SolverKind::automatic) {
+    return std::nullopt;
+  }
+  return Finding{"petsc",
+                 "`direct` solves without PETSc; remove its options, or write `kind: iterative`"};
+}
+
 Found problem(const body::OrientationSpec& spec, const ModelDescription&) {
   if (spec.axis.has_value() != spec.angle.has_value()) {
     return Finding{spec.axis ? "axis" : "angle", "\"axis\" and \"angle\" belong together"};
@@ -158,6 +167,27 @@ Found matrices_problem(const body::BodySpec& spec, const fem::MatricesSpec& matr
   return std::nullopt;
 }
 
+/// Bodies without large systems of their own.
+Found solver_problem(const body::BodySpec& spec) {
+  const body::SolverKind kind = spec.solver.choice().kind;
+  if (kind == body::SolverKind::direct) return std::nullopt;
+  if (spec.is_rigid()) {
+    return Finding{"solver", "a rigid body has no equations to solve; remove the key"};
+  }
+  if (kind == body::SolverKind::automatic) return std::nullopt;
+  if (!spec.reduction.is_none() || spec.flexibility == body::Flexibility::quasi_static) {
+    return Finding{"solver",
+                   "a reduced or quasi-static body has a diagonal matrix, and its shapes come from "
+                   "a factor of the mesh; write `solver: direct`, or keep the full mesh"};
+  }
+  if (!spec.frames.is_one()) {
+    return Finding{"solver",
+                   "the parts of a body with several frames are solved by factors; write `solver: "
+                   "direct`, or `frames: 1`"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Found problem(const body::BodySpec& spec, const ModelDescription&) {
@@ -167,6 +197,7 @@ Found problem(const body::BodySpec& spec, const ModelDescription&) {
   if (const auto conflict = body::reduction_conflict(spec)) {
     return Finding{conflict->key, conflict->text};
   }
+  if (Found found = solver_problem(spec)) return found;
   if (spec.is_rigid() && !spec.frames.is_one()) {
     return Finding{"frames", "a rigid body has one frame; remove the key \"frames\""};
   }

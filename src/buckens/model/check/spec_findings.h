@@ -43,6 +43,7 @@ Found problem(const fem::CylinderSelection& spec, const ModelDescription& model)
 Found problem(const fem::PlaneSelection& spec, const ModelDescription& model);
 Found problem(const body::OrientationSpec& spec, const ModelDescription& model);
 Found problem(const body::CouplingSpec& spec, const ModelDescription& model);
+Found problem(const body::SolverSpec& spec, const ModelDescription& model);
 Found problem(const body::MarkerSpec& spec, const ModelDescription& model);
 Found problem(const body::RigidSpec& spec, const ModelDescription& model);
 Found problem(const body::BodySpec& spec, const ModelDescription& model);

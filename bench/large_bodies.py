@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cubes of solids solved by a factor and by iteration: memory, time, and from how many steps on the factor pays.
+
+    bench/large_bodies.py PROGRAM --sides 15 20 25 --into docs/developers/large_bodies.json
+    bench/large_bodies.py --draw docs/pictures/large_break_even.png --into docs/developers/large_bodies.json
+
+Each cube is run twice, with few and with more steps; what they differ by are steps, the rest is set-up. Times are processor times, which
+other programs disturb less than wall times. Runs are added to the file.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+import numpy
+
+MODEL = """\
+buckens: 1
+title: A cube of steel on a ball joint
+gravity: [0, 0, -9.81 m/s^2]
+materials: {{steel: {{E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3}}}}
+bodies:
+  cube:
+    at: {{position: [0, -0.05 m, -0.05 m]}}
+    mesh: {{box: {{size: [0.1 m, 0.1 m, 0.1 m], divisions: [{side}, {side}, {side}], element: hex8}}, material: steel}}
+    interfaces: {{bearing: {{face: x0}}}}
+    solver: {solver}
+joints: {{ball: {{spherical: {{between: [ground, cube/bearing]}}}}}}
+simulation: {{duration: {steps}00 us, step: 0.1 ms}}
+output: {{every: 0.1 ms, sensors: {{corner: {{position: cube/corner_111}}, bearing: {{joint-force: ball}}}}}}
+"""
+
+
+def run(program, side, solver, steps):
+    """Summary of one run, its processor time and its peak of memory."""
+    with tempfile.TemporaryDirectory() as folder:
+        model = pathlib.Path(folder) / "cube.yaml"
+        model.write_text(MODEL.format(side=side, solver=solver, steps=steps))
+        out = pathlib.Path(folder) / "out"
+        process = subprocess.Popen([program, "run", model, "-o", out, "--quiet"])
+        _, status, usage = os.wait4(process.pid, 0)
+        if status != 0:
+            raise SystemExit(f"{side}, {solver}: the program ended with {os.waitstatus_to_exitcode(status)}")
+        return json.loads((out / "summary.json").read_text()), usage.ru_utime + usage.ru_stime, 1024 * usage.ru_maxrss
+
+
+def measure(program, side, solver, steps):
+    few = max(1, steps // 10)
+    _, short, _ = run(program, side, solver, few)
+    summary, long, peak = run(program, side, solver, few + steps)
+    body = summary["bodies"]["cube"]
+    per_step = (long - short) / steps
+    return {"side": side, "variables": body["dof"], "solver": solver, "steps": steps,
+            "setup_seconds": short - few * per_step, "step_seconds": per_step,
+            "solves_per_step": body["solves"] / summary["steps"], "setup_solves": summary["setup_solves"],
+            "iterations_per_solve": body.get("iterations_per_solve", 0), "peak_bytes": peak,
+            "load": os.getloadavg()[0], "date": datetime.datetime.now().strftime("%Y-%m-%d")}
+
+
+def break_even(direct, iterative):
+    """Steps from which on the factor takes less time, set-up included; 0 if it always does."""
+    more = direct["setup_seconds"] - iterative["setup_seconds"]
+    return max(0.0, more / (iterative["step_seconds"] - direct["step_seconds"]))
+
+
+def draw(rows, file):
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    by_solver = {name: sorted((r for r in rows if r["solver"] == name), key=lambda r: r["variables"])
+                 for name in ("direct", "iterative")}
+    figure, (memory, time, steps) = pyplot.subplots(1, 3, figsize=(11, 3.6), constrained_layout=True)
+    n = numpy.logspace(4, 6.6, 50)
+    for name, power, colour in (("direct", 4 / 3, "tab:blue"), ("iterative", 1, "tab:orange")):
+        measured = by_solver[name]
+        x = numpy.array([r["variables"] for r in measured])
+        for axis, values, law in ((memory, [r["peak_bytes"] / 1e9 for r in measured], power),
+                                  (time, [r["step_seconds"] for r in measured], power)):
+            axis.loglog(x, values, "o", color=colour, label=name)
+            last = values[-1] / x[-1] ** law
+            axis.loglog(n, last * n ** law, "--", color=colour, linewidth=0.8)
+    memory.axhline(24, color="grey", linewidth=0.8)
+    memory.text(1.1e4, 26, "24 GB")
+    memory.set_ylabel("peak memory [GB]")
+    time.set_ylabel("processor time per step [s]")
+    direct = {r["variables"]: r for r in by_solver["direct"]}
+    both = [(r["variables"], break_even(direct[r["variables"]], r))
+            for r in by_solver["iterative"] if r["variables"] in direct]
+    steps.semilogx(*zip(*both), "ko-")
+    steps.set_ylabel("steps from which the factor is quicker")
+    steps.set_ylim(bottom=0)
+    for axis in (memory, time, steps):
+        axis.set_xlabel("nodal variables")
+        axis.grid(True, which="major", linewidth=0.3)
+    memory.legend()
+    figure.suptitle("Cubes of hex8 solids: dots measured, dashed lines laws n$^{4/3}$ and n through the last one")
+    figure.savefig(file, dpi=110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", help="buckens, built with BUCKENS_PETSC=ON")
+    parser.add_argument("--sides", type=int, nargs="*", default=[15, 20, 25, 31], help="elements along an edge")
+    parser.add_argument("--solvers", nargs="*", default=["direct", "iterative"])
+    parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--into", type=pathlib.Path, required=True, help="file with the figures")
+    parser.add_argument("--draw", type=pathlib.Path, help="picture of the figures")
+    arguments = parser.parse_args()
+    rows = json.loads(arguments.into.read_text()) if arguments.into.exists() else []
+    if arguments.program:
+        for side in arguments.sides:
+            for solver in arguments.solvers:
+                row = measure(arguments.program, side, solver, arguments.steps)
+                rows = [r for r in rows if (r["side"], r["solver"]) != (side, solver)] + [row]
+                rows.sort(key=lambda r: (r["solver"], r["variables"]))
+                arguments.into.write_text(json.dumps(rows, indent=1) + "\n")
+                print(json.dumps(row))
+    if arguments.draw:
+        draw(rows, arguments.draw)
+
+
+if __name__ == "__main__":
+    main()

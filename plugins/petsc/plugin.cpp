@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Buckens asks of this plug-in, in C.
+//
+// PETSc brings MPI and libraries under the GPL into the process: so it is loaded by those runs only
+// that ask for it, and nothing else links it.
+#include <cstdio>
+
+#include "ranks.h"
+#include "solver.h"
+
+namespace {
+
+using namespace buckens_petsc;
+
+/// A solver of this process, or the number of one that all processes share.
+struct Handle {
+  Solver own;
+  int number = -1;
+};
+
+/// Null in a process by itself.
+Ranks* ranks() {
+  Ranks* joined = Ranks::joined();
+  return joined != nullptr && joined->count() > 1 ? joined : nullptr;
+}
+
+const char* plugin_name() {
+  static char text[64];
+  std::snprintf(text, sizeof text, "PETSc %d.%d.%d", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
+                PETSC_VERSION_SUBMINOR);
+  return text;
+}
+
+bool make(const BuckensGridMatrix& matrix, Handle& handle) {
+  if (ranks() != nullptr) {
+    handle.number = ranks()->make(matrix);
+    return handle.number >= 0;
+  }
+  if (start_petsc() != 0) return false;
+  const KeptErrors errors;
+  const Rows rows{matrix.size,  matrix.size,        matrix.starts,  matrix.rows, matrix.values,
+                  matrix.block, matrix.num_motions, matrix.motions, matrix.size, matrix.options};
+  return make_solver(PETSC_COMM_SELF, rows, handle.own) == 0;
+}
+
+void* plugin_make(const BuckensGridMatrix* matrix, char* error, int error_size) {
+  auto* handle = new Handle;
+  if (make(*matrix, *handle)) return handle;
+  fail(error, error_size);
+  delete handle;
+  return nullptr;
+}
+
+int plugin_solve(void* solver, const double* b, double* x, const BuckensGridLimits* limits,
+                 BuckensGridOutcome* outcome, char* error, int error_size) {
+  auto& handle = *static_cast<Handle*>(solver);
+  if (handle.number >= 0) {
+    const bool is_solved = ranks()->solve(handle.number, b, x, *limits, *outcome);
+    return is_solved ? 0 : fail(error, error_size);
+  }
+  const KeptErrors errors;
+  return solve(handle.own, b, x, *limits, *outcome) == 0 ? 0 : fail(error, error_size);
+}
+
+double plugin_bytes(void* solver) {
+  const auto& handle = *static_cast<Handle*>(solver);
+  const KeptErrors errors;
+  return handle.number >= 0 ? ranks()->bytes(handle.number) : bytes_of(handle.own);
+}
+
+void plugin_release(void* solver) {
+  auto* handle = static_cast<Handle*>(solver);
+  if (handle->number >= 0 && ranks() != nullptr) ranks()->release(handle->number);
+  delete handle;
+}
+
+void plugin_join(int* rank, int* count) {
+  *rank = Ranks::join().rank();
+  *count = Ranks::join().count();
+}
+
+void plugin_serve() { Ranks::join().serve(); }
+
+void plugin_leave() { Ranks::join().leave(); }
+
+const BuckensGridPlugin plugin = {kBuckensGridVersion, plugin_name,  plugin_make,
+                                  plugin_solve,        plugin_bytes, plugin_release,
+                                  plugin_join,         plugin_serve, plugin_leave};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const BuckensGridPlugin* buckens_grid_plugin() {
+  return &plugin;
+}

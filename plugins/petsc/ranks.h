@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "solver.h"
+
+namespace buckens_petsc {
+
+/// The processes that mpirun started, of which the first simulates and the others serve its solves:
+/// they hold runs of rows of each matrix and of its factor, and wait for work.
+///
+/// The first process says what is to be done (Order), then all do it together.
+class Ranks {
+ public:
+  /// Begins MPI. Once, before anything else of PETSc.
+  static Ranks& join();
+  /// The one that join() made; null before.
+  static Ranks* joined();
+
+  int rank() const { return rank_; }
+  int count() const { return count_; }
+
+  /// Of the others: does what the first says until that leaves.
+  void serve();
+  /// Of the first: lets the others end, and ends MPI.
+  void leave();
+
+  /// Of the first, with a whole matrix: a solver that all have a part of.
+  /// @return number of the solver, −1 after an error, which take_reason() tells
+  int make(const BuckensGridMatrix& matrix);
+  /// @return whether it was possible; otherwise take_reason() tells why not
+  bool solve(int number, const double* b, double* x, const BuckensGridLimits& limits,
+             BuckensGridOutcome& outcome);
+  double bytes(int number);
+  void release(int number);
+
+ private:
+  struct Order;
+  struct Part;
+  struct Shared;
+  struct OwnRows;
+
+  Ranks();
+  void give(const Order& order);
+  Order wait_for_order();
+  void send_rows(const Part& part, const BuckensGridMatrix& matrix);
+  void receive_rows(int count, int num_motions, OwnRows& own);
+  bool make_together(const Order& order, const BuckensGridMatrix* matrix);
+  bool solve_together(const Order& order, const double* b, double* x, BuckensGridOutcome& outcome);
+  bool has_failed_somewhere(bool has_failed);
+
+  MPI_Comm orders_ = MPI_COMM_NULL, work_ = MPI_COMM_NULL;
+  int rank_ = 0, count_ = 1;
+  int next_ = 0;
+  std::unique_ptr<Shared> shared_;
+};
+
+}  // namespace buckens_petsc

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conjugate gradients with PETSc's smoothed-aggregation multigrid (GAMG), or what options of PETSc
+// say: MUMPS, hypre, …
+#include "solver.h"
+
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+namespace buckens_petsc {
+
+namespace {
+
+std::string reason;  // of the last error; one thread calls at a time
+
+PetscErrorCode note_error(MPI_Comm /*comm*/, int line, const char* function, const char* /*file*/,
+                          PetscErrorCode code, PetscErrorType type, const char* text,
+                          void* /*context*/) {
+  if (type == PETSC_ERROR_INITIAL) {
+    reason = std::string(function == nullptr ? "PETSc" : function) + ", line " +
+             std::to_string(line) + ": " + (text == nullptr ? "error" : text);
+  }
+  return code;
+}
+
+PetscErrorCode has_converged(KSP, PetscInt iteration, PetscReal norm, KSPConvergedReason* verdict,
+                             void* context) {
+  auto& solver = *static_cast<Solver*>(context);
+  PetscFunctionBeginUser;
+  *verdict = KSP_CONVERGED_ITERATING;
+  if (iteration == 0) solver.first = norm;
+  solver.last = norm;
+  const double limit =
+      PetscMin(PetscMax(solver.limits.absolute, solver.limits.least * solver.first),
+               solver.limits.most * solver.first);
+  if (PetscIsInfOrNanReal(norm)) {
+    *verdict = KSP_DIVERGED_NANORINF;
+  } else if (norm <= limit) {
+    *verdict = KSP_CONVERGED_RTOL;
+  }
+  PetscFunctionReturn(0);
+}
+
+/// Those of this plug-in, then the user's, which override them. None of other solvers or of the
+/// environment.
+PetscErrorCode set_options(const char* of_user, PetscOptions options) {
+  PetscFunctionBeginUser;
+  const char* const values[][2] = {
+      {"-pc_gamg_type", "agg"},
+      {"-pc_gamg_agg_nsmooths", "1"},
+      {"-pc_gamg_threshold", "0.0"},
+      {"-pc_gamg_coarse_eq_limit", "1000"},
+      {"-mg_levels_ksp_type", "chebyshev"},
+      {"-mg_levels_ksp_max_it", "2"},
+      {"-mg_levels_pc_type", "jacobi"},
+      {"-mg_levels_esteig_ksp_type", "cg"},
+      {"-mg_levels_esteig_ksp_max_it", "10"},
+  };
+  for (const auto& option : values) PetscCall(PetscOptionsSetValue(options, option[0], option[1]));
+  if (of_user != nullptr) PetscCall(PetscOptionsInsertString(options, of_user));
+  PetscFunctionReturn(0);
+}
+
+/// Whether a text of options contains a name, with the dash.
+bool has_option(const std::string& text, const std::string& name) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == name) return true;
+  }
+  return false;
+}
+
+/// PETSc itself passes over options that nothing has asked for.
+PetscErrorCode refuse_unknown(const char* of_user, PetscOptions options) {
+  PetscInt count = 0;
+  char** names = nullptr;
+  char** values = nullptr;
+  std::string unknown;
+  PetscFunctionBeginUser;
+  if (of_user == nullptr) PetscFunctionReturn(0);
+  PetscCall(PetscOptionsLeftGet(options, &count, &names, &values));
+  for (PetscInt k = 0; k < count; ++k) {
+    const std::string name = std::string("-") + names[k];
+    if (has_option(of_user, name)) unknown += (unknown.empty() ? "" : ", ") + name;
+  }
+  PetscCall(PetscOptionsLeftRestore(options, &count, &names, &values));
+  if (unknown.empty()) PetscFunctionReturn(0);
+  reason = "PETSc has no use for the option " + unknown;
+  PetscFunctionReturn(PETSC_ERR_USER_INPUT);
+}
+
+PetscErrorCode set_motions(const Rows& rows, Mat matrix) {
+  PetscFunctionBeginUser;
+  if (rows.num_motions == 0) PetscFunctionReturn(0);
+  Vec motions[6] = {};
+  const int count = rows.num_motions < 6 ? rows.num_motions : 6;
+  for (int k = 0; k < count; ++k) {
+    PetscCall(MatCreateVecs(matrix, &motions[k], nullptr));
+    PetscScalar* values = nullptr;
+    PetscCall(VecGetArrayWrite(motions[k], &values));
+    if (rows.count > 0) {
+      std::memcpy(values, rows.motions + static_cast<std::size_t>(k) * rows.stride,
+                  static_cast<std::size_t>(rows.count) * sizeof(double));
+    }
+    PetscCall(VecRestoreArrayWrite(motions[k], &values));
+  }
+  for (int k = 0; k < count; ++k) {  // orthonormal, as PETSc asks
+    for (int twice = 0; twice < 2; ++twice) {
+      for (int other = 0; other < k; ++other) {
+        PetscScalar product = 0;
+        PetscCall(VecDot(motions[k], motions[other], &product));
+        PetscCall(VecAXPY(motions[k], -product, motions[other]));
+      }
+    }
+    PetscCall(VecNormalize(motions[k], nullptr));
+  }
+  MatNullSpace space = nullptr;
+  PetscCall(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), PETSC_FALSE,
+                               count, motions, &space));
+  PetscCall(MatSetNearNullSpace(matrix, space));
+  PetscCall(MatNullSpaceDestroy(&space));
+  for (int k = 0; k < count; ++k) PetscCall(VecDestroy(&motions[k]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode take_matrix(MPI_Comm comm, const Rows& rows, Mat* matrix) {
+  int processes = 1;
+  PetscFunctionBeginUser;
+  MPI_Comm_size(comm, &processes);
+  if (processes == 1) {
+    // Columns of a symmetric matrix are its rows; PETSc does not write into them.
+    PetscCall(MatCreateSeqAIJWithArrays(comm, rows.size, rows.size, const_cast<int*>(rows.starts),
+                                        const_cast<int*>(rows.columns),
+                                        const_cast<double*>(rows.values), matrix));
+  } else {
+    PetscCall(MatCreateMPIAIJWithArrays(comm, rows.count, rows.count, rows.size, rows.size,
+                                        rows.starts, rows.columns, rows.values, matrix));
+  }
+  PetscCall(MatSetBlockSize(*matrix, rows.block));
+  PetscCall(MatSetOption(*matrix, MAT_SPD, PETSC_TRUE));
+  PetscCall(MatSetOption(*matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode set_up(MPI_Comm comm, Solver& solver) {
+  PC preconditioner = nullptr;
+  PCFailedReason failure = PC_NOERROR;
+  PetscBool is_direct = PETSC_FALSE;
+  PetscFunctionBeginUser;
+  PetscCall(KSPCreate(comm, &solver.iteration));
+  PetscCall(KSPSetOperators(solver.iteration, solver.matrix, solver.matrix));
+  PetscCall(KSPSetType(solver.iteration, KSPCG));
+  PetscCall(KSPSetNormType(solver.iteration, KSP_NORM_NATURAL));
+  PetscCall(KSPGetPC(solver.iteration, &preconditioner));
+  PetscCall(PCSetType(preconditioner, PCGAMG));
+  PetscCall(KSPSetFromOptions(solver.iteration));
+  PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(solver.iteration), KSPPREONLY,
+                                   &is_direct));
+  solver.is_direct = is_direct == PETSC_TRUE;
+  if (solver.is_direct) {
+    PetscCall(KSPSetNormType(solver.iteration, KSP_NORM_NONE));
+  } else {
+    PetscCall(KSPSetInitialGuessNonzero(solver.iteration, PETSC_TRUE));
+    PetscCall(KSPSetConvergenceTest(solver.iteration, has_converged, &solver, nullptr));
+  }
+  PetscCall(KSPSetUp(solver.iteration));
+  PetscCall(KSPSetUpOnBlocks(solver.iteration));
+  PetscCall(PCGetFailedReason(preconditioner, &failure));
+  if (failure == PC_NOERROR) PetscFunctionReturn(0);
+  reason = failure == PC_FACTOR_OUTMEMORY
+               ? "there is too little memory for the factor"
+               : "its factor cannot be computed: the matrix is not positive definite";
+  PetscFunctionReturn(PETSC_ERR_MAT_LU_ZRPVT);
+}
+
+PetscErrorCode make(MPI_Comm comm, const Rows& rows, Solver& solver) {
+  PetscFunctionBeginUser;
+  PetscCall(take_matrix(comm, rows, &solver.matrix));
+  PetscCall(set_motions(rows, solver.matrix));
+  PetscCall(MatCreateVecs(solver.matrix, &solver.x, &solver.b));
+  PetscCall(set_up(comm, solver));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+Solver::~Solver() {
+  (void)KSPDestroy(&iteration);
+  (void)VecDestroy(&b);
+  (void)VecDestroy(&x);
+  (void)MatDestroy(&matrix);
+  (void)PetscOptionsDestroy(&options);
+}
+
+PetscErrorCode make_solver(MPI_Comm comm, const Rows& rows, Solver& solver) {
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsCreate(&solver.options));
+  PetscCall(set_options(rows.options, solver.options));
+  // In place of those of the process.
+  PetscCall(PetscOptionsPush(solver.options));
+  const PetscErrorCode failure = make(comm, rows, solver);
+  PetscCall(PetscOptionsPop());
+  if (failure != 0) PetscFunctionReturn(failure);
+  PetscCall(refuse_unknown(rows.options, solver.options));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode solve(Solver& solver, const double* b, double* x, const BuckensGridLimits& limits,
+                     BuckensGridOutcome& outcome) {
+  PetscFunctionBeginUser;
+  solver.limits = limits;
+  solver.first = solver.last = 0;
+  PetscCall(KSPSetTolerances(solver.iteration, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
+                             limits.most_iterations));
+  PetscCall(VecPlaceArray(solver.b, b));
+  PetscCall(VecPlaceArray(solver.x, x));
+  PetscCall(KSPSolve(solver.iteration, solver.b, solver.x));
+  PetscCall(VecResetArray(solver.b));
+  PetscCall(VecResetArray(solver.x));
+  KSPConvergedReason verdict = KSP_CONVERGED_ITERATING;
+  PetscInt iterations = 0;
+  PetscCall(KSPGetConvergedReason(solver.iteration, &verdict));
+  PetscCall(KSPGetIterationNumber(solver.iteration, &iterations));
+  outcome = {static_cast<int>(iterations), solver.first, solver.last, verdict > 0 ? 1 : 0};
+  PetscFunctionReturn(0);
+}
+
+double bytes_of(const Solver& solver) {
+  PC preconditioner = nullptr;
+  PetscBool is_grid = PETSC_FALSE;
+  MatInfo info;
+  if (KSPGetPC(solver.iteration, &preconditioner) != 0) return 0;
+  (void)PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_grid, PCMG,
+                                  PCGAMG, "");
+  if (is_grid == PETSC_TRUE) {
+    PetscReal operators = 1;
+    PetscReal grids = 1;
+    if (PCMGGetGridComplexity(preconditioner, &grids, &operators) != 0) return 0;
+    if (MatGetInfo(solver.matrix, MAT_GLOBAL_SUM, &info) != 0) return 0;
+    return (operators - 1) * info.nz_used * 12.0;
+  }
+  Mat factor = nullptr;
+  if (!solver.is_direct || PCFactorGetMatrix(preconditioner, &factor) != 0) return 0;
+  if (factor == nullptr || MatGetInfo(factor, MAT_GLOBAL_SUM, &info) != 0) return 0;
+  return info.nz_used * 8.0;
+}
+
+PetscErrorCode start_petsc() {
+  PetscBool is_running = PETSC_FALSE;
+  PetscFunctionBeginUser;
+  PetscCall(PetscInitialized(&is_running));
+  if (!is_running) {
+    // Interrupts and crashes are the program's business, not PETSc's.
+    PetscCall(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
+    PetscCall(PetscInitializeNoArguments());
+  }
+  PetscFunctionReturn(0);
+}
+
+KeptErrors::KeptErrors() {
+  reason.clear();
+  (void)PetscPushErrorHandler(note_error, nullptr);
+}
+KeptErrors::~KeptErrors() { (void)PetscPopErrorHandler(); }
+
+std::string take_reason() {
+  std::string out = reason.empty() ? "unknown error of PETSc" : reason;
+  reason.clear();
+  return out;
+}
+
+void set_reason(const std::string& text) { reason = text; }
+
+int fail(char* error, int size) {
+  std::snprintf(error, static_cast<std::size_t>(size), "%s", take_reason().c_str());
+  return 1;
+}
+
+}  // namespace buckens_petsc

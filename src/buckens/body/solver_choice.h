@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace buckens::body {
+
+enum class SolverKind { direct, iterative, automatic };
+
+/// How the large systems of a mesh are to be solved.
+struct SolverChoice {
+  SolverKind kind = SolverKind::direct;
+  std::string petsc;  ///< options of PETSc; empty: those of linalg::IterativeSolver
+
+  bool operator==(const SolverChoice&) const = default;
+};
+
+}  // namespace buckens::body

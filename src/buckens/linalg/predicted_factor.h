@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// Memory of the Cholesky factor of a matrix, found from the pattern of its entries.
+struct PredictedFactor {
+  double bytes = 0;  ///< of the factor
+  double peak = 0;   ///< with the fronts that are still needed while it is computed
+};
+
+/// @param A symmetric, both triangles stored; the values are not read. Takes a tenth of the time
+/// of the factor, or less.
+PredictedFactor predict_factor(const SparseMatrix& A);
+
+/// Bytes that no factor of a matrix of this size exceeds: those of a full triangle.
+double most_factor_bytes(Eigen::Index size);
+
+}  // namespace buckens::linalg

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/ranks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/linalg/factor_work.h"
+#include "buckens/linalg/finite_matrix.h"
+#include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/single_thread.h"
+#include "buckens/linalg/sparse_cholesky.h"
+
+namespace buckens::linalg {
+
+namespace {
+
+// Smaller factors are solved faster than vectors are sent.
+constexpr Eigen::Index kWorthSharing = 20000;
+constexpr const char* kMumps =
+    "-ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps";
+
+int count_of_ranks = 1;
+
+std::optional<int> number_in_environment(const char* name) {
+  const char* text = std::getenv(name);
+  if (text == nullptr || *text == '\0') return std::nullopt;
+  return std::atoi(text);
+}
+
+class SharedFactor final : public Factor {
+ public:
+  explicit SharedFactor(const SparseMatrix& A) : size_(A.rows()), plugin_(grid_solver()) {
+    require_finite(A);
+    FactorWork work(size_);
+    const BuckensGridMatrix matrix{static_cast<int>(size_),
+                                   A.outerIndexPtr(),
+                                   A.innerIndexPtr(),
+                                   A.valuePtr(),
+                                   1,
+                                   0,
+                                   nullptr,
+                                   kMumps};
+    std::array<char, 400> error{};
+    {
+      const std::scoped_lock lock(turn_of_grid_solver());
+      const SingleThread single;
+      handle_ = plugin_.make(&matrix, error.data(), static_cast<int>(error.size()));
+    }
+    if (handle_ == nullptr) {
+      throw NumericalError(
+          fmt::format("the factor of {} equations on {} processes failed: {}; check the mesh, or "
+                      "use more memory",
+                      size_, count_of_ranks, error.data()));
+    }
+    const std::scoped_lock lock(turn_of_grid_solver());
+    bytes_ = plugin_.bytes(handle_);
+  }
+  ~SharedFactor() override {
+    const std::scoped_lock lock(turn_of_grid_solver());
+    plugin_.release(handle_);
+  }
+  SharedFactor(const SharedFactor&) = delete;
+  SharedFactor& operator=(const SharedFactor&) = delete;
+
+  Eigen::Index size() const override { return size_; }
+  double num_factor_entries() const override { return bytes_ / sizeof(double); }
+  double bytes() const override { return bytes_; }
+
+  using Factor::solve;
+  using Factor::solve_in_place;
+  void solve(const double* B, double* X, Eigen::Index columns, TaskPool* /*pool*/) const override {
+    for (Eigen::Index k = 0; k < columns; ++k) solve_one(B + k * size_, X + k * size_);
+  }
+  void solve_in_place(std::span<double* const> vectors, TaskPool* /*pool*/) const override {
+    for (double* x : vectors) solve_one(x, x);
+  }
+
+ private:
+  void solve_one(const double* b, double* x) const {
+    const BuckensGridLimits limits{0, 0, 0, 1};
+    BuckensGridOutcome outcome{};
+    std::array<char, 400> error{};
+    const std::scoped_lock lock(turn_of_grid_solver());
+    const SingleThread single;
+    const int failure = plugin_.solve(handle_, b, x, &limits, &outcome, error.data(),
+                                      static_cast<int>(error.size()));
+    if (failure == 0 && outcome.has_converged != 0) return;
+    throw NumericalError(
+        fmt::format("a solve of {} equations on {} processes failed: {}; run it in "
+                    "one process",
+                    size_, count_of_ranks, error.data()));
+  }
+
+  Eigen::Index size_;
+  const BuckensGridPlugin& plugin_;
+  void* handle_ = nullptr;
+  double bytes_ = 0;
+};
+
+}  // namespace
+
+StartedProcesses started_processes() {
+  struct Names {
+    const char *rank, *count, *on_machine;
+  };
+  for (const Names& names :
+       {Names{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_LOCAL_RANK"},
+        Names{"PMI_RANK", "PMI_SIZE", "MPI_LOCALRANKID"}}) {
+    const std::optional<int> rank = number_in_environment(names.rank);
+    const std::optional<int> count = number_in_environment(names.count);
+    if (!rank || !count || *count < 1) continue;
+    return {*rank, *count, number_in_environment(names.on_machine).value_or(*rank)};
+  }
+  return {};
+}
+
+Ranks::Ranks() {
+  const BuckensGridPlugin& plugin = grid_solver();
+  int count = 1;
+  plugin.join(&rank_, &count);
+  count_of_ranks = count;
+}
+
+Ranks::~Ranks() {
+  if (is_first()) grid_solver().leave();
+  count_of_ranks = 1;
+}
+
+void Ranks::serve() {
+  const SingleThread single;
+  grid_solver().serve();
+}
+
+int Ranks::count() { return count_of_ranks; }
+
+std::shared_ptr<const Factor> make_shared_factor(const SparseMatrix& A) {
+  return std::make_shared<const SharedFactor>(A);
+}
+
+std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A) {
+  if (Ranks::count() > 1 && A.rows() >= kWorthSharing) return make_shared_factor(A);
+  return make_cholesky(A);
+}
+
+}  // namespace buckens::linalg

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs over several processes (mpirun): results of one process, one error message, no hang.
+
+Without the plug-in (build option BUCKENS_MPI) or without mpirun only the message of that is tested.
+"""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy
+import pytest
+
+from conftest import MODELS, PROGRAM
+
+from test_solver import ITERATE, largest_difference, missing, sensors
+
+MPIRUN = shutil.which("mpirun")
+# As root and with more processes than cores: what a container of a CI has.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+BLOCKS = MODELS / "large_block.yaml"
+MUMPS = "{petsc: \"-ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps\"}"
+DISTRIBUTED = ("--set", f"bodies.block.solver={MUMPS}", "--set", f"bodies.arm.solver={MUMPS}")
+
+CUBE = """\
+buckens: 1
+title: A cube large enough to be distributed
+gravity: [0, -9.81, 0]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies:
+  cube:
+    at: {position: [0, -0.05, -0.05]}
+    mesh: {box: {size: [0.1, 0.1, 0.1], divisions: [18, 18, 18], element: hex8}, material: steel}
+    interfaces: {bearing: {face: x0}}
+joints: {ball: {spherical: {between: [ground, cube/bearing]}}}
+simulation: {duration: 0.5 ms, step: 0.1 ms}
+output: {every: 0.1 ms, sensors: {force: {joint-force: ball}, corner: {position: cube/corner_111}}}
+"""
+
+several = pytest.mark.skipif(missing() or MPIRUN is None, reason="built without BUCKENS_MPI, or no mpirun")
+
+
+@pytest.fixture
+def mpirun(tmp_path):
+    """Runs the program in several processes; a hang is a failure."""
+
+    def call(count, *arguments, timeout=240, environment=None):
+        command = [MPIRUN, "-n", str(count), PROGRAM, *map(str, arguments)]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=timeout, check=False,
+                              env={**ENVIRONMENT, **(environment or {})}, stdin=subprocess.DEVNULL)
+
+    return call
+
+
+def must(result, code=0):
+    assert result.returncode == code, f"exit code {result.returncode}\n{result.stdout}\n{result.stderr}"
+    return result
+
+
+@several
+@pytest.mark.parametrize("count", [2, 3])
+def test_a_large_body_is_distributed(buckens, mpirun, tmp_path, count):
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    buckens("run", "cube.yaml", "-o", "one").must(0)
+    must(mpirun(count, "run", "cube.yaml", "-o", "several"))
+    assert largest_difference(sensors(tmp_path / "several"), sensors(tmp_path / "one")) < 1e-9
+    with h5py.File(tmp_path / "one" / "results.h5") as one, h5py.File(tmp_path / "several" / "results.h5") as several_:
+        names = []
+        one.visit(names.append)
+        others = []
+        several_.visit(others.append)
+        assert names == others
+
+
+@several
+@pytest.mark.parametrize("coupling", ["full", "first-order", "none"])
+@pytest.mark.parametrize("options", [DISTRIBUTED, ITERATE])
+def test_results_are_those_of_one_process(buckens, mpirun, tmp_path, coupling, options):
+    couple = ("--set", f"bodies.block.coupling={coupling}", "--set", f"bodies.arm.coupling={coupling}")
+    buckens("run", BLOCKS, "-o", "one", *couple).must(0)
+    must(mpirun(2, "run", BLOCKS, "-o", "two", *couple, *options))
+    limit = 1e-9 if options is DISTRIBUTED else 1e-8
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < limit
+
+
+MESHES = {
+    "tet10": "bodies.block.mesh.box.element=tet10",
+    "reduction": "bodies.arm.reduction={craig-bampton: 6}",
+    "frames": "bodies.arm.frames=3",
+}
+
+
+@several
+@pytest.mark.parametrize("name", MESHES)
+def test_other_kinds_of_bodies(buckens, mpirun, tmp_path, name):
+    change = ("--set", MESHES[name], "--set", "simulation.duration=20 ms")
+    buckens("run", BLOCKS, "-o", "one", *change).must(0)
+    must(mpirun(2, "run", BLOCKS, "-o", "two", *change, *DISTRIBUTED[:2]))
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+
+
+@several
+def test_modes(buckens, mpirun):
+    def frequencies(result):
+        return [line.split()[1] for line in result.splitlines() if line.strip()[:1].isdigit()]
+
+    arguments = ("modes", BLOCKS, "--count", 4, "--method", "subspace")
+    one = frequencies(buckens(*arguments).must(0).out)
+    assert len(one) == 8
+    assert frequencies(must(mpirun(2, *arguments, *DISTRIBUTED)).stdout) == one
+
+
+@several
+def test_an_error_is_told_once(mpirun):
+    for arguments, words in [
+        (("run", BLOCKS, "--set", "bodies.block.solver={petsc: \"-pc_gamg_treshold 0.1\"}"), "-pc_gamg_treshold"),
+        (("run", BLOCKS, "--set", "bodies.block.solver={petsc: \"-pc_type magic\"}"), "magic"),
+        (("run", "nowhere.yaml"), "nowhere.yaml"),
+    ]:
+        result = mpirun(2, *arguments, timeout=60)
+        assert result.returncode != 0
+        told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
+        assert len(told) == 1 and words in told[0], result.stderr
+
+
+@several
+def test_more_processes_than_nodes(mpirun):
+    options = ("--set", "bodies.block.mesh.box.divisions=[1, 1, 1]", "--set", f"bodies.block.solver={MUMPS}")
+    result = mpirun(9, "run", BLOCKS, *options, timeout=120)
+    assert result.returncode != 0
+    assert result.stderr.count("8 nodes cannot be divided among 9 processes") == 1, result.stderr
+
+
+@pytest.mark.skipif(MPIRUN is None, reason="no mpirun")
+def test_without_the_plug_in_one_process_says_so(mpirun):
+    result = mpirun(2, "run", BLOCKS, timeout=60, environment={"BUCKENS_GRID_PLUGIN": "/nowhere/libbuckens_petsc.so"})
+    assert result.returncode == 5
+    assert result.stderr.count("mpirun has started 2 processes") == 1, result.stderr
+    assert "libpetsc-real-dev" in result.stderr
+
+
+def test_started_for_several_without_the_plug_in(buckens):
+    """What mpirun says in the environment is enough to find out."""
+    alone = {**os.environ, "BUCKENS_GRID_PLUGIN": "/nowhere/grid.so", "OMPI_COMM_WORLD_SIZE": "2"}
+    buckens("run", BLOCKS, env={**alone, "OMPI_COMM_WORLD_RANK": "0"}).must(5, "2 processes", "without mpirun")
+    other = buckens("run", BLOCKS, env={**alone, "OMPI_COMM_WORLD_RANK": "1"}).must(5)
+    assert other.err == "" and other.out == ""
+    # The first one of another machine, where the plug-in is missing, too.
+    there = {**alone, "OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_LOCAL_RANK": "0"}
+    buckens("run", BLOCKS, env=there).must(5, "2 processes", "libpetsc-real-dev")
+    # Verbs that share nothing run as ever.
+    buckens("check", BLOCKS, env={**alone, "OMPI_COMM_WORLD_RANK": "1"}).must(0)
+
+
+def started(mpirun_process, rank):
+    """Process of a rank below mpirun."""
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            environment = (entry / "environ").read_bytes().split(b"\0")
+            parent = (entry / "stat").read_text().rsplit(")", 1)[1].split()[1]
+        except (OSError, IndexError):
+            continue
+        if f"OMPI_COMM_WORLD_RANK={rank}".encode() in environment and int(parent) == mpirun_process.pid:
+            return int(entry.name)
+    return None
+
+
+@several
+@pytest.mark.parametrize("rank", [0, 1])
+def test_a_killed_process_ends_the_run(buckens, tmp_path, rank):
+    options = ("--set", "simulation.duration=3 s", "--set", "simulation.checkpoint=0.2 s", *DISTRIBUTED)
+    command = [MPIRUN, "-n", "2", PROGRAM, "run", str(BLOCKS), "-o", "out", "-q", *options]
+    with open(tmp_path / "told", "w") as told:
+        process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
+                                   stdout=told, stderr=told)
+        try:
+            deadline = time.monotonic() + 120
+            csv = tmp_path / "out" / "sensors.csv"
+            while not csv.exists() or len(csv.read_text().splitlines()) < 100:
+                assert time.monotonic() < deadline and process.poll() is None, (tmp_path / "told").read_text()
+                time.sleep(0.1)
+            os.kill(started(process, rank), signal.SIGKILL)
+            assert process.wait(timeout=60) != 0
+        finally:
+            if process.poll() is None:
+                process.kill()
+    assert "signal 9" in (tmp_path / "told").read_text()
+    kept = sensors(tmp_path / "out")
+    assert len(kept["t"]) >= 50, "what was recorded is there"
+    end = kept["t"][-1] + 0.02
+    buckens("run", "--continue", "out", "--until", end).must(0)
+    buckens("run", BLOCKS, "-o", "whole", "--set", f"simulation.duration={end} s").must(0)
+    whole, parts = sensors(tmp_path / "whole"), sensors(tmp_path / "out")
+    assert numpy.allclose(whole["t"], parts["t"], rtol=0, atol=1e-12)
+    assert largest_difference(parts, whole) < 1e-9
