@@ -49,7 +49,7 @@ def run(program, side, solver, steps):
 
 
 def measure(program, side, solver, steps):
-    few = max(1, steps // 10)
+    few = max(2, steps // 10)
     _, short, _ = run(program, side, solver, few)
     summary, long, peak = run(program, side, solver, few + steps)
     body = summary["bodies"]["cube"]

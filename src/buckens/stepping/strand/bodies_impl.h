@@ -106,13 +106,18 @@ void collect_block(const Constants& is, const BodyBlock& block) {
   using Row = MeshRows<S>;
   double* const t = block.rows;
   Numbers<S::F> frame = {};
-  const Lanes mass = load(t, Row::mass);
+  if (block.has_given) {
+    frame = take<S::F>(t, Row::given);
+  } else {
+    const Lanes mass = load(t, Row::mass);
 #pragma GCC unroll 3
-  for (int i = 0; i < S::T; ++i) frame[S::R + i] = mass * is.gravity[i];
+    for (int i = 0; i < S::T; ++i) frame[S::R + i] = mass * is.gravity[i];
+  }
   Numbers<HasMesh ? Row::N : 1> nodes;
   load_of_slots<S, HasMesh, false>(t, frame, nodes);
   give(t, Row::fr, frame);
   if constexpr (HasMesh) {
+    if (block.has_given) nodes = nodes + take<Row::N>(t, Row::given_nodes);
     const auto weights = is.cent0 * Of<S>::centrifugal(take<S::R>(t, Row::we));
     nodes = nodes + transposed_product<S::P, Row::N>(block.fixed, FixedRows<S>::pat, weights);
     give(t, Row::f, nodes);

@@ -73,7 +73,8 @@ struct BodyRows {
   static constexpr int zf = z + kSlots * S::T;   ///< where the step's matrix was formed
   static constexpr int jl = zf + kSlots * S::T;  ///< nodal rates to angular velocity, R×R by rows
   static constexpr int jlf = jl + kSlots * S::R * S::R;
-  static constexpr int slots = jlf + kSlots * S::R * S::R;
+  static constexpr int given = jlf + kSlots * S::R * S::R;  ///< load on the frame by loads, gravity
+  static constexpr int slots = given + F;
   static constexpr int count = slots + kSlots * SlotRows<S>::count;
 };
 
@@ -115,8 +116,9 @@ struct MeshRows : BodyRows<S> {
   static constexpr int fc = moved + 1;        ///< change of the frame's inertia
   static constexpr int turned = fc + S::R;    ///< rotation by it
   static constexpr int mask = turned + S::R;  ///< 1 where another solve follows, else 0
-  static constexpr int seen = mask + 1;       ///< 1 of slots that joints use, else 0
-  static constexpr int count = seen + kSlots;
+  static constexpr int seen = mask + 1;       ///< 1 of slots that joints or loads use, else 0
+  static constexpr int given_nodes = seen + kSlots;  ///< load on the nodes by loads
+  static constexpr int count = given_nodes + N;
 };
 
 /// Rows of what is constant of a block of beam parts. Blocks of equal parts share them.
@@ -181,6 +183,7 @@ struct BodyBlock {
   double* rows = nullptr;
   const double* fixed = nullptr;  ///< FixedRows of parts
   bool has_mesh = false;
+  bool has_given = false;  ///< loads act on some of them: those in `given` count
   int num_columns = 0;
   const IntegralColumn* columns = nullptr;
   const int* entries = nullptr;    ///< row of each entry

@@ -36,8 +36,8 @@ class StrandMechanism {
     const double* fixed = nullptr;  ///< the same of what is constant of a part
   };
 
-  /// Whether all bodies and joints of a model are of this kind, nothing else acts but gravity, and
-  /// there are enough of them.
+  /// Whether all bodies and joints of a model are of this kind, nothing else acts but gravity and
+  /// loads that StrandLoads can take, and there are enough of them.
   static bool suits(const model::Model& model, const Scheme& scheme, const Operators& operators);
 
   /// Node of a part whose variables are the rows of a marker there, −1: none of its two.
@@ -62,6 +62,8 @@ class StrandMechanism {
   const Place& body(std::size_t b) const { return bodies_[b]; }
   /// First of the multipliers of a joint, its lane.
   double* multipliers(std::size_t joint) const { return multipliers_[joint]; }
+  /// Movements of a node of a part count where an iteration's end is looked for.
+  void watch_node(std::size_t b, int node);
   /// Place in the tables of every nodal variable of a part.
   const std::vector<int>& order(std::size_t b) const { return orders_[b]; }
 

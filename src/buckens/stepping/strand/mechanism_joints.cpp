@@ -57,8 +57,13 @@ Eigen::Matrix3d StrandMechanism::place_end(const model::MarkerId& id, int end, i
   block.body[end][lane] = bodies_[b].at;
   block.which[end][lane] = which;
   block.slot[end][lane] = bodies_[b].at + kLanes * (Row::slots + which * SlotRows<S>::count);
-  if (bodies_[b].has_mesh) entry(bodies_[b].at, MeshRows<S>::seen + which) = 1.0;
+  if (bodies_[b].has_mesh) watch_node(b, which);
   return model_.bodies[b].markers[static_cast<std::size_t>(id.marker)].X_BF.R();
+}
+
+void StrandMechanism::watch_node(std::size_t b, int node) {
+  const int seen = is_planar_ ? MeshRows<Plane>::seen : MeshRows<Space>::seen;
+  entry(bodies_[b].at, seen + node) = 1.0;
 }
 
 int StrandMechanism::slot_of(const model::MarkerId& id) const {

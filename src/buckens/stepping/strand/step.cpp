@@ -37,6 +37,7 @@ StrandStep::StrandStep(const model::Model& model, const StepSettings& settings,
       settings_(settings),
       scheme_(scheme),
       mechanism_(model, scheme, operators, settings.simd),
+      loads_(model, mechanism_),
       kernels_(mechanism_.kernels()),
       forecast_(scheme, model.length),
       watch_(model),
@@ -94,7 +95,8 @@ bool StrandStep::prepare() {
   return matrix.factorise() && matrix.pivot_ratio() >= kWeaklyHeld;
 }
 
-double StrandStep::collect_loads(bool find_residuals) {
+double StrandStep::collect_loads(const model::State& state, bool find_residuals) {
+  loads_.evaluate(state, scheme_.evaluation_time(state.t));
   double open = 0;
   for (strand::BodyBlock& block : mechanism_.body_blocks()) {
     kernels_.collect(mechanism_.constants(), block);
@@ -158,12 +160,12 @@ bool StrandStep::is_balanced(double open, double motion) const {
   return true;
 }
 
-bool StrandStep::settle(StepReport& report, Change change) {
+bool StrandStep::settle(const model::State& state, StepReport& report, Change change) {
   Change before;
   for (int iteration = 1;; ++iteration) {
     if (!evaluate_joints()) return false;
     const bool is_settled = ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio());
-    const double open = collect_loads(!is_settled);
+    const double open = collect_loads(state, !is_settled);
     record_residuals(residuals_, report);
     if (is_settled) break;
     if (iteration <= settings_.max_newton && is_balanced(open, change.motion)) break;
@@ -225,10 +227,10 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
   put_multipliers<S>();
   move_bodies();
   if (!evaluate_joints()) return false;
-  collect_loads(true);
+  collect_loads(state, true);
   record_residuals(residuals_, report);
   Change change;
-  if (!move(report, change) || !settle(report, change)) return false;
+  if (!move(report, change) || !settle(state, report, change)) return false;
   CouplingRounds rounds(settings_);
   bool has_meshes = false;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -257,7 +259,7 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
       open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
     }
     if (open <= ending_.negligible(motion_)) continue;
-    if (!move(report, change) || !settle(report, change)) return false;
+    if (!move(report, change) || !settle(state, report, change)) return false;
   }
 }
 

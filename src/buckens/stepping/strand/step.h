@@ -11,6 +11,7 @@
 #include "buckens/stepping/iteration_end.h"
 #include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
+#include "buckens/stepping/strand/loads.h"
 #include "buckens/stepping/strand/mechanism.h"
 
 namespace buckens::stepping {
@@ -71,11 +72,12 @@ class StrandStep {
   /// Residuals of rows and loads on markers. @return false if a body turns too far
   bool evaluate_joints();
   bool prepare();
-  /// Loads on bodies. @return the size of their residuals, if these are to be found
-  double collect_loads(bool find_residuals);
+  /// Loads on bodies. @param state at the start of the step @return the size of their residuals, if
+  /// these are to be found
+  double collect_loads(const model::State& state, bool find_residuals);
   /// One iteration; bodies are then where it leads. @return false if the motion has diverged
   bool move(StepReport& report, Change& change);
-  bool settle(StepReport& report, Change change);
+  bool settle(const model::State& state, StepReport& report, Change change);
   bool is_balanced(double open, double motion) const;
   model::Coupling& extrapolated(const model::State& state, std::size_t b);
 
@@ -83,6 +85,7 @@ class StrandStep {
   StepSettings settings_;
   Scheme scheme_;
   StrandMechanism mechanism_;
+  StrandLoads loads_;
   const strand::Kernels& kernels_;
   Forecast forecast_;
   RowWatch watch_;

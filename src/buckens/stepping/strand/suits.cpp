@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "buckens/stepping/strand/loads.h"
 #include "buckens/stepping/strand/mechanism.h"
 
 namespace buckens::stepping {
@@ -74,11 +75,10 @@ bool is_flat(const body::FlexiblePart& part) {
 
 bool is_part(const body::Body& body, const BodyStepOperator& op, bool is_planar) {
   const body::FlexiblePart& part = *body.flexible;
-  return has_two_nodes(part, is_planar) && !part.is_quasi_static && part.num_pattern_rows == 0 &&
-         part.geometric == nullptr && part.fe.shape.nodal.empty() && !op.is_diagonal() &&
-         op.shared_factor() == nullptr && (!is_planar || is_flat(part)) &&
-         part.sieve.rank() == (is_planar ? 3 : 6) && part.coupling.terms.have_load() &&
-         part.coupling.terms.use_patterns() &&
+  return has_two_nodes(part, is_planar) && !part.is_quasi_static && part.geometric == nullptr &&
+         part.fe.shape.nodal.empty() && !op.is_diagonal() && op.shared_factor() == nullptr &&
+         (!is_planar || is_flat(part)) && part.sieve.rank() == (is_planar ? 3 : 6) &&
+         part.coupling.terms.have_load() && part.coupling.terms.use_patterns() &&
          (!op.inertial().is_damped() || op.inertial().is_proportional());
 }
 
@@ -102,9 +102,9 @@ bool are_plain_rows(const std::vector<joints::ConstraintRow>& rows, bool is_plan
   return true;
 }
 
-bool feels_only_gravity(const model::Model& model) {
-  return model.loads.empty() && model.contact_groups.empty() && model.signals.empty() &&
-         model.drives.empty();
+bool feels_only_plain_loads(const model::Model& model) {
+  return std::all_of(model.loads.begin(), model.loads.end(), StrandLoads::suits) &&
+         model.contact_groups.empty() && model.signals.empty() && model.drives.empty();
 }
 
 class JointCheck {
@@ -189,7 +189,8 @@ int StrandMechanism::node_of(const body::Body& body, const body::Marker& marker)
 bool StrandMechanism::suits(const model::Model& model, const Scheme& scheme,
                             const Operators& operators) {
   if (scheme.method != Method::generalized_alpha && scheme.method != Method::hht) return false;
-  if (model.bodies.size() < kLeastBodies || model.joints.empty() || !feels_only_gravity(model)) {
+  if (model.bodies.size() < kLeastBodies || model.joints.empty() ||
+      !feels_only_plain_loads(model)) {
     return false;
   }
   const bool is_planar = is_in_plane(model);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "buckens/dynamics/test/example_models.h"
 
@@ -22,13 +24,15 @@ inline BeamConstants short_steel_rod() {
 
 /// Such rods fixed to each other, the first on a hinge or a ball joint.
 /// @param last_stiffness of the last one, relative to the others
-inline model::Model row_of_rods(int count, std::optional<spatial::Plane> plane,
-                                double last_stiffness = 1.0) {
+/// @param add what else belongs to the mechanism, of which it gets the rods
+inline model::Model row_of_rods(
+    int count, std::optional<spatial::Plane> plane, double last_stiffness = 1.0,
+    const std::function<void(Mechanism&, const std::vector<int>&)>& add = {}) {
   Mechanism m(plane);
   m.set_gravity({0, -9.81, 0});
   BeamConstants rod = short_steel_rod();
   m.set_length(count * rod.L);
-  int previous = -1;
+  std::vector<int> rods;
   for (int k = 0; k < count; ++k) {
     if (k + 1 == count) rod.EIz *= last_stiffness;
     const int body = m.add_flexible(straight_beam(rod, plane), {},
@@ -37,10 +41,11 @@ inline model::Model row_of_rods(int count, std::optional<spatial::Plane> plane,
       m.add_joint(plane ? joints::JointType::revolute : joints::JointType::spherical,
                   Mechanism::ground({0, 0, 0}), m.node_marker(body, 0));
     } else {
-      m.add_joint(joints::JointType::fixed, m.node_marker(previous, 1), m.node_marker(body, 0));
+      m.add_joint(joints::JointType::fixed, m.node_marker(rods.back(), 1), m.node_marker(body, 0));
     }
-    previous = body;
+    rods.push_back(body);
   }
+  if (add) add(m, rods);
   return m.take();
 }
 

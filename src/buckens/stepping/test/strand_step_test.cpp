@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "buckens/linalg/simd_level.h"
+#include "buckens/loads/applied_load.h"
+#include "buckens/loads/distributed_load.h"
 #include "buckens/loads/spring_damper.h"
 #include "buckens/stepping/stepper.h"
 #include "buckens/stepping/strand/step.h"
@@ -31,7 +33,8 @@ std::vector<int> rows_of(const model::Model& model) {
 }
 
 /// Links of 0.1 m on hinges whose axes alternate.
-model::Model rigid_links(int count, std::optional<spatial::Plane> plane) {
+model::Model rigid_links(int count, std::optional<spatial::Plane> plane,
+                         const std::function<void(test::Mechanism&)>& add = {}) {
   test::Mechanism m(plane);
   m.set_gravity({0, -9.81, 0});
   m.set_length(0.1 * count);
@@ -45,6 +48,7 @@ model::Model rigid_links(int count, std::optional<spatial::Plane> plane) {
         m.rigid_marker(link, {-0.05, 0, 0}), axis);
     previous = link;
   }
+  if (add) add(m);
   return m.take();
 }
 
@@ -71,6 +75,47 @@ model::Model rods_on_a_bar() {
   m.add_joint(joints::JointType::spherical, test::Mechanism::ground({0.1, 0, 0}),
               m.node_marker(10, 1));
   return m.take();
+}
+
+using loads::AppliedLoad;
+using loads::LoadAxes;
+
+std::array<base::TimeLaw, 3> laws(const std::array<const char*, 3>& texts) {
+  const auto law = [](const char* text) {
+    return base::TimeLaw::expression(base::Expression(text, {"t"}, {}, {}));
+  };
+  return {law(texts[0]), law(texts[1]), law(texts[2])};
+}
+
+/// A following force at the end, a torque in the middle, and an even load on the third rod.
+void load_rods(test::Mechanism& m, const std::vector<int>& rods, bool is_planar) {
+  const model::MarkerId ground = test::Mechanism::ground({0, 0, 0});
+  m.add_load(std::make_unique<AppliedLoad>(
+                 AppliedLoad::Kind::force, LoadAxes::following,
+                 laws({"20", "50 * sin(900 * t)", is_planar ? "0" : "10 - 3000 * t"})),
+             m.node_marker(rods.back(), 1), ground);
+  m.add_load(std::make_unique<AppliedLoad>(
+                 AppliedLoad::Kind::torque, LoadAxes::fixed,
+                 laws({is_planar ? "0" : "0.2", is_planar ? "0" : "-0.3", "cos(500 * t)"})),
+             m.node_marker(rods[rods.size() / 2], 0), ground);
+  m.add_load(std::make_unique<loads::DistributedLoad>(
+                 LoadAxes::fixed, laws({"300", "-800", is_planar ? "0" : "500"}), 0.01),
+             m.node_marker(rods[2], 1), ground);
+}
+
+/// Forces on links, at a joint, at the centre of mass and beside it.
+void load_links(test::Mechanism& m, bool is_planar) {
+  const model::MarkerId ground = test::Mechanism::ground({0, 0, 0});
+  m.add_load(std::make_unique<AppliedLoad>(AppliedLoad::Kind::force, LoadAxes::following,
+                                           laws({"0", "30", is_planar ? "0" : "5"})),
+             m.rigid_marker(8, {0.05, 0, 0}), ground);
+  m.add_load(std::make_unique<AppliedLoad>(AppliedLoad::Kind::torque, LoadAxes::fixed,
+                                           laws({"0", "0", "sin(100 * t)"})),
+             m.rigid_marker(4, {0, 0, 0}), ground);
+  // Between two of them.
+  m.add_load(std::make_unique<AppliedLoad>(AppliedLoad::Kind::force, LoadAxes::fixed,
+                                           laws({"-10", "20 * t", "0"})),
+             m.rigid_marker(3, {0.01, 0.02, 0}), m.rigid_marker(6, {0, 0, 0}));
 }
 
 struct Case {
@@ -187,7 +232,22 @@ const Case kCases[] = {
     {"links_in_the_plane", [] { return rigid_links(9, spatial::Plane::xy); }},
     {"links_in_space", [] { return rigid_links(20, std::nullopt); }, Method::generalized_alpha,
      1e-3},
-    {"rods_on_a_bar", rods_on_a_bar}};
+    {"rods_on_a_bar", rods_on_a_bar},
+    {"loads_in_the_plane",
+     [] {
+       return test::row_of_rods(13, spatial::Plane::xy, 1.0,
+                                [](auto& m, const auto& rods) { load_rods(m, rods, true); });
+     }},
+    {"loads_in_space",
+     [] {
+       return test::row_of_rods(11, std::nullopt, 1.0,
+                                [](auto& m, const auto& rods) { load_rods(m, rods, false); });
+     }},
+    {"loads_on_links_in_the_plane",
+     [] { return rigid_links(9, spatial::Plane::xy, [](auto& m) { load_links(m, true); }); }},
+    {"loads_on_links",
+     [] { return rigid_links(20, std::nullopt, [](auto& m) { load_links(m, false); }); },
+     Method::generalized_alpha, 1e-3}};
 
 INSTANTIATE_TEST_SUITE_P(Of, Strand,
                          testing::Combine(testing::ValuesIn(kCases),
