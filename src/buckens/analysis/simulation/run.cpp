@@ -124,6 +124,7 @@ void SimulationRun::set_up() {
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   drives_.emplace(built_.description);
+  shafts_.emplace(built_.model);
   events_.emplace(built_);
   actions_.emplace(built_, *metric_);
   statistics_.emplace(built_);
@@ -314,6 +315,7 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
           return events_->holds_action(from, to);
         });
     drives_->check(before.t, after.t);
+    shafts_->check(before, after);
     // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
     if (report.must_settle) settle(after, report.impact_rest);
@@ -322,6 +324,7 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
     after = before;
     // A law that jumps makes any step fail, and explains more than the failing joint.
     drives_->check(before.t, reach);
+    shafts_->check_failed(before);
     throw;
   }
 }

@@ -16,6 +16,7 @@
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/run_recording.h"
 #include "buckens/analysis/simulation/run_statistics.h"
+#include "buckens/analysis/simulation/shaft_watch.h"
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/analysis/simulation/step_advice.h"
 #include "buckens/analysis/simulation/work_account.h"
@@ -99,6 +100,7 @@ class SimulationRun {
   std::optional<stepping::TimeMarch> march_;
   std::optional<WorkAccount> work_;
   std::optional<DriveLaws> drives_;
+  std::optional<ShaftWatch> shafts_;
   std::optional<EventWatch> events_;
   std::optional<EventActions> actions_;
   std::optional<RunStatistics> statistics_;
