@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Events that attach joints again, and joints that begin released."""
 
+import math
+
 import numpy
 import pytest
 
@@ -175,7 +177,9 @@ def test_a_flexible_body_is_attached_again(sensors, step):
 
 WRONG = {
     "attach: [hend]": ("unknown joint \"hend\"", "hand"),
-    "attach: [gears]": ("joint \"gears\" is a gear", "cannot be attached"),
+    "attach: [driven]": ("joint \"driven\" is a prescribed-rotation", "cannot be attached", "`hinge-motor`"),
+    "attach: [pushed]": ("joint \"pushed\" is a prescribed-translation", "cannot be attached", "`slide-motor`"),
+    "attach: [tied]": ("joint \"tied\" is a coupler", "cannot be attached", "`gear`"),
     "attach: [soft]": ("\"soft\" is a bushing", "switched on"),
     "attach: [hand], tolerance: -1 mm": ("tolerance",),
 }
@@ -183,7 +187,10 @@ WRONG = {
 
 @pytest.mark.parametrize("action", WRONG)
 def test_what_cannot_be_attached_is_named(buckens, tmp_path, action):
-    more = """  gears: {gear: {between: [plate, ball], axis: [1, 0, 0], teeth: [20, 30]}}
+    more = """  driven: {prescribed-rotation: {between: [plate, ball], axis: [1, 0, 0], angle: "t"}}
+  pushed: {prescribed-translation: {between: [plate, ball], axis: [1, 0, 0], displacement: "t m"}}
+  tied: {coupler: {of: {rail: 1, other: 2}}}
+  other: {prismatic: {between: [ground, ball], axis: [1, 0, 0]}}
   soft: {bushing: {between: [ground, ball], stiffness: [1, 1, 1]}}
 signals:"""
     text = CATCH.replace("METHOD", "method: newmark").replace("signals:", more, 1).replace("attach: hand, TOLERANCE", action)
@@ -197,3 +204,179 @@ def test_what_starts_released_must_exist(buckens, tmp_path):
     buckens("check", "model.yaml").must(2, "unknown joint \"hnd\"", "hand")
     (tmp_path / "model.yaml").write_text(text.replace("released: [hand]", "released: [hand], start: static"))
     buckens("check", "model.yaml").must(2, "the equilibrium counts all joints", "\"hand\"")
+
+
+# Two wheels that spin freely, until something lets them turn together.
+WHEELS = """
+buckens: 1
+planar: xy
+bodies:
+  one: {rigid: {mass: 2, inertia: [0, 0, 0.03]}}
+  two: {rigid: {mass: 3, inertia: [0, 0, 0.05]}, at: {position: [0.3, 0, 0]}}
+joints:
+  a: {revolute: {between: [ground, one]}}
+  b: {revolute: {between: [{ground: [0.3, 0, 0]}, two]}}
+  mesh: {KIND}
+signals: {now: "t - 0.2037", late: "t - 0.6", again: "t - 0.7"}
+events: {engage: {when: now, attach: mesh}, part: {when: late, release: mesh}, retake: {when: again, attach: mesh}}
+initial: {released: [mesh], joints: {a: {speed: 40}, b: {speed: -7}}}
+loads: {drive: {torque: {on: one, value: [0, 0, 0.2]}}}
+simulation: {duration: 1 s, step: 1 ms, METHOD}
+output: {every: 1 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: b}, lost: {energy: dissipated}, balance: {energy: balance}}}
+"""
+# The kind, and by how much the second wheel turns for one turn of the first.
+MESHES = {
+    "gear: {between: [one, two], teeth: [20, 40]}": -0.5,
+    "gear: {between: [one, two], teeth: [20, 80], internal: on}": 0.25,
+    "belt: {between: [one, two], radii: [0.1, 0.05]}": 2.0,
+}
+
+
+@pytest.mark.parametrize("kind", MESHES)
+@pytest.mark.parametrize("method", ["method: generalized-alpha", "method: newmark", "tolerance: 1e-6"])
+def test_gears_and_belts_mesh_where_they_are(sensors, kind, method):
+    ratio = MESHES[kind]
+    text = WHEELS.replace("{KIND}", "{" + kind + "}")
+    out = sensors(text.replace("METHOD", method) if "tolerance" not in method else text.replace("step: 1 ms, METHOD", method))
+    t = out["t"]
+    # The angles stay continuous through the blow: no step moves farther than its speed.
+    for name in ("a", "b"):
+        step = numpy.diff(out[f"{name}.value"])
+        assert abs(step).max() <= 1.01 * abs(out[f"{name}.rate"]).max() * numpy.diff(t).max()
+    together = [(t > 0.206) & (t < 0.5995), t > 0.703]
+    for held in together:
+        assert out["b.rate"][held] == pytest.approx(ratio * out["a.rate"][held], abs=1e-8)
+        apart = out["b.value"][held] - ratio * out["a.value"][held]
+        assert numpy.ptp(apart) < 1e-9 and abs(apart[0]) > 0.1
+        # Together they have the inertia J₁ + r² J₂, and the torque of 0.2 N m drives all of it.
+        slope = numpy.polyfit(t[held], out["a.rate"][held], 1)[0]
+        assert slope == pytest.approx(0.2 / (0.03 + ratio**2 * 0.05), rel=1e-6)
+    # The blow keeps J₁ w₁ + r J₂ w₂, found where it happened from the motion before and after.
+    first = 40 + 0.2 / 0.03 * 0.2037
+    after = (0.03 * first + ratio * 0.05 * -7) / (0.03 + ratio**2 * 0.05)
+    at = together[0]
+    mean = numpy.polyval(numpy.polyfit(t[at] - 0.2037, out["a.rate"][at], 1), 0)
+    assert mean == pytest.approx(after, abs=1e-3)
+    lost = 0.5 * (0.03 * first**2 + 0.05 * 49 - (0.03 + ratio**2 * 0.05) * after**2)
+    assert out["lost"][at][0] == pytest.approx(lost, rel=1e-3)
+    assert abs(out["balance"]).max() < 1e-4 * lost
+
+
+def test_gears_that_stand_apart_do_not_mesh(buckens, tmp_path):
+    """A pinion on a slide, 20 mm farther away than it was placed; and pushed in by then, it meshes."""
+    text = WHEELS.replace("{KIND}", "{gear: {between: [one, two], teeth: [20, 40]}}").replace("METHOD", "method: newmark")
+    text = text.replace("  two: {", "  slide: {rigid: {mass: 1, inertia: [0, 0, 0.01]}, at: {position: [0.3, 0, 0]}}\n  two: {")
+    text = text.replace("b: {revolute: {between: [{ground: [0.3, 0, 0]}, two]}}", """b: {revolute: {between: [slide, two]}}
+  way: {prismatic: {between: [{ground: [0.3, 0, 0]}, slide], axis: [1, 0, 0]}}""")
+    text = text.replace("b: {speed: -7}", "b: {speed: -7}, way: {displacement: 20 mm, velocity: -RATE m/s}")
+    (tmp_path / "model.yaml").write_text(text.replace("RATE", "0"))
+    buckens("run", "model.yaml", "-o", "out").must(4, "event \"engage\"", "joint \"mesh\" cannot be attached", "nearer or farther than as placed", "`tolerance`")
+    (tmp_path / "model.yaml").write_text(text.replace("RATE", repr(0.02 / 0.2037)).replace("duration: 1 s", "duration: 0.3 s"))
+    buckens("run", "model.yaml", "-o", "out").must(0)
+
+
+# A nut closes on a spindle that turns; a bead flies onto a flexible wire and slides on.
+NUT = """
+buckens: 1
+bodies:
+  nut: {rigid: {mass: 1, inertia: [0.01, 0.01, 0.01]}}
+joints:
+  rod: {cylindrical: {between: [ground, nut], axis: [0, 0, 1]}}
+  thread: {screw: {between: [ground, nut], axis: [0, 0, 1], pitch: 20 mm}}
+signals: {now: "t - 0.3"}
+events: {close: {when: now, attach: thread}}
+initial: {released: [thread], joints: {rod: {speed: 31, velocity: 0.4}}}
+simulation: {duration: 1 s, step: 1 ms}
+output: {every: 1 ms, sensors: {turn: {joint-coordinate: {joint: rod, which: angle}}, way: {joint-coordinate: {joint: rod, which: displacement}}, balance: {energy: balance}}}
+"""
+
+
+def test_a_nut_closes_where_it_is(sensors):
+    out = sensors(NUT)
+    t, p = out["t"], 0.02 / (2 * numpy.pi)
+    held = t > 0.302
+    # Between whole turns, many turns away from where it was placed.
+    apart = out["way.value"] - p * out["turn.value"]
+    assert abs(apart[held] / 0.02 - numpy.round(apart[held] / 0.02)).min() > 0.05
+    assert numpy.ptp(apart[held]) < 1e-9
+    # J w + p m v stays.
+    w = (0.01 * 31 + p * 0.4) / (0.01 + p * p)
+    assert out["turn.rate"][held] == pytest.approx(w, rel=1e-9)
+    assert out["way.rate"][held] == pytest.approx(p * w, rel=1e-9)
+    assert abs(out["balance"]).max() < 1e-9
+
+
+WIRE = """
+buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850 kg/m^3, damping: {stiffness: 2e-4 s}}}
+bodies:
+  wire: {beam: {to: [4, 0, 0], elements: 16, section: {circle: {diameter: 60 mm}}, material: steelFRAMES}}
+  bead: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [START, 0.2, 0]}}
+joints:
+  left: {revolute: {between: [ground, wire/start]}}
+  right: {point-on-line: {between: [{ground: [4, 0, 0]}, wire/end], axis: [1, 0, 0]}}
+  hole: {slider-on-beam: {between: [wire, bead]}}
+signals: {above: {position: {of: bead, along: [0, 1, 0]}}, late: "t - 0.5"}
+events: {catch: {when: above, direction: falling, attach: hole, tolerance: 1 mm}, drop: {when: late, release: hole}}
+initial: {released: [hole], bodies: {bead: {velocity: [1.5, -2, 0]}}}
+simulation: {duration: 0.504 s, METHOD}
+output: {every: 1 ms, sensors: {bead: {position: bead}, v: {velocity: bead}, way: {joint-coordinate: hole}, hole: {joint-force: hole}, balance: {energy: balance}}}
+"""
+
+
+def struck_beam(times, modes=16, steps=16000):
+    """Height of a mass of 1 kg that meets a simply supported beam at x = 0.65 m with -2 m/s and travels on with 1.5 m/s: Galerkin's
+    equations by the series' shapes, Runge-Kutta of order 4. The first velocities follow from the momentum of each shape."""
+    L, m, v = 4.0, 1.0, 1.5
+    mu, EI = 7850 * math.pi * 0.03**2, 200e9 * math.pi * 0.06**4 / 64
+    n = numpy.arange(1, modes + 1)
+    k = n * math.pi / L
+    squared = k**4 * EI / mu
+
+    def shapes(t):
+        return numpy.sin(k * (0.65 + v * t)), k * numpy.cos(k * (0.65 + v * t))
+
+    def rates(t, x):
+        q, q_dot = x
+        s, c = shapes(t)
+        push = -m * (2 * v * c @ q_dot - v * v * (k**2 * s) @ q)
+        M = mu * L / 2 * numpy.eye(modes) + m * numpy.outer(s, s)
+        return numpy.array([q_dot, numpy.linalg.solve(M, push * s - mu * L / 2 * squared * (q + 2e-4 * q_dot))])
+
+    s, _ = shapes(0.0)
+    start = numpy.linalg.solve(mu * L / 2 * numpy.eye(modes) + m * numpy.outer(s, s), -2 * m * s)
+    x, h, out, at = numpy.array([numpy.zeros(modes), start]), times[-1] / steps, [], 0.0
+    for _ in range(steps + 1):
+        while len(out) < len(times) and times[len(out)] < at + h / 2:
+            out.append(shapes(at)[0] @ x[0])
+        a = rates(at, x)
+        b = rates(at + h / 2, x + h / 2 * a)
+        c = rates(at + h / 2, x + h / 2 * b)
+        d = rates(at + h, x + h * c)
+        x, at = x + h / 6 * (a + 2 * b + 2 * c + d), at + h
+    return numpy.array(out)
+
+
+def on_wire(start="0.5", frames="", method="step: 0.25 ms"):
+    return WIRE.replace("steelFRAMES}", "steel}" + frames).replace("START", start).replace("METHOD", method)
+
+
+@pytest.mark.parametrize("frames, method", [("", "step: 0.25 ms"), (", frames: 4", "step: 0.25 ms"), ("", "step: 0.25 ms, method: newmark")])
+def test_a_bead_is_caught_by_a_flexible_wire(sensors, frames, method):
+    out = sensors(on_wire(frames=frames, method=method))
+    t = out["t"]
+    held = (t > 0.1015) & (t < 0.4995)
+    assert out["v.y"][t < 0.099] == pytest.approx(-2, abs=1e-9)
+    exact = struck_beam(t[held] - 0.1)
+    # Caught up to h/16 late, where it has flown 2 m/s h/16 on: 0.03 mm of 30 mm.
+    assert out["bead.y"][held] == pytest.approx(exact, abs=0.02 * abs(exact).max())
+    # Its slope takes and gives a little of the speed along the wire.
+    assert out["way.value"][held] == pytest.approx(1.5 * t[held], abs=2e-3)
+    free = t > 0.5005
+    assert numpy.ptp(out["v.y"][free]) < 1e-9 and abs(out["hole.y"][free]).max() == 0
+
+
+def test_a_bead_beside_the_wire_is_not_caught(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(on_wire(start="3.9"))
+    buckens("run", "model.yaml", "-o", "out").must(4, "event \"catch\"", "slider \"hole\" cannot be attached", "m beyond the end", "lengthen the beam")

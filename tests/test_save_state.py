@@ -250,6 +250,38 @@ simulation: {duration: 0.4 s, step: 0.5 ms, STEP}
 output: {every: 7 ms, sensors: {y: {position: follower}, push: {spring-force: cam}, one: {joint-coordinate: cross}, two: {joint-coordinate: {joint: cross, which: second-angle}}, stone: {position: stone}}}
 """
 
+# Gears, belts, racks, nuts and sliders that events attach wherever they have come to.
+MESHING = """buckens: 1
+gravity: [0, -10, 0]
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850 kg/m^3, damping: {stiffness: 2e-4 s}}}
+bodies:
+  one: {rigid: {mass: 2, inertia: [0.03, 0.03, 0.03]}}
+  two: {rigid: {mass: 3, inertia: [0.05, 0.05, 0.05]}, at: {position: [0.3, 0, 0]}}
+  fan: {rigid: {mass: 1, inertia: [0.02, 0.02, 0.02]}, at: {position: [0, 0.5, 0]}}
+  bar: {rigid: {mass: 1, inertia: [0.02, 0.02, 0.02]}, at: {position: [0, -0.1, 0]}}
+  nut: {rigid: {mass: 1, inertia: [0.01, 0.01, 0.01]}, at: {position: [0, 0, 2]}}
+  wire: {beam: {from: [0, 2, 0], to: [4, 2, 0], elements: 8, section: {circle: {diameter: 60 mm}}, material: steel}}
+  bead: {rigid: {mass: 1, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0.5, 2.2, 0]}}
+joints:
+  a: {revolute: {between: [ground, one], axis: [0, 0, 1]}}
+  b: {revolute: {between: [{ground: [0.3, 0, 0]}, two], axis: [0, 0, 1]}}
+  c: {revolute: {between: [{ground: [0, 0.5, 0]}, fan], axis: [0, 0, 1]}}
+  way: {prismatic: {between: [{ground: [0, -0.1, 0]}, bar], axis: [1, 0, 0]}}
+  rod: {cylindrical: {between: [{ground: [0, 0, 2]}, nut], axis: [0, 0, 1]}}
+  left: {fixed: {between: [{ground: [0, 2, 0]}, wire/start]}}
+  teeth: {gear: {between: [one, two], axis: [0, 0, 1], teeth: [20, 40], pressure-angle: 20 deg, helix-angle: 10 deg}}
+  belt: {belt: {between: [one, fan], axis: [0, 0, 1], radii: [0.1, 0.05]}}
+  rack: {rack: {between: [bar, one], axis: [0, 0, 1], along: [1, 0, 0], radius: 0.1}}
+  thread: {screw: {between: [{ground: [0, 0, 2]}, nut], axis: [0, 0, 1], pitch: 20 mm}}
+  hole: {slider-on-beam: {between: [wire, bead]}}
+signals: {first: "t - 0.0513", second: "t - 0.0771", third: "t - 0.11", low: {position: {of: bead, along: [0, 1, 0]}}, above: "low - 2"}
+events: {go: {when: first, attach: [teeth, thread]}, on: {when: second, attach: [belt, rack]}, off: {when: third, release: [teeth, belt]},
+         catch: {when: above, direction: falling, attach: hole, tolerance: 20 mm}}
+initial: {released: [teeth, belt, rack, thread, hole], joints: {a: {speed: 40}, b: {speed: -7}, c: {speed: 3}, rod: {speed: 31, velocity: 0.4}}, bodies: {bead: {velocity: [1.5, 0, 0]}}}
+simulation: {duration: 0.4 s, step: 0.5 ms, STEP}
+output: {every: 7 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: b}, c: {joint-coordinate: c}, way: {joint-coordinate: way}, nut: {position: nut}, bead: {position: bead}, teeth: {joint-force: teeth}}}
+"""
+
 # Small bodies that step side by side: the parts of a beam, with more frames than lanes, and links in space.
 BEAM = """buckens: 1
 PLANE
@@ -297,6 +329,11 @@ CASES = {
     "cams, crosses, grips": (model(MORE), 0.1501),
     "cams, crosses, grips before": (model(MORE), 0.0301),
     "cams, crosses, grips, step control": (model(MORE, step="tolerance: 1e-4"), 0.1501),
+    "meshing before": (model(MESHING), 0.0301),
+    "meshing": (model(MESHING), 0.0901),
+    "meshing, released again": (model(MESHING), 0.1501),
+    "meshing, newmark": (model(MESHING, step="method: newmark"), 0.0901),
+    "meshing, step control": (model(MESHING, step="tolerance: 1e-4"), 0.1501),
     "a slider and a wheel": (model(SLIDER), 0.2),
     "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
     "rigid rows": (model(RIGID), 0.0301),

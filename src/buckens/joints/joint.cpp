@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/joints/found_row.h"
 #include "buckens/joints/gear_mesh.h"
 #include "buckens/joints/held_row.h"
 #include "buckens/joints/path_row.h"
@@ -75,6 +76,11 @@ class RowCollector {
     if (in_plane(placement_.R_WF * b_F) && in_plane(placement_.R_WF * c_in_F)) {
       rows_.push_back(ConstraintRow::direction(b_F, to_M(c_in_F)));
     }
+  }
+
+  /// A row that events can attach wherever its markers have come to.
+  void found(ConstraintRow row, double period = 0.0) {
+    rows_.push_back(ConstraintRow::by_law(std::make_shared<FoundRow>(std::move(row), period)));
   }
 
   /// A weld that events can attach anywhere.
@@ -210,7 +216,7 @@ void add_gear(JointType type, const Vector3d& axis, const Placement& placement,
   data.has_teeth = type == JointType::gear;
   data.pressure_angle = placement.pressure_angle;
   data.helix_angle = placement.helix_angle;
-  rows.push(ConstraintRow::by_law(std::make_shared<GearMesh>(data)));
+  rows.found(ConstraintRow::by_law(std::make_shared<GearMesh>(data)));
 }
 
 void add_rack(const Vector3d& axis, const Placement& placement, RowCollector& rows) {
@@ -232,7 +238,7 @@ void add_rack(const Vector3d& axis, const Placement& placement, RowCollector& ro
   data.radius = placement.sizes[0];
   data.pressure_angle = placement.pressure_angle;
   data.helix_angle = placement.helix_angle;
-  rows.push(ConstraintRow::by_law(std::make_shared<RackMesh>(data)));
+  rows.found(ConstraintRow::by_law(std::make_shared<RackMesh>(data)));
 }
 
 /// A normal, the plane's where none is given.
@@ -288,8 +294,9 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
       rows.point_along(f.y);
       parallel();
       if (type == JointType::screw) {
-        rows.push(ConstraintRow::screw(f.z, f.x, rows.to_M(f.x), f.z.dot(placement.r_F),
-                                       placement.pitch));
+        rows.found(
+            ConstraintRow::screw(f.z, f.x, rows.to_M(f.x), f.z.dot(placement.r_F), placement.pitch),
+            std::abs(placement.pitch));
       }
       break;
     case JointType::planar:

@@ -31,6 +31,18 @@ double kinetic_energy(const model::Model& model, const model::State& state) {
   return dynamics::energy(model, state).kinetic;
 }
 
+/// How much the residual of a row depends on which way its multiplier pushes: of gears and racks
+/// that stand nearer or farther than they were placed, half the play between their teeth.
+double play_of(const joints::RowLaw& law, const spatial::MarkerMotion& F,
+               const spatial::MarkerMotion& M, const double* states) {
+  std::vector<double> pushed(static_cast<std::size_t>(law.num_states()));
+  const auto residual = [&](double multiplier) {
+    law.follow(F, M, multiplier, states, pushed.data());
+    return law.evaluate(F, M, pushed.data()).g;
+  };
+  return 0.5 * std::abs(residual(1.0) - residual(-1.0));
+}
+
 /// Without any mark the list is empty, as it is restored: one of zeros would count as another one,
 /// and rows be selected anew.
 void mark(std::vector<char>& marks, std::size_t count, std::size_t which, bool is_marked) {
@@ -146,42 +158,85 @@ void EventActions::release_joint(const std::string& name, model::State& state) c
 void EventActions::attach_joint(const std::string& name, const model::EventSpec& event,
                                 model::State& state) const {
   const model::Model& model = built_.model;
-  const double most = event.tolerance.value_or(kOpen * model.length);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const model::Joint& joint = model.joints[j];
     if (joint.name != name || joint.is_tie || !state.memory.is_released(j)) continue;
     mark(state.memory.released, model.joints.size(), j, false);
-    const auto motions = dynamics::motions_of(model, state);
-    int place = joint.first_state;
-    for (const joints::ConstraintRow& row : joint.rows) {
-      if (row.law() != nullptr) {
-        row.law()->attach(dynamics::evaluate_marker(model, joint.first, motions).motion,
-                          dynamics::evaluate_marker(model, joint.second, motions).motion,
-                          state.memory.rows.data() + place);
-      }
-      place += row.num_states();
-    }
-    dynamics::Constraints now;
-    dynamics::evaluate_constraints(model, dynamics::motions_of(model, state), state.t,
-                                   &state.memory, now);
-    double apart = 0.0, bent = 0.0;
-    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
-      const double open = std::abs(now.g[joint.first_row + static_cast<int>(k)]);
-      double& worst = joint.rows[k].is_length() ? apart : bent;
-      worst = std::max(worst, open);
-    }
-    if (apart <= most && bent <= kBent) continue;
-    throw NumericalError(
-        event.where,
-        fmt::format(
-            "event \"{}\" at t = {:.6g} s: joint \"{}\" cannot be attached, its markers are {:.3g} "
-            "m "
-            "apart and turned by {:.3g} degrees against each other (at most {:.3g} m and {:.3g} "
-            "degrees); let the event wait until they have met, raise its `tolerance`, or use a "
-            "`fixed` joint that holds them `as-found`",
-            event.name, state.t, name, apart, std::asin(std::min(bent, 1.0)) * kDegrees, most,
-            std::asin(kBent) * kDegrees));
+    look_anew(joint, event, state);
+    require_closed(joint, event, state);
   }
+}
+
+void EventActions::look_anew(const model::Joint& joint, const model::EventSpec& event,
+                             model::State& state) const {
+  const model::Model& model = built_.model;
+  const auto motions = dynamics::motions_of(model, state);
+  if (joint.track) {
+    double* const states = state.memory.rows.data() + joint.first_state;
+    const double length = joint.track->shape.length();
+    const double* const nothing_known = nullptr;
+    const double s = dynamics::Travel(model, joint, motions, nothing_known).point().s;
+    if (s < 0.0 || s > length) {
+      throw NumericalError(
+          event.where,
+          fmt::format("event \"{}\" at t = {:.6g} s: slider \"{}\" cannot be attached, it is "
+                      "{:.3g} m beyond the {} of its beam of {:.6g} m; let the event wait until it "
+                      "is beside the beam, or lengthen the beam",
+                      event.name, state.t, joint.name, s < 0.0 ? -s : s - length,
+                      s < 0.0 ? "start" : "end", length));
+    }
+    states[0] = 1.0;
+    states[1] = s;
+    return;
+  }
+  int place = joint.first_state;
+  for (const joints::ConstraintRow& row : joint.rows) {
+    if (row.law() != nullptr) {
+      const auto F = dynamics::evaluate_marker(model, joint.first, motions).motion;
+      const auto M = dynamics::evaluate_marker(model, joint.second, motions).motion;
+      double* const states = state.memory.rows.data() + place;
+      row.law()->attach(F, M, states);
+      require_meshing(joint, play_of(*row.law(), F, M, states), event, state.t);
+    }
+    place += row.num_states();
+  }
+}
+
+void EventActions::require_meshing(const model::Joint& joint, double play,
+                                   const model::EventSpec& event, double t) const {
+  const double most = event.tolerance.value_or(kOpen * built_.model.length);
+  if (play <= most) return;
+  throw NumericalError(
+      event.where,
+      fmt::format("event \"{}\" at t = {:.6g} s: joint \"{}\" cannot be attached, its teeth stand "
+                  "{:.3g} m nearer or farther than as placed, along the line of action (at most "
+                  "{:.3g} m); place the bodies as they mesh and move them apart by `initial`, let "
+                  "the event wait until they have met, or raise its `tolerance`",
+                  event.name, t, joint.name, play, most));
+}
+
+void EventActions::require_closed(const model::Joint& joint, const model::EventSpec& event,
+                                  const model::State& state) const {
+  const double most = event.tolerance.value_or(kOpen * built_.model.length);
+  dynamics::Constraints now;
+  dynamics::evaluate_constraints(built_.model, dynamics::motions_of(built_.model, state), state.t,
+                                 &state.memory, now);
+  double apart = 0.0, bent = 0.0;
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    const double open = std::abs(now.g[joint.first_row + static_cast<int>(k)]);
+    double& worst = joint.rows[k].is_length() ? apart : bent;
+    worst = std::max(worst, open);
+  }
+  if (apart <= most && bent <= kBent) return;
+  throw NumericalError(
+      event.where,
+      fmt::format(
+          "event \"{}\" at t = {:.6g} s: joint \"{}\" cannot be attached, its markers are "
+          "{:.3g} m apart and turned by {:.3g} degrees against each other (at most {:.3g} m "
+          "and {:.3g} degrees); let the event wait until they have met, raise its "
+          "`tolerance`, or use a `fixed` joint that holds them `as-found`",
+          event.name, state.t, joint.name, apart, std::asin(std::min(bent, 1.0)) * kDegrees, most,
+          std::asin(kBent) * kDegrees));
 }
 
 std::vector<int> EventActions::rows_in_use(const model::State& state) const {

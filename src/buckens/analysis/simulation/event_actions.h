@@ -42,6 +42,15 @@ class EventActions {
   /// @throws NumericalError if it is too far open
   void attach_joint(const std::string& name, const model::EventSpec& event,
                     model::State& state) const;
+  /// Lets what a joint remembers look where its markers are. @throws NumericalError if a slider is
+  /// beside its beam's ends
+  void look_anew(const model::Joint& joint, const model::EventSpec& event,
+                 model::State& state) const;
+  /// @param play half the play between teeth along the line of action [m]
+  void require_meshing(const model::Joint& joint, double play, const model::EventSpec& event,
+                       double t) const;
+  void require_closed(const model::Joint& joint, const model::EventSpec& event,
+                      const model::State& state) const;
   std::vector<int> rows_in_use(const model::State& state) const;
 
   const model::BuiltModel& built_;

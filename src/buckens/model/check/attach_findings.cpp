@@ -8,6 +8,25 @@
 
 namespace buckens::model {
 
+namespace {
+
+/// What to do instead where a joint cannot be attached, empty where it can: gears, racks, belts,
+/// screws, points on curves, sliders and wheels look anew.
+std::string instead_of_attaching(const std::string& kind) {
+  if (kind == "prescribed-rotation") {
+    return "let the event switch on a `hinge-motor` with `angle` and `stiffness`";
+  }
+  if (kind == "prescribed-translation") {
+    return "let the event switch on a `slide-motor` with `displacement` and `stiffness`";
+  }
+  if (kind == "coupler") {
+    return "use a `gear`, `rack`, `belt` or `screw`, which mesh where they are then";
+  }
+  return {};
+}
+
+}  // namespace
+
 Found attached_problem(const std::vector<std::string>& joints, const char* key,
                        const ModelDescription& model) {
   for (const std::string& name : joints) {
@@ -22,20 +41,11 @@ Found attached_problem(const std::vector<std::string>& joints, const char* key,
                                  "and off",
                                  name)};
     }
-    // Gears, racks, belts and couplers count from where they were placed; so do drives. Slots and
-    // wheels look anew.
-    const std::string kind = joint->kind_name();
-    const bool is_plain = kind == "revolute" || kind == "spherical" || kind == "prismatic" ||
-                          kind == "fixed" || kind == "cylindrical" || kind == "planar" ||
-                          kind == "universal" || kind == "constant-velocity" ||
-                          kind == "point-on-line" || kind == "point-in-plane" ||
-                          kind == "parallel" || kind == "orientation" || kind == "distance" ||
-                          kind == "slot" || kind == "rolling";
-    if (is_plain) continue;
-    return Finding{key, fmt::format("joint \"{}\" is a {}, which remembers how it was placed and "
-                                    "cannot be attached during a run; use a revolute, spherical, "
-                                    "prismatic, fixed or similar joint",
-                                    name, kind)};
+    if (const std::string instead = instead_of_attaching(joint->kind_name()); !instead.empty()) {
+      return Finding{key, fmt::format("joint \"{}\" is a {}, which counts from where it was placed "
+                                      "and cannot be attached during a run; {}",
+                                      name, joint->kind_name(), instead)};
+    }
   }
   return std::nullopt;
 }
