@@ -116,6 +116,7 @@ def steered(law, signals, method="method: generalized-alpha", rod=""):
 
 
 @pytest.mark.parametrize("method, rod", [("method: generalized-alpha", ""), ("method: newmark", ""),
+                                         ("tolerance: 1e-5", ""), ("tolerance: 1e-5", ", frames: 3"),
                                          ("method: generalized-alpha", ", frames: 3")])
 def test_signals_drive_a_slider(sensors, method, rod):
     """By feedback to a goal, over nodes and borders of parts; and by a measured velocity."""
