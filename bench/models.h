@@ -226,6 +226,39 @@ initial: {bodies: {driver: {angular-velocity: [0, 0, 1500 rpm]}, fan: {angular-v
 )";
 }
 
+/// A rope with slip over a wheel and a fixed pulley, and a closed belt from that wheel to a fan.
+inline std::string rope_and_belt() {
+  return R"(buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  light: {rigid: {mass: 1, inertia: [0, 0, 0.01]}, at: {position: [-0.1, -1, 0]}}
+  heavy: {rigid: {mass: 2, inertia: [0, 0, 0.01]}, at: {position: [0.6, -1, 0]}}
+  wheel: {rigid: {mass: 2, inertia: [0, 0, 0.01]}}
+  fan: {rigid: {mass: 1, inertia: [0, 0, 0.02]}, at: {position: [0, 0.5, 0]}}
+joints:
+  axle: {revolute: {between: [ground, wheel]}}
+  shaft: {revolute: {between: [{ground: [0, 0.5, 0]}, fan]}}
+loads:
+  rope: {cable: {ends: [light, heavy], pulleys: [{on: wheel, radius: 0.1, side: right}, {on: {ground: [0.5, 0, 0]}, radius: 0.1, side: right}], stiffness: 1e5, damping-time: 0.2 ms, pretension: 15, friction: 0.3}}
+  belt: {cable: {pulleys: [{on: wheel, radius: 0.05}, {on: fan, radius: 0.08}], stiffness: 1e4, damping-time: 1 ms, pretension: 5, friction: 0.2}}
+)";
+}
+
+/// Three balls that roll on a plane side by side and touch it all the time.
+inline std::string rolling_balls() {
+  return R"(buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  b0: {rigid: {mass: 30 g, inertia: [1.2e-6, 1.2e-6, 1.2e-6]}, at: {position: [0, 0, 9.985 mm]}}
+  b1: {rigid: {mass: 30 g, inertia: [1.2e-6, 1.2e-6, 1.2e-6]}, at: {position: [0, 50 mm, 9.985 mm]}}
+  b2: {rigid: {mass: 30 g, inertia: [1.2e-6, 1.2e-6, 1.2e-6]}, at: {position: [0, 100 mm, 9.985 mm]}}
+loads:
+  heap: {contacts: {among: [{on: ground, plane: [0, 0, 1]}, {bodies: "b*", sphere: 10 mm}], stiffness: 2e4, damping: 20, static: 0.3}}
+initial: {bodies: {b0: {velocity: [0.1, 0, 0], angular-velocity: [0, 10, 0]}, b1: {velocity: [0.2, 0, 0]}}}
+)";
+}
+
 /// Steel-like balls of 20 mm in layers of a box of planes, slightly out of line.
 /// @param count 100: layers of 5 × 5; 1000: of 10 × 10
 inline model::ModelDescription spheres_in_a_box(int count) {

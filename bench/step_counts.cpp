@@ -71,6 +71,10 @@ std::vector<Case> cases() {
   out.push_back({"four-bar with friction and stops",
                  [] { return buckens::bench::start(four_bar(friction_and_stops()), kStep); }});
   out.push_back(
+      {"cables over pulleys", [] { return buckens::bench::start(rope_and_belt(), kStep); }});
+  out.push_back(
+      {"contacts of many bodies", [] { return buckens::bench::start(rolling_balls(), kStep); }});
+  out.push_back(
       {"rigid chain, 100 links", [] { return buckens::bench::start(rigid_chain(100), kStep); }});
   return out;
 }

@@ -87,14 +87,25 @@ double least_gap(const loads::ContactPair& pair, const spatial::MarkerMotion& fi
   return gap;
 }
 
+/// What is known of the members of a group; kept, so that steps allocate nothing.
+struct MemberBuffers {
+  std::vector<spatial::MarkerMotion> at;
+  std::vector<double> margin;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  std::vector<std::pair<int, int>> pairs;
+};
+
 void find_near_in(const model::Model& model, std::size_t number,
                   const std::vector<BodyMotion>& motions, double ahead,
                   std::vector<NearPair>& out) {
   const ContactGroup& group = *model.contact_groups[number];
   const std::size_t count = group.members.size();
-  std::vector<spatial::MarkerMotion> at(count);
-  std::vector<double> margin(count);
-  std::vector<Eigen::AlignedBox3d> boxes(count);
+  thread_local MemberBuffers kept;
+  auto& [at, margin, boxes, pairs] = kept;
+  at.resize(count);
+  margin.resize(count);
+  boxes.resize(count);
+  pairs.clear();
   for (std::size_t k = 0; k < count; ++k) {
     const ContactMember& member = group.members[k];
     at[k] = evaluate_marker(model, member.marker, motions).motion;
@@ -108,7 +119,6 @@ void find_near_in(const model::Model& model, std::size_t number,
     boxes[k].min().array() -= margin[k];
     boxes[k].max().array() += margin[k];
   }
-  std::vector<std::pair<int, int>> pairs;
   loads::find_overlapping(boxes, pairs);
   for (const auto& [a, b] : pairs) {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
@@ -120,10 +130,19 @@ void find_near_in(const model::Model& model, std::size_t number,
   }
 }
 
+void find_near_into(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
+                    std::vector<NearPair>& out) {
+  out.clear();
+  for (std::size_t k = 0; k < model.contact_groups.size(); ++k) {
+    find_near_in(model, k, motions, ahead, out);
+  }
+  std::sort(out.begin(), out.end());
+}
+
 /// Finds pairs and room for their states.
 void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
                 const model::RowMemory& before, model::RowMemory& out) {
-  out.near = find_near(model, motions, ahead);
+  find_near_into(model, motions, ahead, out.near);
   std::erase_if(out.near, [&](const NearPair& pair) {
     return before.is_off(model.contact_groups[static_cast<std::size_t>(pair.group)]->load);
   });
@@ -134,10 +153,7 @@ void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motion
 std::vector<NearPair> find_near(const model::Model& model, const std::vector<BodyMotion>& motions,
                                 double ahead) {
   std::vector<NearPair> out;
-  for (std::size_t k = 0; k < model.contact_groups.size(); ++k) {
-    find_near_in(model, k, motions, ahead, out);
-  }
-  std::sort(out.begin(), out.end());
+  find_near_into(model, motions, ahead, out);
   return out;
 }
 
@@ -188,7 +204,7 @@ void advance_near(const model::Model& model, const std::vector<BodyMotion>& moti
   // Beyond the first step its length is known; margins are limited by sizes in any case.
   find_pairs(model, motions, t > before.near_time ? t - before.near_time : HUGE_VAL, before, out);
   out.near_time = t;
-  std::vector<PairAt> pairs;
+  thread_local std::vector<PairAt> pairs;  // kept, so that steps allocate nothing
   pairs.reserve(out.near.size());
   Eigen::Index count = 0;
   for (const NearPair& pair : out.near) {
@@ -211,6 +227,7 @@ void advance_near(const model::Model& model, const std::vector<BodyMotion>& moti
     }
     states += pairs[k].contact.num_states();
   }
+  pairs.clear();
 }
 
 void refuse_contact_groups(const model::Model& model, const char* analysis) {

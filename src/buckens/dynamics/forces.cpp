@@ -195,11 +195,31 @@ SystemRow tangent_row(const model::Model& model, const model::Load& load, const 
   return out;
 }
 
+/// Room for shares of markers behind the second, of rows that are no more.
+std::vector<std::vector<BodyRow>>& left_shares() {
+  thread_local std::vector<std::vector<BodyRow>> room;
+  return room;
+}
+
+/// Forgets all rows, but not the room that they took, so that steps allocate nothing.
+void clear_rows(std::vector<SystemRow>& rows) {
+  for (SystemRow& row : rows) {
+    if (row.more.capacity() == 0) continue;
+    row.more.clear();
+    left_shares().push_back(std::move(row.more));
+  }
+  rows.clear();
+}
+
 /// Shares of the markers behind the second.
 void add_parts(const model::Model& model, const model::Load& load, const LoadEnds& ends,
                const loads::TwistRow* of_others, SystemRow& out) {
   static const model::MarkerId kNowhere;
   static const body::MarkerKinematics kAtRest;
+  if (!load.others.empty() && out.more.capacity() == 0 && !left_shares().empty()) {
+    out.more = std::move(left_shares().back());
+    left_shares().pop_back();
+  }
   for (std::size_t m = 0; m < load.others.size(); ++m) {
     spatial::PairRow J = spatial::PairRow::Zero();
     J.head<6>() = of_others[m];
@@ -219,7 +239,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
                         const Circumstances& given, SoftRows& out) {
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
   out.regimes.clear();
-  out.rows.clear();
+  clear_rows(out.rows);
   out.stiffness.clear();
   out.damping.clear();
   out.rigid.clear();

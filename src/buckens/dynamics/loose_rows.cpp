@@ -16,6 +16,9 @@ namespace {
 // residuals around it.
 constexpr double kSolved = 1e-10;
 constexpr int kMostSweeps = 200;
+// Blocks of up to so many rows are inverted without memory from the heap: eight spots with
+// friction.
+constexpr int kSmall = 24;
 
 Eigen::Map<const Eigen::Matrix<double, 6, 1>> numbers_of(const double* values) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(values);
@@ -36,6 +39,22 @@ double interface_share(const linalg::Matrix& interface, const RowBlock::Side& si
   }
   return out;
 }
+
+void invert(Eigen::MatrixXd& S) {
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
+  if (S.rows() > kSmall) {
+    S = Eigen::MatrixXd(S.inverse());
+    return;
+  }
+  const Small before = S;
+  const Small inverse = before.inverse();
+  S = inverse;
+}
+
+/// Vectors of the iteration, kept so that steps allocate nothing.
+struct SweepVectors {
+  Vector b, r0, r, p, p_hat, s_hat, v, t;
+};
 
 }  // namespace
 
@@ -68,7 +87,7 @@ void MultiplierCondensation::set_loose_blocks() {
     for (int k = 0; k < block.count; ++k) {
       S(k, k) += soft_compliance_[static_cast<std::size_t>(block.first_row + k - first_soft)];
     }
-    S = Eigen::MatrixXd(S.inverse());
+    invert(S);
   }
 }
 
@@ -119,12 +138,13 @@ void MultiplierCondensation::precondition(const Vector& x, Vector& y, Slopes slo
 // Stabilised biconjugate gradients (van der Vorst 1992): S is symmetric only where rows are closed
 // in the directions in which their multipliers act.
 void MultiplierCondensation::iterate(Vector& x, Slopes slopes) const {
-  const Vector b = x;
+  thread_local SweepVectors kept;
+  auto& [b, r0, r, p, p_hat, s_hat, v, t] = kept;
+  b = x;
   const double enough = kSolved * b.norm();
   x.setZero();
   if (!(enough > 0.0)) return;
-  Vector r = b, p = b, p_hat, s_hat, v, t;
-  const Vector r0 = b;
+  r0 = r = p = b;
   double rho = r0.squaredNorm();
   for (int k = 0; k < kMostSweeps; ++k) {
     precondition(p, p_hat, slopes);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/travel.h"
 
+#include <utility>
+
 namespace buckens::dynamics {
 
 using Eigen::Vector3d;
@@ -18,7 +20,32 @@ BodyRow empty_share(const model::Model& model, const model::MarkerId& id) {
   return out;
 }
 
+/// Room of LoadEnds that are no more.
+struct Room {
+  std::vector<body::MarkerKinematics> others;
+  std::vector<spatial::MarkerMotion> motions;
+};
+
+std::vector<Room>& left_room() {
+  thread_local std::vector<Room> room;
+  return room;
+}
+
 }  // namespace
+
+LoadEnds::~LoadEnds() {
+  if (others.capacity() == 0) return;
+  others.clear();
+  other_motions.clear();
+  left_room().push_back({std::move(others), std::move(other_motions)});
+}
+
+void LoadEnds::take_room() {
+  if (left_room().empty()) return;
+  others = std::move(left_room().back().others);
+  other_motions = std::move(left_room().back().motions);
+  left_room().pop_back();
+}
 
 Travel::Travel(const model::Model& model, const model::Joint& joint,
                const std::vector<BodyMotion>& motions, const double* states)
@@ -144,6 +171,7 @@ LoadEnds ends_of(const model::Model& model, const model::Load& load,
   }
   out.first = evaluate_marker(model, load.first, motions);
   out.second = evaluate_marker(model, load.second, motions);
+  if (!load.others.empty()) out.take_room();
   for (const model::MarkerId& id : load.others) {
     out.others.push_back(evaluate_marker(model, id, motions));
     out.other_motions.push_back(out.others.back().motion);

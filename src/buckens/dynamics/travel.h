@@ -82,7 +82,19 @@ class Travel {
 const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate);
 
 /// All markers of a load. The first of a law on a slider's coordinate is a point of the beam.
+///
+/// Room for the markers behind the second is handed on from one object to the next, so that steps
+/// allocate nothing.
 struct LoadEnds {
+  LoadEnds() = default;
+  LoadEnds(LoadEnds&&) = default;
+  LoadEnds(const LoadEnds&) = delete;
+  LoadEnds& operator=(const LoadEnds&) = delete;
+  LoadEnds& operator=(LoadEnds&&) = delete;
+  ~LoadEnds();
+  /// Takes room that another object has left.
+  void take_room();
+
   std::optional<Travel> travel;  ///< of a law on a slider's coordinate
   body::MarkerKinematics first, second;
   std::vector<body::MarkerKinematics> others;  ///< one per Load::others

@@ -59,7 +59,9 @@ int sweeping_axis(std::span<const AlignedBox3d> boxes, const std::vector<int>& f
 void find_overlapping(std::span<const AlignedBox3d> boxes,
                       std::vector<std::pair<int, int>>& pairs) {
   const auto box = [&](int k) -> const AlignedBox3d& { return boxes[static_cast<std::size_t>(k)]; };
-  std::vector<int> finite, infinite;
+  thread_local std::vector<int> finite, infinite;  // kept, so that steps allocate nothing
+  finite.clear();
+  infinite.clear();
   for (int k = 0; k < static_cast<int>(boxes.size()); ++k) {
     (box(k).sizes().allFinite() ? finite : infinite).push_back(k);
   }
