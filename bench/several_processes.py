@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One large cube of solids whose factor is distributed over several processes: memory of each, time of a step.
+
+    bench/several_processes.py PROGRAM --side 31 --processes 1 2 4 --into docs/developers/several_processes.json
+
+Prints a table and adds the runs to the file. One process has the factor of the program itself; `--mumps` lets it use MUMPS, too. Times are wall
+times: several processes on fewer processors share them.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import time
+
+from large_bodies import MODEL
+
+MUMPS = "{petsc: \"-ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps\"}"
+# As root, and with more processes than processors.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+               "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+def peaks(started, known):
+    """Largest memory so far of the processes that serve, by rank [bytes]."""
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            environment = (entry / "environ").read_bytes().split(b"\0")
+            if f"BUCKENS_BENCH_RUN={started}".encode() not in environment:
+                continue
+            ranks = [int(v.split(b"=")[1]) for v in environment if v.startswith(b"OMPI_COMM_WORLD_RANK=")]
+            status = (entry / "status").read_text()
+        except (OSError, IndexError):
+            continue
+        lines = [line for line in status.splitlines() if line.startswith("VmHWM")]
+        if not lines or "Name:\tbuckens" not in status:
+            continue
+        rank = ranks[0] if ranks else 0
+        known[rank] = max(known.get(rank, 0), 1024 * int(lines[0].split()[1]))
+
+
+def run(program, side, processes, steps, solver):
+    with tempfile.TemporaryDirectory() as folder:
+        model = pathlib.Path(folder) / "cube.yaml"
+        model.write_text(MODEL.format(side=side, solver=solver, steps=steps))
+        out = pathlib.Path(folder) / "out"
+        command = [program, "run", str(model), "-o", str(out), "--quiet"]
+        if processes > 1:
+            command = ["mpirun", "-n", str(processes), *command]
+        process = subprocess.Popen(command, env={**ENVIRONMENT, "BUCKENS_BENCH_RUN": folder})
+        memory = {}
+        while process.poll() is None:
+            peaks(folder, memory)
+            time.sleep(0.05)
+        if process.returncode != 0:
+            raise SystemExit(f"{processes} processes: the program ended with {process.returncode}")
+        summary = json.loads((out / "summary.json").read_text())
+        return summary, [memory[rank] for rank in sorted(memory)]
+
+
+def measure(program, side, processes, steps, solver):
+    summary, memory = run(program, side, processes, steps, solver)
+    body = summary["bodies"]["cube"]
+    return {"side": side, "variables": body["dof"], "processes": processes,
+            "solver": "MUMPS" if solver == MUMPS or processes > 1 else "own",
+            "setup_seconds": summary["wall_seconds"]["setup"],
+            "solve_seconds": summary["wall_seconds"]["phases"]["large_solves"] / body["solves"],
+            "step_seconds": summary["wall_seconds"]["stepping"] / summary["steps"],
+            "solves": body["solves"], "steps": summary["steps"], "peak_bytes": memory,
+            "processors": os.cpu_count(), "load": os.getloadavg()[0],
+            "date": datetime.datetime.now().strftime("%Y-%m-%d")}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="buckens, built with BUCKENS_MPI=ON")
+    parser.add_argument("--side", type=int, default=31, help="elements along an edge")
+    parser.add_argument("--processes", type=int, nargs="*", default=[1, 2, 4])
+    parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--mumps", action="store_true", help="MUMPS for one process, too")
+    parser.add_argument("--into", type=pathlib.Path, required=True, help="file with the figures")
+    arguments = parser.parse_args()
+    rows = json.loads(arguments.into.read_text()) if arguments.into.exists() else []
+    for processes in arguments.processes:
+        row = measure(arguments.program, arguments.side, processes, arguments.steps,
+                      MUMPS if arguments.mumps else "direct")
+        key = (row["side"], row["solver"], row["processes"])
+        rows = [r for r in rows if (r["side"], r["solver"], r["processes"]) != key] + [row]
+        rows.sort(key=lambda r: (r["side"], r["processes"], r["solver"]))
+        arguments.into.write_text(json.dumps(rows, indent=1) + "\n")
+        print("| {variables} | {processes} | {solver} | {setup_seconds:.1f} | {solve_seconds:.3f} | {step_seconds:.3f} | ".format(**row)
+              + ", ".join(f"{m / 1e9:.2f}" for m in row["peak_bytes"]) + " |")
+
+
+if __name__ == "__main__":
+    main()
