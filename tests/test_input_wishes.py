@@ -55,6 +55,22 @@ def test_wishes_are_told_what_to_do_instead(refuse, old, new, words):
     refuse(old, new, *words)
 
 
+@pytest.mark.parametrize("material, section, words", [
+    ("aluminium", "{circle: {diameter: 6 mm}}", ["unknown material \"aluminium\"", "has no material", "E: 70 GPa"]),
+    ("PA12", "{circle: {diameter: 6 mm}}", ["unknown material \"PA12\"", "# those of steel"]),
+    ("{E: 2 GPa, rho: 1010}", "shaft", ["unknown section \"shaft\"", "has no section"]),
+])
+def test_what_a_model_lacks_is_shown_in_two_lines_to_paste(buckens, tmp_path, material, section, words):
+    text = ("buckens: 1\nbodies:\n  rod:\n    beam: {to: [1 m, 0, 0], elements: 2, material: MATERIAL, section: SECTION}\n"
+            .replace("MATERIAL", material).replace("SECTION", section))
+    (tmp_path / "model.yaml").write_text(text)
+    told = buckens("check", "model.yaml").must(2, "model.yaml:4:", "nothing is built in", *words).err
+    example = told[told.index(f"\n{words[0].split()[1]}s:\n"):].splitlines()[1:3]
+    # Definitions stand above the bodies that use them.
+    (tmp_path / "model.yaml").write_text(text.replace("bodies:", "\n".join(example) + "\nbodies:"))
+    buckens("check", "model.yaml").must(0)
+
+
 def test_a_full_stop_for_a_slash(refuse):
     refuse("rod/start", "rod.start", "model.yaml:10:", "\"rod.start\"", "Did you mean \"rod/start\"?")
     refuse("on: rod/end", "on: \"rod:end\"", "Did you mean \"rod/end\"?")

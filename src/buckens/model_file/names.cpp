@@ -87,10 +87,52 @@ void check_name(const YamlEntry& entry, const std::string& path) {
                                             path, entry.key));
 }
 
+namespace {
+
+/// Rounded constants of the materials that models name most often, to be shown in an example.
+struct CommonMaterial {
+  const char* name;
+  const char* constants;
+};
+constexpr CommonMaterial kCommonMaterials[] = {
+    {"steel", "{E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3}"},
+    {"aluminium", "{E: 70 GPa, nu: 0.33, rho: 2700 kg/m^3}"},
+    {"aluminum", "{E: 70 GPa, nu: 0.33, rho: 2700 kg/m^3}"},
+    {"titanium", "{E: 110 GPa, nu: 0.34, rho: 4500 kg/m^3}"},
+    {"magnesium", "{E: 45 GPa, nu: 0.35, rho: 1750 kg/m^3}"},
+    {"brass", "{E: 100 GPa, nu: 0.35, rho: 8500 kg/m^3}"},
+    {"copper", "{E: 120 GPa, nu: 0.34, rho: 8900 kg/m^3}"},
+};
+
+/// How an entry that a model lacks is written: two lines of the model file.
+std::string example_of(const std::string& kind, const std::string& name) {
+  std::string key = is_name(name) ? name : "my-" + kind;
+  if (kind == "section")
+    return fmt::format("sections:\n  {}: {{circle: {{diameter: 20 mm}}}}", key);
+  if (kind != "material") return "";
+  const auto* common = std::find_if(
+      std::begin(kCommonMaterials), std::end(kCommonMaterials),
+      [&](const CommonMaterial& known) { return base::edit_distance(name, known.name) == 0; });
+  const bool is_common = common != std::end(kCommonMaterials);
+  return fmt::format("materials:\n  {}: {}{}", key,
+                     is_common ? common->constants : kCommonMaterials[0].constants,
+                     is_common ? "" : "  # those of steel");
+}
+
+}  // namespace
+
 void fail_unknown(const ReadPlace& place, const std::string& kind, const std::string& name,
                   const std::vector<std::string>& known) {
-  const std::string rest =
-      known.empty() ? fmt::format(" The model has no {}.", kind) : base::suggestion(name, known);
+  std::string rest = base::suggestion(name, known);
+  if (known.empty()) {
+    rest = fmt::format(" The model has no {}", kind);
+    const std::string example = example_of(kind, name);
+    rest += example.empty() ? "."
+                            : fmt::format(
+                                  "; nothing is built in. Write at the left margin, with "
+                                  "your own values:\n{}",
+                                  example);
+  }
   fail(place, fmt::format("unknown {} \"{}\".{}", kind, shortened(name), rest));
 }
 
