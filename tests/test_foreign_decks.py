@@ -347,6 +347,26 @@ def test_parts_without_an_assembly_are_where_they_were_drawn(buckens, model):
     assert report(buckens, "--only", "Q")["mass_centre"][0] == pytest.approx(3.5)
 
 
+def test_parts_without_an_end_do_not_take_what_follows(buckens, model):
+    """Ended by *PART, *ASSEMBLY or *STEP: the note tells where."""
+    first, _ = block((1, 1, 1))
+    second, _ = block((1, 1, 1), (3, 0, 0))
+    section = "*SOLID SECTION,ELSET=E,MATERIAL=ST\n"
+    parts = f"*PART,NAME=P\n{first}{section}*PART,NAME=Q\n{second}{section}"
+    model(parts + "*STEP\n*STATIC\n*END STEP\n" + STEEL)
+    told = report(buckens)
+    assert told["mass"] == pytest.approx(2 * 7800) and told["box"][1][0] == pytest.approx(4)
+    notes = buckens("mesh-info", "deck.inp").must(0).out
+    line = parts[:parts.index("*PART,NAME=Q")].count("\n") + 1
+    assert f"*PART has no *END PART; it is taken to end before *PART in line {line}" in notes and "before *STEP" in notes
+    instances = "".join(f"*INSTANCE,NAME=I{k},PART=P\n{x},0,0\n*END INSTANCE\n" for k, x in enumerate((0, 5)))
+    model(f"*PART,NAME=P\n{first}{section}*ASSEMBLY,NAME=A\n{instances}*END ASSEMBLY\n" + STEEL)
+    told = report(buckens)
+    assert told["mass"] == pytest.approx(2 * 7800) and told["mass_centre"][0] == pytest.approx(3)
+    model(f"*PART,NAME=P\n{first}{section}{STEEL}")
+    buckens("check", "model.yaml").must(2, "deck.inp:1", "*PART has no *END PART", "add *END PART")
+
+
 def test_lines_in_no_group_that_hang_on_solids_need_a_section(buckens, tmp_path):
     # A tetrahedron in no group, one of its edges, a chain of two lines attached to it, and a separate line.
     (tmp_path / "part.msh").write_text(

@@ -77,7 +77,8 @@ class DeckReader {
     check_beginning();
     while (in_.lines.next_keyword(keyword)) read(keyword);
     if (!open_.name.empty()) {
-      in_.lines.fail(open_.place, fmt::format("{} has no {}; the file seems to be truncated",
+      in_.lines.fail(open_.place, fmt::format("{0} has no {1}; the file seems to be truncated (if "
+                                              "it is whole, add {1} as its last line)",
                                               open_.written, end_of(open_.name)));
     }
     finish();
@@ -104,6 +105,7 @@ class DeckReader {
     if (name.empty()) return in_.note(keyword.place, "a lone star is taken as a comment");
     if (in_.skip.takes(name, line_in_main(keyword.place))) return;
     if (is_below_coupling && in_.skip.has("COUPLING")) return;
+    if (ends_part(name)) close_part(keyword);
     if (name == "STEP") return skip_step(keyword);
     if (name == "PART" || name == "INSTANCE") return open(keyword);
     if (name == "ENDPART" || name == "ENDINSTANCE") return close(keyword);
@@ -115,6 +117,20 @@ class DeckReader {
                                     [&](const NamedCard& known) { return known.name == name; });
     if (card != std::end(kCards)) return card->read(in_, keyword);
     pass_over(keyword);
+  }
+
+  /// Whether a *PART that is open must have ended before this keyword.
+  bool ends_part(const std::string& name) const {
+    return open_.name == "PART" &&
+           (name == "STEP" || name == "PART" || name == "INSTANCE" || name == "ASSEMBLY");
+  }
+
+  void close_part(const DeckKeyword& next) {
+    in_.note(open_.place,
+             fmt::format("{} has no *END PART; it is taken to end before {} in line {}",
+                         open_.written, next.written, next.place.line));
+    open_.name.clear();
+    in_.scope = &in_.deck.root;
   }
 
   /// Lines of included files would mislead.
