@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -9,6 +10,7 @@
 
 #include "buckens/files/deck_number.h"
 #include "buckens/mesh_io/abaqus/cards.h"
+#include "buckens/mesh_io/symmetry_axes.h"
 
 namespace buckens::mesh_io {
 
@@ -16,6 +18,9 @@ namespace {
 
 /// Share of the largest constant that is rounding of turned ones.
 constexpr double kNoCoupling = 1e-6;
+
+/// The same for constants of five digits, whose axes had to be found.
+constexpr double kFiveDigits = 1e-4;
 
 fem::MaterialSpec& current(AbaqusReading& in, const DeckKeyword& keyword) {
   if (in.material != nullptr) return *in.material;
@@ -77,29 +82,48 @@ fem::OrthotropicSpec from_stiffness(AbaqusReading& in, const DeckKeyword& keywor
                       -S(0, 2) / S(0, 0), -S(1, 2) / S(1, 1), v[6], v[7], v[8]});
 }
 
-/// The nine constants among the 21 of an anisotropic material whose axes are those of its symmetry:
-/// what couples stretch and shear, or two shears, must be zero.
-fem::OrthotropicSpec from_all_stiffnesses(AbaqusReading& in, const DeckKeyword& keyword,
-                                          const std::vector<double>& v) {
-  // D1111, D1122, D2222, D1133, D2233, D3333, then the columns of 12, 13 and 23.
-  const std::array<std::size_t, 9> symmetric = {0, 1, 2, 3, 4, 5, 9, 14, 20};
-  double largest = 0;
-  for (const double value : v) largest = std::max(largest, std::abs(value));
-  std::vector<double> own;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    if (std::find(symmetric.begin(), symmetric.end(), i) != symmetric.end()) {
-      own.push_back(v[i]);
-    } else if (std::abs(v[i]) > kNoCoupling * largest) {
-      in.lines.fail(
-          keyword.place,
-          fmt::format("*ELASTIC of TYPE=ANISOTROPIC: constant {} is {:g}; materials that "
-                      "couple stretch and shear are not supported. Where it has three "
-                      "planes of symmetry, give its constants in their axes, and these as "
-                      "*ORIENTATION",
-                      i + 1, v[i]));
+/// The 21 constants: the upper triangle column by column, in the order 11, 22, 33, 12, 13, 23.
+StiffnessMatrix all_stiffnesses(const std::vector<double>& v) {
+  constexpr std::array<int, 6> kPlace = {0, 1, 2, 3, 5, 4};
+  StiffnessMatrix C;
+  std::size_t next = 0;
+  for (std::size_t column = 0; column < 6; ++column) {
+    for (std::size_t row = 0; row <= column; ++row, ++next) {
+      C(kPlace[row], kPlace[column]) = C(kPlace[column], kPlace[row]) = v[next];
     }
   }
-  return from_stiffness(in, keyword, own);
+  return C;
+}
+
+/// The nine constants of an anisotropic material with three planes of symmetry; where these are
+/// turned from the axes of the 21 constants, its directions are theirs.
+fem::OrthotropicSpec from_all_stiffnesses(AbaqusReading& in, const DeckKeyword& keyword,
+                                          const std::vector<double>& v, const std::string& name) {
+  StiffnessMatrix C = all_stiffnesses(v);
+  std::optional<Eigen::Matrix3d> axes;
+  if (!(coupling_of(C) <= kNoCoupling)) {
+    axes = symmetry_axes(C, kFiveDigits);
+    if (!axes) {
+      in.lines.fail(keyword.place,
+                    fmt::format("*ELASTIC of TYPE=ANISOTROPIC: material \"{}\" couples stretch and "
+                                "shear in all axes (in those given, by {:.2g} of its largest "
+                                "constant); only materials with three planes of symmetry, however "
+                                "turned, are supported. Leave out what couples, or give another "
+                                "material in the model file: materials: {{\"{}\": …}}",
+                                name, coupling_of(C), name));
+    }
+    C = in_axes(C, *axes);
+    in.note(keyword.place,
+            "*ELASTIC of TYPE=ANISOTROPIC: what couples stretch and shear vanishes in other axes; "
+            "the material is taken as an orthotropic one in these");
+  }
+  auto out = orthotropic_constants(C);
+  if (!out) in.lines.fail(keyword.place, "its 21 stiffnesses are not positive definite");
+  if (axes) {
+    out->axis_1 = axes->col(0);
+    out->axis_2 = axes->col(1);
+  }
+  return *out;
 }
 
 /// E1, E2, ν12, G12, G13, G23 of a plane state of stress. Shells do not ask for what is across: it
@@ -142,7 +166,11 @@ void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
   } else if (type == "ORTHOTROPIC" || type == "ORTHO") {
     material.orthotropic = from_stiffness(in, keyword, first_constants(in, keyword, 9));
   } else if (type == "ANISOTROPIC" || type == "ANISO") {
-    material.orthotropic = from_all_stiffnesses(in, keyword, first_constants(in, keyword, 21));
+    material.orthotropic =
+        from_all_stiffnesses(in, keyword, first_constants(in, keyword, 21), material.name);
+    const bool is_turned = material.orthotropic->axis_1 != Eigen::Vector3d::UnitX() ||
+                           material.orthotropic->axis_2 != Eigen::Vector3d::UnitY();
+    if (is_turned) in.deck.turned_materials.insert(upper(material.name));
   } else if (type == "LAMINA") {
     material.orthotropic = lamina(first_constants(in, keyword, 6));
     in.deck.laminae.insert(upper(material.name));

@@ -187,7 +187,9 @@ void AbaqusMesh::add_element(int scope, int element) {
     Vector3d shift = Vector3d::Zero();
     if (has_shape) {
       const auto& section = placed.scope->sections[static_cast<std::size_t>(section_number)];
-      shift = shift_of(section, nodes[piece], nodes[piece + 1], block.up.back());
+      Vector3d& up = block.up.back();
+      shift = shift_of(section, nodes[piece], nodes[piece + 1], up);
+      up = turned_up(section, nodes[piece], nodes[piece + 1], up);
     }
     for (std::size_t i = 0; i < length; ++i) {
       block.nodes.push_back(shifted_node(nodes[piece + i], shift, raw->places[k]));
@@ -204,6 +206,15 @@ Vector3d AbaqusMesh::shift_of(const AbaqusSection& section, int a, int b,
   return section.shift[0] * up.cross(along.normalized()) + section.shift[1] * up;
 }
 
+/// The second axis of a section that is turned about the beam. @param up direction 2
+Vector3d AbaqusMesh::turned_up(const AbaqusSection& section, int a, int b,
+                               const Vector3d& up) const {
+  if (section.turn == 0.0) return up;
+  const Vector3d along =
+      out_.positions[static_cast<std::size_t>(b)] - out_.positions[static_cast<std::size_t>(a)];
+  return Eigen::AngleAxisd(section.turn, along.normalized()) * up;
+}
+
 /// The node itself, or one beside it that follows it as a rigid body.
 int AbaqusMesh::shifted_node(int node, const Vector3d& shift, DeckPlace place) {
   if (shift.isZero(0.0)) return node;
@@ -212,7 +223,10 @@ int AbaqusMesh::shifted_node(int node, const Vector3d& shift, DeckPlace place) {
   if (shifted_.size() == 1) {
     free_label_ = *std::max_element(out_.node_ids.begin(), out_.node_ids.end());
     out_.notes.push_back(
-        note_at(place, "OFFSET1, OFFSET2: beams have nodes of their own on rigid links", 1));
+        note_at(place,
+                "beams beside their nodes (OFFSET1, OFFSET2, unequal walls of a BOX) have "
+                "nodes of their own on rigid links",
+                1));
   }
   const Vector3d position = out_.positions[static_cast<std::size_t>(node)] + shift;
   out_.positions.push_back(position);

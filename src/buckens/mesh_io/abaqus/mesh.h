@@ -43,6 +43,8 @@ class AbaqusMesh {
     double thickness = 0;  ///< of a shell, or of a beam in direction 1; 0: the section's
     double second = 0;     ///< of a beam in direction 2
     std::optional<Eigen::Matrix3d> axes;  ///< in which those of the orientation are
+    /// Of each layer from the section's direction 1, if some have an orientation [rad].
+    std::vector<double> angles;
 
     std::vector<double> key() const;
   };
@@ -54,6 +56,15 @@ class AbaqusMesh {
                                          std::size_t count, DeckPlace place);
   void set_own_measures(const AbaqusSection& section, const OwnValues& own,
                         fem::ImportedProperty& property);
+  static bool has_directed_layers(const AbaqusSection& section);
+  const AbaqusOrientation* reference_orientation(int scope, const AbaqusSection& section) const;
+  Eigen::Vector3d shell_normal(int scope, int element) const;
+  /// The two axes after the normal one, and that.
+  static Eigen::Matrix3d in_order_of_shell(const Eigen::Matrix3d& axes, int normal);
+  void check_normal(int scope, const AbaqusOrientation& axes, const OwnValues& own,
+                    const Eigen::Vector3d& normal);
+  void set_layer_angles(int scope, const AbaqusSection& section, const AbaqusOrientation* reference,
+                        const Eigen::Vector3d& normal, OwnValues& out);
   /// Whether material axes make no difference.
   bool has_no_directions(const AbaqusSection& section) const;
   std::string free_property_name(int scope, const AbaqusSection& section);
@@ -63,6 +74,12 @@ class AbaqusMesh {
   int property_for(int scope, const AbaqusSection& section, int element);
   void fill_property(int scope, const AbaqusSection& section, const OwnValues& own_values,
                      fem::ImportedProperty& property);
+  void set_layers(const AbaqusSection& section, const OwnValues& own_values,
+                  fem::ImportedProperty& property);
+  void set_axes(int scope, const AbaqusSection& section, const OwnValues& own_values,
+                fem::ImportedProperty& property);
+  void refuse_turned(const std::string& material, DeckPlace place) const;
+  void turn_material(const AbaqusSection& section, fem::ImportedProperty& property);
   std::string material_called(const std::string& name, DeckPlace place);
   const AbaqusOrientation* orientation_called(int scope, const std::string& name,
                                               DeckPlace place) const;
@@ -71,6 +88,8 @@ class AbaqusMesh {
   Eigen::Vector3d up_direction(int scope, int element, int a, int b) const;
   Eigen::Vector3d shift_of(const AbaqusSection& section, int a, int b,
                            const Eigen::Vector3d& up) const;
+  Eigen::Vector3d turned_up(const AbaqusSection& section, int a, int b,
+                            const Eigen::Vector3d& up) const;
   int shifted_node(int node, const Eigen::Vector3d& shift, DeckPlace place);
   void number_blocks();
   void add_masses(int scope);

@@ -120,7 +120,7 @@ int AbaqusMesh::property_for(int scope, const AbaqusSection& section, int elemen
   PropertyKind kind;
   fits(type.role, section.kind, kind);
   // Axes turn with an instance; other properties are shared by those of a part.
-  const bool is_own = !section.orientation.empty();
+  const bool is_own = !section.orientation.empty() || has_directed_layers(section);
   const auto key = std::make_tuple(section.place.file, section.place.line, is_own ? scope : 0, kind,
                                    type.shear_flexible, own.key());
   const auto known = properties_.find(key);
@@ -160,20 +160,7 @@ void AbaqusMesh::fill_property(int scope, const AbaqusSection& section, const Ow
                             "ENGINEERING CONSTANTS",
                             section.material));
   }
-  property.thickness = section.thickness;
-  double thickness = section.thickness.value_or(0.0);
-  for (const AbaqusSection::Layer& layer : section.layers) {
-    if (!layer.orientation.empty()) {
-      lines_.fail(layer.place, fmt::format("the layer has the orientation \"{}\"; give its angle "
-                                           "in degrees instead",
-                                           layer.orientation));
-    }
-    property.layers.push_back(
-        {material_called(layer.material, layer.place), layer.thickness, layer.angle});
-    thickness += layer.thickness;
-  }
-  // Abaqus counts from the middle to the nodes, we count from the nodes to the middle.
-  property.offset = -section.offset * thickness;
+  set_layers(section, own_values, property);
   property.section = section.shape;
   set_own_measures(section, own_values, property);
   if (property.kind == PropertyKind::bar) {
@@ -182,27 +169,40 @@ void AbaqusMesh::fill_property(int scope, const AbaqusSection& section, const Ow
     bar.shape = fem::CircleSpec{2.0 * std::sqrt(section.area / std::numbers::pi)};
     property.section = bar;
   }
-  const AbaqusOrientation* axes = orientation_called(scope, section.orientation, section.place);
+  set_axes(scope, section, own_values, property);
+  if (deck_.turned_materials.contains(upper(section.material))) turn_material(section, property);
+}
+
+void AbaqusMesh::set_layers(const AbaqusSection& section, const OwnValues& own_values,
+                            fem::ImportedProperty& property) {
+  property.thickness = section.thickness;
+  double thickness = section.thickness.value_or(0.0);
+  for (std::size_t k = 0; k < section.layers.size(); ++k) {
+    const AbaqusSection::Layer& layer = section.layers[k];
+    refuse_turned(layer.material, layer.place);
+    property.layers.push_back({material_called(layer.material, layer.place), layer.thickness,
+                               layer.orientation.empty() ? layer.angle : own_values.angles.at(k)});
+    thickness += layer.thickness;
+  }
+  // Abaqus counts from the middle to the nodes, we count from the nodes to the middle.
+  property.offset = -section.offset * thickness;
+}
+
+/// Of solids, from the orientation; of shells, so that the first is the shell's x axis once it is
+/// projected.
+void AbaqusMesh::set_axes(int scope, const AbaqusSection& section, const OwnValues& own_values,
+                          fem::ImportedProperty& property) {
+  const AbaqusOrientation* axes = reference_orientation(scope, section);
   if (axes == nullptr) return;
   const bool is_isotropic = has_no_directions(section);
   if (axes->system == "RECTANGULAR" || own_values.axes) {
-    Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation *
-                   own_values.axes.value_or(Matrix3d::Identity()) * axes->axes;
-    if (section.kind == PropertyKind::shell) {
-      if (!axes->normal && is_isotropic) return;
-      if (!axes->normal) {
-        lines_.fail(
-            axes->place,
-            fmt::format("orientation \"{}\" is used for shells, so its second line must say "
-                        "which of its axes, 1, 2 or 3, is near their normal, and the angle "
-                        "about it: \"3, 0.\" takes its axis 1 as direction 1",
-                        axes->name));
-      }
-      // The axis after the one near the normal is projected onto the shell as direction 1.
-      const Matrix3d given = own;
-      for (int k = 0; k < 3; ++k) own.col(k) = given.col((*axes->normal + 1 + k) % 3);
+    const Matrix3d own = names_.scopes()[static_cast<std::size_t>(scope)].rotation *
+                         own_values.axes.value_or(Matrix3d::Identity()) * axes->axes;
+    if (section.kind != PropertyKind::shell) {
+      property.axes = own;
+    } else if (axes->normal || !is_isotropic) {
+      property.axes = in_order_of_shell(own, axes->normal.value_or(2));
     }
-    property.axes = own;
     return;
   }
   if (is_isotropic) return;
@@ -210,6 +210,28 @@ void AbaqusMesh::fill_property(int scope, const AbaqusSection& section, const Ow
               fmt::format("orientation \"{}\" is of {}, which is supported for isotropic materials "
                           "only; give SYSTEM=RECTANGULAR, one section for each direction",
                           axes->name, axes->system));
+}
+
+void AbaqusMesh::refuse_turned(const std::string& material, DeckPlace place) const {
+  if (!deck_.turned_materials.contains(upper(material))) return;
+  lines_.fail(place, fmt::format("material \"{}\" is of TYPE=ANISOTROPIC and couples stretch and "
+                                 "shear, which is for solids only; give its ENGINEERING CONSTANTS, "
+                                 "and their directions as *ORIENTATION",
+                                 material));
+}
+
+/// A material whose planes of symmetry are turned from the axes of its constants has directions of
+/// its own. In an orientation it becomes another one.
+void AbaqusMesh::turn_material(const AbaqusSection& section, fem::ImportedProperty& property) {
+  if (property.kind != PropertyKind::solid) refuse_turned(section.material, section.place);
+  if (!property.axes) return;
+  fem::MaterialSpec own = *base::find_named(out_.materials, property.material);
+  own.orthotropic->axis_1 = *property.axes * own.orthotropic->axis_1;
+  own.orthotropic->axis_2 = *property.axes * own.orthotropic->axis_2;
+  own.name = fmt::format("{} in {}", own.name, property.name);
+  property.axes.reset();
+  property.material = own.name;
+  out_.materials.push_back(std::move(own));
 }
 
 }  // namespace buckens::mesh_io

@@ -97,6 +97,7 @@ struct AbaqusSection {
   bool is_round = false;                               ///< SECTION=CIRC
   /// From the nodes of beams to the centres of their sections, along directions 1 and 2.
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  double turn = 0;  ///< from direction 1 to the section's first axis, about the beam [rad]
   Eigen::Vector3d n1 = -Eigen::Vector3d::UnitZ();
   DeckPlace place;
 };
@@ -259,6 +260,8 @@ struct AbaqusDeck {
   std::map<std::string, fem::MaterialSpec> materials;  ///< by name in capitals
   std::set<std::string> tied_interactions;             ///< of contact, in capitals
   std::set<std::string> laminae;  ///< those given by their constants in a plane, in capitals
+  /// Materials whose planes of symmetry are turned from the axes of their constants, in capitals.
+  std::set<std::string> turned_materials;
   std::vector<fem::ImportNote> notes;
 };
 

@@ -104,7 +104,7 @@ void read_beam_offset(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSecti
                                 "give the beams nodes of their own and join these by *MPC, BEAM",
                                 kKeys[k], text.substr(0, 40)));
     }
-    section.shift[k] = -*value * measure;
+    section.shift[k] -= *value * measure;
   }
 }
 
@@ -136,20 +136,26 @@ void read_nodal_measures(AbaqusReading& in, const DeckKeyword& keyword, const st
   read_n1(in, row, section);
 }
 
-fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row) {
+/// Walls on the sides of directions 1, 2, −1 and −2. The nodes are in the centre of the outline.
+fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row, AbaqusSection& section) {
   const double a = positive(in, row, 0, "width of the box");
   const double b = positive(in, row, 1, "height of the box");
   std::array<double, 4> t;
   for (std::size_t k = 0; k < 4; ++k) {
     t[k] = row.cell(2 + k).empty() && k > 0 ? t[0] : positive(in, row, 2 + k, "wall of the box");
   }
-  if (t[0] != t[2] || t[1] != t[3]) {
-    in.lines.fail(row.place, "opposite walls of a box must be alike; give SECTION=GENERAL");
-  }
-  if (2.0 * t[0] >= a || 2.0 * t[1] >= b) {
+  if (t[0] + t[2] >= a || t[1] + t[3] >= b) {
     in.lines.fail(row.place, "the walls are thicker than half of the box; use SECTION=RECT");
   }
-  return box_section({a, b, t[0], t[1]});
+  if (t[0] == t[2] && t[1] == t[3]) return box_section({a, b, t[0], t[1]});
+  UnequalBox box = unequal_box_section(a, b, t);
+  section.shift = {box.centroid[0], box.centroid[1]};
+  section.turn = box.angle;
+  in.note(
+      row.place,
+      "SECTION=BOX with unequal walls: beams lie in the centroid beside their nodes; torsion is "
+      "about it, too, and not about the shear centre");
+  return std::move(box.section);
 }
 
 /// Origin above the bottom, height, widths and thicknesses of the lower and upper flange, web. The
@@ -224,7 +230,8 @@ fem::RectangleSpec read_rectangle(AbaqusReading& in, const DeckRow& row) {
 }
 
 /// The shape on a data line. Direction 1 of the section becomes local y, direction 2 local z.
-fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row) {
+fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const DeckRow& row,
+                            AbaqusSection& section) {
   fem::SectionSpec out;
   // CalculiX looks at the first letters only.
   if (name.starts_with("RECT")) {
@@ -241,7 +248,7 @@ fem::SectionSpec read_shape(AbaqusReading& in, const std::string& name, const De
       out.shape = fem::TubeSpec{2.0 * radius, wall, std::nullopt};
     }
   } else if (name == "BOX") {
-    out = read_box(in, row);
+    out = read_box(in, row, section);
   } else if (name == "I") {
     out = read_i_section(in, row);
   } else if (name == "GENERAL") {
@@ -270,7 +277,7 @@ void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& 
   DeckRow row;
   if (!in.lines.next_row(row))
     in.lines.fail(section.place, "the measures of the section are missing");
-  section.shape = read_shape(in, name, row);
+  section.shape = read_shape(in, name, row, section);
   section.shape->where = in.lines.where(row.place);
   section.measures = outer_measures(in, name, row);
   if (!in.lines.next_row_or_blank(row) || row.cells.empty()) return;

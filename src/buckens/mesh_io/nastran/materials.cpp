@@ -5,11 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/mesh_io/symmetry_axes.h"
 
 namespace buckens::mesh_io {
 
@@ -67,8 +66,8 @@ fem::OrthotropicSpec read_mat8(const NastranCard& card) {
 }
 
 /// Order of stresses in MAT9: xx, yy, zz, xy, yz, zx.
-Eigen::Matrix<double, 6, 6> read_stiffness(const NastranCard& card) {
-  Eigen::Matrix<double, 6, 6> C;
+StiffnessMatrix read_stiffness(const NastranCard& card) {
+  StiffnessMatrix C;
   int field = 1;
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column) {
@@ -79,37 +78,31 @@ Eigen::Matrix<double, 6, 6> read_stiffness(const NastranCard& card) {
 }
 
 fem::OrthotropicSpec read_mat9(const NastranCard& card) {
-  const Eigen::Matrix<double, 6, 6> C = read_stiffness(card);
-  const double size = C.diagonal().cwiseAbs().maxCoeff();
-  Eigen::Matrix<double, 6, 6> coupling = C;
-  coupling.topLeftCorner<3, 3>().setZero();
-  coupling.diagonal().setZero();
+  StiffnessMatrix C = read_stiffness(card);
   // Eight digits of a small field: what is below is rounding of a turned matrix.
-  if (!(coupling.cwiseAbs().maxCoeff() <= 1e-7 * size)) {
-    card.fail(
-        "it couples tension and shear; only materials with three planes of symmetry are "
-        "supported, given in their axes (CORDM of PSOLID turns them)");
+  constexpr double kUncoupled = 1e-7, kTurnedDigits = 1e-4;
+  std::optional<Eigen::Matrix3d> axes;
+  if (C.cwiseAbs().maxCoeff() > 0 && !(coupling_of(C) <= kUncoupled)) {
+    axes = symmetry_axes(C, kTurnedDigits);
+    if (!axes) {
+      card.fail(fmt::format(
+          "it couples tension and shear in all axes (in those given, by {:.2g} of its largest "
+          "constant); only materials with three planes of symmetry, however turned, are supported. "
+          "Leave out what couples",
+          coupling_of(C)));
+    }
+    C = in_axes(C, *axes);
   }
-  Eigen::Matrix3d normal = C.topLeftCorner<3, 3>();
-  if (!(size > 0) || Eigen::LLT<Eigen::Matrix3d>(normal).info() != Eigen::Success ||
-      !(C.diagonal().tail<3>().minCoeff() > 0)) {
-    card.fail("its stiffness is not positive definite");
+  auto out = orthotropic_constants(C);
+  if (!out) card.fail("its stiffness is not positive definite");
+  if (axes) {
+    out->axis_1 = axes->col(0);
+    out->axis_2 = axes->col(1);
   }
-  const Eigen::Matrix3d S = normal.inverse();
-  fem::OrthotropicSpec out;
-  out.E1 = 1.0 / S(0, 0);
-  out.E2 = 1.0 / S(1, 1);
-  out.E3 = 1.0 / S(2, 2);
-  out.nu12 = -S(1, 0) / S(0, 0);
-  out.nu13 = -S(2, 0) / S(0, 0);
-  out.nu23 = -S(2, 1) / S(1, 1);
-  out.G12 = C(3, 3);
-  out.G23 = C(4, 4);
-  out.G13 = C(5, 5);
-  for (const double value : {out.E1, out.E2, out.E3}) {
+  for (const double value : {out->E1, out->E2, out->E3}) {
     if (!(value > 0) || !std::isfinite(value)) card.fail("its stiffness is nearly singular");
   }
-  return out;
+  return *out;
 }
 
 /// MAT2 has the stiffness of plane stress: 11, 12, 13, 22, 23, 33. @return none if it is not
@@ -163,6 +156,16 @@ NastranMaterials::NastranMaterials(const NastranBulk& bulk, const NastranNames& 
                             entry->second->name, entry->second->file->name, entry->second->line));
     }
   }
+}
+
+bool NastranMaterials::is_turned(const fem::MaterialSpec& material) {
+  return material.orthotropic && (material.orthotropic->axis_1 != Eigen::Vector3d::UnitX() ||
+                                  material.orthotropic->axis_2 != Eigen::Vector3d::UnitY());
+}
+
+bool NastranMaterials::is_turned(const std::string& name) const {
+  const auto* found = base::find_named(specs_, name);
+  return found != nullptr && is_turned(*found);
 }
 
 bool NastranMaterials::has_directions(std::int64_t id) const {
@@ -241,7 +244,16 @@ fem::MaterialSpec NastranMaterials::convert(const NastranCard& card, Use use) {
                   {card.file, card.line});
     }
   }
-  if (card.name == "MAT9") out.orthotropic = read_mat9(card);
+  if (card.name == "MAT9") {
+    out.orthotropic = read_mat9(card);
+    if (is_turned(out)) {
+      notes_->add(
+          "MAT9: what couples tension and shear vanishes in other axes; the material is taken as "
+          "an "
+          "orthotropic one in these",
+          {card.file, card.line});
+    }
+  }
   out.rho = density(card) * weight_to_mass_;
   if (has_damping(card)) {
     notes_->add(fmt::format("{}: structural damping GE is left out; give `damping` of a material "

@@ -20,7 +20,7 @@ namespace buckens::mesh_io {
 /// MAT1 becomes isotropic. Solids and shells have the G of its E and NU, as in Nastran; where that
 /// of the deck differs, beams use it in a separate material. MAT8 becomes orthotropic with E3 = E2
 /// and without transverse contraction, which does not affect thin shells; so does MAT2 if it is
-/// orthotropic in its axes, and MAT9 for solids. Others are left to the model file.
+/// orthotropic in its axes, and MAT9 for solids, in any axes. Others are left to the model file.
 class NastranMaterials {
  public:
   /// What a material is used for.
@@ -39,6 +39,9 @@ class NastranMaterials {
   /// Whether it depends on direction; false if it is missing.
   bool has_directions(std::int64_t id) const;
 
+  /// Whether the planes of symmetry of an imported material are not those of its axes.
+  bool is_turned(const std::string& name) const;
+
   /// Imported materials, densities times PARAM,WTMASS.
   std::vector<fem::MaterialSpec> take() { return std::move(specs_); }
 
@@ -46,6 +49,7 @@ class NastranMaterials {
   fem::MaterialSpec convert(const NastranCard& card, Use use);
   void set_moduli(const NastranCard& card, Use use, fem::MaterialSpec& out);
   std::string unique_name(const NastranCard& card);
+  static bool is_turned(const fem::MaterialSpec& material);
 
   std::unordered_map<std::int64_t, const NastranCard*> cards_;
   /// One card may become several materials.

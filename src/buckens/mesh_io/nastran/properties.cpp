@@ -163,6 +163,11 @@ fem::ImportedProperty NastranProperties::convert_solid(const NastranCard& card) 
       card.fail(2, "CORDM must be rectangular: the material has one direction per property");
     }
     out.axes = coordinates_->axes_at(system, Eigen::Vector3d::Zero(), place);
+    if (materials_->is_turned(out.material) && !out.axes->isIdentity(1e-12)) {
+      card.fail(2, fmt::format("CORDM = {} with a MAT9 that couples tension and shear is not "
+                               "supported; give the 21 constants in the basic system",
+                               system));
+    }
   }
   const std::string fluid = card.word(6);
   if (fluid == "PFLUID") card.fail(6, "fluid elements are not supported");

@@ -80,12 +80,19 @@ NastranProperties::Shell NastranProperties::convert_pshell(const NastranCard& ca
     notes_->add("PSHELL: MID2 is blank (no bending stiffness); taken as a full shell of MID1",
                 place);
   } else if (card.integer(3) == -1) {
-    card.fail(3, "plane strain (MID2 = -1) is not supported");
+    card.fail(3,
+              fmt::format("MID2 = -1: in plane strain the element is a slice of something long and "
+                          "no part of a body in space; write MID2 = {} for a shell of this "
+                          "thickness, or model what is meant by solids",
+                          material));
   } else if (card.id(3) != material) {
     notes_->add("PSHELL: MID2 differs from MID1; MID1 is used for bending, too", place);
   }
   if (!card.blank(10)) {
-    card.fail(10, "coupling of membrane and bending by MID4 is not supported; use PCOMP");
+    card.fail(10, fmt::format("MID4 = {}: coupling of membrane and bending by a matrix is not "
+                              "supported; give the layers that couple them as PCOMP, or leave MID4 "
+                              "blank if the shell is symmetric",
+                              card.text(10)));
   }
   if (differs(card.real(4, 1.0), 1.0)) {
     notes_->add("PSHELL: 12I/T**3 other than 1 is left out; bending is that of a full section",

@@ -89,6 +89,10 @@ TEST(NastranMalformed, what_is_refused_says_why) {
                {"deck.bdf:4:1", "NSM = 2", "non-structural masses"});
   expect_words(refusal(kTetra + "PSHELL,2,1,,1\nCTRIA3,2,2,1,2,3\n,,,.1,,.3\n"),
                {"deck.bdf:9:1", "CTRIA3 2", "is blank and its PSHELL gives no thickness"});
+  expect_words(refusal(kTetra + "PSHELL,2,1,.1,-1\nCTRIA3,2,2,1,2,3\n"),
+               {"deck.bdf:8:", "MID2 = -1", "plane strain", "write MID2 = 1 for a shell"});
+  expect_words(refusal(kTetra + "PSHELL,2,1,.1,1,,1,,\n,,,7\nCTRIA3,2,2,1,2,3\n"),
+               {"deck.bdf:", "MID4 = 7", "PCOMP", "leave MID4 blank"});
   expect_words(refusal(kTetra + "PBAR,2,1,1.,1.,1.,1.\nCBAR,2,2,1,2,1.,0.,0.\n"),
                {"orientation vector is along the beam"});
   expect_words(refusal(kTetra + "PCOMP,2,,,,,,,MEM\n,1,1.\nCTRIA3,2,2,1,2,3\n"), {"LAM = MEM"});
@@ -117,7 +121,7 @@ TEST(NastranMalformed, what_is_refused_says_why) {
                {"expected SO, YES or NO, found \"3.\"", "2 dimensions"});
   expect_words(refusal(kTetra + "MAT9,3,3.,1.,1.,.5,,,3.\n,1.,,,,3.\n,1.,,,1.,,1.\n"
                                 "PSOLID,2,3\nCTETRA,2,2,1,2,3,4\n"),
-               {"couples tension and shear"});
+               {"couples tension and shear in all axes"});
   expect_words(refusal(kTetra + "MAT1,3,1.,,.7\nPSOLID,2,3\nCTETRA,2,2,1,2,3,4\n"),
                {"Poisson's ratio 0.7"});
   expect_words(refusal(kTetra + "CONM2,3,1,,-1.\n"), {"the mass -1 is negative"});

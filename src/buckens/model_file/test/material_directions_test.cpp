@@ -340,10 +340,10 @@ TEST(AbaqusDirections, EachElementHasItsOwnByDistribution) {
   EXPECT_NE(of_nodes.find("LOCATION=ELEMENT"), std::string::npos) << of_nodes;
 }
 
-TEST(AbaqusDirections, AShellMustBeToldWhichAxisIsItsNormal) {
+TEST(AbaqusDirections, AShellMustBeToldWhichAxisIsItsNormalUnlessItIsTheThird) {
   const Matrix3d R = anywhere();
   const std::string one_line =
-      fmt::format("*ORIENTATION, NAME=O\n{}, {}\n", numbers_of(R.col(0)), numbers_of(R.col(1)));
+      fmt::format("*ORIENTATION, NAME=O\n{}, {}\n", numbers_of(R.col(2)), numbers_of(R.col(0)));
   try {
     abaqus_plate(R, kShell + one_line);
     ADD_FAILURE() << "nothing was refused";
