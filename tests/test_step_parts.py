@@ -75,6 +75,22 @@ def test_a_face_that_folds_is_replaced(buckens):
     assert "elements have no volume, the first near (0, 0.0" in notes(told), "why the usual way failed"
 
 
+def test_a_face_that_folds_and_bulges_is_replaced_or_refused_soon(buckens, tmp_path):
+    """Two points of the same top lie higher, and 894 mm³ more below its surface of Bézier for each millimetre."""
+    text = (PARTS / "folded.step").read_text()
+    for height, name in ((44, "bulge"), (60, "dome")):
+        new = text
+        for y in (20, 40):
+            new = new.replace(f"(66.666666666667,{y}.,40.)", f"(66.666666666667,{y}.,{height}.)")
+        (tmp_path / f"{name}.step").write_text(new)
+    told = info(buckens, tmp_path / "bulge.step", "--size", "10 mm")
+    assert told["volume"] == pytest.approx(243576e-9, rel=1e-3) and told["inverted"] == []
+    assert "a smooth one through the same edges and some of its points was put in its place" in notes(told)
+    refused = buckens("mesh-info", tmp_path / "dome.step", "--size", "10 mm").must(2, "dome.step", "face 1 around (0.05",
+                                                                                    "changes the volume by", "anew")
+    assert "way 3" not in refused.err and "other ways were tried" not in refused.err
+
+
 def test_elements_that_gmsh_cannot_bend_are_straightened(buckens, bad):
     """Large elements in a wall of 0.6 mm around a bore of 20: Gmsh does not reach its target, which is no reason to fail."""
     told = info(buckens, bad["tube"], "--size", "12 mm")

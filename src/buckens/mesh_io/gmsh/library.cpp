@@ -169,7 +169,8 @@ std::vector<GmshEntity> GmshLibrary::boundary_of_each(
 
 void GmshLibrary::replace_faces(const GmshEntity& solid,
                                 const std::vector<std::vector<int>>& shells,
-                                const std::map<int, std::vector<int>>& loops) {
+                                const std::map<int, std::vector<int>>& loops,
+                                const std::map<int, std::vector<std::array<double, 3>>>& points) {
   int error = 0;
   const auto take_away = [&](const GmshEntity& entity) {
     std::vector<int> tags = flat({entity});
@@ -182,8 +183,17 @@ void GmshLibrary::replace_faces(const GmshEntity& solid,
     std::vector<int> tags = curves;
     const int wire = BUCKENS_GMSH(gmshModelOccAddWire)(tags.data(), tags.size(), -1, 1, &error);
     check(error);
-    BUCKENS_GMSH(gmshModelOccAddSurfaceFilling)(wire, face, nullptr, 0, &error);
+    std::vector<int> through;
+    if (const auto own = points.find(face); own != points.end()) {
+      for (const auto& [x, y, z] : own->second) {
+        through.push_back(BUCKENS_GMSH(gmshModelOccAddPoint)(x, y, z, 0.0, -1, &error));
+        check(error);
+      }
+    }
+    BUCKENS_GMSH(gmshModelOccAddSurfaceFilling)
+    (wire, face, through.data(), through.size(), &error);
     check(error);
+    for (const int point : through) take_away({0, point});
   }
   std::vector<int> loop_tags;
   for (std::vector<int> faces : shells) {
@@ -195,6 +205,48 @@ void GmshLibrary::replace_faces(const GmshEntity& solid,
   check(error);
   BUCKENS_GMSH(gmshModelOccSynchronize)(&error);
   check(error);
+}
+
+std::vector<std::array<double, 3>> GmshLibrary::inner_points(int face, int count) const {
+  int error = 0;
+  double *low = nullptr, *high = nullptr;
+  std::size_t num_low = 0, num_high = 0;
+  BUCKENS_GMSH(gmshModelGetParametrizationBounds)
+  (2, face, &low, &num_low, &high, &num_high, &error);
+  check(error);
+  const std::array<double, 4> bounds = {low[0], high[0], low[1], high[1]};
+  BUCKENS_GMSH(gmshFree)(low);
+  BUCKENS_GMSH(gmshFree)(high);
+  std::vector<std::array<double, 3>> places, normals;
+  std::array<double, 3> sum{};
+  const auto share = [count](int k) { return 0.25 + 0.5 * k / (count - 1); };
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j) {
+      std::array<double, 2> at = {bounds[0] + (bounds[1] - bounds[0]) * share(i),
+                                  bounds[2] + (bounds[3] - bounds[2]) * share(j)};
+      const int is_inside = BUCKENS_GMSH(gmshModelIsInside)(2, face, at.data(), 2, &error);
+      check(error);
+      if (is_inside == 0) continue;
+      double *place = nullptr, *normal = nullptr;
+      std::size_t length = 0;
+      BUCKENS_GMSH(gmshModelGetValue)(2, face, at.data(), 2, &place, &length, &error);
+      check(error);
+      BUCKENS_GMSH(gmshModelGetNormal)(face, at.data(), 2, &normal, &length, &error);
+      check(error);
+      places.push_back({place[0], place[1], place[2]});
+      normals.push_back({normal[0], normal[1], normal[2]});
+      BUCKENS_GMSH(gmshFree)(place);
+      BUCKENS_GMSH(gmshFree)(normal);
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += normals.back()[k];
+    }
+  }
+  std::vector<std::array<double, 3>> out;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    double along = 0;
+    for (std::size_t k = 0; k < 3; ++k) along += normals[p][k] * sum[k];
+    if (along > 0) out.push_back(places[p]);
+  }
+  return out;
 }
 
 std::vector<GmshEntity> GmshLibrary::entities(int dimension) const {

@@ -46,8 +46,14 @@ class GmshLibrary {
   /// Makes faces anew, each as a smooth surface through the curves of one loop, and the solid with
   /// them, all under their numbers.
   /// @param shells the faces of the solid, those of the outer shell first
+  /// @param points through which a face is to pass as well
   void replace_faces(const GmshEntity& solid, const std::vector<std::vector<int>>& shells,
-                     const std::map<int, std::vector<int>>& loops);
+                     const std::map<int, std::vector<int>>& loops,
+                     const std::map<int, std::vector<std::array<double, 3>>>& points);
+  /// Points of a face, count by count over the middle half of its parameters, without those outside
+  /// its edges and those where it is folded over, its normal opposite to that of most.
+  /// @param count at least 2
+  std::vector<std::array<double, 3>> inner_points(int face, int count) const;
   std::vector<GmshEntity> entities(int dimension) const;
   /// "" or a path of labels, "Shapes/rod".
   std::string name(const GmshEntity& entity) const;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/mesh_io/step/smooth_faces.h"
 
 namespace buckens::mesh_io {
 
@@ -20,6 +21,8 @@ constexpr double kMostLeftOut = 0.1;
 
 std::string PartTrials::run() {
   auto lines = try_all(step_trials(), {});
+  // Smaller elements and other units do not smooth a face.
+  if (!lines && !fold_.empty()) refuse(fold_);
   // Cutting solids takes longest: those that leave slivers are not cut once more.
   const bool is_without = !lines && may_leave_out();
   if (is_without) {
@@ -96,6 +99,7 @@ void PartTrials::take_failure(const TrialOutcome& one) {
   is_open_ = is_open_ || one.kind() == "open";
   has_no_solid_ = has_no_solid_ || is_without_solid(one);
   last_ = one.reason();
+  if (fold_.empty() && is_stopped_by_fold(last_)) fold_ = last_;
   if (first_.empty()) first_ = last_;
 }
 

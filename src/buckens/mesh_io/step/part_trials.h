@@ -46,6 +46,7 @@ class PartTrials {
 
   const StepTask& task_;
   std::string file_, doubt_, first_, last_;
+  std::string fold_;  // why a face that folds was not replaced; empty: none was in the way
   MeshingProgress& progress_;
   int count_ = 0, timeouts_ = 0;
   double in_vain_ = 0;                // seconds

@@ -37,7 +37,7 @@ MendedSurface mend_surface(GmshLibrary& gmsh, double metre) {
   if (!has_surface) return {};
   auto crossings = surface_crossings(failed);
   if (crossings.empty()) return {};
-  MendedSurface out{smooth_folded_faces(gmsh, folded_faces(gmsh)), {}};
+  MendedSurface out{smooth_folded_faces(gmsh, folded_faces(gmsh), metre), {}};
   if (!out.notes.empty()) {
     gmsh.mesh(2);
     crossings = surface_crossings(part_mesh(gmsh));
