@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -19,18 +20,42 @@ namespace {
 constexpr int kMostSolves = 100;
 // Error of ω² at which the iteration ends, as a share.
 constexpr double kSettled = 0.01;
+// It also ends when this many solves have lowered ω² by less than this share: what is left then
+// falls too slowly for reports.
+constexpr int kSolvesLookedAt = 4;
+constexpr double kSteady = 0.001;
 // Vectors whose mass beyond the others is below this fraction add nothing.
 constexpr double kNothingNew = 1e-10;
 
 constexpr double kDependentVector = 1e-10;
 
-/// Exponents of the monomials of degree 1 to 3.
-std::vector<std::array<int, 3>> monomials() {
-  std::vector<std::array<int, 3>> out;
+// Bodies whose least principal inertia is below this share of the largest are slender.
+constexpr double kSlender = 0.1;
+// Degree of polynomials along slender bodies.
+constexpr int kMostAlong = 7;
+
+/// A displacement along a principal axis of inertia by a monomial of the principal coordinates.
+struct SmoothField {
+  std::array<int, 3> powers;
+  int axis;
+};
+
+/// Displacements by monomials of degree 1 to 3; along slender bodies of more, as beams bend.
+/// @param inertia principal ones, ascending: the first axis is along the body
+std::vector<SmoothField> smooth_fields(const Vector3d& inertia) {
+  std::vector<SmoothField> out;
   for (int degree = 1; degree <= 3; ++degree) {
     for (int i = degree; i >= 0; --i) {
-      for (int j = degree - i; j >= 0; --j) out.push_back({i, j, degree - i - j});
+      for (int j = degree - i; j >= 0; --j) {
+        for (int axis = 0; axis < 3; ++axis) out.push_back({{i, j, degree - i - j}, axis});
+      }
     }
+  }
+  if (inertia[0] > kSlender * inertia[2]) return out;
+  for (int degree = 4; degree <= kMostAlong; ++degree) {
+    for (int axis = 0; axis < 3; ++axis) out.push_back({{degree, 0, 0}, axis});
+    out.push_back({{degree - 1, 1, 0}, 0});  // sections turn
+    out.push_back({{degree - 1, 0, 1}, 0});
   }
   return out;
 }
@@ -50,17 +75,20 @@ Vector3d gradient(const std::array<int, 3>& powers, const Vector3d& p) {
   return out;
 }
 
-/// Displacements along `axis` by a monomial of the place, rotations by half their curl.
-Vector field(const body::FlexiblePart& part, const std::array<int, 3>& powers, int axis) {
+/// Such displacements of the nodes, rotations by half their curl.
+/// @param axes principal axes of inertia as columns
+Vector nodal_values(const body::FlexiblePart& part, const SmoothField& field,
+                    const Eigen::Matrix3d& axes) {
   const fem::FeModel& fe = part.fe;
   // Lengths of one keep high and low powers comparable.
   const double size = std::sqrt(0.5 * fe.shape.J0.trace() / fe.shape.mass);
+  const Vector3d along = Vector3d::Unit(field.axis);
   Vector out = Vector::Zero(part.num_dofs());
   for (std::size_t node = 0; node < fe.nodes.size(); ++node) {
-    const Vector3d p = (fe.nodes[node].position - fe.shape.com) / size;
-    Eigen::Matrix<double, 6, 1> u = Eigen::Matrix<double, 6, 1>::Zero();
-    u[axis] = size * value(powers, p);
-    u.tail<3>() = 0.5 * gradient(powers, p).cross(Vector3d::Unit(axis));
+    const Vector3d p = axes.transpose() * (fe.nodes[node].position - fe.shape.com) / size;
+    Eigen::Matrix<double, 6, 1> u;
+    u.head<3>() = size * value(field.powers, p) * (axes * along);
+    u.tail<3>() = axes * (0.5 * gradient(field.powers, p).cross(along));
     for (std::size_t k = 0; k < 6; ++k) {
       const int dof = fe.dofs.node_dofs[node][k];
       if (dof >= 0 && dof < out.size()) out[dof] = u[static_cast<Eigen::Index>(k)];
@@ -84,17 +112,18 @@ Vector least_combination(const Matrix& M, const Matrix& K) {
 
 /// The best shape among polynomials of the place.
 Vector smooth_shape(const body::FlexiblePart& part) {
-  const auto powers = monomials();
-  Matrix basis(part.num_dofs(), static_cast<Eigen::Index>(3 * powers.size()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(part.fe.shape.J0);
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  axes.col(2) = axes.col(0).cross(axes.col(1));  // curls ask for a right-handed system
+  const auto fields = smooth_fields(principal.eigenvalues());
+  Matrix basis(part.num_dofs(), std::ssize(fields));
   Eigen::Index count = 0;
-  for (const auto& monomial : powers) {
-    for (int axis = 0; axis < 3; ++axis) {
-      Vector x = field(part, monomial, axis);
-      const double before = x.norm();
-      part.sieve.apply(x);
-      // Of rigid motion only rounding is left.
-      if (x.norm() > kDependentVector * before) basis.col(count++) = x;
-    }
+  for (const SmoothField& field : fields) {
+    Vector x = nodal_values(part, field, axes);
+    const double before = x.norm();
+    part.sieve.apply(x);
+    // Of rigid motion only rounding is left.
+    if (x.norm() > kDependentVector * before) basis.col(count++) = x;
   }
   const auto kept = basis.leftCols(count);
   const Matrix M = kept.transpose() * (part.fe.M * kept);
@@ -104,31 +133,42 @@ Vector smooth_shape(const body::FlexiblePart& part) {
   return out;
 }
 
+bool is_steady(std::span<const double> squares, int k) {
+  if (k < kSolvesLookedAt) return false;
+  const double before = squares[static_cast<std::size_t>(k - kSolvesLookedAt)];
+  return before - squares[static_cast<std::size_t>(k)] < kSteady * before;
+}
+
 }  // namespace
 
 double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
   if (part.num_dofs() <= part.sieve.rank()) return 0.0;
   const linalg::SparseMatrix& M = part.fe.M;
   const linalg::SparseMatrix& K = part.fe.K;
-  Matrix span(part.num_dofs(), 3);  // shape, correction, last way
+  // Shape, correction, last way, and what M and K make of them.
+  Matrix span(part.num_dofs(), 3), with_M(part.num_dofs(), 3), with_K(part.num_dofs(), 3);
   span.col(0) = smooth_shape(part);
   int columns = 1;
   double square = 0;
+  std::array<double, kMostSolves + 1> squares{};
   for (int k = 0; k <= kMostSolves; ++k) {
-    const auto vectors = span.leftCols(columns);
-    const Matrix images_M = M * vectors;
-    const Matrix images_K = K * vectors;
+    const int fresh = columns == 1 ? 0 : 1;
+    with_M.col(fresh).noalias() = M * span.col(fresh);
+    with_K.col(fresh).noalias() = K * span.col(fresh);
     Vector best = Vector::Ones(1);
+    const auto vectors = span.leftCols(columns);
     if (columns > 1) {
-      best = least_combination(vectors.transpose() * images_M, vectors.transpose() * images_K);
+      best = least_combination(vectors.transpose() * with_M.leftCols(columns),
+                               vectors.transpose() * with_K.leftCols(columns));
     }
     const Vector x = vectors * best;
-    const Vector Mx = images_M * best;
-    const Vector Kx = images_K * best;
+    const Vector Mx = with_M.leftCols(columns) * best;
+    const Vector Kx = with_K.leftCols(columns) * best;
     const double mass = x.dot(Mx);
     if (!(mass > 0.0)) break;
     square = std::max(0.0, x.dot(Kx) / mass);
-    if (k == kMostSolves) break;
+    squares[static_cast<std::size_t>(k)] = square;
+    if (k == kMostSolves || is_steady(squares, k)) break;
     const Vector residual = Kx - square * Mx;
     Vector correction = residual;
     op.solve(correction);
@@ -138,12 +178,17 @@ double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
     const double error = residual.dot(correction) * stiffness / (mass * mass);
     if (!(error > kSettled * square * square)) break;
     if (columns > 1) {
-      span.col(2) = vectors.rightCols(columns - 1) * best.tail(columns - 1);
+      const auto way = best.segment(1, columns - 1);
+      for (Matrix* of : {&span, &with_M, &with_K}) {
+        of->col(2) = (of->middleCols(1, columns - 1) * way).eval();
+      }
       columns = 3;
     } else {
       columns = 2;
     }
     span.col(0) = x;
+    with_M.col(0) = Mx;
+    with_K.col(0) = Kx;
     span.col(1) = correction;
   }
   return std::sqrt(square);

@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/body/free_modes.h"
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/stepping/lowest_frequency.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::stepping {
@@ -62,27 +60,6 @@ TEST(NeglectedShare, FollowsFromTheBalanceOfAStepWithoutStiffness) {
   EXPECT_GT(by_products, 0.0);
   // Accelerations are positions over h²: rounding of 1e-16 m stands for 1e-8 m/s².
   EXPECT_NEAR(stepper.neglected(0, state, terms), by_products, 1e-6 * by_products);
-}
-
-TEST(LowestFrequency, OfBeamsIsThatOfTheFreeModes) {
-  for (const int elements : {3, 40, 200}) {
-    test::BeamConstants beam;
-    beam.elements = elements;
-    beam.alpha = 0.5;
-    beam.beta = 1e-4;
-    const model::Model model = test::spatial_beam_pendulum(beam);
-    const body::FlexiblePart& part = *model.bodies[0].flexible;
-    const body::FreeModes modes = body::free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), 1);
-    for (const double h : {1e-4, 1e-3}) {
-      BodyStepOperator op(part, Scheme(Method::generalized_alpha, h, 0.9));
-      const long before = op.setup_solves();
-      const double omega = lowest_frequency(part, op);
-      // Never below; for reports one percent is enough.
-      EXPECT_GE(omega, modes.omega[0] * (1.0 - 1e-6));
-      EXPECT_LE(omega, modes.omega[0] * 1.01) << elements << " elements, h = " << h;
-      EXPECT_LE(op.setup_solves() - before, 24);
-    }
-  }
 }
 
 }  // namespace
