@@ -2,7 +2,7 @@
 """Cubes of solids solved by a factor and by iteration: memory, time, and from how many steps on the factor pays.
 
     bench/large_bodies.py PROGRAM --sides 15 20 25 --into docs/developers/large_bodies.json
-    bench/large_bodies.py --draw docs/pictures/large_break_even.png --into docs/developers/large_bodies.json
+    bench/large_bodies.py --draw docs/pictures/large_cubes.png --into docs/developers/large_bodies.json
 
 Each cube is run twice, with few and with more steps; what they differ by are steps, the rest is set-up. Times are processor times, which
 other programs disturb less than wall times. Runs are added to the file.
@@ -61,10 +61,16 @@ def measure(program, side, solver, steps):
             "load": os.getloadavg()[0], "date": datetime.datetime.now().strftime("%Y-%m-%d")}
 
 
-def break_even(direct, iterative):
-    """Steps from which on the factor takes less time, set-up included; 0 if it always does."""
-    more = direct["setup_seconds"] - iterative["setup_seconds"]
-    return max(0.0, more / (iterative["step_seconds"] - direct["step_seconds"]))
+def tell_break_even(rows):
+    """Says from how many steps on the factor takes less time, set-up included."""
+    direct = {r["variables"]: r for r in rows if r["solver"] == "direct"}
+    for row in rows:
+        if row["solver"] == "direct" or row["variables"] not in direct:
+            continue
+        factor = direct[row["variables"]]
+        more = factor["setup_seconds"] - row["setup_seconds"]
+        steps = max(0.0, more / (row["step_seconds"] - factor["step_seconds"]))
+        print(f"{row['variables']} variables: the factor is quicker from {steps:.0f} steps on")
 
 
 def draw(rows, file):
@@ -74,7 +80,7 @@ def draw(rows, file):
 
     by_solver = {name: sorted((r for r in rows if r["solver"] == name), key=lambda r: r["variables"])
                  for name in ("direct", "iterative")}
-    figure, (memory, time, steps) = pyplot.subplots(1, 3, figsize=(11, 3.6), constrained_layout=True)
+    figure, (memory, time, setup) = pyplot.subplots(1, 3, figsize=(11, 3.6), constrained_layout=True)
     n = numpy.logspace(4, 6.6, 50)
     for name, power, colour in (("direct", 4 / 3, "tab:blue"), ("iterative", 1, "tab:orange")):
         measured = by_solver[name]
@@ -88,13 +94,10 @@ def draw(rows, file):
     memory.text(1.1e4, 26, "24 GB")
     memory.set_ylabel("peak memory [GB]")
     time.set_ylabel("processor time per step [s]")
-    direct = {r["variables"]: r for r in by_solver["direct"]}
-    both = [(r["variables"], break_even(direct[r["variables"]], r))
-            for r in by_solver["iterative"] if r["variables"] in direct]
-    steps.semilogx(*zip(*both), "ko-")
-    steps.set_ylabel("steps from which the factor is quicker")
-    steps.set_ylim(bottom=0)
-    for axis in (memory, time, steps):
+    for name, colour in (("direct", "tab:blue"), ("iterative", "tab:orange")):
+        setup.loglog(*zip(*((r["variables"], r["setup_seconds"]) for r in by_solver[name])), "o-", color=colour)
+    setup.set_ylabel("processor time of the set-up [s]")
+    for axis in (memory, time, setup):
         axis.set_xlabel("nodal variables")
         axis.grid(True, which="major", linewidth=0.3)
     memory.legend()
@@ -120,6 +123,7 @@ def main():
                 rows.sort(key=lambda r: (r["solver"], r["variables"]))
                 arguments.into.write_text(json.dumps(rows, indent=1) + "\n")
                 print(json.dumps(row))
+    tell_break_even(rows)
     if arguments.draw:
         draw(rows, arguments.draw)
 
