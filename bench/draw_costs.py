@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws how the cost of a step grows, from the figures of docs/developers/benchmarks.json.
 
-    python3 bench/draw_costs.py
+    python3 bench/draw_costs.py docs/pictures
 
-Writes docs/pictures/cost_variables.svg, cost_frames.svg and cost_sharing.svg for docs/developers/cost.md. `run.py` is what measures.
+Writes cost_variables.svg, cost_frames.svg and cost_sharing.svg for docs/developers/cost.md. `run.py` is what measures.
 """
 
+import argparse
 import json
 import pathlib
 
@@ -17,7 +18,6 @@ import numpy  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PICTURES = ROOT / "docs" / "pictures"
 RESULTS = ROOT / "docs" / "developers" / "benchmarks.json"
 
 
@@ -38,7 +38,7 @@ def steps_of(results, level, threads, slender):
     return sorted(out)
 
 
-def draw_variables(results):
+def draw_variables(results, file):
     figure, axis = pyplot.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     for slender, power, marker in ((False, 4 / 3, "o"), (True, 1, "s")):
         shape = "slender" if slender else "cubes"
@@ -57,7 +57,7 @@ def draw_variables(results):
     axis.set_ylabel("time per step [s]")
     axis.grid(True, linewidth=0.3)
     axis.legend(fontsize=8)
-    figure.savefig(PICTURES / "cost_variables.svg")
+    figure.savefig(file, metadata={"Date": None})
 
 
 def named(results, section, prefix):
@@ -66,7 +66,7 @@ def named(results, section, prefix):
     return numpy.array(sorted(points)).T
 
 
-def draw_frames(results):
+def draw_frames(results, file):
     figure, axis = pyplot.subplots(figsize=(6.4, 4.2), constrained_layout=True)
     for section, prefix, label in (("frames", "planar_beam_step", "beam in the plane, over frames"),
                                    ("frames", "divided_beam_step", "beam in space, over frames"),
@@ -77,10 +77,10 @@ def draw_frames(results):
     axis.set_ylabel("time per step and frame or link [µs]")
     axis.grid(True, which="both", linewidth=0.3)
     axis.legend(fontsize=8)
-    figure.savefig(PICTURES / "cost_frames.svg")
+    figure.savefig(file, metadata={"Date": None})
 
 
-def draw_sharing(results):
+def draw_sharing(results, file):
     figure, (threads, sides) = pyplot.subplots(1, 2, figsize=(9, 3.8), constrained_layout=True)
     for level, colour in (("none", "tab:blue"), ("full", "tab:orange")):
         for slender in (False, True):
@@ -109,15 +109,18 @@ def draw_sharing(results):
     sides.legend(title="nodal variables", fontsize=8)
     for axis in (threads, sides):
         axis.grid(True, linewidth=0.3)
-    figure.savefig(PICTURES / "cost_sharing.svg")
+    figure.savefig(file, metadata={"Date": None})
 
 
 def main():
     matplotlib.rcParams["svg.hashsalt"] = "buckens"  # the same figures make the same file
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=pathlib.Path, help="folder of the pictures")
+    out = parser.parse_args().out
     results = json.loads(RESULTS.read_text())
-    draw_variables(results)
-    draw_frames(results)
-    draw_sharing(results)
+    draw_variables(results, out / "cost_variables.svg")
+    draw_frames(results, out / "cost_frames.svg")
+    draw_sharing(results, out / "cost_sharing.svg")
 
 
 if __name__ == "__main__":

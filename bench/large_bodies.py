@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cubes of solids solved by a factor and by iteration: memory, time, and from how many steps on the factor pays.
 
-    bench/large_bodies.py PROGRAM --sides 15 20 25 --into docs/developers/large_bodies.json
-    bench/large_bodies.py --draw docs/pictures/large_cubes.png --into docs/developers/large_bodies.json
+    bench/large_bodies.py PROGRAM --sides 15 20 25
+    bench/large_bodies.py --draw docs/pictures
 
 Each cube is run twice, with few and with more steps; what they differ by are steps, the rest is set-up. Times are processor times, which
 other programs disturb less than wall times. Runs are added to the file.
@@ -17,6 +17,8 @@ import subprocess
 import tempfile
 
 import numpy
+
+RESULTS = pathlib.Path(__file__).resolve().parent.parent / "docs/developers/large_bodies.json"
 
 MODEL = """\
 buckens: 1
@@ -111,8 +113,8 @@ def main():
     parser.add_argument("--sides", type=int, nargs="*", default=[15, 20, 25, 31], help="elements along an edge")
     parser.add_argument("--solvers", nargs="*", default=["direct", "iterative"])
     parser.add_argument("--steps", type=int, default=20)
-    parser.add_argument("--into", type=pathlib.Path, required=True, help="file with the figures")
-    parser.add_argument("--draw", type=pathlib.Path, help="picture of the figures")
+    parser.add_argument("--into", type=pathlib.Path, default=RESULTS, help="file with the figures (docs/developers/large_bodies.json)")
+    parser.add_argument("--draw", type=pathlib.Path, metavar="FOLDER", help="draws the figures as FOLDER/large_cubes.png")
     arguments = parser.parse_args()
     rows = json.loads(arguments.into.read_text()) if arguments.into.exists() else []
     if arguments.program:
@@ -125,7 +127,7 @@ def main():
                 print(json.dumps(row))
     tell_break_even(rows)
     if arguments.draw:
-        draw(rows, arguments.draw)
+        draw(rows, arguments.draw / "large_cubes.png")
 
 
 if __name__ == "__main__":

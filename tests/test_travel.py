@@ -4,6 +4,7 @@
 import json
 import math
 
+import h5py
 import numpy
 import pytest
 
@@ -288,6 +289,17 @@ def disc(theta, spin, turn, R, step, duration=2.0):
     text = DISC.replace("INERTIA", str([A, A, C])).replace("HEIGHT", repr(R * math.sin(theta))).replace("TILT", repr(theta))
     text = text.replace("RADIUS", repr(R)).replace("VELOCITY", str(v.tolist())).replace("TURN", str(w.tolist()))
     return text.replace("DURATION", repr(duration)).replace("STEP", repr(step))
+
+
+def test_a_wheel_is_drawn_with_its_radius_and_axle(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(disc(math.pi / 4, -6.0, 2.0, 0.3, 2.0, 0.1))
+    buckens("run", "model.yaml", "-q", "-o", "out").must(0)
+    with h5py.File(tmp_path / "out" / "results.h5") as file:
+        shapes = file["geometry/shapes"]
+        assert list(shapes["kinds"].asstr()) == ["wheel"] and list(shapes["contacts"].asstr()) == ["floor"]
+        numbers = shapes["numbers"][0]
+    # Position, turn of the marker, axle in axes of the body, radius, thickness of the edge.
+    assert numbers[:12] == pytest.approx([0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0.3, 0], abs=1e-12)
 
 
 def steady_error(out, theta, spin, turn, R):

@@ -63,6 +63,7 @@ PICTURES = (
             time=0.6, view=("--scale", "400")),
     Picture("clearance_slider_crank", (("run", "examples/clearance_slider_crank/clearance_slider_crank.yaml"),), time=0.2),
     Picture("bouncing_dumbbell", (("run", "examples/bouncing_dumbbell/bouncing_dumbbell.yaml"),), time=0.3),
+    Picture("wheel", (("run", "examples/wheel/wheel.yaml"),), time=0.15),
     Picture("tube_modes", (("modes", "examples/tube_modes/tube_modes.yaml", "--count", "8"),), time=0.25),
     Picture("page_side_by_side", (("run", CRANK), ("run", CRANK, "--set", "bodies.rod.beam.elements=4")),
             folders=("fine", "coarse"), time=0.055),
@@ -78,6 +79,10 @@ DRAWINGS = (
             ("examples/snap_through/figures.py", "--program", "PROGRAM")),
     Drawing(("examples/snap_through_bending/displacement_over_load.svg",),
             ("examples/snap_through_bending/figures.py", "--program", "PROGRAM")),
+    # Of figures that were measured; nothing is measured again.
+    Drawing(tuple(f"docs/pictures/cost_{name}.svg" for name in ("variables", "frames", "sharing")),
+            ("bench/draw_costs.py", "OUT")),
+    Drawing(("docs/pictures/large_cubes.png",), ("bench/large_bodies.py", "--draw", "OUT")),
 )
 
 

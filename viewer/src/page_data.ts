@@ -119,7 +119,7 @@ export interface PageJoint {
 export interface PageShape {
   /** Of its contact. */
   name: string;
-  kind: 'plane' | 'sphere' | 'socket' | 'bore' | 'capsule' | 'cylinder' | 'box' | 'mesh';
+  kind: 'plane' | 'sphere' | 'socket' | 'bore' | 'capsule' | 'cylinder' | 'box' | 'mesh' | 'wheel';
   on: PageJointSide;
   /** w, x, y, z: axes of the shape in those of the body. */
   orientation: [number, number, number, number];

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import { kZ, massCentre } from './glyphs';
+import { kZ, massCentre, quarteredDisc } from './glyphs';
 import type { Motion } from './motion';
 import type { Shape } from './run';
 import type { Triple } from './page_data';
@@ -85,6 +85,10 @@ export class ShapeView {
       const ball = massCentre(color);
       ball.scale.setScalar(shape.radius);
       this.root.add(ball);
+    } else if (shape.kind === 'wheel') {
+      const disc = quarteredDisc(color);
+      disc.scale.setScalar(shape.radius);
+      this.root.add(disc);
     } else if (geometry) {
       this.root.add(new THREE.Mesh(geometry, material));
       if (shape.kind === 'mesh' || shape.kind === 'box') {

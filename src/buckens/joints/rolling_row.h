@@ -23,6 +23,8 @@ class RollingRow final : public RowLaw {
   enum class Direction { normal, ahead, aside };
   RollingRow(const Data& data, Direction direction) : data_(data), direction_(direction) {}
 
+  const Data& data() const { return data_; }
+
   int num_states() const override { return 0; }
   bool holds_rates_only() const override { return direction_ != Direction::normal; }
   /// @throws NumericalError if the wheel lies flat

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/contact_geometry.h"
 
+#include "buckens/joints/rolling_row.h"
 #include "buckens/loads/cable.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_mesh.h"
@@ -95,6 +96,21 @@ void add_contact_shapes(const model::Model& model, Geometry& out) {
     for (const model::ContactMember& member : group->members) {
       add_shape(model, model.loads[group->load].name, member.marker, member.shape, out);
     }
+  }
+}
+
+void add_wheels(const model::Model& model, Geometry& out) {
+  for (const model::Joint& joint : model.joints) {
+    if (joint.type != joints::JointType::rolling) continue;
+    const auto& row = dynamic_cast<const joints::RollingRow&>(*joint.rows.front().law());
+    GeometryShape drawn;
+    drawn.name = joint.name;
+    drawn.kind = "wheel";
+    drawn.on = side_of(model, joint.second);
+    drawn.axis = to_body(model, joint.second, row.data().axis_M);
+    drawn.radius = row.data().radius;
+    drawn.length = 2.0 * row.data().edge;
+    out.shapes.push_back(std::move(drawn));
   }
 }
 

@@ -16,6 +16,9 @@ Eigen::Vector3d to_body(const model::Model& model, const model::MarkerId& id,
 /// Shapes of contacts, also of many bodies. Surfaces of bodies that are drawn anyway are left out.
 void add_contact_shapes(const model::Model& model, Geometry& out);
 
+/// Appends what rolls on a plane: the wheels of rolling joints.
+void add_wheels(const model::Model& model, Geometry& out);
+
 /// Cables and belts, also those that are joints.
 void add_cables(const model::Model& model, Geometry& out);
 

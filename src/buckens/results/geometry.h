@@ -85,18 +85,19 @@ struct GeometryLoad {
   std::vector<Eigen::Vector3d> directions;
 };
 
-/// A shape that bodies touch with.
+/// A shape that bodies touch or roll with.
 struct GeometryShape {
-  std::string name;  ///< of its contact
-  std::string kind;  ///< "plane", "sphere", "socket", "bore", "capsule", "cylinder", "box", "mesh"
+  std::string name;  ///< of its contact or joint
+  /// "plane", "sphere", "socket", "bore", "capsule", "cylinder", "box", "mesh", "wheel"
+  std::string kind;
   GeometrySide on;
   Eigen::Quaterniond q =
       Eigen::Quaterniond::Identity();               ///< axes of the shape in those of the body
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of planes and long shapes, own axes
   double radius = 0;                                ///< [m]
-  double length = 0;                                ///< between ends, of long shapes [m]
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();   ///< edges of boxes [m]
-  std::vector<Eigen::Vector3d> points;              ///< of meshes, own axes [m]
+  double length = 0;  ///< between ends, of long shapes; of the edge of wheels [m]
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< edges of boxes [m]
+  std::vector<Eigen::Vector3d> points;             ///< of meshes, own axes [m]
   std::vector<std::array<int, 3>> triangles;
 };
 
