@@ -20,25 +20,14 @@ namespace {
 constexpr std::array<std::array<int, 2>, 6> kPairs = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-// xx, yy, zz with xy, yz, zx, and these with each other.
-constexpr std::array<std::array<int, 2>, 12> kCouplings = {{{0, 3},
-                                                            {0, 4},
-                                                            {0, 5},
-                                                            {1, 3},
-                                                            {1, 4},
-                                                            {1, 5},
-                                                            {2, 3},
-                                                            {2, 4},
-                                                            {2, 5},
-                                                            {3, 4},
-                                                            {3, 5},
-                                                            {4, 5}}};
 using CouplingTerms = Eigen::Matrix<double, 12, 1>;
 
+/// xx, yy, zz with xy, yz, zx, and these with each other.
 CouplingTerms couplings_of(const StiffnessMatrix& C) {
   CouplingTerms out;
-  for (std::size_t k = 0; k < kCouplings.size(); ++k) {
-    out[static_cast<Eigen::Index>(k)] = C(kCouplings[k][0], kCouplings[k][1]);
+  Eigen::Index count = 0;
+  for (int column = 3; column < 6; ++column) {
+    for (int row = 0; row < column; ++row) out[count++] = C(row, column);
   }
   return out;
 }

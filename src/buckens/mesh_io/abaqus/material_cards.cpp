@@ -5,7 +5,6 @@
 #include <optional>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "buckens/files/deck_number.h"
@@ -68,18 +67,20 @@ fem::OrthotropicSpec engineering(const std::vector<double>& v) {
   return out;
 }
 
-/// From D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
-fem::OrthotropicSpec from_stiffness(AbaqusReading& in, const DeckKeyword& keyword,
-                                    const std::vector<double>& v) {
-  Eigen::Matrix3d D;
-  D << v[0], v[1], v[3], v[1], v[2], v[4], v[3], v[4], v[5];
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu(D);
-  if (!lu.isInvertible()) {
-    in.lines.fail(keyword.place, "the stiffnesses D1111 … D3333 form a singular matrix");
-  }
-  const Eigen::Matrix3d S = lu.inverse();
-  return engineering({1.0 / S(0, 0), 1.0 / S(1, 1), 1.0 / S(2, 2), -S(0, 1) / S(0, 0),
-                      -S(0, 2) / S(0, 0), -S(1, 2) / S(1, 1), v[6], v[7], v[8]});
+/// D1111, D1122, D2222, D1133, D2233, D3333, D1212, D1313, D2323.
+StiffnessMatrix nine_stiffnesses(const std::vector<double>& v) {
+  StiffnessMatrix C = StiffnessMatrix::Zero();
+  C.topLeftCorner<3, 3>() << v[0], v[1], v[3], v[1], v[2], v[4], v[3], v[4], v[5];
+  C.diagonal().tail<3>() << v[6], v[8], v[7];
+  return C;
+}
+
+fem::OrthotropicSpec constants_of(AbaqusReading& in, const DeckKeyword& keyword,
+                                  const StiffnessMatrix& C) {
+  if (const auto out = orthotropic_constants(C)) return *out;
+  in.lines.fail(keyword.place,
+                fmt::format("the stiffnesses of {} are not positive definite; check their order",
+                            keyword.written));
 }
 
 /// The 21 constants: the upper triangle column by column, in the order 11, 22, 33, 12, 13, 23.
@@ -117,13 +118,12 @@ fem::OrthotropicSpec from_all_stiffnesses(AbaqusReading& in, const DeckKeyword& 
             "*ELASTIC of TYPE=ANISOTROPIC: what couples stretch and shear vanishes in other axes; "
             "the material is taken as an orthotropic one in these");
   }
-  auto out = orthotropic_constants(C);
-  if (!out) in.lines.fail(keyword.place, "its 21 stiffnesses are not positive definite");
+  fem::OrthotropicSpec out = constants_of(in, keyword, C);
   if (axes) {
-    out->axis_1 = axes->col(0);
-    out->axis_2 = axes->col(1);
+    out.axis_1 = axes->col(0);
+    out.axis_2 = axes->col(1);
   }
-  return *out;
+  return out;
 }
 
 /// E1, E2, ν12, G12, G13, G23 of a plane state of stress. Shells do not ask for what is across: it
@@ -164,7 +164,8 @@ void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
   if (type == "ENGINEERINGCONSTANTS") {
     material.orthotropic = engineering(first_constants(in, keyword, 9));
   } else if (type == "ORTHOTROPIC" || type == "ORTHO") {
-    material.orthotropic = from_stiffness(in, keyword, first_constants(in, keyword, 9));
+    material.orthotropic =
+        constants_of(in, keyword, nine_stiffnesses(first_constants(in, keyword, 9)));
   } else if (type == "ANISOTROPIC" || type == "ANISO") {
     material.orthotropic =
         from_all_stiffnesses(in, keyword, first_constants(in, keyword, 21), material.name);

@@ -20,9 +20,9 @@ using fem::PropertyKind;
 
 namespace {
 
-/// Ten digits, so that equal ones make one property whatever the order of the sum.
 constexpr double kSameDirection = 1e-9;  // radians: rounding of coordinates
 
+/// Ten digits, so that equal ones make one property whatever the order of the sum.
 double rounded(double value) { return *files::deck_number(fmt::format("{:.10g}", value)); }
 
 }  // namespace

@@ -298,6 +298,8 @@ TEST_F(AbaqusMalformed, SectionsAndMaterialsThatCannotBe) {
       with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ANISOTROPIC\n"
                  "4,1,4,1,1,4,0.5,0\n0,1,0,0,0,0,1,0\n0,0,0,0,1\n"),
       {"deck.inp:", "material \"A\" couples stretch and shear in all axes", "materials: {\"A\""});
+  refuses(with_nodes("*MATERIAL, NAME=A\n*ELASTIC, TYPE=ORTHO\n1,2,1,0,0,1,1,1\n1\n"),
+          {"deck.inp:", "the stiffnesses of *ELASTIC are not positive definite"});
   refuses(with_nodes(steel + steel), {"defined twice"});
   refuses(with_nodes("*ORIENTATION, NAME=O\n1,0,0,2,0,0\n"), {"on one line"});
   refuses(shell + "*SHELL GENERAL SECTION, ELSET=E\n1e5,1e4,1e5\n", {"by its stiffnesses"});

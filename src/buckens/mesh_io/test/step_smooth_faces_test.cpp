@@ -108,6 +108,9 @@ TEST(StepSmoothFaces, a_bulge_is_not_cut_off) {
   EXPECT_NE(told.find("face 1 around (0.05"), std::string::npos) << told;
   EXPECT_NE(told.find("9 of its points changes the volume by -0.2"), std::string::npos) << told;
   EXPECT_NE(told.find("fill or loft its edges anew"), std::string::npos) << told;
+  const std::string far = replaced_top("70.");
+  EXPECT_NE(far.find("face 1 around (0.05"), std::string::npos) << far;
+  EXPECT_NE(far.find("fill or loft its edges anew"), std::string::npos) << far;
 }
 
 TEST(StepSmoothFaces, nothing_to_replace) {
