@@ -50,8 +50,8 @@ def test_a_ball_is_caught_and_let_go(sensors, method):
     free = t > 0.802
     assert numpy.polyfit(t[free], out["v.z"][free], 1)[0] == pytest.approx(-10, abs=1e-8)
     assert abs(out["hand.z"][free]).max() == 0
-    # Moving bodies over the last fraction of a millimetre takes no energy into account.
-    assert abs(out["balance"]).max() < 0.03
+    # What gravity and springs give while the last fraction of a millimetre is closed is counted, too.
+    assert abs(out["balance"]).max() < 2e-9
 
 
 def test_it_must_have_met(buckens, tmp_path):
@@ -362,9 +362,21 @@ def on_wire(start="0.5", frames="", method="step: 0.25 ms"):
     return WIRE.replace("steelFRAMES}", "steel}" + frames).replace("START", start).replace("METHOD", method)
 
 
-@pytest.mark.parametrize("frames, method", [("", "step: 0.25 ms"), (", frames: 4", "step: 0.25 ms"), ("", "step: 0.25 ms, method: newmark")])
-def test_a_bead_is_caught_by_a_flexible_wire(sensors, frames, method):
+# Newmark's method keeps the energy of a linear beam to rounding, also of what the blow sets off above the frequencies that the step resolves
+# (ω h = 17, βω = 14); the rest is the bending of frames by full coupling. The others take a share of the 2 J that the blow loses besides.
+@pytest.mark.parametrize(
+    "frames, method, open_balance",
+    [
+        ("", "step: 0.25 ms", 0.02),
+        (", frames: 4", "step: 0.25 ms", 0.02),
+        ("", "step: 0.25 ms, method: newmark", 2e-6),
+        # Shorter steps than those at the start are factorised after the joint has been attached.
+        ("", "step: 0.25 ms, tolerance: 1e-3, absolute-tolerance: 1e-6", 2e-3),
+    ],
+)
+def test_a_bead_is_caught_by_a_flexible_wire(sensors, frames, method, open_balance):
     out = sensors(on_wire(frames=frames, method=method))
+    assert abs(out["balance"]).max() < open_balance
     t = out["t"]
     held = (t > 0.1015) & (t < 0.4995)
     assert out["v.y"][t < 0.099] == pytest.approx(-2, abs=1e-9)

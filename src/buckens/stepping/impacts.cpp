@@ -120,12 +120,15 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
     if (law->contact(0.0).regime != 0) laws_.push_back({k, law});
   }
   if (laws_.empty()) return;
-  const double k0 = scheme.force * scheme.acceleration_rate;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const bool deforms = answers_[b] != nullptr && !answers_[b]->is_quasi_static();
-    interface_.push_back(deforms ? Matrix(k0 * answers_[b]->interface_compliance()) : Matrix());
+    interface_.push_back(impulse_compliance(scheme, answers_[b]));
     jumps_.emplace_back();
   }
+}
+
+Matrix Impacts::impulse_compliance(const Scheme& scheme, const BodyAnswer* answer) {
+  if (answer == nullptr || answer->is_quasi_static()) return {};
+  return scheme.force * scheme.acceleration_rate * answer->interface_compliance();
 }
 
 namespace {

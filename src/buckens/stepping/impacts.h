@@ -35,6 +35,10 @@ class Impacts {
  public:
   Impacts(const model::Model& model, const Scheme& scheme, std::vector<const BodyAnswer*> answers);
 
+  /// k₀ N Y K̂⁻¹Nᵀ: jump of the interface rates per impulse; empty where a mesh does not deform by
+  /// itself. @param answer of the body; null: rigid
+  static linalg::Matrix impulse_compliance(const Scheme& scheme, const BodyAnswer* answer);
+
   /// False for models without anything that strikes.
   bool can_happen() const { return !laws_.empty(); }
   /// Notes where the coordinates are at the start of a step.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/simd_level.h"
 #include "buckens/linalg/solve_exchange.h"
@@ -29,6 +31,8 @@ struct StepSettings {
   bool side_by_side = true;
   /// Instructions that these are stepped with; the processor must have them.
   linalg::SimdLevel simd = linalg::best_simd_level();
+  /// Per joint, whether it has let go where the rows in use were chosen; empty: none has.
+  std::vector<char> released;
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
   /// Factorises the step matrices of bodies; an exchange has its own.

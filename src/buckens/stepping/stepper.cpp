@@ -308,17 +308,22 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(jump.shift.head<3>())).normalized();
   motion.frame = s.frame;
   if (!flexible_[b] || operators_[b]->is_quasi_static()) return;
-  // c G f answers a load f; an impulse is answered by k₀ G.
-  const auto add = [&](const Eigen::VectorXd& impulse, linalg::Vector& nodal) {
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(operators_[b]->num_rows());
-    load.head(impulse.size()) = scheme_.acceleration_rate * impulse;
-    operators_[b]->add_answer(load, 0, nodal);
-  };
-  add(jump.impulse, s.d_dot);
-  add(jump.impulse_time, s.d);
+  add_impulse(b, jump.impulse, s.d_dot);
+  add_impulse(b, jump.impulse_time, s.d);
   const auto& N = operators_[b]->N();
   motion.y.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d;
   motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot;
+}
+
+Matrix Stepper::impulse_compliance(std::size_t body) const {
+  return Impacts::impulse_compliance(scheme_, operators_[body].get());
+}
+
+void Stepper::add_impulse(std::size_t body, const Vector& impulse, Vector& rates) const {
+  // c G f answers a load f; an impulse is answered by k₀ G.
+  Vector load = Vector::Zero(operators_[body]->num_rows());
+  load.head(impulse.size()) = scheme_.acceleration_rate * impulse;
+  operators_[body]->add_answer(load, 0, rates);
 }
 
 void Stepper::take_over_coupling() {

@@ -85,6 +85,12 @@ class Stepper {
   double factor_entries() const;
   /// Bytes that one pass over the factors of all bodies reads.
   double factor_bytes() const;
+  /// Jump of the interface rates per impulse along the rows of the interface, k₀ N Y K̂⁻¹Nᵀ [1/kg],
+  /// as the method would answer it: without vibrations that the step does not resolve. Empty for
+  /// bodies whose mesh does not move by itself.
+  linalg::Matrix impulse_compliance(std::size_t body) const;
+  /// Adds the same for all nodal rates.
+  void add_impulse(std::size_t body, const linalg::Vector& impulse, linalg::Vector& rates) const;
   const Scheme& scheme() const { return scheme_; }
   /// Joint rows in use at the last step.
   const std::vector<int>& rows_in_use() const { return newton_->rows_in_use(); }

@@ -74,6 +74,8 @@ class TimeMarch {
   double next_step() const { return ladder_.step(k_); }
   /// Of the last step. The reference is valid until the next step.
   Stepper& stepper() { return ladder_.latest(); }
+  /// The one of the longest steps. Replaces what stepper() returns until the next step.
+  const Stepper& longest_stepper() { return ladder_.rung(0); }
   const StepLadder& ladder() const { return ladder_; }
   const MarchReport& report() const { return report_; }
   /// Rungs in use, from the longest step to the shortest.

@@ -9,64 +9,130 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/model_scales.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::analysis {
 
-void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
-                 const dynamics::MassMetric& metric, Inertia inertia, model::State& state) {
-  const bool with_meshes = inertia == Inertia::frames_and_meshes;
-  const auto motions = dynamics::motions_of(model, state);
-  dynamics::Constraints joints;
-  dynamics::evaluate_constraints(model, motions, state.t, &state.memory, joints);
-  dynamics::SoftRows soft;
-  dynamics::evaluate_soft_rows(model, motions, state.t, dynamics::circumstances_of(state), soft);
-  std::vector<dynamics::SystemRow> rows;
-  std::vector<double> rates, give;
-  std::vector<Eigen::Matrix3d> J;
-  for (const body::Body& body : model.bodies) J.push_back(body.J0);
-  const auto compliance = with_meshes ? metric.full(J) : metric.rigid();
-  for (const int row : rows_in_use) {
-    rows.push_back(joints.rows[static_cast<std::size_t>(row)]);
-    rates.push_back(joints.g_dot[row]);
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+namespace {
+
+// Gaps are small against the mechanism, so Newton's method doubles its digits each time.
+constexpr int kMostClosings = 6;
+constexpr double kClosedGap = 1e-13;  // of the model's length, or rad
+
+/// What impulses along rows of joints and closed rigid rows do, at one configuration.
+class Impulses {
+ public:
+  Impulses(const model::Model& model, const std::vector<int>& rows_in_use,
+           const stepping::Stepper* meshes, const model::State& state)
+      : model_(model), t_(state.t), interface_(model.bodies.size()) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      if (meshes != nullptr) interface_[b] = meshes->impulse_compliance(b);
+      compliance_.push_back({dynamics::frame_mobility(model.bodies[b], model.bodies[b].J0),
+                             interface_[b].size() > 0 ? &interface_[b] : nullptr});
+    }
+    const auto motions = dynamics::motions_of(model, state);
+    dynamics::Constraints joints;
+    dynamics::evaluate_constraints(model, motions, state.t, &state.memory, joints);
+    for (const int row : rows_in_use) {
+      rows_.push_back(joints.rows[static_cast<std::size_t>(row)]);
+      gaps_.push_back(joints.g[row]);
+      rates_.push_back(joints.g_dot[row]);
+    }
+    dynamics::SoftRows soft;
+    dynamics::evaluate_soft_rows(model, motions, state.t, dynamics::circumstances_of(state), soft);
+    for (std::size_t k = 0; k < soft.rows.size(); ++k) {
+      if (soft.is_closed[k]) add_rigid_row(soft.rows[k], motions);
+    }
   }
-  for (std::size_t k = 0; k < soft.rows.size(); ++k) {
-    if (!soft.is_closed[k]) continue;
-    rows.push_back(soft.rows[k]);
-    give.push_back(stepping::kRigidGive * stepping::own_compliance(soft.rows[k], compliance));
+
+  bool has_rows() const { return !rows_.empty(); }
+  /// Of joints; rigid rows stay where they are.
+  const std::vector<double>& gaps() const { return gaps_; }
+  const std::vector<double>& rates() const { return rates_; }
+
+  /// Finds the impulses that change the rows by −`values`, and passes what each body does to
+  /// `take(b, change of its frame, change of its mesh)`; the mesh is null where it does not move.
+  template <class Take>
+  void undo(const std::vector<double>& values, Take&& take) {
+    dynamics::MultiplierCondensation condensation(static_cast<int>(model_.bodies.size()), rows_);
+    if (!condensation.factorise(rows_, rows_, compliance_, {}) &&
+        !condensation.factorise(rows_, rows_, compliance_, give_)) {
+      throw NumericalError(
+          fmt::format("the joint equations have become dependent (a singular position) after an "
+                      "impact at t = {:.6g} s; look for a dead centre of the mechanism there",
+                      t_));
+    }
+    linalg::Vector X = -Eigen::Map<const linalg::Vector>(values.data(), std::ssize(values));
+    condensation.solve_in_place(X);
+    std::vector<dynamics::BodyResponse> responses(model_.bodies.size());
+    for (std::size_t b = 0; b < responses.size(); ++b) {
+      responses[b].interface_load.setZero(model_.bodies[b].num_interface_rows());
+    }
+    condensation.gather(X, responses);
+    for (std::size_t b = 0; b < responses.size(); ++b) {
+      const Vector6 frame = compliance_[b].frame * responses[b].frame_load;
+      const bool deforms = interface_[b].size() > 0;
+      take(b, frame, deforms ? &responses[b].interface_load : nullptr);
+    }
+  }
+
+ private:
+  void add_rigid_row(const dynamics::SystemRow& row,
+                     const std::vector<dynamics::BodyMotion>& motions) {
+    give_.push_back(stepping::kRigidGive * stepping::own_compliance(row, compliance_));
     double rate = 0;
-    for (const dynamics::BodyRow* part : {&soft.rows[k].first, &soft.rows[k].second}) {
+    for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
       if (part->body != model::kGround) {
         rate += part->rate(motions[static_cast<std::size_t>(part->body)]);
       }
     }
-    rates.push_back(rate);
+    rows_.push_back(row);
+    gaps_.push_back(0.0);
+    rates_.push_back(rate);
   }
-  if (rows.empty()) return;
-  dynamics::MultiplierCondensation condensation(static_cast<int>(model.bodies.size()), rows);
-  if (!condensation.factorise(rows, rows, compliance, {}) &&
-      !condensation.factorise(rows, rows, compliance, give)) {
-    throw NumericalError(
-        fmt::format("the joint equations have become dependent (a singular position) after an "
-                    "impact at t = {:.6g} s; look for a dead centre of the mechanism there",
-                    state.t));
-  }
-  linalg::Vector X = -Eigen::Map<const linalg::Vector>(rates.data(), std::ssize(rates));
-  condensation.solve_in_place(X);
-  std::vector<dynamics::BodyResponse> responses(model.bodies.size());
-  for (std::size_t b = 0; b < responses.size(); ++b) {
-    responses[b].interface_load.setZero(model.bodies[b].num_interface_rows());
-  }
-  condensation.gather(X, responses);
-  for (std::size_t b = 0; b < responses.size(); ++b) {
-    const Eigen::Matrix<double, 6, 1> change = compliance[b].frame * responses[b].frame_load;
-    state.bodies[b].frame.w += change.head<3>();
-    state.bodies[b].frame.v += change.tail<3>();
-    const body::Body& body = model.bodies[b];
-    if (with_meshes && body.is_flexible() && !body.flexible->is_quasi_static) {
-      state.bodies[b].d_dot += metric.H(b) * responses[b].interface_load;
+
+  const model::Model& model_;
+  double t_;
+  std::vector<linalg::Matrix> interface_;
+  std::vector<dynamics::BodyCompliance> compliance_;
+  std::vector<dynamics::SystemRow> rows_;
+  std::vector<double> gaps_, rates_, give_;
+};
+
+}  // namespace
+
+void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
+                 const stepping::Stepper* meshes, model::State& state) {
+  Impulses impulses(model, rows_in_use, meshes, state);
+  if (!impulses.has_rows()) return;
+  impulses.undo(impulses.rates(), [&](std::size_t b, const Vector6& frame, const auto* mesh) {
+    model::BodyState& s = state.bodies[b];
+    s.frame.w += frame.head<3>();
+    s.frame.v += frame.tail<3>();
+    if (mesh != nullptr) meshes->add_impulse(b, *mesh, s.d_dot);
+  });
+}
+
+void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
+                const stepping::Stepper* meshes, model::State& state) {
+  const linalg::Vector lengths = dynamics::row_lengths(model);
+  for (int closing = 0; closing < kMostClosings; ++closing) {
+    Impulses impulses(model, rows_in_use, meshes, state);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < rows_in_use.size(); ++k) {
+      largest = std::max(largest, std::abs(impulses.gaps()[k]) / lengths[rows_in_use[k]]);
     }
+    if (largest <= kClosedGap) return;
+    impulses.undo(impulses.gaps(), [&](std::size_t b, const Vector6& frame, const auto* mesh) {
+      model::BodyState& s = state.bodies[b];
+      s.frame.X_WB.p += frame.tail<3>();
+      s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(frame.head<3>())).normalized();
+      if (mesh != nullptr) meshes->add_impulse(b, *mesh, s.d);
+    });
   }
 }
 
@@ -87,7 +153,7 @@ void settle_after_impact(const model::Model& model, const dynamics::MassMetric& 
     s.frame.X_WB.p += 0.5 * rest * dv;
     s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(0.5 * rest * dw)).normalized();
   }
-  close_rates(model, rows_in_use, metric, Inertia::frames, state);
+  close_rates(model, rows_in_use, nullptr, state);
   settle_rigid_rows(model, metric, rows_in_use, state);
 }
 

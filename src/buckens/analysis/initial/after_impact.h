@@ -5,17 +5,22 @@
 
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/stepper.h"
 
 namespace buckens::analysis {
 
-/// What takes part in an impact.
-enum class Inertia { frames, frames_and_meshes };
-
-/// Closes the rates of joints and closed rigid rows by the least change of velocities.
-/// @param inertia whether meshes answer the impulses, or bodies are taken as rigid
+/// Closes the rates of joints and closed rigid rows by impulses along them.
+/// @param meshes answers the impulses for meshes, as in impacts: with what its steps resolve.
+///        Without, bodies are taken as rigid
 /// @throws NumericalError at a singular position
 void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
-                 const dynamics::MassMetric& metric, Inertia inertia, model::State& state);
+                 const stepping::Stepper* meshes, model::State& state);
+
+/// Closes joints that are slightly open, by the least motion in the same metric. A gap that is left
+/// is closed by the next step.
+/// @throws NumericalError at a singular position
+void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
+                const stepping::Stepper* meshes, model::State& state);
 
 /// Accelerations, multipliers and forces of rigid rows after an impact or a change of rigid rows,
 /// see settle_rigid_rows().

@@ -24,24 +24,35 @@ DampingWork::DampingWork(const model::Model& model, std::size_t body, const mode
     beta = stepping::stiffness_damping(part);
   }
   is_direct_ = !beta;
+  if (beta) {
+    beta_ = *beta;
+    // Any step will do: only products with M are needed.
+    mass_.emplace(part, stepping::Scheme(stepping::Method::newmark, 1.0, 0.0));
+  }
+  begin_at(s);
+}
+
+void DampingWork::start(const model::State& state) { begin_at(state.bodies[index_]); }
+
+void DampingWork::begin_at(const model::BodyState& s) {
   if (is_direct_) {
-    power_ = direct_power(s);
+    rates_ = s.d_dot;
     return;
   }
-  beta_ = *beta;
-  // Any step will do: only products with M are needed.
-  mass_.emplace(part, stepping::Scheme(stepping::Method::newmark, 1.0, 0.0));
   power_ = mass_power(s);
   d_ = s.d;
-  elastic_ = part.fe.K * s.d;
+  elastic_ = body_->flexible->fe.K * s.d;
+  last_step_ = 0.0;
   ++products_;
 }
 
-double DampingWork::direct_power(const model::BodyState& s) {
+double DampingWork::direct_work(const model::BodyState& s, double h) {
   if (!body_->flexible->is_damped()) return 0.0;
-  image_.noalias() = body_->flexible->C * s.d_dot;
+  motion_ = 0.5 * (rates_ + s.d_dot);
+  rates_ = s.d_dot;
+  image_.noalias() = body_->flexible->C * motion_;
   ++products_;
-  return s.d_dot.dot(image_);
+  return h * motion_.dot(image_);
 }
 
 double DampingWork::mass_power(const model::BodyState& s) {
@@ -76,16 +87,19 @@ void DampingWork::find_elastic_load(const model::State& state, const dynamics::F
   }
 }
 
-double DampingWork::add(const model::State& state, const dynamics::Forces& forces) {
+double DampingWork::add(const model::State& state, const dynamics::Forces& forces,
+                        RatesAtEnd rates) {
   const model::BodyState& s = state.bodies[index_];
   const double h = state.t - t_;
   t_ = state.t;
-  if (is_direct_) {
-    const double before = power_;
-    power_ = direct_power(s);
-    return 0.5 * h * (before + power_);
+  if (is_direct_) return direct_work(s, h);
+  const bool has_jumped = rates == RatesAtEnd::have_jumped;
+  if (has_jumped) {
+    now_ = body_->flexible->fe.K * s.d;
+    ++products_;
+  } else {
+    find_elastic_load(state, forces, h);
   }
-  find_elastic_load(state, forces, h);
   const double mass_before = power_;
   power_ = mass_power(s);
   motion_ = s.d - d_;
@@ -93,7 +107,7 @@ double DampingWork::add(const model::State& state, const dynamics::Forces& force
   std::swap(elastic_before_, elastic_);
   std::swap(elastic_, now_);
   d_ = s.d;
-  last_step_ = h;
+  last_step_ = has_jumped ? 0.0 : h;
   return 0.5 * h * (mass_before + power_) + stiffness;
 }
 

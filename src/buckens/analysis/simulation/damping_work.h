@@ -9,6 +9,10 @@
 
 namespace buckens::analysis {
 
+/// Whether rates follow from the accelerations within a step, or impacts have changed them at its
+/// end.
+enum class RatesAtEnd { are_smooth, have_jumped };
+
 /// Energy dissipated by the structural damping of one flexible body, step by step.
 ///
 /// Where C = α M + β K and states satisfy the equations of motion (generalised-α, HHT), no product
@@ -17,8 +21,10 @@ namespace buckens::analysis {
 ///     K (d + β ḋ) = F + Nᵀf − M (d̈ + α ḋ)      up to the span of P, to which d has no component,
 ///
 /// and with the rate of K d by two-step backward differences this gives K d to order h². The step
-/// then dissipates h α ḋᵀM ḋ + β/h Δᵀ K Δ, Δ = d⁺ − d. Otherwise, and for reduced bodies, ḋᵀC ḋ is
-/// formed at every state. Theory: docs/theory/05-time-integration.md §6.
+/// then dissipates h α ḋᵀM ḋ + β/h Δᵀ K Δ, Δ = d⁺ − d. The rate of K d jumps where ḋ does: there K
+/// d is formed, and the differences begin anew. Otherwise, and for reduced bodies, h v̄ᵀC v̄ is
+/// formed with the mean v̄ of the rates at both ends: what Newmark's method dissipates exactly, also
+/// of vibrations that the step does not resolve. Theory: docs/theory/05-time-integration.md §6.
 class DampingWork {
  public:
   /// @param holds_at_states whether states satisfy the equations of motion: not those of methods
@@ -28,7 +34,10 @@ class DampingWork {
 
   /// Energy dissipated between the last state and this one [J].
   /// @param forces at this state, including those of joints
-  double add(const model::State& state, const dynamics::Forces& forces);
+  double add(const model::State& state, const dynamics::Forces& forces,
+             RatesAtEnd rates = RatesAtEnd::are_smooth);
+  /// To be called when something else than a step has changed the last state.
+  void start(const model::State& state);
 
   /// Number of products with C or K so far.
   long num_products() const { return products_; }
@@ -38,7 +47,10 @@ class DampingWork {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  double direct_power(const model::BodyState& s);
+  /// Starts from a state with other rates.
+  void begin_at(const model::BodyState& s);
+  /// h v̄ᵀC v̄ of the step to this state.
+  double direct_work(const model::BodyState& s, double h);
   double mass_power(const model::BodyState& s);
   /// K d at the state from the balance of loads.
   void find_elastic_load(const model::State& state, const dynamics::Forces& forces, double h);
@@ -48,8 +60,9 @@ class DampingWork {
   bool is_direct_ = true;
   double beta_ = 0;
   std::optional<stepping::InertialLoad> mass_;
-  double power_ = 0;  // of C, or of α M, at the last state [W]
-  double t_ = 0, last_step_ = 0;
+  double power_ = 0;                             // of α M at the last state [W]
+  double t_ = 0, last_step_ = 0;                 // 0: nothing is known of the rate of K d
+  linalg::Vector rates_;                         // at the last state, where C is used
   linalg::Vector d_, elastic_, elastic_before_;  // K d at the last state and the one before
   linalg::Vector now_, motion_, image_;          // scratch
   long products_ = 0;

@@ -27,10 +27,6 @@ constexpr double kOpen = 1e-3;
 constexpr double kBent = 0.05;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-double kinetic_energy(const model::Model& model, const model::State& state) {
-  return dynamics::energy(model, state).kinetic;
-}
-
 /// How much the residual of a row depends on which way its multiplier pushes: of gears and racks
 /// that stand nearer or farther than they were placed, half the play between their teeth.
 double play_of(const joints::RowLaw& law, const spatial::MarkerMotion& F,
@@ -53,7 +49,9 @@ void mark(std::vector<char>& marks, std::size_t count, std::size_t which, bool i
 
 }  // namespace
 
-EventActions::Effect EventActions::apply(const model::EventSpec& event, model::State& state) const {
+EventActions::Effect EventActions::apply(const model::EventSpec& event,
+                                         const stepping::Stepper& stepper,
+                                         model::State& state) const {
   const model::Model& model = built_.model;
   Effect out;
   set_signals(event, state);
@@ -68,11 +66,14 @@ EventActions::Effect EventActions::apply(const model::EventSpec& event, model::S
   for (const std::string& joint : event.lock) {
     has_locked = hold_joint(joint, true, state) || has_locked;
   }
-  if (has_locked) {
-    const double before = kinetic_energy(model, state);
-    close_rates(model, rows_in_use(state), metric_, Inertia::frames_and_meshes, state);
-    out.lost = before - kinetic_energy(model, state);
-  }
+  if (!has_locked) return out;
+  const std::vector<int> rows = rows_in_use(state);
+  const dynamics::Energy open = dynamics::energy(model, state);
+  close_gaps(model, rows, &stepper, state);
+  const dynamics::Energy closed = dynamics::energy(model, state);
+  out.gained += closed.total() - open.total();
+  close_rates(model, rows, &stepper, state);
+  out.lost = closed.kinetic - dynamics::energy(model, state).kinetic;
   return out;
 }
 

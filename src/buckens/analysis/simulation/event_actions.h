@@ -8,6 +8,7 @@
 #include "buckens/dynamics/signals.h"
 #include "buckens/model/build/build_model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/stepper.h"
 
 namespace buckens::analysis {
 
@@ -23,11 +24,15 @@ class EventActions {
 
   /// What it has done to the energy.
   struct Effect {
-    double gained = 0;  ///< by springs that were switched on, less those switched off [J]
-    double lost = 0;    ///< when moving joints were locked [J]
+    /// By springs that were switched on, less those switched off, and by joints that were closed
+    /// the last bit [J].
+    double gained = 0;
+    double lost = 0;  ///< when moving joints were locked [J]
   };
+  /// @param stepper lets meshes answer impulses as its steps resolve them
   /// @throws NumericalError if locks cannot stop the mechanism
-  Effect apply(const model::EventSpec& event, model::State& state) const;
+  Effect apply(const model::EventSpec& event, const stepping::Stepper& stepper,
+               model::State& state) const;
 
   /// Finds the accelerations and multipliers that belong to what acts now.
   /// @throws NumericalError as settle_rigid_rows()

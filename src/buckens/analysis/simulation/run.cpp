@@ -107,6 +107,7 @@ void SimulationRun::begin_march(double start) {
   stepping::StepSettings settings = step_settings(spec_);
   settings.threads = options_.threads;
   settings.exchange = options_.exchange;
+  settings.released = prepared_->state.memory.released;
   march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
   steps_ = march.tolerance ? 0 : steps_taken_ + march.longest_steps;
   check_samples();
@@ -227,7 +228,8 @@ void SimulationRun::step() {
   const stepping::StepReport report = take_step(before_, state);
   ++steps_taken_;
   statistics_->add_step(report, state);
-  work_->add(state, report.impact_loss);
+  work_->add(state, report.impact_loss,
+             report.impacts > 0 ? RatesAtEnd::have_jumped : RatesAtEnd::are_smooth);
   const std::vector<EventWatch::Found> found = events_->after_step(before_, state);
   note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());
@@ -261,7 +263,8 @@ void SimulationRun::act_on_events(std::vector<EventWatch::Found> found) {
         recording_->write_between(before_, state);
       }
       if (!event.spec->acts()) continue;
-      const EventActions::Effect effect = actions_->apply(*event.spec, state);
+      const EventActions::Effect effect =
+          actions_->apply(*event.spec, march_->longest_stepper(), state);
       work_->take_event(state, effect.gained, effect.lost);
       has_acted = has_acted || event.spec->changes_motion();
     }

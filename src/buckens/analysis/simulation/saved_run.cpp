@@ -27,8 +27,8 @@ void DampingWork::visit_saved(const base::SaveVisit& visit) {
   visit.number("t", t_);
   visit.number("last_step", last_step_);
   visit.count("products", products_, 0, kMostCounted);
-  if (is_direct_) return;
   const Eigen::Index n = body_->num_dofs();
+  if (is_direct_) return visit.vector("rates", rates_, n);
   visit.vector("d", d_, n);
   visit.vector("elastic", elastic_, n);
   visit.vector_or_none("elastic_before", elastic_before_, n);

@@ -40,6 +40,7 @@ void WorkAccount::take_event(const model::State& state, double gained, double lo
   work_.external += gained;
   work_.dissipated += lost;
   turnover_ += std::abs(gained) + lost;
+  for (DampingWork& mesh : meshes_) mesh.start(state);
 }
 
 long WorkAccount::num_products() const {
@@ -48,7 +49,7 @@ long WorkAccount::num_products() const {
   return sum;
 }
 
-void WorkAccount::add(const model::State& state, double impact_loss) {
+void WorkAccount::add(const model::State& state, double impact_loss, RatesAtEnd rates) {
   const Powers now = powers(state);
   const double h = state.t - t_;
   // Joints receive −λ·g_t from their drives. A λ at mid-step is multiplied by the mean of g_t; one
@@ -63,7 +64,7 @@ void WorkAccount::add(const model::State& state, double impact_loss) {
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
   const double active = 0.5 * (before_.active + now.active) + drive;
   double dissipated = 0.5 * h * (before_.damping + now.damping) + impact_loss;
-  for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_);
+  for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_, rates);
   work_before_ = work_;
   work_.external += h * active;
   work_.dissipated += dissipated;

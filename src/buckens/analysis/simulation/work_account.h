@@ -22,7 +22,8 @@ class WorkAccount {
 
   /// Adds the work between the last state and this one.
   /// @param impact_loss energy that impacts took in between [J]
-  void add(const model::State& state, double impact_loss = 0.0);
+  void add(const model::State& state, double impact_loss = 0.0,
+           RatesAtEnd rates = RatesAtEnd::are_smooth);
 
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
