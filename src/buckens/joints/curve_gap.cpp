@@ -55,13 +55,13 @@ Vector3d unit_normal(const SpaceCurve& curve, const Vector3d& normal) {
   return across;
 }
 
-CurveGap::CurveGap(std::shared_ptr<const SpaceCurve> curve, const Data& data)
+RollerGap::RollerGap(std::shared_ptr<const SpaceCurve> curve, const Data& data)
     : curve_(std::move(curve)),
       across_(unit_normal(*curve_, data.normal_F)),
       side_(data.is_on_left ? 1.0 : -1.0),
       radius_(data.radius) {}
 
-bool CurveGap::encloses_left(const SpaceCurve& curve, const Vector3d& normal_F) {
+bool RollerGap::encloses_left(const SpaceCurve& curve, const Vector3d& normal_F) {
   Vector3d area = Vector3d::Zero();
   const Vector3d first = curve.at(0.0).p;
   for (int k = 1; k + 1 < kLooks; ++k) {
@@ -72,7 +72,7 @@ bool CurveGap::encloses_left(const SpaceCurve& curve, const Vector3d& normal_F) 
   return area.dot(normal_F) > 0.0;
 }
 
-CurveTouch CurveGap::touch(const MarkerMotion& F, const MarkerMotion& M) const {
+CurveTouch RollerGap::touch(const MarkerMotion& F, const MarkerMotion& M) const {
   CurveTouch out;
   out.place = F.R.transpose() * (M.p - F.p);
   out.s = curve_->nearest(out.place, across_);
@@ -81,16 +81,16 @@ CurveTouch CurveGap::touch(const MarkerMotion& F, const MarkerMotion& M) const {
   return out;
 }
 
-double CurveGap::gap(const MarkerMotion& F, const MarkerMotion& M) const {
+double RollerGap::gap(const MarkerMotion& F, const MarkerMotion& M) const {
   return touch(F, M).gap() - radius_;
 }
 
-spatial::PairRow CurveGap::derivatives(const MarkerMotion& F, const MarkerMotion& M) const {
+spatial::PairRow RollerGap::derivatives(const MarkerMotion& F, const MarkerMotion& M) const {
   return touch(F, M).derivatives(F, M);
 }
 
-double CurveGap::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                      const MarkerBias& bias_M) const {
+double RollerGap::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
+                       const MarkerBias& bias_M) const {
   return touch(F, M).bias(F, M, bias_F, bias_M, across_);
 }
 

@@ -26,13 +26,28 @@ struct CurveTouch {
               const Eigen::Vector3d& across) const;
 };
 
+/// A length between two bodies with a law of its own: a roller above a curve (RollerGap), surfaces
+/// that touch (ContactWay).
+class CurveGap {
+ public:
+  virtual ~CurveGap() = default;
+  virtual double gap(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const = 0;
+  /// J: its rate is J V.
+  virtual spatial::PairRow derivatives(const spatial::MarkerMotion& F,
+                                       const spatial::MarkerMotion& M) const = 0;
+  /// Part of its acceleration without accelerations of the bodies' coordinates.
+  virtual double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                      const spatial::MarkerBias& bias_F,
+                      const spatial::MarkerBias& bias_M) const = 0;
+};
+
 /// The gap between a roller at M and a plane curve fixed in F, along the plane:
 ///
 ///     g = ± n(s)·(ρ − c(s)) − r,   c′(s)·(ρ − c(s)) = 0,   n = a × c′/|c′|                  (R34)
 ///
 /// with a the normal of the plane. s is that of the nearest point of the whole curve: a roller that
 /// has lost contact finds the curve again elsewhere.
-class CurveGap {
+class RollerGap final : public CurveGap {
  public:
   struct Data {
     Eigen::Vector3d normal_F = Eigen::Vector3d::UnitZ();  ///< a, any length
@@ -40,16 +55,16 @@ class CurveGap {
     double radius = 0;       ///< r [m]
   };
   /// @throws ModelError if the normal has no direction, or the curve runs along it
-  CurveGap(std::shared_ptr<const SpaceCurve> curve, const Data& data);
+  RollerGap(std::shared_ptr<const SpaceCurve> curve, const Data& data);
 
   /// Whether the inside of a closed curve is on its left.
   static bool encloses_left(const SpaceCurve& curve, const Eigen::Vector3d& normal_F);
 
-  double gap(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
+  double gap(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const override;
   spatial::PairRow derivatives(const spatial::MarkerMotion& F,
-                               const spatial::MarkerMotion& M) const;
+                               const spatial::MarkerMotion& M) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M) const;
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M) const override;
 
  private:
   CurveTouch touch(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
