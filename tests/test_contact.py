@@ -355,13 +355,12 @@ PLANE = "shapes: [{plane: {}}, {sphere: 0.1}]"
     (BALL, "shapes: [{plane: {}}, {plane: {}}]", ["a plane and a plane cannot touch", "plane–sphere"]),
     (BALL, "shapes: [{socket: 5 mm}, {sphere: 0.1}]", ["0.1 m does not fit into the socket of 0.005 m"]),
     (BALL, "shapes: [{plane: [0, 0, 0]}, {sphere: 0.1}]", ["a normal cannot be [0, 0, 0]"]),
-    (BALL, PLANE + ", static: 0.3", ["rigid contacts have no friction yet", "`stiffness`"]),
     (BALL, PLANE + ", damping: 3", ["without `stiffness` or `modulus` the contact is rigid"]),
     (BALL, PLANE + ", restitution: 1.2", ["expected 0 to 1, found 1.2", "no rebound"]),
     (BALL, PLANE + ", stiffness: 1e5, restitution: 0", ["0.01", "found 0"]),
     (BALL, PLANE + ", stiffness: 1e5, modulus: [1 GPa, 1 GPa]", ["remove one of them"]),
     (BALL, "shapes: [{plane: {}}, {box: 0.1}], stiffness: 1e5", ["a list of 3 values"]),
-    (BALL, "shapes: [{plane: {}}, {box: [0.1, 0.1, 0.1]}]", ["a plane and a box need a `stiffness`"]),
+    (BALL, "shapes: [{plane: {}}, {cylinder: {radius: 0.1, length: 0.1}}]", ["a plane and a cylinder need a `stiffness`"]),
     (BALL, "shapes: [{plane: {}}, {box: [0.1, 0.1, 0.1]}], modulus: [1 GPa, 1 GPa]", ["Hertz has no force for a plane and a box"]),
     (BALL, PLANE + ", stiffness: 1e5, static: 0.2, dynamic: 0.3", ["swap `static` and `dynamic`"]),
     (BALL, PLANE + ", stiffness: 1e5, static: 0.3, dynamic: 0.2", ["stribeck-velocity"]),
@@ -379,6 +378,12 @@ def test_friction_needs_inertia(buckens, tmp_path):
     text = CONTACT.replace("BODIES", BALL.replace("[1, 1, 1]", "[0, 0, 0]"))
     (tmp_path / "model.yaml").write_text(text.replace("SPEC", PLANE + ", stiffness: 1e5, static: 0.3"))
     buckens("check", "model.yaml").must(3, "model.yaml:4", "friction turns body \"ball\"", "no rotary inertia")
+
+
+def test_a_rigid_box_needs_inertia(buckens, tmp_path):
+    text = CONTACT.replace("BODIES", BALL.replace("[1, 1, 1]", "[0, 0, 0]"))
+    (tmp_path / "model.yaml").write_text(text.replace("SPEC", "shapes: [{plane: {}}, {box: [0.1, 0.1, 0.1]}]"))
+    buckens("check", "model.yaml").must(3, "model.yaml:4", "the contact turns body \"ball\"", "no rotary inertia")
 
 
 def test_a_sensor_of_no_contact_is_refused(buckens, tmp_path):

@@ -93,6 +93,21 @@ joints:""", 1).replace("simulation:", """  worn: {contact: {between: [slider, id
 simulation:""", 1).replace("  sensors:", "  sensors:\n    hit: {contact: worn}", 1)
 
 
+# Balls with spin that bounce, slide and roll on a rigid floor, and strike each other.
+ROUGH = """buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  a: {rigid: {mass: 1 kg, inertia: [4e-3, 4e-3, 4e-3]}, at: {position: [0, 0, 0.12]}}
+  b: {rigid: {mass: 2 kg, inertia: [8e-3, 8e-3, 8e-3]}, at: {position: [0.5, 0.02, 0.1]}}
+loads:
+  under: {contact: {between: [ground, a], shapes: [{plane: {}}, {sphere: 0.1}], restitution: 0.4, static: 0.3}}
+  below: {contact: {between: [ground, b], shapes: [{plane: {}}, {sphere: 0.1}], static: 0.1}}
+  knock: {contact: {between: [a, b], shapes: [{sphere: 0.1}, {sphere: 0.1}], restitution: 0.8, static: 0.2}}
+initial: {bodies: {a: {velocity: [2, 0.1, 0], angular-velocity: [3, -30, 5]}, b: {velocity: [0.2, 0, 0]}}}
+simulation: {duration: 0.6 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {a: {position: a}, b: {velocity: b}, w: {angular-velocity: a}, c: {contact: under}, lost: {energy: dissipated}}}
+"""
+
 # A double pendulum whose elbow strikes its stop.
 ELBOW = """buckens: 1
 gravity: [0, -9.81, 0]
@@ -337,6 +352,8 @@ CASES = {
     "a slider and a wheel": (model(SLIDER), 0.2),
     "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
     "rigid rows": (model(RIGID), 0.0301),
+    "rigid contact with friction": (model(ROUGH), 0.3001),
+    "rigid contact with friction, step control": (model(ROUGH, step="tolerance: 1e-4"), 0.3001),
     "rigid rows, step control": (model(ELBOW), 1.31),
     "laws of joint coordinates": (model(LAWS), 0.0301),
     "contact": (model(CLEARANCE), 0.0301),

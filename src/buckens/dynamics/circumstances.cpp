@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/contact_friction.h"
 
 namespace buckens::dynamics {
 
@@ -21,6 +22,30 @@ loads::RowStand stand_of(const model::Load& load, const Circumstances& around,
   if (around.stands != nullptr) return (*around.stands)[static_cast<std::size_t>(load.rigid_row)];
   if (states == nullptr) return {};
   return {static_cast<int>(states[0]), states[1]};
+}
+
+/// Force on the second body of a rigid contact: of the row across the surface, which is that of the
+/// load before the directions of friction, and of these.
+spatial::Wrench reaction_of(const model::Model& model, std::size_t load,
+                            const Circumstances& around, const loads::Sight& sight,
+                            const loads::ContactFriction& friction) {
+  const std::size_t across = load - 1 - static_cast<std::size_t>(friction.direction());
+  const auto force_of = [&](std::size_t k) {
+    const model::Load& own = model.loads[k];
+    const bool has_memory = around.memory != nullptr && around.memory->laws.size() > 0;
+    return stand_of(own, around,
+                    has_memory ? around.memory->laws.data() + own.first_state : nullptr)
+        .force;
+  };
+  const spatial::TouchPlace place = friction.touch().look(sight.first, sight.second);
+  const auto& stop = static_cast<const loads::RigidLaw&>(*model.loads[across].element);
+  spatial::Wrench out;
+  out.force = (stop.contact(0.0).sign * force_of(across)) * place.normal;
+  for (int k = 0; k < friction.touch().num_directions(); ++k) {
+    const auto direction = static_cast<std::size_t>(k);
+    out.force += force_of(across + 1 + direction) * place.along[direction];
+  }
+  return out;
 }
 
 }  // namespace
@@ -113,7 +138,11 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
   if (around.memory != nullptr && around.memory->laws.size() > 0) {
     sight.states = around.memory->laws.data() + own.first_state;
   }
-  if (own.rigid_row >= 0) sight.stand = stand_of(own, around, sight.states);
+  if (own.rigid_row >= 0) {
+    sight.stand = stand_of(own, around, sight.states);
+    const auto* friction = dynamic_cast<const loads::ContactFriction*>(own.element.get());
+    if (friction != nullptr) sight.reaction = reaction_of(model, load, around, sight, *friction);
+  }
   if (around.signals != nullptr) {
     sight.signals = *around.signals;
   } else if (around.memory != nullptr) {

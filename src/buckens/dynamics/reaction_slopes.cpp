@@ -23,7 +23,7 @@ void append_slopes_of_row(const model::Joint& joint, int soft, const spatial::Wr
       value = J.segment<3>(6).dot(slope.torque) + J.segment<3>(9).dot(slope.force);
       if (states != nullptr) states += row.num_states();
     }
-    if (value != 0.0) out.push_back({soft, joint.first_row + static_cast<int>(k), value});
+    if (value != 0.0) out.push_back({soft, joint.first_row + static_cast<int>(k), -1, value});
   }
 }
 
@@ -35,6 +35,8 @@ ReactionSlopes::ReactionSlopes(const model::Model& model) : model_(model) {
     const model::Load& load = model.loads[k];
     const auto* law = dynamic_cast<const loads::ReactionFollower*>(load.element.get());
     if (law != nullptr && load.joint >= 0) followers_.push_back({k, soft, law});
+    const auto* rubbing = dynamic_cast<const loads::ContactFriction*>(load.element.get());
+    if (rubbing != nullptr) rubbing_.push_back({k, soft, rubbing});
     soft += load.element->num_soft_rows();
   }
 }
@@ -56,6 +58,18 @@ void ReactionSlopes::evaluate(const std::vector<BodyMotion>& motions, double t,
       append_slopes_of_row(joint, follower.soft + static_cast<int>(k), slopes[k], sight,
                            states_of(joint, around.memory), ends.travels(), out);
     }
+  }
+  for (const Rubbing& one : rubbing_) {
+    if (around.memory != nullptr && around.memory->is_off(one.load)) continue;
+    const model::Load& load = model_.loads[one.load];
+    const LoadEnds ends = ends_of(model_, load, motions, around.memory);
+    const double slope = one.law->slope(sight_of(model_, one.load, t, around, ends));
+    if (slope == 0.0) continue;
+    // The force across the surface counts positive where it pushes, whatever its row is.
+    const int across = one.soft - 1 - one.law->direction();
+    const auto& row = model_.loads[one.load - 1 - static_cast<std::size_t>(one.law->direction())];
+    const auto& stop = static_cast<const loads::RigidLaw&>(*row.element);
+    out.push_back({one.soft, -1, across, slope * stop.contact(0.0).sign});
   }
 }
 

@@ -18,7 +18,7 @@ class RigidLaw : public ForceElement {
                   const spatial::MarkerMotion& second) const final;
   Action respond(const Sight& sight) const final;
   int num_soft_rows() const final { return 1; }
-  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const final;
+  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   bool is_rigid() const final { return true; }
   int num_states() const override { return 2; }
   void find_states(const Sight& sight, double* states) const override;

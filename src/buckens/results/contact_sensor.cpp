@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/contact_sensor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -11,7 +12,7 @@
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/contact_groups.h"
 #include "buckens/loads/contact.h"
-#include "buckens/loads/rigid_law.h"
+#include "buckens/loads/contact_friction.h"
 #include "buckens/model/contact_group.h"
 
 namespace buckens::results {
@@ -20,31 +21,46 @@ namespace {
 
 class ContactSensor final : public Sensor {
  public:
-  ContactSensor(std::vector<Channel> channels, std::size_t load)
-      : channels_(std::move(channels)), load_(load) {}
+  /// @param count number of loads that the contact is, from `load` on
+  ContactSensor(std::vector<Channel> channels, std::size_t load, std::size_t count)
+      : channels_(std::move(channels)), load_(load), count_(count) {}
 
   std::vector<Channel> channels() const override { return channels_; }
   void append(const Observation& now, std::vector<double>& values) override {
-    const model::Load& load = now.model.loads[load_];
-    const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
-    const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    const loads::Sight sight =
-        dynamics::sight_of(now.model, load_, now.state.t, circumstances_of(now), first, second);
-    if (const auto* elastic = dynamic_cast<const loads::Contact*>(load.element.get())) {
-      const loads::ContactReading reading = elastic->read(sight);
-      const bool is_on = !now.state.memory.is_off(load_);
-      values.insert(values.end(),
-                    {is_on ? reading.normal : 0.0, is_on ? reading.friction : 0.0, reading.gap});
-      return;
-    }
-    const auto& stop = static_cast<const loads::RigidStop&>(*load.element);
-    values.insert(values.end(), {std::abs(stop.respond(sight).along_coordinate), 0.0,
-                                 stop.contact(sight.coordinate.value).gap});
+    const loads::ContactReading reading = read(now);
+    const bool is_on = !now.state.memory.is_off(load_);
+    values.insert(values.end(),
+                  {is_on ? reading.normal : 0.0, is_on ? reading.friction : 0.0, reading.gap});
   }
 
  private:
+  loads::ContactReading read(const Observation& now) const {
+    loads::ContactReading out{0.0, 0.0, HUGE_VAL};
+    Eigen::Vector3d friction = Eigen::Vector3d::Zero();
+    for (std::size_t k = load_; k < load_ + count_; ++k) {
+      const model::Load& load = now.model.loads[k];
+      const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
+      const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
+      const loads::Sight sight =
+          dynamics::sight_of(now.model, k, now.state.t, circumstances_of(now), first, second);
+      if (const auto* elastic = dynamic_cast<const loads::Contact*>(load.element.get())) {
+        return elastic->read(sight);
+      }
+      const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
+      const loads::Action action = law.respond(sight);
+      if (dynamic_cast<const loads::ContactFriction*>(&law) != nullptr) {
+        friction += action.on_second.force;
+        continue;
+      }
+      out.normal += std::abs(action.along_coordinate);
+      out.gap = std::min(out.gap, law.contact(sight.coordinate.value).gap);
+    }
+    out.friction = friction.norm();
+    return out;
+  }
+
   std::vector<Channel> channels_;
-  std::size_t load_;
+  std::size_t load_, count_;
 };
 
 class ContactsSensor final : public Sensor {
@@ -89,12 +105,16 @@ std::unique_ptr<Sensor> make_contact_sensor(const model::BuiltModel& built,
     if (load.name != contact || !(is_group || load.kind == loads::ContactSpec::kKey)) continue;
     const std::string path = "sensors/" + spec.name;
     if (is_group) return make_contacts_sensor(built.model, path, k);
+    std::size_t count = 1;
+    while (k + count < built.model.loads.size() && built.model.loads[k + count].name == contact) {
+      ++count;
+    }
     return std::make_unique<ContactSensor>(
         std::vector<Channel>{
             {path + ".normal", "N", {}, fmt::format("normal force of contact {}", contact), {}},
             {path + ".friction", "N", {}, fmt::format("friction force of contact {}", contact), {}},
             {path + ".gap", "m", {}, fmt::format("least distance of contact {}", contact), {}}},
-        k);
+        k, count);
   }
   throw InputError(spec.where,
                    fmt::format("sensor \"{}\": there is no contact \"{}\"", spec.name, contact));

@@ -10,6 +10,7 @@
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/spatial/rotation.h"
+#include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
@@ -23,6 +24,13 @@ namespace {
 // push.
 constexpr double kNoAnswer = 1e-12;
 constexpr int kBisections = 60;
+// What comes with less than this share of the energy that it has at the end of the step does not
+// strike: it is pressed there from the beginning.
+constexpr double kPressed = 0.5;
+// Share of a slip below which what is left of it is rounding.
+constexpr double kStopped = 1e-9;
+// A gap at the start of the step that is no more than this share of what it ends with is none.
+constexpr double kOnTheEnd = 1e-6;
 
 /// Part of a step after which the cubic through gaps and rates at both ends goes below zero for
 /// good, 0 … 1.
@@ -38,7 +46,8 @@ double instant_of(double gap_start, double rate_start, double gap_end, double ra
   for (int k = kLooks - 1; k >= 0; --k) {
     open = static_cast<double>(k) / kLooks;
     if (gap(open) > 0.0) break;
-    if (k == 0) return 1.0;  // it never was: nothing is left of the step to be made good
+    // It never was: it began on the end, or nothing is left of the step to be made good.
+    if (k == 0) return gap_start >= kOnTheEnd * gap_end ? 0.0 : 1.0;
   }
   double closed = open + 1.0 / kLooks;
   for (int k = 0; k < kBisections; ++k) {
@@ -62,6 +71,15 @@ double rate_of(const dynamics::SystemRow& row, const std::vector<Vector6>& u,
     if (part->body == model::kGround) continue;
     const auto b = static_cast<std::size_t>(part->body);
     sum += part->change(u[b], y[b]);
+  }
+  return sum;
+}
+
+double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
+  double sum = 0;
+  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+    if (part->body != model::kGround)
+      sum += part->rate(motions[static_cast<std::size_t>(part->body)]);
   }
   return sum;
 }
@@ -117,7 +135,11 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     if (model.loads[k].rigid_row < 0) continue;
     const auto* law = static_cast<const loads::RigidLaw*>(model.loads[k].element.get());
-    if (law->contact(0.0).regime != 0) laws_.push_back({k, law});
+    if (law->contact(0.0).regime != 0) laws_.push_back({k, law, {}, {}});
+    const auto* friction = dynamic_cast<const loads::ContactFriction*>(law);
+    if (friction == nullptr) continue;
+    laws_.back().frictions.push_back({k, friction});
+    is_rough_ = true;
   }
   if (laws_.empty()) return;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -147,12 +169,14 @@ loads::CoordinateMotion motion_of(const model::Model& model, const model::Load& 
 void Impacts::start(const std::vector<dynamics::BodyMotion>& motions,
                     const model::RowMemory& memory) {
   for (Law& law : laws_) law.start = motion_of(model_, model_.loads[law.load], motions, memory);
+  if (is_rough_) start_ = motions;
 }
 
 bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
                    const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
                    const dynamics::Circumstances& around, double t) {
   touches_.clear();
+  slips_.clear();
   landings_.clear();
   loss_ = 0;
   count_ = 0;
@@ -163,22 +187,59 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   const std::vector<dynamics::BodyMotion> then = at_impact(motions);
   condense(then, bodies, rows_in_use, around.memory, t);
   for (Touch& touch : touches_) {
-    set_row(touch, then);
+    set_row(laws_[touch.law].load, touch.sign, then, touch);
     answer(touch);
   }
-  const auto n = static_cast<Eigen::Index>(touches_.size());
+  for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then);
+  sum_up(solve());
+  return true;
+}
+
+Vector Impacts::solve() const {
+  const auto n = static_cast<Eigen::Index>(num_pushes());
   Matrix D(n, n);
   Vector b(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Touch& touch = touches_[static_cast<std::size_t>(i)];
-    b[i] = touch.target;
+    const auto row = static_cast<std::size_t>(i);
+    b[i] = row < touches_.size() ? touches_[row].target : -slips_[row - touches_.size()].speed;
     for (Eigen::Index j = 0; j < n; ++j) {
-      const Touch& other = touches_[static_cast<std::size_t>(j)];
-      D(i, j) = rate_of(touch.row, other.u, other.y);
+      const Push& other = push(static_cast<std::size_t>(j));
+      D(i, j) = rate_of(push(row).row, other.u, other.y);
     }
   }
-  sum_up(solve_complementarity(D, b));
-  return true;
+  std::vector<ImpactSlip> slips;
+  for (std::size_t k = 0; k < slips_.size(); ++k) {
+    const auto across = static_cast<Eigen::Index>(slips_[k].touch);
+    if (slips_[k].friction > 0) {
+      ++slips.back().count;
+      continue;
+    }
+    double square = 0;
+    for (std::size_t m = k; m < slips_.size() && slips_[m].touch == slips_[k].touch; ++m) {
+      square += slips_[m].at_impact * slips_[m].at_impact;
+    }
+    slips.push_back({across, static_cast<Eigen::Index>(touches_.size() + k), 1,
+                     friction_of(slips_[k]).law->data().coefficient(std::sqrt(square))});
+  }
+  return solve_impact(D, b, static_cast<Eigen::Index>(touches_.size()), slips);
+}
+
+/// Adds the directions in which friction of a stop that is reached acts.
+/// @param then motions there, with the velocities of the end of the step
+void Impacts::add_slips(std::size_t index, const std::vector<dynamics::BodyMotion>& then) {
+  const Touch& touch = touches_[index];
+  const std::vector<Friction>& frictions = laws_[touch.law].frictions;
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    Slip slip;
+    slip.touch = index;
+    slip.friction = k;
+    set_row(frictions[k].load, 1.0, then, slip);
+    const double end = rate_of(slip.row, then);
+    slip.at_impact = end + touch.since / scheme_.h * (rate_of(slip.row, start_) - end);
+    slip.speed = touch.stays ? end : slip.at_impact;
+    answer(slip);
+    slips_.push_back(std::move(slip));
+  }
 }
 
 /// Adds the end that a law touches, if it does. @return whether it strikes there
@@ -212,12 +273,13 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   return strikes;
 }
 
-std::vector<dynamics::BodyMotion> Impacts::at_impact(
-    std::vector<dynamics::BodyMotion> motions) const {
+std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyMotion> motions) {
   const Touch& strongest =
       *std::max_element(touches_.begin(), touches_.end(),
                         [](const Touch& a, const Touch& b) { return a.approach < b.approach; });
-  const double back = -strongest.rest;
+  const bool is_pressed = strongest.stays && strongest.lost_share < kPressed;
+  since_impulses_ = is_pressed ? 0.0 : strongest.rest;
+  const double back = -since_impulses_;
   for (dynamics::BodyMotion& motion : motions) {
     spatial::Pose& X = motion.frame.X_WB;
     X.p += back * motion.frame.v;
@@ -227,17 +289,18 @@ std::vector<dynamics::BodyMotion> Impacts::at_impact(
   return motions;
 }
 
-void Impacts::set_row(Touch& touch, const std::vector<dynamics::BodyMotion>& motions) const {
-  const model::Load& load = model_.loads[laws_[touch.law].load];
+void Impacts::set_row(std::size_t index, double sign,
+                      const std::vector<dynamics::BodyMotion>& motions, Push& push) const {
+  const model::Load& load = model_.loads[index];
   const auto first = dynamics::evaluate_marker(model_, load.first, motions);
   const auto second = dynamics::evaluate_marker(model_, load.second, motions);
   const joints::JointCoordinate& law =
       model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;
-  touch.row = dynamics::system_row(model_, load.first, first, load.second, second,
-                                   law.derivatives(first.motion, second.motion));
-  for (dynamics::BodyRow* part : {&touch.row.first, &touch.row.second}) {
-    part->frame *= touch.sign;
-    part->interface *= touch.sign;
+  push.row = dynamics::system_row(model_, load.first, first, load.second, second,
+                                  law.derivatives(first.motion, second.motion));
+  for (dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
+    part->frame *= sign;
+    part->interface *= sign;
   }
 }
 
@@ -249,7 +312,7 @@ void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
   const double rate_end = sign * end.rate;
   const double s = instant_of(gap_start, rate_start, gap, rate_end, scheme_.h);
   touch.approach = std::max(0.0, -rate_at(s, gap_start, rate_start, gap, rate_end, scheme_.h));
-  touch.rest = (1.0 - s) * scheme_.h;
+  touch.rest = touch.since = (1.0 - s) * scheme_.h;
   const double e = law.restitution(touch.approach);
   touch.target = (1.0 + e) * touch.approach;
   // What returns within the step that it left in, or would not leave at all, stays.
@@ -288,16 +351,16 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
                   t));
 }
 
-void Impacts::answer(Touch& touch) {
+void Impacts::answer(Push& push) {
   const std::size_t count = model_.bodies.size();
   std::vector<dynamics::BodyResponse> loads(count);
-  touch.u.assign(count, Vector6::Zero());
-  touch.y.resize(count);
+  push.u.assign(count, Vector6::Zero());
+  push.y.resize(count);
   for (std::size_t b = 0; b < count; ++b) {
     loads[b].interface_load.setZero(model_.bodies[b].num_interface_rows());
-    touch.y[b].setZero(model_.bodies[b].num_interface_rows());
+    push.y[b].setZero(model_.bodies[b].num_interface_rows());
   }
-  for (const dynamics::BodyRow* part : {&touch.row.first, &touch.row.second}) {
+  for (const dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
     if (part->body == model::kGround) continue;
     dynamics::BodyResponse& load = loads[static_cast<std::size_t>(part->body)];
     load.frame_load += part->frame.transpose();
@@ -307,9 +370,9 @@ void Impacts::answer(Touch& touch) {
     }
   }
   const auto move = [&](std::size_t b) {
-    touch.u[b] = compliance_[b].frame * loads[b].frame_load;
+    push.u[b] = compliance_[b].frame * loads[b].frame_load;
     if (compliance_[b].interface != nullptr) {
-      touch.y[b] = *compliance_[b].interface * loads[b].interface_load;
+      push.y[b] = *compliance_[b].interface * loads[b].interface_load;
     }
   };
   for (std::size_t b = 0; b < count; ++b) move(b);
@@ -317,7 +380,7 @@ void Impacts::answer(Touch& touch) {
     Vector X;
     joints_->test_rows().changes(X, [&](int b) {
       const auto k = static_cast<std::size_t>(b);
-      return dynamics::Displacement{&touch.u[k], &touch.y[k]};
+      return dynamics::Displacement{&push.u[k], &push.y[k]};
     });
     X = -X;
     joints_->solve_in_place(X);
@@ -332,38 +395,55 @@ void Impacts::answer(Touch& touch) {
       move(b);
     }
   }
-  touch.load.clear();
-  for (dynamics::BodyResponse& load : loads) touch.load.push_back(std::move(load.interface_load));
+  push.load.clear();
+  for (dynamics::BodyResponse& load : loads) push.load.push_back(std::move(load.interface_load));
 }
 
 void Impacts::sum_up(const Vector& P) {
+  move_bodies(P);
+  Vector jump = Vector::Zero(P.size());
+  for (std::size_t i = 0; i < num_pushes(); ++i) {
+    for (std::size_t k = 0; k < num_pushes(); ++k) {
+      jump[static_cast<Eigen::Index>(i)] +=
+          P[static_cast<Eigen::Index>(k)] * rate_of(push(i).row, push(k).u, push(k).y);
+    }
+  }
+  land(P, jump);
+}
+
+void Impacts::move_bodies(const Vector& P) {
   for (std::size_t b = 0; b < jumps_.size(); ++b) {
     jumps_[b].velocity.setZero();
     jumps_[b].shift.setZero();
     jumps_[b].impulse.setZero(model_.bodies[b].num_interface_rows());
     jumps_[b].impulse_time.setZero(model_.bodies[b].num_interface_rows());
   }
-  Vector jump = Vector::Zero(P.size());
   double strength = 0;
   rest_ = 0;
-  for (std::size_t k = 0; k < touches_.size(); ++k) {
-    const Touch& touch = touches_[k];
+  for (std::size_t k = 0; k < num_pushes(); ++k) {
     const double p = P[static_cast<Eigen::Index>(k)];
-    for (std::size_t i = 0; i < touches_.size(); ++i) {
-      jump[static_cast<Eigen::Index>(i)] += p * rate_of(touches_[i].row, touch.u, touch.y);
-    }
     if (p == 0.0) continue;
-    const double weight = p * std::abs(touch.target);
-    strength += weight;
-    rest_ += weight * touch.rest;
+    const bool is_slip = k >= touches_.size();
+    const Touch& touch = touches_[is_slip ? slips_[k - touches_.size()].touch : k];
+    if (!is_slip) {
+      const double weight = p * std::abs(touch.target);
+      strength += weight;
+      // Impulses of friction that hold to the end of the step have its accelerations in them.
+      const bool has_all = touch.stays && !laws_[touch.law].frictions.empty();
+      if (!has_all) rest_ += weight * touch.rest;
+    }
+    const Push& own = push(k);
     for (std::size_t b = 0; b < jumps_.size(); ++b) {
-      jumps_[b].velocity += p * touch.u[b];
-      jumps_[b].shift += (p * touch.rest) * touch.u[b];
-      jumps_[b].impulse += p * touch.load[b];
-      jumps_[b].impulse_time += (p * touch.rest) * touch.load[b];
+      jumps_[b].velocity += p * own.u[b];
+      jumps_[b].shift += (p * touch.rest) * own.u[b];
+      jumps_[b].impulse += p * own.load[b];
+      jumps_[b].impulse_time += (p * touch.rest) * own.load[b];
     }
   }
   if (strength > 0.0) rest_ /= strength;
+}
+
+void Impacts::land(const Vector& P, const Vector& jump) {
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Touch& touch = touches_[k];
     const auto i = static_cast<Eigen::Index>(k);
@@ -373,8 +453,34 @@ void Impacts::sum_up(const Vector& P) {
     }
     // Driven off by others, or left with the share of its speed: no longer held.
     const bool leaves = touch.rate + jump[i] > 1e-9 * (std::abs(touch.rate) + std::abs(jump[i]));
+    const bool is_held = touch.stays && !leaves;
     const int rigid_row = model_.loads[laws_[touch.law].load].rigid_row;
-    landings_.push_back({rigid_row, touch.stays && !leaves ? touch.regime : 0});
+    landings_.push_back({rigid_row, is_held ? touch.regime : 0});
+    land_slips(k, is_held, jump);
+  }
+  for (std::size_t k = 0; k < slips_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(touches_.size() + k);
+    const Slip& slip = slips_[k];
+    const double after = slip.speed + jump[i];
+    // Where it holds, what it does on the motion that weight brings within the rest of the step is
+    // no loss; where it slides, all of it rubs over the way between.
+    const bool holds = std::abs(after) <= kStopped * std::abs(slip.speed);
+    const double share = holds && slip.speed != 0.0 ? slip.at_impact / slip.speed : 1.0;
+    loss_ -= 0.5 * share * P[i] * (slip.at_impact + after);
+  }
+}
+
+/// Whether bodies that stay together stick or slide.
+void Impacts::land_slips(std::size_t touch, bool is_held, const Vector& jump) {
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < slips_.size(); ++k) {
+    if (slips_[k].touch != touch) continue;
+    before += std::abs(slips_[k].speed);
+    after += std::abs(slips_[k].speed + jump[static_cast<Eigen::Index>(touches_.size() + k)]);
+  }
+  for (const Friction& friction : laws_[touches_[touch].law].frictions) {
+    const bool sticks = after <= std::max(friction.law->data().at_rest, kStopped * before);
+    landings_.push_back({model_.loads[friction.load].rigid_row, !is_held ? 0 : sticks ? 1 : 2});
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/multiplier_condensation.h"
-#include "buckens/loads/rigid_law.h"
+#include "buckens/loads/contact_friction.h"
 #include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/body_step.h"
 
@@ -30,7 +30,8 @@ struct BodyJump {
 /// Velocities jump, positions move on with the new velocities for the rest of the step, and
 /// accelerations carried on by the method see nothing of it (Brüls, Acary, Cardona, 2014). Of
 /// frames M is their mass, of meshes the step matrix: k₀ Y K̂⁻¹Nᵀ answers an impulse as the method
-/// would. Theory: docs/theory/23-impacts.md.
+/// would. Friction of contacts takes part (stepping/friction_impulses.h).
+/// Theory: docs/theory/23-impacts.md.
 class Impacts {
  public:
   Impacts(const model::Model& model, const Scheme& scheme, std::vector<const BodyAnswer*> answers);
@@ -62,54 +63,91 @@ class Impacts {
   int count() const { return count_; }
   /// From their mean instant, weighted by their strength, to the end of the step [s].
   double rest() const { return rest_; }
+  /// From the configuration in which impulses act on bodies to the end of the step [s].
+  double since_impulses() const { return since_impulses_; }
 
  private:
+  /// Friction of a law that can strike, along one direction.
+  struct Friction {
+    std::size_t load;
+    const loads::ContactFriction* law;
+  };
   /// A law that can strike, with its coordinate at the start of the step.
   struct Law {
     std::size_t load;
     const loads::RigidLaw* law;
     loads::CoordinateMotion start{};
+    std::vector<Friction> frictions;
+  };
+  /// A row along which an impulse acts, and what a unit of it does.
+  struct Push {
+    dynamics::SystemRow row;
+    std::vector<Vector6> u;  ///< answers of the bodies
+    std::vector<Eigen::VectorXd> y, load;
   };
   /// A stop that is reached.
-  struct Touch {
-    std::size_t law;          ///< index into laws_
-    int regime;               ///< of the end that is touched
-    double approach = 0;      ///< speed against it at the impact [m/s] or [rad/s]
-    double target = 0;        ///< jump of the rate away from the end that it asks for
-    double rest = 0;          ///< what is left of the step after the impact [s]
-    double lost_share = 1;    ///< of the energy of `approach`, that the impact itself had
-    bool stays = false;       ///< is not left again
-    double rate = 0;          ///< away from the end, at the end of the step
-    double sign = 1;          ///< of the coordinate, away from the end
-    dynamics::SystemRow row;  ///< of the way away from the end
-    std::vector<Vector6> u;   ///< answers of the bodies to a unit impulse
-    std::vector<Eigen::VectorXd> y, load;
+  struct Touch : Push {
+    std::size_t law;        ///< index into laws_
+    int regime;             ///< of the end that is touched
+    double approach = 0;    ///< speed against it at the impact [m/s] or [rad/s]
+    double target = 0;      ///< jump of the rate away from the end that it asks for
+    double rest = 0;        ///< what is left of the step after the impact, for positions [s]
+    double since = 0;       ///< what is left of it [s]
+    double lost_share = 1;  ///< of the energy of `approach`, that the impact itself had
+    bool stays = false;     ///< is not left again
+    double rate = 0;        ///< away from the end, at the end of the step
+    double sign = 1;        ///< of the coordinate, away from the end
+  };
+  /// Slip of a stop that is reached, along one direction.
+  struct Slip : Push {
+    std::size_t touch;     ///< index into touches_
+    std::size_t friction;  ///< index into Law::frictions
+    double speed = 0;      ///< that friction acts on: at the impact, or at the end of the step
+    double at_impact = 0;  ///< [m/s]
   };
 
   bool look(std::size_t law, const dynamics::Circumstances& around,
             const std::vector<dynamics::BodyMotion>& motions, double t);
   /// Where the bodies were at the strongest of the impacts.
-  std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions) const;
-  void set_row(Touch& touch, const std::vector<dynamics::BodyMotion>& motions) const;
+  std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions);
+  void set_row(std::size_t load, double sign, const std::vector<dynamics::BodyMotion>& motions,
+               Push& push) const;
+  void add_slips(std::size_t touch, const std::vector<dynamics::BodyMotion>& then);
+  const Friction& friction_of(const Slip& slip) const {
+    return laws_[touches_[slip.touch].law].frictions[slip.friction];
+  }
+  /// The pushes in the order of the impulses: stops, then slips.
+  const Push& push(std::size_t row) const {
+    return row < touches_.size() ? static_cast<const Push&>(touches_[row])
+                                 : slips_[row - touches_.size()];
+  }
+  std::size_t num_pushes() const { return touches_.size() + slips_.size(); }
+  linalg::Vector solve() const;
   void set_approach(Touch& touch, const loads::RigidLaw& law, const loads::CoordinateMotion& start,
                     const loads::CoordinateMotion& end, double sign, double gap) const;
   void condense(const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
                 const model::RowMemory* memory, double t);
-  void answer(Touch& touch);
+  void answer(Push& push);
   void sum_up(const linalg::Vector& P);
+  void move_bodies(const linalg::Vector& P);
+  void land(const linalg::Vector& P, const linalg::Vector& jump);
+  void land_slips(std::size_t touch, bool is_held, const linalg::Vector& jump);
 
   const model::Model& model_;
   Scheme scheme_;
   std::vector<const BodyAnswer*> answers_;
   std::vector<Law> laws_;
+  bool is_rough_ = false;                    // any of them has friction
+  std::vector<dynamics::BodyMotion> start_;  // of the step, where they have
   std::vector<Touch> touches_;
+  std::vector<Slip> slips_;
   std::vector<linalg::Matrix> interface_;  // k₀ N Y K̂⁻¹Nᵀ
   std::vector<dynamics::BodyCompliance> compliance_;
   std::optional<dynamics::MultiplierCondensation> joints_;  // empty without joint rows
   std::vector<BodyJump> jumps_;
   std::vector<Landing> landings_;
-  double loss_ = 0, rest_ = 0;
+  double loss_ = 0, rest_ = 0, since_impulses_ = 0;
   int count_ = 0;
 };
 

@@ -101,6 +101,8 @@ class SmallNewton {
   void set_joint_rows(double t);
   /// With these stiffnesses and dampings of rows that are not closed.
   void set_soft_rows(const std::vector<double>& stiffness, const std::vector<double>& damping);
+  /// Place of what a slope is by among the condensed rows, −1: it is not there.
+  int place_of(const dynamics::ReactionSlope& slope) const;
   /// Passes on how friction grows with multipliers, after the soft rows.
   void set_slopes();
   /// Corrections of positions are those of the soft rows as they are now.

@@ -50,13 +50,19 @@ void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
   }
 }
 
+int SmallNewton::place_of(const dynamics::ReactionSlope& slope) const {
+  if (slope.row >= 0) return place_in_use_[static_cast<std::size_t>(slope.row)];
+  const bool presses = soft_.is_closed[static_cast<std::size_t>(slope.rigid)];
+  return presses ? static_cast<int>(rows_in_use_.size()) + slope.rigid : -1;
+}
+
 void SmallNewton::set_slopes() {
   const int in_use = static_cast<int>(rows_in_use_.size());
   slopes_in_use_.clear();
   int sliding = -1;
   for (const dynamics::ReactionSlope& slope : slopes_) {
     const auto soft = static_cast<std::size_t>(slope.soft);
-    const int place = place_in_use_[static_cast<std::size_t>(slope.row)];
+    const int place = place_of(slope);
     if (place < 0 || soft_.is_closed[soft] || held_.holds(slope.soft)) continue;
     slopes_in_use_.push_back({in_use + slope.soft, place, slope.value});
     // Where a force only follows multipliers, bodies move by it all the same.

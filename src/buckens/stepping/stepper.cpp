@@ -302,10 +302,14 @@ void Stepper::take_impacts(StepReport& report) {
 
 void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion) {
   model::BodyState& s = next_.bodies[b];
+  // Since the impact it has turned with the velocity before it, in place of the one after it.
+  const double rest = impacts_->since_impulses();
+  const Eigen::Quaterniond undone = spatial::exp_rotation(-rest * s.frame.w);
+  const Vector3d turned = rest * s.frame.w + jump.shift.head<3>();
   s.frame.w += jump.velocity.head<3>();
   s.frame.v += jump.velocity.tail<3>();
   s.frame.X_WB.p += jump.shift.tail<3>();
-  s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(jump.shift.head<3>())).normalized();
+  s.frame.X_WB.q = (s.frame.X_WB.q * undone * spatial::exp_rotation(turned)).normalized();
   motion.frame = s.frame;
   if (!flexible_[b] || operators_[b]->is_quasi_static()) return;
   add_impulse(b, jump.impulse, s.d_dot);

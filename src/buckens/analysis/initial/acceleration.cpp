@@ -23,6 +23,8 @@ namespace {
 
 constexpr int kMaxRounds = 100;
 constexpr double kSettled = 1e-13;
+// Rigid rows with less of their own than this share hold what others hold.
+constexpr double kTheSame = 1e-11;
 
 /// Accelerations of one body, refined in rounds.
 struct BodyAcceleration {
@@ -92,8 +94,9 @@ class Accelerations {
       give.push_back(stepping::kRigidGive * stepping::own_compliance(rows_[k], compliance_));
     }
     // The give only where rows hold the same: it costs digits of the forces.
-    if (!condensation_->factorise(rows_, rows_, compliance_, {}) &&
-        !condensation_->factorise(rows_, rows_, compliance_, give)) {
+    const bool are_independent = condensation_->factorise(rows_, rows_, compliance_, {}) &&
+                                 (give.empty() || condensation_->pivot_ratio() > kTheSame);
+    if (!are_independent && !condensation_->factorise(rows_, rows_, compliance_, give)) {
       throw NumericalError(
           "the joint equations are dependent in the initial position (a dead centre); start "
           "elsewhere");
@@ -117,7 +120,6 @@ class Accelerations {
       rows_.push_back(soft.rows[k]);
       bias_.push_back(bias_of(load, motions));
       closed_.push_back(load.first_state + 1);
-      state_.memory.laws[closed_.back()] = 0.0;
     }
   }
 
@@ -219,7 +221,8 @@ class Accelerations {
       state_.lambda[rows_in_use_[k]] = lambda_[static_cast<Eigen::Index>(k)];
     }
     for (std::size_t k = 0; k < closed_.size(); ++k) {
-      state_.memory.laws[closed_[k]] = lambda_[static_cast<Eigen::Index>(rows_in_use_.size() + k)];
+      // What was missing: friction of contacts is that of the forces so far.
+      state_.memory.laws[closed_[k]] += lambda_[static_cast<Eigen::Index>(rows_in_use_.size() + k)];
     }
     state_.lambda_time = state_.t;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {

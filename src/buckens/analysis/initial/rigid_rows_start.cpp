@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/initial/rigid_rows_start.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -8,12 +10,17 @@
 #include "buckens/analysis/initial/quasi_static_start.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/loads/contact_friction.h"
 
 namespace buckens::analysis {
 
 namespace {
 
-constexpr int kMostRowRounds = 50;
+constexpr int kMostRowRounds = 100;
+// Changes of accelerations by this share of the largest one, and those that may be rounding where
+// they do not fall any more.
+constexpr double kSameMotion = 1e-13;
+constexpr double kRoundingOfMotion = 1e-9;
 
 /// Moves rows to the stands that follow. @return names of the loads that moved
 /// @param released per rigid row: what has once let go here is not closed again, since at a rate of
@@ -38,17 +45,66 @@ std::string move_rows(const model::Model& model, std::vector<char>& released, mo
   return names;
 }
 
+bool has_contact_friction(const model::Model& model) {
+  return std::any_of(model.loads.begin(), model.loads.end(), [](const model::Load& load) {
+    return dynamic_cast<const loads::ContactFriction*>(load.element.get()) != nullptr;
+  });
+}
+
+/// Accelerations of all bodies, rotations times the model's length [m/s²].
+linalg::Vector accelerations_of(const model::Model& model, const model::State& state) {
+  linalg::Vector out(6 * std::ssize(state.bodies));
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const auto place = 6 * static_cast<Eigen::Index>(b);
+    out.segment<3>(place) = model.length * state.bodies[b].w_dot;
+    out.segment<3>(place + 3) = state.bodies[b].v_dot;
+  }
+  return out;
+}
+
+/// Whether rounds have come to an end: forces that places share are known to less, what they do to
+/// the bodies is not.
+class SettledMotion {
+ public:
+  explicit SettledMotion(const model::Model& model) : model_(model) {}
+
+  bool look(const model::State& state) {
+    const linalg::Vector now = accelerations_of(model_, state);
+    const double size = std::max(now.cwiseAbs().maxCoeff(), model_.gravity.norm());
+    const double change =
+        before_.size() > 0 ? (now - before_).cwiseAbs().maxCoeff() / size : HUGE_VAL;
+    const bool is_rounding = change <= kRoundingOfMotion && change >= 0.5 * change_before_;
+    before_ = now;
+    change_before_ = change;
+    return !(change > kSameMotion) || is_rounding;
+  }
+
+ private:
+  const model::Model& model_;
+  linalg::Vector before_;
+  double change_before_ = HUGE_VAL;
+};
+
 }  // namespace
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
                        const std::vector<int>& rows_in_use, model::State& state) {
   std::string moved;
   std::vector<char> released(static_cast<std::size_t>(model.num_rigid_rows()));
+  // Friction in contacts is that of the forces of the round before.
+  const bool is_rough = has_contact_friction(model);
+  SettledMotion motion(model);
   for (int round = 0; round < kMostRowRounds; ++round) {
     settle_accelerations(model, metric, rows_in_use, state);
     if (model.num_rigid_rows() == 0) return;
     moved = move_rows(model, released, state);
-    if (moved.empty()) return;
+    if (moved.empty() && (!is_rough || motion.look(state))) return;
+  }
+  if (moved.empty()) {
+    throw NumericalError(fmt::format(
+        "at t = {:.6g} s friction in rigid contacts has no equilibrium with the forces "
+        "that press the bodies: it jams; give the contact a stiffness, or less `static`",
+        state.t));
   }
   throw NumericalError(
       fmt::format("at t = {:.6g} s no combination of holding and releasing satisfies all of the "

@@ -3,12 +3,15 @@
 
 #include <cmath>
 
+#include "buckens/loads/contact_friction.h"
+
 namespace buckens::analysis {
 
 WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
     : model_(model),
       joints_(model),
       before_(powers(start)),
+      laws_before_(start.memory.laws),
       t_(start.t),
       lambda_before_(start.lambda),
       lambda_start_(start.lambda),
@@ -31,7 +34,25 @@ WorkAccount::Powers WorkAccount::powers(const model::State& state) {
   return out;
 }
 
-void WorkAccount::take_inputs(const model::State& state) { before_ = powers(state); }
+void WorkAccount::take_inputs(const model::State& state) {
+  before_ = powers(state);
+  laws_before_ = state.memory.laws;
+}
+
+double WorkAccount::landed(const model::State& state) const {
+  double sum = 0;
+  const auto motions = dynamics::motions_of(model_, state);
+  for (std::size_t k = 0; k < model_.loads.size(); ++k) {
+    const model::Load& load = model_.loads[k];
+    if (dynamic_cast<const loads::ContactFriction*>(load.element.get()) == nullptr) continue;
+    if (laws_before_[load.first_state] != 0.0 || state.memory.is_off(k)) continue;
+    const auto first = dynamics::evaluate_marker(model_, load.first, motions).motion;
+    const auto second = dynamics::evaluate_marker(model_, load.second, motions).motion;
+    sum += dynamics::action_of(model_, k, state.t, dynamics::circumstances_of(state), first, second)
+               .dissipation;
+  }
+  return sum;
+}
 
 void WorkAccount::take_event(const model::State& state, double gained, double lost) {
   take_inputs(state);
@@ -64,12 +85,14 @@ void WorkAccount::add(const model::State& state, double impact_loss, RatesAtEnd 
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
   const double active = 0.5 * (before_.active + now.active) + drive;
   double dissipated = 0.5 * h * (before_.damping + now.damping) + impact_loss;
+  if (impact_loss != 0.0) dissipated -= 0.5 * h * landed(state);
   for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_, rates);
   work_before_ = work_;
   work_.external += h * active;
   work_.dissipated += dissipated;
   turnover_ += h * std::abs(active) + dissipated;
   before_ = now;
+  if (model_.num_rigid_rows() > 0) laws_before_ = state.memory.laws;
   lambda_before_ = state.lambda;
   lambda_start_ = lambda;
   lambda_time_ = state.lambda_time;

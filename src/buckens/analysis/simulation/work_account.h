@@ -52,6 +52,9 @@ class WorkAccount {
   };
   /// Leaves the forces at the state in forces_.
   Powers powers(const model::State& state);
+  /// Power of friction in contacts that closed in an impact of this step: it is in the loss of the
+  /// impact, and begins with the next step [W].
+  double landed(const model::State& state) const;
 
   const model::Model& model_;
   dynamics::JointSet joints_;
@@ -59,6 +62,7 @@ class WorkAccount {
   dynamics::Forces forces_;
   dynamics::JointResiduals residuals_;
   Powers before_;
+  linalg::Vector laws_before_;  ///< RowMemory::laws of the last state, of models with impacts
   double t_ = 0;
   linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state
   double lambda_time_ = 0;                       ///< instant of lambda_before_

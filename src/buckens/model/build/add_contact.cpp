@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/joints/contact_way.h"
 #include "buckens/loads/contact.h"
+#include "buckens/loads/contact_friction.h"
 #include "buckens/loads/elastic_contact.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/model/build/contact_shapes.h"
@@ -26,6 +28,8 @@ namespace {
 constexpr double kNoRotaryInertia = 1e-12;
 // Rounding of places, as a share of the smaller shape.
 constexpr double kTouchingPlace = 1e-9;
+// Slip whose direction says nothing, in sizes of the smaller shape per second.
+constexpr double kNoSlip = 1e-9;
 
 class ContactBuilder {
  public:
@@ -37,7 +41,7 @@ class ContactBuilder {
         where_(where),
         what_(fmt::format("load \"{}\"", load.name)) {}
 
-  void build() {
+  std::vector<Load> build() {
     std::array<MarkerId, 2> markers = {find_.marker(spec_.between[0], true),
                                        find_.marker(spec_.between[1], true)};
     find_.require_two_bodies(markers[0], markers[1], what_, where_);
@@ -60,6 +64,7 @@ class ContactBuilder {
     } else {
       set_rigid(pair);
     }
+    return std::move(behind_);
   }
 
  private:
@@ -71,7 +76,9 @@ class ContactBuilder {
     };
     if (!is_centred(pair.first())) find_.require_moment(load_.first, what_, where_);
     if (!is_centred(pair.second())) find_.require_moment(load_.second, what_, where_);
-    if (spec_.coefficient == 0.0) return;
+    const bool is_rigid = !spec_.stiffness && !spec_.modulus;
+    const bool has_feet = is_rigid && feet(pair.second()).size() > 1;
+    if (spec_.coefficient == 0.0 && !has_feet) return;
     for (const MarkerId* id : {&load_.first, &load_.second}) require_inertia(*id);
   }
 
@@ -87,9 +94,11 @@ class ContactBuilder {
       least = normal.dot(body.J0 * normal);
     }
     if (least > kNoRotaryInertia * body.mass * size_ * size_) return;
-    throw ModelError(where_, fmt::format("{}: friction turns body \"{}\", which has no rotary "
-                                         "inertia; give it an `inertia`, or leave out `static`",
-                                         what_, body.name));
+    throw ModelError(
+        where_, fmt::format("{}: {} turns body \"{}\", which has no rotary "
+                            "inertia; give it an `inertia`{}",
+                            what_, spec_.coefficient > 0.0 ? "friction" : "the contact", body.name,
+                            spec_.coefficient > 0.0 ? ", or leave out `static`" : ""));
   }
 
   /// As placed, the shapes are beside each other and in the same plane.
@@ -143,22 +152,88 @@ class ContactBuilder {
         pair, loads::contact_data(law, pair, reduced_mass(), find_.model().gravity.norm()));
   }
 
-  /// One-sided row: along the normal of a plane, or between two centres.
+  int add_coordinate(const joints::JointCoordinate& law) {
+    std::vector<Coordinate>& all = find_.model().coordinates;
+    all.push_back({-1, load_.first, load_.second, law});
+    return static_cast<int>(all.size()) - 1;
+  }
+
+  /// Centres of the spheres, or points, of a shape that can lie on a plane; in its own axes.
+  static std::vector<Vector3d> feet(const ContactShape& shape) {
+    if (shape.kind == ShapeKind::capsule) {
+      return {shape.half_length * shape.axis, -shape.half_length * shape.axis};
+    }
+    if (shape.kind != ShapeKind::box) return {Vector3d::Zero()};
+    std::vector<Vector3d> out = {Vector3d::Zero()};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == shape.flat) continue;
+      const Vector3d half = shape.half[axis] * Vector3d::Unit(axis);
+      for (std::size_t k = out.size(); k-- > 0;) {
+        out.push_back(out[k] - half);
+        out[k] += half;
+      }
+    }
+    return out;
+  }
+
+  /// Between two centres, or a plane and the points of the other body that can lie on it.
+  std::vector<spatial::RigidTouch> touches(const loads::ContactPair& pair) const {
+    spatial::RigidTouch::Data data;
+    data.radius = pair.second().radius;
+    data.first_radius = pair.first().radius;
+    const joints::Placement placed = find_.placement(load_.first, load_.second);
+    if (find_.model().planar) {
+      data.out_of_plane = placed.R_WF.transpose() * spatial::normal(*find_.model().planar);
+    }
+    if (pair.first().kind == ShapeKind::plane) {
+      data.axis = pair.first().axis;
+      std::vector<spatial::RigidTouch> out;
+      for (const Vector3d& at : feet(pair.second())) {
+        data.at = at;
+        out.emplace_back(data);
+      }
+      return out;
+    }
+    const bool is_inside = pair.first().kind != ShapeKind::sphere;
+    data.surface =
+        is_inside ? spatial::RigidTouch::Surface::socket : spatial::RigidTouch::Surface::sphere;
+    if (placed.r_F.norm() > 0.0) data.axis = (is_inside ? -1.0 : 1.0) * placed.r_F.normalized();
+    return {spatial::RigidTouch(data)};
+  }
+
   void set_rigid(const loads::ContactPair& pair) {
-    const double radius = pair.second().radius;
-    const double other = pair.first().radius;
-    const bool is_plane = pair.first().kind == ShapeKind::plane;
-    const bool is_inside =
-        pair.first().kind == ShapeKind::socket || pair.first().kind == ShapeKind::bore;
-    load_.coordinate = static_cast<int>(find_.model().coordinates.size());
-    find_.model().coordinates.push_back(
-        {-1, load_.first, load_.second,
-         is_plane ? joints::JointCoordinate::displacement(pair.first().axis, Vector3d::Zero())
-                  : joints::JointCoordinate::length()});
-    const double from = is_plane ? radius : is_inside ? -HUGE_VAL : radius + other;
-    const double to = is_inside ? other - radius : HUGE_VAL;
-    load_.element = std::make_shared<loads::RigidStop>(from, to, spec_.restitution.value_or(0.0),
-                                                       spec_.threshold.value_or(rigid_threshold()));
+    for (const spatial::RigidTouch& touch : touches(pair)) {
+      Load own = load_;
+      own.shapes = nullptr;  // drawn once
+      own.coordinate = add_coordinate(joints::JointCoordinate::gap(
+          std::make_shared<joints::ContactWay>(touch, joints::ContactWay::Direction::across)));
+      own.element =
+          std::make_shared<loads::RigidStop>(0.0, HUGE_VAL, spec_.restitution.value_or(0.0),
+                                             spec_.threshold.value_or(rigid_threshold()));
+      behind_.push_back(std::move(own));
+      if (spec_.coefficient > 0.0) add_friction(touch);
+    }
+    load_.coordinate = behind_.front().coordinate;
+    load_.element = behind_.front().element;
+    behind_.erase(behind_.begin());
+  }
+
+  void add_friction(const spatial::RigidTouch& touch) {
+    loads::ContactFrictionData data;
+    data.static_coefficient = spec_.coefficient;
+    data.dynamic_coefficient = spec_.dynamic.value_or(spec_.coefficient);
+    data.stribeck_speed = spec_.stribeck.value_or(0.0);
+    data.at_rest = kNoSlip * size_;
+    using Direction = joints::ContactWay::Direction;
+    for (int k = 0; k < touch.num_directions(); ++k) {
+      Load own = load_;
+      own.shapes = nullptr;
+      own.coordinate =
+          add_coordinate(joints::JointCoordinate::gap(std::make_shared<joints::ContactWay>(
+              touch, k == 0 ? Direction::along : Direction::other_along)));
+      own.element = std::make_shared<loads::ContactFriction>(touch, data, k);
+      behind_.push_back(std::move(own));
+    }
   }
 
   const loads::ContactSpec& spec_;
@@ -167,13 +242,14 @@ class ContactBuilder {
   const SourceLocation& where_;
   std::string what_;
   double size_ = 0;  // of the smaller shape [m]
+  std::vector<Load> behind_;
 };
 
 }  // namespace
 
-void set_contact(const loads::ContactSpec& spec, MarkerFinder& find, Load& load,
-                 const SourceLocation& where) {
-  ContactBuilder(spec, find, load, where).build();
+std::vector<Load> set_contact(const loads::ContactSpec& spec, MarkerFinder& find, Load& load,
+                              const SourceLocation& where) {
+  return ContactBuilder(spec, find, load, where).build();
 }
 
 }  // namespace buckens::model

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,6 +44,7 @@ class LoadBuilder {
     Load load;
     load.name = spec.name;
     load.kind = spec.kind_name();
+    std::vector<Load> behind;
     if (const auto* force = std::get_if<loads::ForceSpec>(&spec.kind)) {
       add_applied(*force, loads::AppliedLoad::Kind::force, load, spec.where);
     } else if (const auto* torque = std::get_if<loads::TorqueSpec>(&spec.kind)) {
@@ -54,7 +56,7 @@ class LoadBuilder {
     } else if (const auto* torsional = std::get_if<loads::TorsionalSpringSpec>(&spec.kind)) {
       add_torsional(*torsional, load, spec.where);
     } else if (const auto* contact = std::get_if<loads::ContactSpec>(&spec.kind)) {
-      set_contact(*contact, find_, load, spec.where);
+      behind = set_contact(*contact, find_, load, spec.where);
     } else if (const auto* contacts = std::get_if<loads::ContactsSpec>(&spec.kind)) {
       set_contacts(*contacts, find_, load, spec.where);
     } else if (const auto* belt = std::get_if<loads::ElasticBeltSpec>(&spec.kind)) {
@@ -69,6 +71,7 @@ class LoadBuilder {
       add_ball_friction(*ball, load, spec.where);
     }
     find_.model().loads.push_back(std::move(load));
+    std::move(behind.begin(), behind.end(), std::back_inserter(find_.model().loads));
   }
 
  private:

@@ -89,21 +89,19 @@ Found rigid_problem(const loads::ContactSpec& spec, const ModelDescription& mode
                    "without `stiffness` or `modulus` the contact is rigid, and this has no "
                    "effect; give one of them"};
   };
-  if (spec.coefficient > 0.0) {
-    return Finding{"static",
-                   "rigid contacts have no friction yet; give a `stiffness`, or leave "
-                   "out `static`"};
-  }
   if (spec.damping > 0.0) return needs_stiffness("damping");
   if (spec.exponent) return needs_stiffness("exponent");
   if (spec.tangential) return needs_stiffness("tangential-stiffness");
   const bool is_known = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
-                        is_pair(spec, "sphere", "socket") ||
+                        is_pair(spec, "sphere", "socket") || is_pair(spec, "plane", "capsule") ||
+                        is_pair(spec, "plane", "box") ||
                         (model.planar && is_pair(spec, "sphere", "bore"));
   if (is_known) return std::nullopt;
-  return Finding{"shapes", fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
-                                       "of a sphere with a plane, a sphere or a socket",
-                                       spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
+  return Finding{
+      "shapes", fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
+                            "of a sphere with a plane, a sphere or a socket, and of a plane with a "
+                            "capsule or a box",
+                            spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
 }
 
 Found restitution_problem(const loads::ContactForceSpec& spec) {

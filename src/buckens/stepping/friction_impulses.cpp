@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/friction_impulses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "buckens/stepping/impacts.h"
+#include "buckens/stepping/step_failure.h"
+
+namespace buckens::stepping {
+
+using linalg::Matrix;
+using linalg::Vector;
+
+namespace {
+
+constexpr int kMostSweeps = 1000;
+constexpr int kMostAgreements = 200;
+// Changes of impulses along surfaces by this share of the largest one.
+constexpr double kSame = 1e-12;
+// Changes of rates by this share of what impulses do to them. How places share an impulse is known
+// to less, which no rate feels.
+constexpr double kSameRates = 1e-10;
+constexpr int kHalvings = 200;
+
+/// Impulse of one slip that stops it, or the one on the cone that is against what remains of it.
+/// @param B answers of the slip to it, @param v slip without it, @param most μ P_n
+Vector rub(const Matrix& B, const Vector& v, double most) {
+  if (!(most > 0.0)) return Vector::Zero(v.size());
+  const Eigen::SelfAdjointEigenSolver<Matrix> modes(B);
+  const Vector answers = modes.eigenvalues();
+  const Vector parts = modes.eigenvectors().transpose() * v;
+  // P = −(B + s)⁻¹ v: its size falls with s, the ratio of the slip that remains to the impulse.
+  const auto at = [&](double s) -> Vector {
+    return -(parts.array() / (answers.array() + s)).matrix();
+  };
+  if (answers.minCoeff() > 0.0) {
+    const Vector stops = at(0.0);
+    if (stops.norm() <= most) return modes.eigenvectors() * stops;
+  }
+  double low = 0.0;
+  double high = v.norm() / most;  // there the size is at most `most`
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (at(middle).norm() > most ? low : high) = middle;
+  }
+  const Vector slides = at(high);
+  return modes.eigenvectors() * (slides * (most / slides.norm()));
+}
+
+/// Impulses along the surfaces for given ones across them.
+void solve_slips(const Matrix& D, const Vector& b, const std::vector<ImpactSlip>& slips,
+                 Vector& P) {
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double change = 0.0;
+    for (const ImpactSlip& slip : slips) {
+      const auto own = Eigen::seqN(slip.first, slip.count);
+      const Matrix B = D(own, own);
+      const Vector before = P(own);
+      const Vector v = D(own, Eigen::all) * P - b(own) - B * before;
+      const Vector now = rub(B, v, slip.coefficient * P[slip.across]);
+      P(own) = now;
+      change = std::max(change, (now - before).cwiseAbs().maxCoeff());
+    }
+    if (change <= kSame * P.cwiseAbs().maxCoeff()) return;
+  }
+}
+
+}  // namespace
+
+Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
+                    const std::vector<ImpactSlip>& slips) {
+  const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
+  const auto along = Eigen::seqN(num_across, D.rows() - num_across);
+  Vector P = Vector::Zero(D.rows());
+  const Matrix pressing = D(across, across);
+  P(across) = solve_complementarity(pressing, b(across));
+  if (slips.empty()) return P;
+  for (int round = 0; round < kMostAgreements; ++round) {
+    solve_slips(D, b, slips, P);
+    const Vector before = P(across);
+    const Vector asked = b(across) - D(across, along) * P(along);
+    P(across) = solve_complementarity(pressing, asked);
+    const Vector change = D(Eigen::all, across) * (P(across) - before);
+    const double size = (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
+    if (change.cwiseAbs().maxCoeff() <= kSameRates * size) return P;
+  }
+  throw StepFailure(
+      "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
+      "jams; "
+      "give the contact a `stiffness`, or less `static`");
+}
+
+}  // namespace buckens::stepping
