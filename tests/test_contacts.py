@@ -171,7 +171,70 @@ output: {{every: 10 ms, sensors: {{p0: {{position: b0}}, p1: {{position: b1}}, t
         assert out[0][name] == pytest.approx(out[1][name], rel=1e-5, abs=1e-7), name
 
 
-def test_statics_refuse_many_contacts(buckens, tmp_path):
-    text = MODEL.replace("BODIES", TWO).replace("SPEC", "among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5")
-    (tmp_path / "model.yaml").write_text(text + "initial: {start: static}\n")
-    buckens("run", "model.yaml", "-o", "out").must(3, "does not see contacts of many bodies yet", "\"c\"")
+TUBE = """
+buckens: 1
+planar: zx
+gravity: [0, 0, -9.81]
+bodies:
+  b0: {rigid: {mass: 0.5, inertia: [0, 1e-3, 0]}, at: {position: [-0.03, 0, 0.04999]}}
+  b1: {rigid: {mass: 0.7, inertia: [0, 1e-3, 0]}, at: {position: [0.03, 0, 0.12998]}}
+  b2: {rigid: {mass: 0.9, inertia: [0, 1e-3, 0]}, at: {position: [-0.03, 0, 0.20997]}}
+  b3: {rigid: {mass: 1.1, inertia: [0, 1e-3, 0]}, at: {position: [0.03, 0, 0.28996]}}
+loads:
+LOADS
+initial: {start: static}
+simulation: {duration: 20 ms, step: 1 ms}
+output: {every: 1 ms, sensors: {p0: {position: b0}, p1: {position: b1}, p2: {position: b2}, p3: {position: b3}, SENSORS}}
+"""
+TUBE_WALLS = [("[-0.07999, 0, 0]", "[1, 0, 0]"), ("[0.07999, 0, 0]", "[-1, 0, 0]")]
+
+
+def tube_of_groups(law):
+    walls = ", ".join(f"{{on: {{ground: {point}}}, plane: {normal}}}" for point, normal in TUBE_WALLS)
+    return (f"  floor: {{contacts: {{among: [{{bodies: \"b*\", sphere: 50 mm}}], against: [{{on: ground, plane: [0, 0, 1]}}], {law}}}}}\n"
+            f"  walls: {{contacts: {{among: [{{bodies: \"b*\", sphere: 50 mm}}], against: [{walls}], {law}}}}}\n"
+            f"  balls: {{contacts: {{among: [{{bodies: \"b*\", sphere: 50 mm}}], {law}}}}}")
+
+
+def tube_one_by_one(law):
+    out = f"  f: {{contact: {{between: [ground, b0], shapes: [{{plane: [0, 0, 1]}}, {{sphere: 50 mm}}], {law}}}}}\n"
+    for k, (point, normal) in enumerate(TUBE_WALLS):
+        for b in range(4):
+            out += f"  w{k}{b}: {{contact: {{between: [{{ground: {point}}}, b{b}], shapes: [{{plane: {normal}}}, {{sphere: 50 mm}}], {law}}}}}\n"
+    for i, j in itertools.combinations(range(4), 2):
+        out += f"  c{i}{j}: {{contact: {{between: [b{i}, b{j}], shapes: [{{sphere: 50 mm}}, {{sphere: 50 mm}}], {law}}}}}\n"
+    return out
+
+
+@pytest.mark.parametrize("law", ["stiffness: 1e5", "stiffness: 2e7, exponent: 1.5"])
+def test_balls_stand_zigzag_in_a_tube(sensors, law):
+    """Statics: each ball leans on a wall and carries those above; groups equal pairs given one by one."""
+    out = sensors(TUBE.replace("LOADS", tube_of_groups(law)).replace(
+        "SENSORS", "floor: {contact: floor}, walls: {contact: walls}, balls: {contact: balls}"))
+    pairs = sensors(TUBE.replace("LOADS", tube_one_by_one(law)).replace("SENSORS", "floor: {contact: f}"))
+    assert out["floor.normal"][0] == pytest.approx(3.2 * 9.81, rel=1e-9)
+    for name in set(pairs) & set(out):
+        assert out[name][0] == pytest.approx(pairs[name][0], rel=1e-9, abs=1e-10), name
+        assert out[name] == pytest.approx(numpy.full(len(out[name]), out[name][0]), rel=1e-7, abs=1e-9) or name == "t"
+    # Forces between balls carry the weight above along their lines; walls take what these push sideways.
+    place = numpy.array([[out[f"p{k}.x"][0], out[f"p{k}.z"][0]] for k in range(4)])
+    lines = numpy.diff(place, axis=0)
+    above = 9.81 * numpy.array([2.7, 2.0, 1.1])
+    force = above * numpy.linalg.norm(lines, axis=1) / lines[:, 1]
+    sideways = numpy.abs(above * lines[:, 0] / lines[:, 1])
+    assert out["balls.normal"][0] == pytest.approx(force.sum(), rel=1e-8)
+    walls = sideways[0] + (sideways[0] + sideways[1]) + (sideways[1] + sideways[2]) + sideways[2]
+    assert out["walls.normal"][0] == pytest.approx(walls, rel=1e-8)
+    assert (out["floor.touching"] == 1).all() and (out["walls.touching"] == 4).all() and (out["balls.touching"] == 3).all()
+
+
+def test_vibrations_of_balls_in_a_tube(buckens, tmp_path):
+    found = []
+    for loads in (tube_of_groups("stiffness: 1e5"), tube_one_by_one("stiffness: 1e5")):
+        text = TUBE.replace("LOADS", loads).replace(", SENSORS", "")
+        (tmp_path / "model.yaml").write_text(text)
+        report = buckens("modes", "model.yaml", "--system", "--count", 12, "--json").must(0).json
+        found.append([mode["frequency"] for mode in report["analyses"][0]["modes"]])
+    # Central differences over 1e-5 of the model's length in a linear law: curvature of the lines of centres is left.
+    assert len(found[0]) == 8 and found[0] == pytest.approx(found[1], rel=1e-6)
+    assert found[0][-1] > 50

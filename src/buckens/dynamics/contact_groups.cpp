@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "buckens/base/errors.h"
 #include "buckens/loads/near_pairs.h"
 #include "buckens/model/contact_group.h"
 
@@ -228,14 +225,6 @@ void advance_near(const model::Model& model, const std::vector<BodyMotion>& moti
     states += pairs[k].contact.num_states();
   }
   pairs.clear();
-}
-
-void refuse_contact_groups(const model::Model& model, const char* analysis) {
-  if (model.contact_groups.empty()) return;
-  throw ModelError(fmt::format(
-      "load \"{}\": {} does not see contacts of many bodies yet; give those that touch a `contact` "
-      "each, or let the model come to rest in a simulation",
-      model.loads[model.contact_groups.front()->load].name, analysis));
 }
 
 GroupReading read_group(const model::Model& model, std::size_t group,

@@ -27,10 +27,6 @@ void start_near(const model::Model& model, const std::vector<BodyMotion>& motion
 void advance_near(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                   const Circumstances& around, model::RowMemory& out);
 
-/// @param analysis that does not know contacts of many bodies: "a static equilibrium"
-/// @throws ModelError if the model has any
-void refuse_contact_groups(const model::Model& model, const char* analysis);
-
 /// What the contacts of one group do at one instant.
 struct GroupReading {
   double normal = 0;    ///< sum of the forces across all surfaces [N]

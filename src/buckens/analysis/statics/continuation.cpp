@@ -121,7 +121,8 @@ bool StaticContinuation::factorise(const StaticPoint& point, const StaticBalance
   const SparseMatrix tangent =
       bordered(system_->tangent(0.0), scale_.load_factor * load_derivative(point), plane.x,
                scale_.load_factor * plane.load_factor);
-  if (lu_ && lu_->factorise(tangent)) return true;
+  const bool is_same_pattern = lu_ && model_.contact_groups.empty();  // see StaticDescent
+  if (is_same_pattern && lu_->factorise(tangent)) return true;
   lu_.emplace(tangent);  // again: pivots of another configuration may be bad here
   return lu_->factorise(tangent);
 }

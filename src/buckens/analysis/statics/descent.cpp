@@ -146,7 +146,9 @@ void StaticDescent::run() {
 }
 
 bool StaticDescent::factorise(const SparseMatrix& tangent) {
-  if (lu_ && lu_->factorise(tangent)) return true;
+  // Others of many bodies that touch have their entries elsewhere.
+  const bool is_same_pattern = lu_ && model_.contact_groups.empty();
+  if (is_same_pattern && lu_->factorise(tangent)) return true;
   lu_.emplace(tangent);  // again: pivots of another configuration may be bad here
   return lu_->factorise(tangent);
 }

@@ -11,7 +11,6 @@
 #include "buckens/analysis/statics/stability.h"
 #include "buckens/analysis/statics/state.h"
 #include "buckens/base/errors.h"
-#include "buckens/dynamics/contact_groups.h"
 
 namespace buckens::analysis {
 
@@ -88,7 +87,6 @@ void settle_statically(const model::Model& model, StaticDescent& descent, Static
 
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
                                      model::State& state) {
-  dynamics::refuse_contact_groups(model, "a static equilibrium");
   StaticReport report;
   const Compliances compliances(model);
   report.factorisations = static_cast<int>(compliances.owned.size());

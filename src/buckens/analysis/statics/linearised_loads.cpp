@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "buckens/body/body_lengths.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/row_memory.h"
+#include "buckens/model/contact_group.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -18,35 +20,42 @@ using linalg::Vector;
 namespace {
 
 constexpr double kDifference = 1e-5;
+constexpr double kAhead = 1.0;  // [s]; bodies at rest go nowhere in it
+
+using BodyLists = std::vector<std::vector<std::size_t>>;
+
+void connect(const model::MarkerId& first, const model::MarkerId& second, BodyLists& out) {
+  if (first.body == model::kGround || second.body == model::kGround) return;
+  out[static_cast<std::size_t>(first.body)].push_back(static_cast<std::size_t>(second.body));
+  out[static_cast<std::size_t>(second.body)].push_back(static_cast<std::size_t>(first.body));
+}
+
+void sort_lists(BodyLists& lists) {
+  for (auto& list : lists) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+}
 
 /// Bodies affected by a body's motion, including itself.
-std::vector<std::vector<std::size_t>> neighbours_of(const model::Model& model) {
-  std::vector<std::vector<std::size_t>> out(model.bodies.size());
+BodyLists neighbours_of(const model::Model& model) {
+  BodyLists out(model.bodies.size());
   for (std::size_t b = 0; b < out.size(); ++b) out[b].push_back(b);
-  const auto connect = [&](const model::MarkerId& first, const model::MarkerId& second) {
-    if (first.body == model::kGround || second.body == model::kGround) return;
-    out[static_cast<std::size_t>(first.body)].push_back(static_cast<std::size_t>(second.body));
-    out[static_cast<std::size_t>(second.body)].push_back(static_cast<std::size_t>(first.body));
-  };
-  for (const model::Joint& joint : model.joints) connect(joint.first, joint.second);
+  for (const model::Joint& joint : model.joints) connect(joint.first, joint.second, out);
   for (const model::Load& load : model.loads) {
     std::vector<model::MarkerId> all = load.others;
     all.insert(all.end(), {load.first, load.second});
     for (std::size_t i = 0; i < all.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) connect(all[i], all[j]);
+      for (std::size_t j = 0; j < i; ++j) connect(all[i], all[j], out);
     }
   }
-  for (auto& list : out) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  sort_lists(out);
   return out;
 }
 
 /// Greedy distance-two colouring: no body is affected by two bodies of one colour.
-std::vector<std::vector<std::size_t>> colors_of(
-    const std::vector<std::vector<std::size_t>>& neighbours) {
-  std::vector<std::vector<std::size_t>> colors;
+BodyLists colors_of(const BodyLists& neighbours) {
+  BodyLists colors;
   std::vector<std::size_t> color(neighbours.size(), neighbours.size());
   for (std::size_t b = 0; b < neighbours.size(); ++b) {
     std::vector<bool> taken(colors.size() + 1, false);
@@ -65,8 +74,9 @@ std::vector<std::vector<std::size_t>> colors_of(
 
 }  // namespace
 
-LinearisedLoads::LinearisedLoads(const model::Model& model)
-    : model_(model), neighbours_(neighbours_of(model)), colors_(colors_of(neighbours_)) {
+LinearisedLoads::LinearisedLoads(const model::Model& model) : model_(model) {
+  neighbours_.of = neighbours_of(model);
+  neighbours_.colors = colors_of(neighbours_.of);
   for (const body::Body& body : model.bodies) {
     BodyCoordinates place;
     place.first = size_;
@@ -77,6 +87,21 @@ LinearisedLoads::LinearisedLoads(const model::Model& model)
     bodies_.push_back(place);
     lengths_.push_back(body::interface_lengths(body, model.length));
   }
+}
+
+LinearisedLoads::Neighbours LinearisedLoads::neighbours_at(
+    const std::vector<BodyMotion>& motions) const {
+  Neighbours out = neighbours_;
+  if (model_.contact_groups.empty()) return out;
+  // With what differences may bring into touch: found a share of the bodies' sizes ahead.
+  for (const model::NearPair& pair : dynamics::find_near(model_, motions, kAhead)) {
+    const model::ContactGroup& group = *model_.contact_groups[static_cast<std::size_t>(pair.group)];
+    connect(group.members[static_cast<std::size_t>(pair.first)].marker,
+            group.members[static_cast<std::size_t>(pair.second)].marker, out.of);
+  }
+  sort_lists(out.of);
+  out.colors = colors_of(out.of);
+  return out;
 }
 
 double LinearisedLoads::step(std::size_t body, int k) const {
@@ -139,13 +164,14 @@ Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, doub
 std::vector<LinearisedLoads::Block> LinearisedLoads::stiffness(
     const std::vector<BodyMotion>& motions, double t, const Vector& lambda,
     double load_factor) const {
+  const Neighbours neighbours = neighbours_at(motions);
   std::vector<Block> out;
-  for (const std::vector<std::size_t>& color : colors_) {
+  for (const std::vector<std::size_t>& color : neighbours.colors) {
     const std::size_t first_block = out.size();
     int most = 0;
     for (const std::size_t b : color) {
       most = std::max(most, bodies_[b].size());
-      for (const std::size_t near : neighbours_[b]) {
+      for (const std::size_t near : neighbours.of[b]) {
         out.push_back({near, b, Eigen::MatrixXd(bodies_[near].size(), bodies_[b].size())});
       }
     }

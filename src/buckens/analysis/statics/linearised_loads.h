@@ -33,7 +33,8 @@ class LinearisedLoads {
     std::size_t on, by;
     Eigen::MatrixXd stiffness;  ///< coordinates of `on` × of `by`
   };
-  /// All structurally non-zero blocks; their order and sizes are always the same.
+  /// All structurally non-zero blocks. Their order and sizes are always the same, unless others of
+  /// many bodies touch each other.
   /// @param motions at which to linearise; rates are used as given
   std::vector<Block> stiffness(const std::vector<dynamics::BodyMotion>& motions, double t,
                                const linalg::Vector& lambda, double load_factor = 1.0) const;
@@ -53,9 +54,13 @@ class LinearisedLoads {
   const model::Model& model_;
   std::vector<BodyCoordinates> bodies_;
   int size_ = 0;
-  std::vector<Eigen::VectorXd> lengths_;              // of the interface rows of each body
-  std::vector<std::vector<std::size_t>> neighbours_;  // affected by a body, including itself
-  std::vector<std::vector<std::size_t>> colors_;      // no body is affected by two of one group
+  std::vector<Eigen::VectorXd> lengths_;  // of the interface rows of each body
+  /// Bodies affected by a body, including itself, and sets of which no body is affected by two.
+  struct Neighbours {
+    std::vector<std::vector<std::size_t>> of, colors;
+  };
+  Neighbours neighbours_at(const std::vector<dynamics::BodyMotion>& motions) const;
+  Neighbours neighbours_;  // by joints and loads between given bodies
 };
 
 }  // namespace buckens::analysis

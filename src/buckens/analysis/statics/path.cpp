@@ -20,7 +20,6 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
-#include "buckens/dynamics/contact_groups.h"
 
 namespace buckens::analysis {
 
@@ -389,7 +388,6 @@ std::optional<PathPoint> Path::end_between(const PathPoint& origin, const PathPo
 
 results::RunSummary trace_static_path(const model::BuiltModel& built, results::RecordSink& sink,
                                       const StaticPathOptions& options) {
-  dynamics::refuse_contact_groups(built.model, "a static path");
   return Path(built, sink, options).run();
 }
 

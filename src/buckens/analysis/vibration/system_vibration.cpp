@@ -16,7 +16,6 @@
 #include "buckens/analysis/vibration/system_pencil.h"
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
-#include "buckens/dynamics/contact_groups.h"
 #include "buckens/linalg/inverse_iteration.h"
 
 namespace buckens::analysis {
@@ -273,7 +272,6 @@ VibrationReport SystemVibrations::run() {
 
 VibrationReport system_vibrations(const model::BuiltModel& built,
                                   const SystemVibrationSettings& settings) {
-  dynamics::refuse_contact_groups(built.model, "a vibration analysis");
   return SystemVibrations(built, settings).run();
 }
 
