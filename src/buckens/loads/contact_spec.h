@@ -86,7 +86,7 @@ struct ContactForceSpec {
               .like("10 mm/s")
               .otherwise("none"));
     visit(base::field("tangential-stiffness", tangential,
-                      "of the elastic displacement while friction sticks, of each point")
+                      "of the elastic displacement while friction sticks, of each point of an elastic contact")
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")
@@ -99,7 +99,7 @@ struct ContactForceSpec {
 struct ContactSpec : ContactForceSpec {
   static constexpr const char* kKey = "contact";
   static constexpr const char* kDoc =
-      "contact between two shapes on markers: elastic with friction, or rigid with impacts";
+      "contact between two shapes on markers: elastic, or rigid with impacts; with friction";
   std::array<base::MarkerRef, 2> between;
   std::array<ShapeSpec, 2> shapes;
   std::optional<std::array<double, 2>> modulus;  ///< [Pa]
