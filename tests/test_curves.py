@@ -4,6 +4,7 @@
 import math
 import re
 
+import h5py
 import numpy
 import pytest
 
@@ -214,6 +215,27 @@ output: {every: 1 ms, sensors: {x: {position: {of: ball, along: [1, 0, 0]}}}}
     t = out["t"]
     # sin for the angle: (0.01)²/6 of the size; (w h)²/12 of the phase.
     assert out["x"] == pytest.approx(0.004 * numpy.cos(math.sqrt(9.81 / 0.4) * t), abs=1e-6)
+
+
+def test_cams_and_slots_are_drawn(buckens, tmp_path):
+    """A cam as a disc with the roller beside it, a slot as a curve, both with their points in axes of the marker."""
+    (tmp_path / "model.yaml").write_text(cam(0.5, 0.015, 12.0, 0.01, "1 ms")[0])
+    buckens("run", "model.yaml", "-q", "-o", "out").must(0)
+    with h5py.File(tmp_path / "out" / "results.h5") as file:
+        shapes = file["geometry/shapes"]
+        assert list(shapes["kinds"].asstr()) == ["cam", "wheel"]
+        numbers, points = shapes["numbers"][:], shapes["points"][:].reshape(-1, 3)
+    assert numpy.linalg.norm(points - [0.02, 0, 0], axis=1) == pytest.approx(0.1, abs=1e-12)
+    # Across the plane, and the radius.
+    assert abs(numbers[0][9]) == 1 and abs(numbers[1][9]) == 1 and numbers[1][10] == 0.015
+    text = TRACK.replace("STEP", "1 ms").replace(", METHOD", "").replace("PLANAR", "").replace("SEGMENTS", in_space(TRACKS["smooth"]))
+    (tmp_path / "model.yaml").write_text(text)
+    buckens("run", "model.yaml", "-q", "-o", "slot").must(0)
+    with h5py.File(tmp_path / "slot" / "results.h5") as file:
+        assert list(file["geometry/shapes/kinds"].asstr()) == ["curve"]
+        points = file["geometry/shapes/points"][:].reshape(-1, 3)
+    assert points[0] == pytest.approx(points[-1], abs=1e-12)
+    assert points.max(axis=0) == pytest.approx([0.5, 0.2, 0], abs=1e-4)
 
 
 def test_messages_of_cams(buckens, tmp_path):

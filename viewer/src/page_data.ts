@@ -115,11 +115,11 @@ export interface PageJoint {
   torque?: Base64 | null;
 }
 
-/** A shape that bodies touch with. */
+/** A shape that bodies touch, roll or are guided with. */
 export interface PageShape {
-  /** Of its contact. */
+  /** Of its contact, joint or load. */
   name: string;
-  kind: 'plane' | 'sphere' | 'socket' | 'bore' | 'capsule' | 'cylinder' | 'box' | 'mesh' | 'wheel';
+  kind: 'plane' | 'sphere' | 'socket' | 'bore' | 'capsule' | 'cylinder' | 'box' | 'mesh' | 'wheel' | 'curve' | 'cam';
   on: PageJointSide;
   /** w, x, y, z: axes of the shape in those of the body. */
   orientation: [number, number, number, number];
@@ -127,9 +127,9 @@ export interface PageShape {
   axis: Triple;
   radius: number;
   length: number;
-  /** Edges of boxes; of meshes twice their reach [m]. */
+  /** Edges of boxes; of meshes and curves twice their reach [m]. */
   size: Triple;
-  /** Of meshes: points × 3 as float32, corners × 3 as int32. */
+  /** Of meshes and curves: points × 3 as float32; corners of triangles × 3 as int32, of curves none. */
   points?: Base64;
   triangles?: Base64;
 }

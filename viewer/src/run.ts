@@ -242,9 +242,10 @@ function decodeLoad(load: PageLoad, bodies: Body[], frames: number, where: strin
 
 function decodeShape(shape: PageShape, bodies: Body[], where: string): Shape {
   if (shape.on.body >= bodies.length) throw new PageDataError(`${where}: no body ${shape.on.body}`);
-  if (!shape.points || !shape.triangles) return { ...shape, points: null, triangles: null };
+  if (!shape.points) return { ...shape, points: null, triangles: null };
   const bits = decodeInts(shape.points, 3, `${where}.points`);
   const points = new Float32Array(bits.buffer, 0, bits.length);
+  if (!shape.triangles) return { ...shape, points, triangles: null };
   const triangles = decodeInts(shape.triangles, 3, `${where}.triangles`);
   if (triangles.some((corner) => corner < 0 || 3 * corner >= points.length)) {
     throw new PageDataError(`${where}.triangles: a point is missing`);

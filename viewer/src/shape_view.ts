@@ -1,4 +1,5 @@
 import * as THREE from 'three';
+import { plateOf, wireOf } from './curve_shape';
 import { kZ, massCentre, quarteredDisc } from './glyphs';
 import type { Motion } from './motion';
 import type { Shape } from './run';
@@ -7,6 +8,9 @@ import type { Theme } from './theme';
 
 /** Drawn part of a plane, as a share of the size of the model. */
 const kPlane = 0.7;
+/** Radius of a curve's wire, as a share of the size of the model, and thickness of a cam's plate, of its reach. */
+const kWire = 0.006;
+const kPlate = 0.15;
 /** Lines of a plane. */
 const kLines = 12;
 
@@ -29,8 +33,8 @@ function meshOf(shape: Shape): THREE.BufferGeometry {
   return geometry;
 }
 
-/** Long shapes have their axis along z here. */
-function geometryOf(shape: Shape): THREE.BufferGeometry | null {
+/** Long shapes have their axis along z here. @param wire radius of the wire of curves [m] */
+function geometryOf(shape: Shape, wire: number): THREE.BufferGeometry | null {
   const { kind, radius, length, size } = shape;
   switch (kind) {
     case 'sphere':
@@ -47,6 +51,10 @@ function geometryOf(shape: Shape): THREE.BufferGeometry | null {
       return new THREE.BoxGeometry(...size);
     case 'mesh':
       return shape.points ? meshOf(shape) : new THREE.BoxGeometry(...size);
+    case 'curve':
+      return shape.points && wireOf(shape.points, reachOf(shape), wire);
+    case 'cam':
+      return shape.points && plateOf(shape.points, shape.axis, kPlate * reachOf(shape));
     default:
       return null;
   }
@@ -54,10 +62,10 @@ function geometryOf(shape: Shape): THREE.BufferGeometry | null {
 
 /** Whether the shape has its own axes rather than one direction. */
 function isOriented(kind: string): boolean {
-  return kind === 'box' || kind === 'mesh' || kind === 'sphere';
+  return ['box', 'mesh', 'sphere', 'curve', 'cam'].includes(kind);
 }
 
-/** One shape of contact, half transparent: bodies and their shapes are seen at once. */
+/** One shape of contact, or a curve that guides, half transparent: bodies and their shapes are seen at once. */
 export class ShapeView {
   readonly root = new THREE.Group();
   private readonly own: THREE.Quaternion;
@@ -79,7 +87,7 @@ export class ShapeView {
       depthWrite: !onGround,
       side: isHollow ? THREE.DoubleSide : THREE.FrontSide,
     });
-    const geometry = geometryOf(shape);
+    const geometry = geometryOf(shape, kWire * size);
     if (shape.kind === 'sphere' && !onGround) {
       // In eight fields, so that one sees it roll.
       const ball = massCentre(color);
@@ -127,6 +135,8 @@ export function reachOf(shape: Shape): number {
       return 0;
     case 'box':
     case 'mesh':
+    case 'curve':
+    case 'cam':
       return 0.5 * Math.hypot(...shape.size);
     default:
       return shape.radius + 0.5 * shape.length;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/joints/curve_gap.h"
+#include "buckens/joints/gap_law.h"
 #include "buckens/spatial/rigid_touch.h"
 
 namespace buckens::joints {
 
 /// The way of two bodies that touch in one place: across their surfaces, or along one of two
 /// directions in them. Along them it is the rate of no position (nonholonomic): its value is zero.
-class ContactWay final : public CurveGap {
+class ContactWay final : public GapLaw {
  public:
   enum class Direction { across, along, other_along };
   ContactWay(const spatial::RigidTouch& touch, Direction direction)

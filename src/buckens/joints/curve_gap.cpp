@@ -55,13 +55,17 @@ Vector3d unit_normal(const SpaceCurve& curve, const Vector3d& normal) {
   return across;
 }
 
-RollerGap::RollerGap(std::shared_ptr<const SpaceCurve> curve, const Data& data)
+CurveGap::CurveGap(std::shared_ptr<const SpaceCurve> curve, const Data& data)
     : curve_(std::move(curve)),
       across_(unit_normal(*curve_, data.normal_F)),
       side_(data.is_on_left ? 1.0 : -1.0),
       radius_(data.radius) {}
 
-bool RollerGap::encloses_left(const SpaceCurve& curve, const Vector3d& normal_F) {
+bool CurveGap::is_rim() const {
+  return curve_->is_closed() && (side_ > 0.0) != encloses_left(*curve_, across_);
+}
+
+bool CurveGap::encloses_left(const SpaceCurve& curve, const Vector3d& normal_F) {
   Vector3d area = Vector3d::Zero();
   const Vector3d first = curve.at(0.0).p;
   for (int k = 1; k + 1 < kLooks; ++k) {
@@ -72,7 +76,7 @@ bool RollerGap::encloses_left(const SpaceCurve& curve, const Vector3d& normal_F)
   return area.dot(normal_F) > 0.0;
 }
 
-CurveTouch RollerGap::touch(const MarkerMotion& F, const MarkerMotion& M) const {
+CurveTouch CurveGap::touch(const MarkerMotion& F, const MarkerMotion& M) const {
   CurveTouch out;
   out.place = F.R.transpose() * (M.p - F.p);
   out.s = curve_->nearest(out.place, across_);
@@ -81,15 +85,15 @@ CurveTouch RollerGap::touch(const MarkerMotion& F, const MarkerMotion& M) const 
   return out;
 }
 
-double RollerGap::gap(const MarkerMotion& F, const MarkerMotion& M) const {
+double CurveGap::gap(const MarkerMotion& F, const MarkerMotion& M) const {
   return touch(F, M).gap() - radius_;
 }
 
-spatial::PairRow RollerGap::derivatives(const MarkerMotion& F, const MarkerMotion& M) const {
+spatial::PairRow CurveGap::derivatives(const MarkerMotion& F, const MarkerMotion& M) const {
   return touch(F, M).derivatives(F, M);
 }
 
-double RollerGap::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
+double CurveGap::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
                        const MarkerBias& bias_M) const {
   return touch(F, M).bias(F, M, bias_F, bias_M, across_);
 }

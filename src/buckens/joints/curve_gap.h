@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "buckens/joints/gap_law.h"
 #include "buckens/joints/space_curve.h"
 #include "buckens/spatial/marker_motion.h"
 
@@ -26,28 +27,13 @@ struct CurveTouch {
               const Eigen::Vector3d& across) const;
 };
 
-/// A length between two bodies with a law of its own: a roller above a curve (RollerGap), surfaces
-/// that touch (ContactWay).
-class CurveGap {
- public:
-  virtual ~CurveGap() = default;
-  virtual double gap(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const = 0;
-  /// J: its rate is J V.
-  virtual spatial::PairRow derivatives(const spatial::MarkerMotion& F,
-                                       const spatial::MarkerMotion& M) const = 0;
-  /// Part of its acceleration without accelerations of the bodies' coordinates.
-  virtual double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-                      const spatial::MarkerBias& bias_F,
-                      const spatial::MarkerBias& bias_M) const = 0;
-};
-
 /// The gap between a roller at M and a plane curve fixed in F, along the plane:
 ///
 ///     g = ± n(s)·(ρ − c(s)) − r,   c′(s)·(ρ − c(s)) = 0,   n = a × c′/|c′|                  (R34)
 ///
 /// with a the normal of the plane. s is that of the nearest point of the whole curve: a roller that
 /// has lost contact finds the curve again elsewhere.
-class RollerGap final : public CurveGap {
+class CurveGap final : public GapLaw {
  public:
   struct Data {
     Eigen::Vector3d normal_F = Eigen::Vector3d::UnitZ();  ///< a, any length
@@ -55,10 +41,18 @@ class RollerGap final : public CurveGap {
     double radius = 0;       ///< r [m]
   };
   /// @throws ModelError if the normal has no direction, or the curve runs along it
-  RollerGap(std::shared_ptr<const SpaceCurve> curve, const Data& data);
+  CurveGap(std::shared_ptr<const SpaceCurve> curve, const Data& data);
 
   /// Whether the inside of a closed curve is on its left.
   static bool encloses_left(const SpaceCurve& curve, const Eigen::Vector3d& normal_F);
+
+  const SpaceCurve& curve() const { return *curve_; }
+  /// Unit normal of its plane, in F.
+  const Eigen::Vector3d& across() const { return across_; }
+  /// Of the roller [m].
+  double radius() const { return radius_; }
+  /// Whether the roller runs outside of a closed curve, which then is the rim of a disc.
+  bool is_rim() const;
 
   double gap(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const override;
   spatial::PairRow derivatives(const spatial::MarkerMotion& F,

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "buckens/joints/curve_gap.h"
+#include "buckens/joints/gap_law.h"
 
 namespace buckens::joints {
 
@@ -61,10 +61,10 @@ JointCoordinate JointCoordinate::length() {
   return out;
 }
 
-JointCoordinate JointCoordinate::gap(std::shared_ptr<const CurveGap> curve) {
+JointCoordinate JointCoordinate::gap(std::shared_ptr<const GapLaw> law) {
   JointCoordinate out;
   out.kind_ = Kind::gap;
-  out.curve_ = std::move(curve);
+  out.gap_ = std::move(law);
   return out;
 }
 
@@ -79,7 +79,7 @@ Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
 
 double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) const {
   if (kind_ == Kind::length) return (M.p - F.p).norm();
-  if (kind_ == Kind::gap) return curve_->gap(F, M);
+  if (kind_ == Kind::gap) return gap_->gap(F, M);
   const Vector3d axis = axis_now(F, M);
   if (kind_ == Kind::displacement) return axis.dot(M.p - F.p) - offset_;
   const Vector3d x = F.R * x_F_;
@@ -95,7 +95,7 @@ spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const Marke
     J.segment<3>(9) = n.transpose();
     return J;
   }
-  if (kind_ == Kind::gap) return curve_->derivatives(F, M);
+  if (kind_ == Kind::gap) return gap_->derivatives(F, M);
   const Vector3d axis = axis_now(F, M);
   if (is_angle()) {
     J.segment<3>(0) = -axis.transpose();
@@ -118,7 +118,7 @@ double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
     const double across = r_dot.squaredNorm() - n.dot(r_dot) * n.dot(r_dot);
     return n.dot(bias_M.a - bias_F.a) + (length > 0.0 ? across / length : 0.0);
   }
-  if (kind_ == Kind::gap) return curve_->bias(F, M, bias_F, bias_M);
+  if (kind_ == Kind::gap) return gap_->bias(F, M, bias_F, bias_M);
   const Vector3d axis = axis_now(F, M);
   const Vector3d axis_rate = (kind_ == Kind::second_angle ? M.w : F.w).cross(axis);
   if (is_angle()) {

@@ -7,7 +7,7 @@
 
 namespace buckens::joints {
 
-class CurveGap;
+class GapLaw;
 
 /// A coordinate with its whole turns stored separately, so that no digits are lost after many.
 struct CountedValue {
@@ -44,7 +44,7 @@ class JointCoordinate {
 
   static JointCoordinate length();
   /// Zero where the curve is touched, positive on the free side of it.
-  static JointCoordinate gap(std::shared_ptr<const CurveGap> curve);
+  static JointCoordinate gap(std::shared_ptr<const GapLaw> law);
 
   Kind kind() const { return kind_; }
   /// Whether it is an angle [rad], and no length [m].
@@ -61,6 +61,8 @@ class JointCoordinate {
   /// coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
               const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M) const;
+  /// The law of a gap, else null.
+  const GapLaw* gap_law() const { return gap_.get(); }
   /// The counted value closest to `before`.
   CountedValue follow(const CountedValue& before, double fraction) const;
 
@@ -77,7 +79,7 @@ class JointCoordinate {
   Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();     // its image in M as placed
   Eigen::Vector3d axis_M_ = Eigen::Vector3d::UnitZ();  // of a second angle
   double offset_ = 0;                                  // of a displacement [m]
-  std::shared_ptr<const CurveGap> curve_;              // of a gap
+  std::shared_ptr<const GapLaw> gap_;                  // of a gap
 };
 
 /// The counted angle that is reached from `before` on the shorter way.

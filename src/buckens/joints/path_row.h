@@ -24,6 +24,10 @@ class PathRow final : public RowLaw {
   PathRow(std::shared_ptr<const SpaceCurve> curve, const std::optional<Eigen::Vector3d>& normal,
           int number);
 
+  const SpaceCurve& curve() const { return *curve_; }
+  /// Unit normal of a plane curve; zero in space.
+  const Eigen::Vector3d& across() const { return across_; }
+
   int num_states() const override { return 2; }
   bool turns_second() const override { return false; }
   RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,

@@ -27,7 +27,7 @@ Json shapes_json(const results::Geometry& geometry) {
                 {"radius", shape.radius},
                 {"length", shape.length},
                 {"size", files::json_of(shape.size)}};
-    if (!shape.triangles.empty()) {
+    if (!shape.points.empty()) {
       std::vector<double> points;
       for (const Eigen::Vector3d& p : shape.points) {
         points.insert(points.end(), {p.x(), p.y(), p.z()});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/contact_geometry.h"
 
+#include "buckens/joints/curve_gap.h"
+#include "buckens/joints/path_row.h"
 #include "buckens/joints/rolling_row.h"
 #include "buckens/loads/cable.h"
 #include "buckens/loads/contact.h"
@@ -17,6 +19,9 @@ namespace {
 
 // Larger meshes are drawn as the box around them: pages hold every triangle.
 constexpr std::size_t kMostDrawnTriangles = 100'000;
+
+// Of lines and arcs, too: a circle of them has corners of less than two degrees.
+constexpr int kCurvePoints = 200;
 
 /// Number of markers on the parts of a divided body before the one with this index.
 int markers_before(const model::Model& model, const model::WholeBody& whole, int body) {
@@ -41,6 +46,29 @@ void add_mesh_of(const loads::ContactMesh& mesh, GeometryShape& out) {
   }
 }
 
+Eigen::Quaterniond turn_of(const model::Model& model, const model::MarkerId& id) {
+  if (id.body == model::kGround) return id.X_WF.q;
+  const body::Body& body = model.bodies[static_cast<std::size_t>(id.body)];
+  return body.markers[static_cast<std::size_t>(id.marker)].X_BF.q;
+}
+
+/// @param normal across a plane curve, in axes of the marker; zero in space
+GeometryShape curve_shape(const model::Model& model, const std::string& name,
+                          const model::MarkerId& id, const joints::SpaceCurve& curve,
+                          const Vector3d& normal) {
+  GeometryShape drawn;
+  drawn.name = name;
+  drawn.kind = "curve";
+  drawn.on = side_of(model, id);
+  drawn.q = turn_of(model, id);
+  drawn.axis = normal;
+  for (int k = 0; k <= kCurvePoints; ++k) {
+    drawn.points.push_back(curve.at(curve.length() * k / kCurvePoints).p);
+    drawn.size = drawn.size.cwiseMax(2.0 * drawn.points.back().cwiseAbs());
+  }
+  return drawn;
+}
+
 void add_shape(const model::Model& model, const std::string& name, const model::MarkerId& id,
                const loads::ContactShape& shape, Geometry& out) {
   GeometryShape drawn;
@@ -51,13 +79,10 @@ void add_shape(const model::Model& model, const std::string& name, const model::
   drawn.radius = shape.radius;
   drawn.length = 2.0 * shape.half_length;
   drawn.size = 2.0 * shape.half;
-  if (id.body == model::kGround) {
-    drawn.q = id.X_WF.q;
-  } else {
-    const body::Body& body = model.bodies[static_cast<std::size_t>(id.body)];
-    drawn.q = body.markers[static_cast<std::size_t>(id.marker)].X_BF.q;
-    if (shape.mesh && body.is_flexible()) return;
-  }
+  drawn.q = turn_of(model, id);
+  const bool is_drawn = shape.mesh && id.body != model::kGround &&
+                        model.bodies[static_cast<std::size_t>(id.body)].is_flexible();
+  if (is_drawn) return;
   if (shape.mesh) add_mesh_of(*shape.mesh, drawn);
   out.shapes.push_back(std::move(drawn));
 }
@@ -79,11 +104,7 @@ GeometrySide side_of(const model::Model& model, const model::MarkerId& id) {
 }
 
 Vector3d to_body(const model::Model& model, const model::MarkerId& id, const Vector3d& axis) {
-  if (id.body == model::kGround) return id.X_WF.q * axis;
-  return model.bodies[static_cast<std::size_t>(id.body)]
-             .markers[static_cast<std::size_t>(id.marker)]
-             .X_BF.q *
-         axis;
+  return turn_of(model, id) * axis;
 }
 
 void add_contact_shapes(const model::Model& model, Geometry& out) {
@@ -111,6 +132,33 @@ void add_wheels(const model::Model& model, Geometry& out) {
     drawn.radius = row.data().radius;
     drawn.length = 2.0 * row.data().edge;
     out.shapes.push_back(std::move(drawn));
+  }
+}
+
+void add_curves(const model::Model& model, Geometry& out) {
+  for (const model::Joint& joint : model.joints) {
+    if (joint.type != joints::JointType::slot) continue;
+    const auto& row = dynamic_cast<const joints::PathRow&>(*joint.rows.front().law());
+    out.shapes.push_back(curve_shape(model, joint.name, joint.first, row.curve(), row.across()));
+  }
+  for (const model::Load& load : model.loads) {
+    if (load.coordinate < 0) continue;
+    const auto* gap = dynamic_cast<const joints::CurveGap*>(
+        model.coordinates[static_cast<std::size_t>(load.coordinate)].law.gap_law());
+    if (gap == nullptr) continue;
+    GeometryShape cam = curve_shape(model, load.name, load.first, gap->curve(), gap->across());
+    if (gap->is_rim()) cam.kind = "cam";
+    out.shapes.push_back(std::move(cam));
+    if (gap->radius() == 0.0) continue;
+    GeometryShape roller;
+    roller.name = load.name;
+    // In space nothing tells how the axle of the roller stands in its body.
+    roller.kind = model.planar ? "wheel" : "sphere";
+    roller.on = side_of(model, load.second);
+    roller.q = turn_of(model, load.second);
+    roller.axis = to_body(model, load.first, gap->across());
+    roller.radius = gap->radius();
+    out.shapes.push_back(std::move(roller));
   }
 }
 

@@ -19,6 +19,9 @@ void add_contact_shapes(const model::Model& model, Geometry& out);
 /// Appends what rolls on a plane: the wheels of rolling joints.
 void add_wheels(const model::Model& model, Geometry& out);
 
+/// Appends curves that guide points: slots, and cams with their rollers.
+void add_curves(const model::Model& model, Geometry& out);
+
 /// Cables and belts, also those that are joints.
 void add_cables(const model::Model& model, Geometry& out);
 

@@ -88,7 +88,8 @@ struct GeometryLoad {
 /// A shape that bodies touch or roll with.
 struct GeometryShape {
   std::string name;  ///< of its contact or joint
-  /// "plane", "sphere", "socket", "bore", "capsule", "cylinder", "box", "mesh", "wheel"
+  /// "plane", "sphere", "socket", "bore", "capsule", "cylinder", "box", "mesh", "wheel", "curve";
+  /// "cam": the same as the rim of a disc
   std::string kind;
   GeometrySide on;
   Eigen::Quaterniond q =
@@ -97,7 +98,7 @@ struct GeometryShape {
   double radius = 0;                                ///< [m]
   double length = 0;  ///< between ends, of long shapes; of the edge of wheels [m]
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< edges of boxes [m]
-  std::vector<Eigen::Vector3d> points;             ///< of meshes, own axes [m]
+  std::vector<Eigen::Vector3d> points;             ///< of meshes and curves, own axes [m]
   std::vector<std::array<int, 3>> triangles;
 };
 

@@ -265,6 +265,7 @@ Geometry model_geometry(const model::Model& model) {
   add_loads(model, out);
   add_contact_shapes(model, out);
   add_wheels(model, out);
+  add_curves(model, out);
   add_cables(model, out);
   return out;
 }

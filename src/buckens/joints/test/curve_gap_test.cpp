@@ -50,8 +50,8 @@ TEST(CurvePieces, KnowTheirLengthsPlacesAndCurvatures) {
     const Vector3d ahead = curve->at(s + 1e-6).p - curve->at(s - 1e-6).p;
     EXPECT_NEAR((ahead / 2e-6 - at.tangent).norm(), 0, 1e-5);
   }
-  EXPECT_TRUE(RollerGap::encloses_left(*curve, Vector3d::UnitZ()));
-  EXPECT_FALSE(RollerGap::encloses_left(*curve, -Vector3d::UnitZ()));
+  EXPECT_TRUE(CurveGap::encloses_left(*curve, Vector3d::UnitZ()));
+  EXPECT_FALSE(CurveGap::encloses_left(*curve, -Vector3d::UnitZ()));
 }
 
 TEST(CurvePieces, ArcsAreTheSameHoweverTheyAreGiven) {
@@ -72,12 +72,12 @@ TEST(CurvePieces, ArcsAreTheSameHoweverTheyAreGiven) {
 }
 
 TEST(CurveGap, IsTheDistanceFromEverywhere) {
-  RollerGap::Data data;
+  CurveGap::Data data;
   data.is_on_left = false;
   data.radius = 0.03;
-  const RollerGap outside(stadium(), data);
+  const CurveGap outside(stadium(), data);
   data.is_on_left = true;
-  const RollerGap inside(stadium(), data);
+  const CurveGap inside(stadium(), data);
   for (int k = 0; k < 400; ++k) {
     spatial::MarkerMotion F, M;
     M.p = {-0.3 + 0.05 * (k % 20) + 0.001, -0.21 + 0.03 * (k / 20), 0.5};
@@ -96,7 +96,7 @@ TEST(CurveGap, RatesAndAccelerationsAreThoseOfTheGap) {
   Eigen::Matrix<double, 12, 1> V, A;
   V << F.w, F.v, M.w, M.v;
   A << F.alpha, F.a, M.alpha, M.a;
-  RollerGap::Data data;
+  CurveGap::Data data;
   data.normal_F = {0.1, 0.2, 2.0};
   const Vector3d n = data.normal_F.normalized();
   const Vector3d x = n.unitOrthogonal();
@@ -106,7 +106,7 @@ TEST(CurveGap, RatesAndAccelerationsAreThoseOfTheGap) {
   for (const bool left : {false, true}) {
     data.is_on_left = left;
     const JointCoordinate gap = JointCoordinate::gap(
-        std::make_shared<RollerGap>(std::make_shared<SpaceCurve>(circle, true), data));
+        std::make_shared<CurveGap>(std::make_shared<SpaceCurve>(circle, true), data));
     const auto g = [&](double t) { return gap.fraction(F.at(t), M.at(t)); };
     const spatial::PairRow J = gap.derivatives(F.at(0), M.at(0));
     // Fourth-order differences over 1e-3 of quantities of one.

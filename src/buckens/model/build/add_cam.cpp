@@ -19,12 +19,12 @@ namespace {
 
 std::shared_ptr<const joints::CurveGap> gap_of(const loads::CamSpec& spec, const Vector3d& normal) {
   const auto curve = curve_of_path(spec);
-  joints::RollerGap::Data data;
+  joints::CurveGap::Data data;
   data.normal_F = normal;
   data.radius = spec.roller;
   data.is_on_left = spec.side ? *spec.side == loads::CurveSide::left
-                              : !spec.closed || !joints::RollerGap::encloses_left(*curve, normal);
-  return std::make_shared<joints::RollerGap>(curve, data);
+                              : !spec.closed || !joints::CurveGap::encloses_left(*curve, normal);
+  return std::make_shared<joints::CurveGap>(curve, data);
 }
 
 }  // namespace
