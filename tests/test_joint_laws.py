@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Friction, stops and springs on the coordinates of joints; coordinates as sensors."""
 
+import json
 import math
 
 import numpy
@@ -66,6 +67,66 @@ def test_what_sticks_does_not_creep(sensors):
     x = out["x0.value"]
     assert numpy.abs(x).max() < 1e-9
     assert out["r0"][-1] == pytest.approx(2 * G * 0.5, rel=1e-9)
+
+
+def test_a_held_joint_does_not_turn(sensors):
+    """An arm held level for 1000 s by a thousandth more friction than it needs: 1e-9 of a turn is what a clock hand makes in 4 us."""
+    out = sensors(f"""
+buckens: 1
+gravity: [0, 0, -{G}]
+bodies: {{arm: {{rigid: {{mass: 2 kg, inertia: [0.1, 0.1, 0.1], com: [{0.999 * 0.2 * 0.03!r}, 0, 0]}}, markers: {{hub: {{position: [0, 0, 0]}}}}}}}}
+joints: {{pin: {{revolute: {{between: [ground, arm/hub], axis: [0, 1, 0]}}}}}}
+loads: {{rub: {{hinge-friction: {{joint: pin, static: 0.2, radius: 30 mm, slip: 1e-6 rad}}}}}}
+simulation: {{duration: 1000 s, step: 10 ms}}
+output: {{every: 10 s, sensors: {{angle: {{joint-coordinate: pin}}, torque: {{spring-torque: rub}}}}}}
+""")
+    assert numpy.ptp(out["angle.value"]) < 1e-9
+    assert abs(out["torque"][-1]) == pytest.approx(2 * G * 0.999 * 0.2 * 0.03, rel=1e-9)
+
+
+def test_what_stands_still_has_no_open_balance(buckens, tmp_path):
+    """A balance of rounding compared with energies of rounding was off by 1e47."""
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies: {arm: {rigid: {mass: 2 kg, inertia: [0.1, 0.1, 0.1]}}}
+joints: {pin: {revolute: {between: [ground, arm], axis: [0, 1, 0]}}}
+simulation: {duration: 1 s, step: 10 ms}
+""")
+    buckens("run", "model.yaml", "-o", "out").must(0)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["energy_error"] < 1e-3
+
+
+def test_a_screw_locks_itself_where_its_friction_exceeds_its_lead(sensors):
+    """tan(lead) = p/(2 pi r) against mu. Beyond, with k = 2 pi/p: a (m + J k²/(1 - mu r k)) = m g."""
+    r, pitch, m, J = 0.01, 0.01, 1.0, 1e-4
+    lead, k = pitch / (2 * math.pi * r), 2 * math.pi / pitch
+    shares = (1.001, 0.99, 0.5)
+    lines = "\n".join(f"  n{i}: {{like: nut, at: {{position: [{i}, 0, 0]}}}}" for i in (1, 2))
+    joints = "\n".join(f"  t{i}: {{screw: {{between: [{{ground: [{i}, 0, 0]}}, {'nut' if i == 0 else f'n{i}'}], axis: [0, 0, -1], "
+                       f"pitch: {pitch} m}}}}" for i in range(3))
+    loads = "\n".join(f"  f{i}: {{hinge-friction: {{joint: t{i}, static: {share * lead!r}, axial-radius: {r} m}}}}" for i, share in enumerate(shares))
+    ways = ", ".join(f"w{i}: {{joint-coordinate: {{joint: t{i}, which: displacement}}}}" for i in range(3))
+    out = sensors(f"""
+buckens: 1
+gravity: [0, 0, -{G}]
+bodies:
+  nut: {{rigid: {{mass: {m} kg, inertia: [{J}, {J}, {J}]}}}}
+{lines}
+joints:
+{joints}
+loads:
+{loads}
+simulation: {{duration: 1 s, step: 1 ms}}
+output: {{every: 0.1 s, sensors: {{{ways}, balance: {{energy: balance}}, lost: {{energy: dissipated}}}}}}
+""")
+    assert numpy.ptp(out["w0.value"]) < 1e-12
+    for i, share in ((1, 0.99), (2, 0.5)):
+        a = m * G / (m + J * k**2 / (1 - share * lead * r * k))
+        # By a constant acceleration, which the method integrates exactly.
+        assert out[f"w{i}.value"] == pytest.approx(0.5 * a * out["t"] ** 2, abs=1e-9)
+    assert abs(out["balance"]).max() < 1e-9 * out["lost"][-1]
 
 
 def test_a_block_slides_until_it_stops(sensors):

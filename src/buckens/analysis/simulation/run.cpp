@@ -228,8 +228,11 @@ void SimulationRun::step() {
   const stepping::StepReport report = take_step(before_, state);
   ++steps_taken_;
   statistics_->add_step(report, state);
-  work_->add(state, report.impact_loss,
-             report.impacts > 0 ? RatesAtEnd::have_jumped : RatesAtEnd::are_smooth);
+  if (report.impacts > 0) {
+    work_->add_impacts(before_, state, report.impact_loss);
+  } else {
+    work_->add(state);
+  }
   const std::vector<EventWatch::Found> found = events_->after_step(before_, state);
   note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());

@@ -10,6 +10,11 @@
 
 namespace buckens::analysis {
 
+namespace {
+// Energies below this share of weight times size are rounding of a mechanism that stands still.
+constexpr double kNoEnergy = 1e-12;
+}  // namespace
+
 RunStatistics::RunStatistics(const model::BuiltModel& built)
     : built_(built),
       joints_(built.model),
@@ -19,6 +24,7 @@ RunStatistics::RunStatistics(const model::BuiltModel& built)
       deformation_(built.model.bodies.size()) {
   for (const body::Body& body : built.model.bodies) {
     limits_.push_back(body.is_flexible() ? std::make_unique<DeformationLimits>(body) : nullptr);
+    energy_scale_ += kNoEnergy * body.mass * built.model.gravity.norm() * built.model.length;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "buckens/loads/contact_friction.h"
+#include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
 
@@ -23,12 +24,18 @@ WorkAccount::WorkAccount(const model::Model& model, const model::State& start, b
   }
 }
 
-WorkAccount::Powers WorkAccount::powers(const model::State& state) {
+WorkAccount::Powers WorkAccount::powers_at(const model::State& state,
+                                           const std::vector<dynamics::BodyMotion>& motions) {
   Powers out;
-  const auto motions = dynamics::motions_of(model_, state);
   dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces_);
   out.active = forces_.active_power + forces_.dissipation;
   out.damping = forces_.dissipation;
+  return out;
+}
+
+WorkAccount::Powers WorkAccount::powers(const model::State& state) {
+  const auto motions = dynamics::motions_of(model_, state);
+  Powers out = powers_at(state, motions);
   joints_.evaluate(motions, state.t, &state.memory, residuals_, &state.lambda, &forces_);
   out.g_t = residuals_.g_t;
   return out;
@@ -70,8 +77,35 @@ long WorkAccount::num_products() const {
   return sum;
 }
 
-void WorkAccount::add(const model::State& state, double impact_loss, RatesAtEnd rates) {
+void WorkAccount::add(const model::State& state) {
   const Powers now = powers(state);
+  Powers mean;
+  mean.active = 0.5 * (before_.active + now.active);
+  mean.damping = 0.5 * (before_.damping + now.damping);
+  add(state, now, mean, 0.0, RatesAtEnd::are_smooth);
+}
+
+void WorkAccount::add_impacts(const model::State& before, const model::State& state, double loss) {
+  const double h = state.t - t_;
+  auto first = dynamics::motions_of(model_, before);
+  auto last = dynamics::motions_of(model_, state);
+  for (std::size_t b = 0; b < first.size(); ++b) {
+    const spatial::Pose& from = first[b].frame.X_WB;
+    const spatial::Pose& to = last[b].frame.X_WB;
+    first[b].frame.v = last[b].frame.v = (to.p - from.p) / h;
+    first[b].frame.w = last[b].frame.w = spatial::log_rotation(from.q.conjugate() * to.q) / h;
+    first[b].y_dot = last[b].y_dot = (last[b].y - first[b].y) / h;
+  }
+  Powers mean;
+  mean.active = 0.5 * (powers_at(before, first).active + powers_at(state, last).active);
+  // What closed rows hold must be seen at rest.
+  const Powers now = powers(state);
+  mean.damping = 0.5 * (before_.damping + now.damping - landed(state));
+  add(state, now, mean, loss, RatesAtEnd::have_jumped);
+}
+
+void WorkAccount::add(const model::State& state, const Powers& now, const Powers& loads,
+                      double impact_loss, RatesAtEnd rates) {
   const double h = state.t - t_;
   // Joints receive −λ·g_t from their drives. A λ at mid-step is multiplied by the mean of g_t; one
   // at a later instant (Wilson) is interpolated to the end of the step.
@@ -83,9 +117,8 @@ void WorkAccount::add(const model::State& state, double impact_loss, RatesAtEnd 
   }
   const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now.g_t)
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
-  const double active = 0.5 * (before_.active + now.active) + drive;
-  double dissipated = 0.5 * h * (before_.damping + now.damping) + impact_loss;
-  if (impact_loss != 0.0) dissipated -= 0.5 * h * landed(state);
+  const double active = loads.active + drive;
+  double dissipated = h * loads.damping + impact_loss;
   for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_, rates);
   work_before_ = work_;
   work_.external += h * active;

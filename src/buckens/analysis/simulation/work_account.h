@@ -21,9 +21,11 @@ class WorkAccount {
   WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states = false);
 
   /// Adds the work between the last state and this one.
-  /// @param impact_loss energy that impacts took in between [J]
-  void add(const model::State& state, double impact_loss = 0.0,
-           RatesAtEnd rates = RatesAtEnd::are_smooth);
+  void add(const model::State& state);
+  /// The same for a step in which something struck: rates jump within it, so those at its ends do
+  /// not tell the way, and the power of loads is formed with the mean ones.
+  /// @param before the last state, @param loss energy that the impacts took [J]
+  void add_impacts(const model::State& before, const model::State& state, double loss);
 
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
@@ -52,6 +54,11 @@ class WorkAccount {
   };
   /// Leaves the forces at the state in forces_.
   Powers powers(const model::State& state);
+  /// Of loads and dampers at a configuration, with other velocities.
+  Powers powers_at(const model::State& state, const std::vector<dynamics::BodyMotion>& motions);
+  /// @param loads mean power of loads and dampers over the step
+  void add(const model::State& state, const Powers& now, const Powers& loads, double impact_loss,
+           RatesAtEnd rates);
   /// Power of friction in contacts that closed in an impact of this step: it is in the loss of the
   /// impact, and begins with the next step [W].
   double landed(const model::State& state) const;
