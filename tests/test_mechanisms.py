@@ -2,9 +2,11 @@
 """Published benchmarks of rigid mechanisms; see verification/mechanisms/README.md."""
 
 import json
+import math
 
 import numpy
 import pytest
+from scipy import special
 
 from conftest import SOURCE
 
@@ -32,6 +34,32 @@ def test_andrews_squeezer(sensors):
 
     # Extrapolation leaves h^4: 1/16 of what 20 and 10 us leave, 4e-8 rad after 2.5 turns.
     ends_with_order_two(run("10 us"), run("5 us"), list(case["end"].values()), 1e-7)
+
+
+def swinging(t):
+    """Place of the bob of a pendulum of 1 m that starts level, to the left, at rest; gravity downwards in y. Jacobi's elliptic functions."""
+    k = math.sin(math.pi / 4)
+    half = k * special.ellipj(special.ellipk(k * k) - math.sqrt(9.81) * t, k * k)[0]
+    cosine = 1 - 2 * half**2
+    return [-2 * half * math.sqrt(1 - half**2), -cosine]
+
+
+def test_a_pendulum_swings_for_ten_seconds(sensors):
+    """IFToMM A01."""
+    case = REFERENCE["pendulum"]
+    # The closed form, to the ten digits of the reference.
+    for t, place in zip(case["t"], case["bob"]):
+        assert swinging(t) == pytest.approx(place, abs=2e-10)
+    text = (FOLDER / "pendulum.yaml").read_text()
+
+    def run(step):
+        out = sensors(text, "--set", f"simulation.step={step}")
+        # The library asks for 5e-5 J.
+        assert abs(out["energy"] - out["energy"][0]).max() < 5e-5
+        rows = [numpy.argmin(numpy.abs(out["t"] - t)) for t in case["t"]]
+        return [[out["bob.x"][row], out["bob.y"][row]] for row in rows]
+
+    ends_with_order_two(run("1 ms"), run("0.5 ms"), numpy.array(case["bob"]), 1e-7)
 
 
 def test_bricard(sensors):

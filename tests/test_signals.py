@@ -336,3 +336,28 @@ def test_tables_and_limits_say_what_is_wrong(buckens, tmp_path, wrong, words):
     assert result.code in (2, 4), result.out + result.err
     for word in words:
         assert word in result.err, result.err
+
+
+def test_a_relay_oscillates_with_the_period_of_its_hysteresis(sensors):
+    """T x' = u - x with u = 1 below -c and -1 above c: a period of 2 T ln((1 + c)/(1 - c))."""
+    c, T = 0.4, 0.05
+    text = """
+buckens: 1
+bodies: {cart: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}}}
+joints: {rail: {prismatic: {between: [ground, cart], axis: [1, 0, 0]}}}
+signals:
+  heat: {switch: {input: warm, on: -0.4, off: 0.4, start: on}}
+  warm: {lag: {input: "2*heat - 1", time-constant: 50 ms}}
+simulation: {duration: 1 s, step: STEP}
+output: {every: STEP, sensors: {x: {signal: warm}}}
+"""
+    period = 2 * T * math.log((1 + c) / (1 - c))
+    errors = []
+    for step in (1e-3, 0.25e-3):
+        out = sensors(text.replace("STEP", f"{step} s"))
+        x, t = out["x"], out["t"]
+        crossed = [t[k] + step * x[k] / (x[k] - x[k + 1]) for k in range(len(x) - 1) if x[k] < 0 <= x[k + 1]]
+        errors.append(numpy.diff(crossed[1:]).mean() - period)
+        assert abs(x).max() < c + 1.5 * step / T
+    # It switches at the end of a step: each half of a period is late by up to a step, half a step on average.
+    assert 0 <= errors[0] < 2e-3 and 0 <= errors[1] < 0.5e-3
