@@ -319,7 +319,7 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot;
 }
 
-Matrix Stepper::impulse_compliance(std::size_t body) const {
+linalg::Matrix Stepper::impulse_compliance(std::size_t body) const {
   return Impacts::impulse_compliance(scheme_, operators_[body].get());
 }
 
