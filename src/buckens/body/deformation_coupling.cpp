@@ -68,9 +68,32 @@ class Pass {
   /// The share of the scalar mass matrix: Ms ⊗ E_ab for all pairs at once.
   void add(const NodalInertia& nodal, TaskPool* pool) {
     if (nodal.is_regular()) {
-      add_regular(nodal.mass().Ms, pool);
+      add_regular({nodal.matrix(), nullptr, nullptr}, pool);
     } else {
       add_by_lookup(nodal.mass());
+    }
+  }
+
+  /// The same where the variables are numbered by node.
+  void add_regular(const linalg::CommonTable& common, TaskPool* pool) {
+    const linalg::NodeMatrix& Ms = common.mass;
+    const linalg::NodeKernels& kernels = linalg::node_kernels();
+    const std::array<const double*, 3> vectors = {d_.data(), v_.data(), a_.data()};
+    Eigen::Matrix<double, 4, 6> weights = Eigen::Matrix<double, 4, 6>::Zero();
+    weights.topRows<3>() << weights_.with_d, weights_.with_rate;
+    const linalg::RowParts rows(d_.size(), 3);
+    std::array<linalg::NodeSums, linalg::RowParts::kMostParts> sums;
+    common.for_pieces(rows, pool, [&](int part, Eigen::Index first, Eigen::Index size) {
+      kernels.couple(Ms, static_cast<int>(first / 3), static_cast<int>(size / 3), vectors.data(),
+                     weights.data(), loads_ ? load_.data() : nullptr,
+                     sums[static_cast<std::size_t>(part)]);
+    });
+    for (int part = 0; part < rows.count(); ++part) {
+      const Eigen::Map<const Eigen::Matrix<double, 4, linalg::NodeSums::kColumns>> sum(
+          sums[static_cast<std::size_t>(part)].value);
+      dd_ += sum.block<3, 3>(0, 0);
+      dv_ += sum.block<3, 3>(0, 3);
+      da_ += sum.block<3, 3>(0, 6);
     }
   }
 
@@ -119,40 +142,6 @@ class Pass {
       dv_(a, a) += Wd * v_[k];
       da_(a, a) += Wd * a_[k];
       if (loads_) load_[k] += weights_.with_d(a, a) * Wd + weights_.with_rate(a, a) * Wv;
-    }
-  }
-
-  /// Sums over the nodes of one part.
-  struct Products {
-    Matrix3d dd = Matrix3d::Zero(), dv = Matrix3d::Zero(), da = Matrix3d::Zero();
-  };
-
-  void add_regular(const SparseMatrix& Ms, TaskPool* pool) {
-    using Node = Eigen::Map<const Vector3d>;
-    const linalg::RowParts nodes(Ms.outerSize());
-    std::array<Products, linalg::RowParts::kMostParts> sums;
-    nodes.for_pieces(pool, [&](int part, Eigen::Index first, Eigen::Index count) {
-      Products sum;
-      for (Eigen::Index node = first; node < first + count; ++node) {
-        const Vector3d Md = nodal_product(Ms, static_cast<int>(node), d_.data());
-        sum.dd += Md * Node(d_.data() + 3 * node).transpose();
-        sum.dv += Md * Node(v_.data() + 3 * node).transpose();
-        sum.da += Md * Node(a_.data() + 3 * node).transpose();
-        if (!loads_) continue;
-        const Vector3d Mv = nodal_product(Ms, static_cast<int>(node), v_.data());
-        Eigen::Map<Vector3d>(load_.data() + 3 * node) +=
-            weights_.with_d * Md + weights_.with_rate * Mv;
-      }
-      Products& whole = sums[static_cast<std::size_t>(part)];
-      whole.dd += sum.dd;
-      whole.dv += sum.dv;
-      whole.da += sum.da;
-    });
-    for (int part = 0; part < nodes.count(); ++part) {
-      const Products& sum = sums[static_cast<std::size_t>(part)];
-      dd_ += sum.dd;
-      dv_ += sum.dv;
-      da_ += sum.da;
     }
   }
 
@@ -209,7 +198,7 @@ DeformationWeights DeformationWeights::of_motion(const Vector3d& w, const Vector
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vector& d,
                                      const Vector& d_dot, const Vector& d_ddot,
                                      const DeformationWeights& weights, Vector& load,
-                                     TaskPool* pool) {
+                                     TaskPool* pool, const linalg::CommonTable* common) {
   Pass pass(d, d_dot, d_ddot, weights, load);
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
     const SparseMatrix& W = shape.W[k];
@@ -220,7 +209,11 @@ DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vec
       pass.add(W, kPairs[k][0], kPairs[k][1]);
     }
   }
-  if (!shape.nodal.empty()) pass.add(NodalInertia(shape.nodal), pool);
+  if (common != nullptr) {
+    pass.add_regular(*common, pool);
+  } else if (!shape.nodal.empty()) {
+    pass.add(NodalInertia(shape.nodal), pool);
+  }
   return pass.moments();
 }
 

@@ -4,6 +4,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/fem/element/shape_integrals.h"
+#include "buckens/linalg/common_table.h"
 
 namespace buckens::body {
 
@@ -22,9 +23,11 @@ struct DeformationWeights {
 /// integrals. Allocates nothing.
 /// @param load n, added to; unchanged where the weights are zero
 /// @param pool processes nodes of solids in parallel, with the same result
+/// @param common holds a copy of the scalar mass matrix to be read; null: that of `shape`
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const linalg::Vector& d,
                                      const linalg::Vector& d_dot, const linalg::Vector& d_ddot,
                                      const DeformationWeights& weights, linalg::Vector& load,
-                                     TaskPool* pool = nullptr);
+                                     TaskPool* pool = nullptr,
+                                     const linalg::CommonTable* common = nullptr);
 
 }  // namespace buckens::body

@@ -23,8 +23,14 @@ bool is_numbered_by_node(const fem::NodalMass& mass) {
 
 }  // namespace
 
+linalg::NodeMatrix node_matrix(const linalg::SparseMatrix& Ms) {
+  return {Ms.valuePtr(), Ms.innerIndexPtr(), Ms.outerIndexPtr(), static_cast<int>(Ms.outerSize())};
+}
+
 NodalInertia::NodalInertia(const fem::NodalMass& mass)
-    : mass_(&mass), is_regular_(is_numbered_by_node(mass)) {}
+    : mass_(&mass), is_regular_(is_numbered_by_node(mass)) {
+  if (is_regular_) matrix_ = node_matrix(mass.Ms);
+}
 
 Matrix3Xd NodalInertia::by_node(const Vector& x) const {
   Matrix3Xd X(3, static_cast<Eigen::Index>(mass_->dofs.size()));
@@ -42,12 +48,11 @@ Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * 
 void NodalInertia::multiply(const Vector& x, Vector& y, TaskPool* pool) const {
   const linalg::SparseMatrix& Ms = mass_->Ms;
   if (is_regular_ && y.size() == 3 * Ms.outerSize()) {
+    const linalg::NodeKernels& kernels = linalg::node_kernels();
     const linalg::RowParts nodes(Ms.outerSize());
     nodes.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index count) {
-      for (Eigen::Index node = first; node < first + count; ++node) {
-        Eigen::Map<Eigen::Vector3d>(y.data() + 3 * node) =
-            nodal_product(Ms, static_cast<int>(node), x.data());
-      }
+      kernels.multiply(matrix_, static_cast<int>(first), static_cast<int>(count), x.data(),
+                       y.data());
     });
     return;
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-
 #include "buckens/base/task_pool.h"
 #include "buckens/fem/element/shape_integrals.h"
+#include "buckens/linalg/node_kernels.h"
 
 namespace buckens::body {
 
@@ -18,6 +17,9 @@ namespace buckens::body {
 class NodalInertia {
  public:
   explicit NodalInertia(const fem::NodalMass& mass);
+  /// Reads another copy of the matrix in products, which several bodies have in common.
+  /// @pre is_regular()
+  void read_from(const linalg::NodeMatrix& copy) { matrix_ = copy; }
 
   bool empty() const { return mass_->empty(); }
   /// x as an array with one column of translations per node, zeros where there is no DOF.
@@ -33,25 +35,15 @@ class NodalInertia {
   /// Whether node k has the variables 3k, 3k + 1, 3k + 2.
   bool is_regular() const { return is_regular_; }
   const fem::NodalMass& mass() const { return *mass_; }
+  const linalg::NodeMatrix& matrix() const { return matrix_; }
 
  private:
   const fem::NodalMass* mass_;
   bool is_regular_;
+  linalg::NodeMatrix matrix_;  // of a regular one
 };
 
-/// Σ_k Ms(k, node) x_k over the nodes, by Ms stored by columns and x with three numbers per node.
-inline Eigen::Vector3d nodal_product(const linalg::SparseMatrix& Ms, int node, const double* x) {
-  const double* values = Ms.valuePtr();
-  const int* rows = Ms.innerIndexPtr();
-  const int end = Ms.outerIndexPtr()[node + 1];
-  double sum_1 = 0, sum_2 = 0, sum_3 = 0;
-  for (int k = Ms.outerIndexPtr()[node]; k < end; ++k) {
-    const double* at = x + 3 * static_cast<std::ptrdiff_t>(rows[k]);
-    sum_1 += values[k] * at[0];
-    sum_2 += values[k] * at[1];
-    sum_3 += values[k] * at[2];
-  }
-  return {sum_1, sum_2, sum_3};
-}
+/// View of a compressed scalar mass matrix.
+linalg::NodeMatrix node_matrix(const linalg::SparseMatrix& Ms);
 
 }  // namespace buckens::body

@@ -27,7 +27,8 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
 
 void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms, const Vector& d,
                        const Vector& d_dot, const Vector& d_ddot, const Vector3d& w,
-                       const Vector3d& w_dot, model::Coupling& out, TaskPool* pool) {
+                       const Vector3d& w_dot, model::Coupling& out, TaskPool* pool,
+                       const linalg::CommonTable* common) {
   out.t = 0;
   out.moments = {};
   out.load.resize(terms.have_load() ? d.size() : 0);
@@ -37,8 +38,8 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
   body::DeformationWeights weights;
   if (terms.have_load()) weights = body::DeformationWeights::of_motion(w, w_dot, terms);
   if (terms.quad_ref || !weights.are_zero()) {
-    const body::DeformedMoments moments =
-        body::evaluate_deformation(part.fe.shape, d, d_dot, d_ddot, weights, out.load, pool);
+    const body::DeformedMoments moments = body::evaluate_deformation(
+        part.fe.shape, d, d_dot, d_ddot, weights, out.load, pool, common);
     if (terms.quad_ref) out.moments = moments;
   }
   if (!terms.jvar) out.moments.J.setZero();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/common_table.h"
 #include "buckens/model/state.h"
 
 namespace buckens::dynamics {
@@ -15,11 +16,12 @@ model::Coupling evaluate_coupling(const body::Body& body, const body::CouplingTe
                                   const Eigen::Vector3d& w_dot);
 /// The same into `out`, whose buffers are reused.
 /// @param pool processes nodes of solids in parallel, with the same result
+/// @param common holds the scalar mass matrix to be read of a solid; null: the body's own
 void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
                        const linalg::Vector& d, const linalg::Vector& d_dot,
                        const linalg::Vector& d_ddot, const Eigen::Vector3d& w,
-                       const Eigen::Vector3d& w_dot, model::Coupling& out,
-                       TaskPool* pool = nullptr);
+                       const Eigen::Vector3d& w_dot, model::Coupling& out, TaskPool* pool = nullptr,
+                       const linalg::CommonTable* common = nullptr);
 
 /// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and the quadratic
 /// parts.

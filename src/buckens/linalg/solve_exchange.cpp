@@ -18,6 +18,8 @@ namespace {
 
 // Switching to another thread costs about 10 µs; smaller factors are read faster than that.
 constexpr double kLeastEntries = 2e4;
+// The same of passes over tables.
+constexpr Eigen::Index kLeastRows = 6000;
 
 /// 128 bits that tell matrices apart: two multiplicative hashes over pattern and values.
 using Fingerprint = std::array<std::uint64_t, 2>;
@@ -67,8 +69,13 @@ struct SolveExchange::Participant {
   // What it waits for:
   const Factor* factor = nullptr;
   std::span<double* const> vectors;
+  const void* table = nullptr;
+  const RowParts* rows = nullptr;
+  std::optional<PieceFunction> piece;
   TaskPool* pool = nullptr;
   std::exception_ptr refusal;  ///< of the solve
+
+  bool waits() const { return factor != nullptr || table != nullptr; }
 };
 
 /// Whose turn it is: one participant's, or nobody's during the solves.
@@ -131,6 +138,21 @@ void SolveExchange::solve(const Factor& factor, std::span<double* const> vectors
   if (self.refusal) std::rethrow_exception(std::exchange(self.refusal, nullptr));
 }
 
+void SolveExchange::for_pieces(const void* table, const RowParts& rows, TaskPool* pool,
+                               PieceFunction f) {
+  const std::optional<std::size_t> caller = turns_->running;
+  if (!caller || participants_.size() == 1 || rows.rows() < kLeastRows) {
+    rows.for_pieces(pool, f);
+    return;
+  }
+  Participant& self = *participants_[*caller];
+  self.table = table;
+  self.rows = &rows;
+  self.piece = f;
+  self.pool = pool;
+  turns_->give_back_until_mine(*caller);
+}
+
 void SolveExchange::run(const std::vector<std::function<void()>>& participants) {
   participants_.clear();
   for (std::size_t p = 0; p < participants.size(); ++p) {
@@ -150,9 +172,9 @@ void SolveExchange::run(const std::vector<std::function<void()>>& participants) 
   const auto is_done = [](const auto& participant) { return participant->is_done; };
   while (!std::all_of(participants_.begin(), participants_.end(), is_done)) {
     for (std::size_t p = 0; p < participants_.size(); ++p) {
-      if (!participants_[p]->is_done) turns_->give(p);
+      if (!participants_[p]->is_done && !participants_[p]->waits()) turns_->give(p);
     }
-    solve_waiting();
+    serve_waiting();
   }
   for (const auto& participant : participants_) participant->thread.join();
   for (const auto& participant : participants_) {
@@ -160,9 +182,32 @@ void SolveExchange::run(const std::vector<std::function<void()>>& participants) 
   }
 }
 
-void SolveExchange::solve_waiting() {
+void SolveExchange::serve_waiting() {
+  bool are_passes = false;
+  for (const auto& participant : participants_) {
+    if (participant->table == nullptr) continue;
+    are_passes = true;
+    pass_together(participant->table);
+  }
+  if (are_passes) return;
   for (const auto& participant : participants_) {
     if (participant->factor != nullptr) solve_together(*participant->factor);
+  }
+}
+
+void SolveExchange::pass_together(const void* table) {
+  const Participant* first = nullptr;
+  together_.clear();
+  for (const auto& participant : participants_) {
+    if (participant->table != table) continue;
+    if (first == nullptr) first = participant.get();
+    together_.push_back(*participant->piece);
+  }
+  first->rows->for_pieces(first->pool, [this](int part, Eigen::Index begin, Eigen::Index size) {
+    for (const PieceFunction& piece : together_) piece(part, begin, size);
+  });
+  for (const auto& participant : participants_) {
+    if (participant->table == table) participant->table = nullptr;
   }
 }
 

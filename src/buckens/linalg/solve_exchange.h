@@ -8,6 +8,8 @@
 
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/row_parts.h"
+#include "buckens/linalg/shared_store.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
 namespace buckens::linalg {
@@ -17,8 +19,9 @@ namespace buckens::linalg {
 ///
 /// Each participant runs as if alone until it asks for a solve; then the next one runs.
 /// When all wait, those with a common factor solve as the columns of one right-hand side, which
-/// reads the factor once for all of them. Only one participant runs at a time, in a fixed order, so
-/// results do not depend on timing.
+/// reads the factor once for all of them. Passes over common tables go together likewise, piece by
+/// piece, and before any solve, so that all participants come to their solves. Only one participant
+/// runs at a time, in a fixed order, so results do not depend on timing.
 class SolveExchange {
  public:
   /// @param make factorises
@@ -34,6 +37,13 @@ class SolveExchange {
   /// participant calls.
   void solve(const Factor& factor, std::span<double* const> vectors, TaskPool* pool = nullptr);
 
+  /// rows.for_pieces(pool, f), together with other participants that ask for the same `table`: each
+  /// piece for one after the other, so that what they read of the table is read from memory once.
+  void for_pieces(const void* table, const RowParts& rows, TaskPool* pool, PieceFunction f);
+
+  /// What participants have in common besides factors. Call from them, or while none runs.
+  SharedStore& common() { return common_; }
+
   /// Runs all participants to completion, each on its own thread.
   /// @throws the first exception of a participant, after all have finished
   void run(const std::vector<std::function<void()>>& participants);
@@ -47,15 +57,18 @@ class SolveExchange {
   struct Participant;
   struct Turns;
 
-  void solve_waiting();
+  void serve_waiting();
+  void pass_together(const void* table);
   void solve_together(const Factor& factor);
   void solve_group(const std::vector<Participant*>& group);
 
   MakeFactor make_;
   std::vector<Known> known_;
+  SharedStore common_;
   std::vector<std::unique_ptr<Participant>> participants_;  // of the run that goes on
   std::unique_ptr<Turns> turns_;
   std::vector<double*> vectors_;
+  std::vector<PieceFunction> together_;
   long num_factorisations_ = 0, num_columns_ = 0, num_passes_ = 0;
 };
 

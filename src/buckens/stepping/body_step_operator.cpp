@@ -2,12 +2,10 @@
 #include "buckens/stepping/body_step_operator.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
 #include "buckens/body/mesh_solver.h"
-#include "buckens/linalg/row_parts.h"
 
 namespace buckens::stepping {
 
@@ -27,14 +25,13 @@ SparseMatrix step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
   return K_hat;
 }
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const body::FlexiblePart& part) {
-  using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  RowMajor interface = part.rows.topRows(part.num_interface_rows);
+InterfaceRows rows_of(const body::FlexiblePart& part) {
+  InterfaceRows interface = part.rows.topRows(part.num_interface_rows);
   if (!part.coupling.may_use_patterns()) return interface;
   const Matrix& patterns = part.invariants.centrifugal_patterns();
   std::vector<linalg::Triplet> entries;
   for (int k = 0; k < interface.outerSize(); ++k) {
-    for (RowMajor::InnerIterator it(interface, k); it; ++it) {
+    for (InterfaceRows::InnerIterator it(interface, k); it; ++it) {
       entries.emplace_back(k, static_cast<int>(it.col()), it.value());
     }
   }
@@ -44,7 +41,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const body::FlexiblePart& p
       if (patterns(i, k) != 0.0) entries.emplace_back(first + k, i, patterns(i, k));
     }
   }
-  RowMajor out(first + static_cast<int>(patterns.cols()), part.num_dofs());
+  InterfaceRows out(first + static_cast<int>(patterns.cols()), part.num_dofs());
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
@@ -117,23 +114,63 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
     inverse_ = factor_->solve(Matrix::Identity(part.num_dofs(), part.num_dofs()));
     part.sieve.apply(inverse_);
   }
-  G_ = N_.transpose();
-  solve_columns(G_);
-  if (scheme.weight == 1.0) {
-    // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
-    // G e leaves Y K̂⁻¹ (m M + c C) G e.
-    const Matrix interface = G_.leftCols(part.num_interface_rows);
-    Matrix inertia = scheme.mass * (part.fe.M * interface);
-    if (part.is_damped()) inertia += scheme.damping * (part.C * interface);
-    solve_columns(inertia);
-    D_less_G_ = inertia - interface;
-  }
-  compliance_ = N_ * G_;
+  find_nodal(source);
+  find_responses(source);
+  compliance_ = N_ * responses_->G;
   interface_ = compliance_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
   correction_ = Matrix::Zero(compliance_.rows(), compliance_.cols());
-  if (scheme.weight == 1.0) correction_.leftCols(part.num_interface_rows) = N_ * D_less_G_;
+  if (scheme.weight == 1.0) {
+    correction_.leftCols(part.num_interface_rows) = N_ * responses_->D_less_G;
+  }
   rigid_row_values_ = N_ * part.sieve.Phi();
   if (inverse_.size() > 0 && part.num_dofs() < N_.rows()) small_ = answers_by_variables();
+}
+
+void BodyStepOperator::find_nodal(const FactorSource& source) {
+  if (part_->num_dofs() <= kSmall) return;
+  nodal_ = body::NodalMotion::of(*part_);
+  if (!nodal_) return;
+  if (source.twin != nullptr && source.twin->nodal_ && *source.twin->nodal_ == *nodal_) {
+    nodal_ = source.twin->nodal_;
+  } else if (source.exchange != nullptr) {
+    nodal_ = source.exchange->common().find_or_make<body::NodalMotion>(
+        [this](const body::NodalMotion& known) { return known == *nodal_; },
+        [this] { return nodal_; });
+  }
+  common_ = {nodal_->mass(), nodal_.get(), source.exchange};
+  inertial_.read_mass_from(nodal_->mass());
+}
+
+void BodyStepOperator::find_responses(const FactorSource& source) {
+  const BodyResponses::Source own(factor_.get(), nodal_.get(), *part_, N_, scheme_);
+  const auto make = [&] { return make_responses(own); };
+  if (!nodal_ || iterates()) {
+    responses_ = make();
+  } else if (source.twin != nullptr && source.twin->responses_->source == own) {
+    responses_ = source.twin->responses_;
+  } else if (source.exchange != nullptr) {
+    responses_ = source.exchange->common().find_or_make<BodyResponses>(
+        [&](const BodyResponses& known) { return known.source == own; }, make);
+  } else {
+    responses_ = make();
+  }
+}
+
+std::shared_ptr<const BodyResponses> BodyStepOperator::make_responses(
+    const BodyResponses::Source& source) {
+  auto out = std::make_shared<BodyResponses>();
+  out->source = source;
+  out->G = N_.transpose();
+  solve_columns(out->G);
+  if (scheme_.weight != 1.0) return out;
+  // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
+  // G e leaves Y K̂⁻¹ (m M + c C) G e.
+  const Matrix interface = out->G.leftCols(part_->num_interface_rows);
+  Matrix inertia = scheme_.mass * (part_->fe.M * interface);
+  if (part_->is_damped()) inertia += scheme_.damping * (part_->C * interface);
+  solve_columns(inertia);
+  out->D_less_G = inertia - interface;
+  return out;
 }
 
 SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
@@ -208,65 +245,18 @@ void BodyStepOperator::add_answer(const Eigen::VectorXd& load, Eigen::Index firs
   const Eigen::Index interface = num_interface_rows();
   const bool uses_patterns = !load.tail(load.size() - interface).isZero(0.0);
   const Eigen::Index columns = uses_patterns ? load.size() : interface;
-  piece.noalias() +=
-      (scheme_.force * G_.block(first, 0, piece.size(), columns)) * load.head(columns);
+  BodyResponses::add_columns(responses_->G, load.head(columns), scheme_.force, first, piece);
 }
 
 void BodyStepOperator::add_correction(const Eigen::VectorXd& e, Eigen::Index first,
                                       Eigen::Ref<Vector> piece) const {
-  const Eigen::Index columns = num_interface_rows();
-  piece.noalias() += G_.block(first, 0, piece.size(), columns) * e.head(columns);
+  BodyResponses::add_columns(responses_->G, e.head(num_interface_rows()), 1.0, first, piece);
 }
 
 void BodyStepOperator::add_correction_answer(const Eigen::VectorXd& e, Eigen::Index first,
                                              Eigen::Ref<Vector> piece) const {
-  if (D_less_G_.cols() == 0) return;
-  piece.noalias() += D_less_G_.middleRows(first, piece.size()) * e.head(D_less_G_.cols());
-}
-
-void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vector& y_dot,
-                                  Vector& y_ddot, Vector& y_alg, TaskPool* pool) const {
-  if (!small_.empty()) {
-    small_.row_values(state.d, y);
-    small_.row_values(state.d_dot, y_dot);
-    small_.row_values(state.d_ddot, y_ddot);
-    small_.row_values(state.d_alg, y_alg);
-    return;
-  }
-  for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(N_.rows());
-  for (int row = 0; row < num_interface_rows(); ++row) {
-    double sum = 0, sum_dot = 0, sum_ddot = 0, sum_alg = 0;
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(N_, row); it; ++it) {
-      sum += it.value() * state.d[it.col()];
-      sum_dot += it.value() * state.d_dot[it.col()];
-      sum_ddot += it.value() * state.d_ddot[it.col()];
-      sum_alg += it.value() * state.d_alg[it.col()];
-    }
-    y[row] = sum;
-    y_dot[row] = sum_dot;
-    y_ddot[row] = sum_ddot;
-    y_alg[row] = sum_alg;
-  }
-  const Matrix* columns = patterns();
-  if (columns == nullptr || !state.terms.use_patterns()) return;
-  using Values = Eigen::Matrix<double, 6, 4>;
-  const linalg::RowParts rows(num_dofs());
-  std::array<Values, linalg::RowParts::kMostParts> sums;
-  std::fill_n(sums.begin(), rows.count(), Values::Zero());
-  rows.for_pieces(pool, [&](int part, Eigen::Index first, Eigen::Index size) {
-    Values& sum = sums[static_cast<std::size_t>(part)];
-    const auto piece = columns->middleRows(first, size).transpose();
-    sum.col(0).noalias() += piece * state.d.segment(first, size);
-    sum.col(1).noalias() += piece * state.d_dot.segment(first, size);
-    sum.col(2).noalias() += piece * state.d_ddot.segment(first, size);
-    sum.col(3).noalias() += piece * state.d_alg.segment(first, size);
-  });
-  Values whole = sums[0];
-  for (int part = 1; part < rows.count(); ++part) whole += sums[static_cast<std::size_t>(part)];
-  y.tail<6>() = whole.col(0);
-  y_dot.tail<6>() = whole.col(1);
-  y_ddot.tail<6>() = whole.col(2);
-  y_alg.tail<6>() = whole.col(3);
+  const Matrix& columns = responses_->D_less_G;
+  BodyResponses::add_columns(columns, e.head(columns.cols()), 1.0, first, piece);
 }
 
 }  // namespace buckens::stepping

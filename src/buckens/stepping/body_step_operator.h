@@ -5,9 +5,11 @@
 #include <string>
 
 #include "buckens/body/body.h"
+#include "buckens/linalg/common_table.h"
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/body_answer.h"
+#include "buckens/stepping/body_responses.h"
 #include "buckens/stepping/inertial_load.h"
 
 namespace buckens::stepping {
@@ -76,10 +78,10 @@ class BodyStepOperator final : public BodyAnswer {
   /// N Φ: values of the rigid motions that carry mass, orthonormal.
   const linalg::Matrix& rigid_row_values() const { return rigid_row_values_; }
   /// Rows of the interface, then the six patterns.
-  const Eigen::SparseMatrix<double, Eigen::RowMajor>& N() const { return N_; }
+  const InterfaceRows& N() const { return N_; }
 
   /// G = Y K̂⁻¹ Nᵀ.
-  const linalg::Matrix& responses() const { return G_; }
+  const linalg::Matrix& responses() const { return responses_->G; }
 
   /// The vectors c_ab as columns, null if N has no rows of them.
   const linalg::Matrix* patterns() const {
@@ -87,6 +89,10 @@ class BodyStepOperator final : public BodyAnswer {
   }
   Eigen::Index num_dofs() const { return part_->num_dofs(); }
   const body::Sieve& sieve() const { return part_->sieve; }
+  /// Rigid motion and patterns node by node, of large solids without constraints; else null.
+  const body::NodalMotion* nodal() const { return nodal_.get(); }
+  /// What passes over the rows read that other bodies may read, too.
+  const linalg::CommonTable& common() const { return common_; }
 
   /// Formed on each call: a step only needs its factor and its diagonal.
   linalg::SparseMatrix K_hat() const;
@@ -106,6 +112,9 @@ class BodyStepOperator final : public BodyAnswer {
 
  private:
   void find_factor(linalg::SparseMatrix K_hat, const FactorSource& source);
+  void find_nodal(const FactorSource& source);
+  void find_responses(const FactorSource& source);
+  std::shared_ptr<const BodyResponses> make_responses(const BodyResponses::Source& source);
   SmallBodyAnswers answers_by_variables() const;
   /// X ← Y K̂⁻¹ X, as part of the set-up.
   void solve_columns(linalg::Matrix& X);
@@ -117,9 +126,10 @@ class BodyStepOperator final : public BodyAnswer {
   std::shared_ptr<const linalg::Factor> factor_;
   std::string why_solver_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
-  Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
-  linalg::Matrix G_;         // Y K̂⁻¹ Nᵀ
-  linalg::Matrix D_less_G_;  // for interface rows, D of a correction's effect on x⁺; empty: D = G
+  InterfaceRows N_;
+  std::shared_ptr<const body::NodalMotion> nodal_;
+  linalg::CommonTable common_;
+  std::shared_ptr<const BodyResponses> responses_;
   linalg::Matrix rigid_row_values_;
   InertialLoad inertial_;
   long setup_solves_ = 0;

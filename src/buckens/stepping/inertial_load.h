@@ -23,6 +23,10 @@ std::optional<double> stiffness_damping(const body::FlexiblePart& part);
 class InertialLoad {
  public:
   InertialLoad(const body::FlexiblePart& part, const Scheme& scheme);
+  /// Reads a copy of the scalar mass matrix that several bodies have in common.
+  void read_mass_from(const linalg::NodeMatrix& copy) {
+    if (is_by_node_ && nodal_.is_regular()) nodal_.read_from(copy);
+  }
 
   /// y = M x. Allocates nothing once `y` has its size.
   /// @param pool processes nodes of solids in parallel, with the same result

@@ -23,6 +23,7 @@ constexpr double kNoMotion = 1e-19;
 LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& op)
     : body_(&body),
       scheme_(op.scheme()),
+      common_(op.nodal() != nullptr ? &op.common() : nullptr),
       rows_(op.num_dofs()),
       inverse_diagonal_(op.K_hat_diagonal().cwiseInverse()) {
   const linalg::Matrix& patterns = body.flexible->invariants.centrifugal_patterns();
@@ -39,7 +40,7 @@ void LaggedCoupling::start(const model::BodyState& s, int history, double t, Tas
     dynamics::extrapolate(s, history, scheme_.evaluation_time(t), used_, pool);
   } else {
     dynamics::evaluate_coupling(*body_, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot, used_,
-                                pool);
+                                pool, common_);
   }
 }
 
@@ -92,7 +93,7 @@ LaggedCoupling::Gap LaggedCoupling::evaluate(const BodyStep& step, const LargeSt
   const Vector3d w = rate.head<3>();
   const Vector3d w_dot = acceleration.head<3>();
   dynamics::evaluate_coupling(*body_, step.terms, large.d_e(after), large.rate_e(after),
-                              large.acceleration_e(after), w, w_dot, evaluated_, pool);
+                              large.acceleration_e(after), w, w_dot, evaluated_, pool, common_);
   evaluated_.t = scheme_.evaluation_time(t);
 
   Change change;

@@ -80,6 +80,7 @@ class LaggedCoupling {
 
   const body::Body* body_;
   Scheme scheme_;
+  const linalg::CommonTable* common_;  // of a solid, or null
   linalg::RowParts rows_;
   linalg::Vector inverse_diagonal_;         // of K̂; empty if there are no loads
   linalg::Vector moved_per_load_;           // the same as displacements; empty: are some

@@ -20,7 +20,7 @@ constexpr double kDependentRow = 1e-9;
 
 LargeStep::LargeStep(BodyStepOperator& op)
     : op_(&op),
-      rows_(op.num_dofs()),
+      rows_(op.num_dofs(), op.nodal() != nullptr ? 3 : 1),
       holds_at_end_(op.scheme().weight == 1.0),
       sums_(static_cast<std::size_t>(rows_.count())) {
   const Scheme& scheme = op.scheme();
@@ -66,13 +66,21 @@ void LargeStep::form_right_side(const model::BodyState& before, const Vector& lo
     if (!is_damped_otherwise) return;
     damped_.segment(first, size) = combination(with_damping_, before, first, size);
   });
+  const double c_theta = op_->scheme().force * op_->scheme().weight;
+  const auto add_load = [&](int /*part*/, Index first, Index size) {
+    if (load.size() > 0) free_.segment(first, size) += c_theta * load.segment(first, size);
+  };
+  if (op_->nodal() != nullptr && inertial.is_by_node() && !is_damped_otherwise) {
+    free_.resize(rows_.rows());
+    op_->common().for_pieces(rows_, pool, [&](int part, Index first, Index size) {
+      op_->nodal()->multiply_mass(first, size, scratch_, free_);
+      add_load(part, first, size);
+    });
+    return;
+  }
   inertial.multiply_mass(scratch_, free_, pool);
   if (is_damped_otherwise) inertial.add_damping(damped_, free_);
-  if (load.size() == 0) return;
-  const double c_theta = op_->scheme().force * op_->scheme().weight;
-  rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-    free_.segment(first, size) += c_theta * load.segment(first, size);
-  });
+  if (load.size() > 0) rows_.for_pieces(pool, add_load);
 }
 
 void LargeStep::form_right_side_of_change(const Vector& change, TaskPool* pool) {
@@ -125,14 +133,32 @@ void LargeStep::clear_sums() {
   for (PartSums& sums : sums_) {
     sums.rigid.setZero(op_->sieve().rank());
     sums.patterns.setZero();
+    sums.nodal_rigid = sums.nodal_patterns = {};
     sums.total = 0.0;
+  }
+}
+
+void LargeStep::add_rigid(Index first, Index size, const Vector& x, PartSums& sums) {
+  if (op_->nodal() != nullptr) {
+    op_->nodal()->add_moments(first, size, x, sums.nodal_rigid);
+  } else {
+    const auto P = op_->sieve().P().middleRows(first, size);
+    sums.rigid.noalias() += P.transpose() * x.segment(first, size);
+  }
+}
+
+void LargeStep::add_patterns(Index first, Index size, PartSums& sums) {
+  if (op_->nodal() != nullptr) {
+    op_->nodal()->add_moments(first, size, free_, sums.nodal_patterns);
+  } else {
+    const auto patterns = op_->patterns()->middleRows(first, size);
+    sums.patterns.noalias() += patterns.transpose() * free_.segment(first, size);
   }
 }
 
 void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, TaskPool* pool) {
   const Scheme& scheme = op_->scheme();
-  const linalg::Matrix& P = op_->sieve().P();
-  const linalg::Matrix* patterns = before.terms.use_patterns() ? op_->patterns() : nullptr;
+  const bool uses_patterns = before.terms.use_patterns() && op_->patterns() != nullptr;
   const bool adds = op_->inertial().share() != 0.0;
   // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
   // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
@@ -141,31 +167,32 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
     PartSums& sums = sums_[static_cast<std::size_t>(part)];
     auto x = free_.segment(first, size);
-    const auto P_rows = P.middleRows(first, size).transpose();
     if (is_first_) {
       if (adds) x += combination(beside_solution_, before, first, size);
-      if (at_evaluation) sums.rigid.noalias() += P_rows * x;
+      if (at_evaluation) add_rigid(first, size, free_, sums);
       if (!holds_at_end_) x = x / scheme.weight + combination(from_start_, before, first, size);
-      if (!at_evaluation) sums.rigid.noalias() += P_rows * x;
+      if (!at_evaluation) add_rigid(first, size, free_, sums);
     } else {
-      sums.rigid.noalias() += P_rows * change_.segment(first, size);
+      add_rigid(first, size, change_, sums);
       x += change_.segment(first, size);
     }
-    if (patterns != nullptr) {
-      sums.patterns.noalias() += patterns->middleRows(first, size).transpose() * x;
-    }
+    if (uses_patterns) add_patterns(first, size, sums);
   });
   if (is_first_) rigid_.setZero(op_->sieve().rank());
   const Index interface = op_->num_interface_rows();
   y_free.resize(op_->N().rows());
   y_free.setZero();
   const double scale = is_first_ && at_evaluation ? 1.0 / scheme.weight : 1.0;
-  for (const PartSums& sums : sums_) {
+  for (PartSums& sums : sums_) {
+    if (op_->nodal() != nullptr) {
+      sums.rigid = op_->nodal()->rigid(sums.nodal_rigid);
+      sums.patterns = body::NodalMotion::patterns(sums.nodal_patterns);
+    }
     rigid_ += scale * sums.rigid;
-    if (patterns != nullptr) y_free.tail<6>() += sums.patterns;
+    if (uses_patterns) y_free.tail<6>() += sums.patterns;
   }
   y_free.head(interface).noalias() += op_->N().topRows(interface) * free_;
-  const Index used = patterns != nullptr ? y_free.size() : interface;
+  const Index used = uses_patterns ? y_free.size() : interface;
   y_free.head(used).noalias() -= op_->rigid_row_values().topRows(used) * rigid_;
 }
 
@@ -205,12 +232,19 @@ void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
     for (Vector* v : {&d_e_, &rate_e_, &acceleration_e_}) v->resize(n);
   }
   const linalg::Matrix& Phi = op_->sieve().Phi();
+  const body::NodalMotion* nodal = op_->nodal();
+  const Eigen::Matrix4d motion =
+      nodal != nullptr ? nodal->motion(rigid_) : Eigen::Matrix4d(Eigen::Matrix4d::Zero());
   const bool corrects = !correction.isZero(0.0);
   clear_sums();
-  rows_.for_pieces(pool, [&](int part, Index first, Index size) {
+  op_->common().for_pieces(rows_, pool, [&](int part, Index first, Index size) {
     auto increment = after.d_alg.segment(first, size);  // until it is assigned
     increment = free_.segment(first, size) - before.d.segment(first, size);
-    if (rigid_.size() > 0) increment.noalias() -= Phi.middleRows(first, size) * rigid_;
+    if (nodal != nullptr) {
+      nodal->subtract(first, size, motion, after.d_alg);
+    } else if (rigid_.size() > 0) {
+      increment.noalias() -= Phi.middleRows(first, size) * rigid_;
+    }
     op_->add_answer(load, first, increment);
     if (corrects) op_->add_correction_answer(correction, first, increment);
     auto d = after.d.segment(first, size);

@@ -21,6 +21,8 @@ namespace buckens::stepping {
 ///     take_solution      5 + 6 (sieve) + 6 (patterns) read, 1 written
 ///     complete           5 + 6 (sieve) + c + 2 m read, 4 written
 ///
+/// Of solids (body::NodalMotion) sieve and patterns take 4/3 together, in either of them.
+///
 /// The rows are distributed over the threads of a pool; results do not depend on their number. Once
 /// the vectors have their sizes, nothing is allocated.
 class LargeStep {
@@ -88,6 +90,7 @@ class LargeStep {
   struct PartSums {
     Amplitudes rigid;
     Eigen::Matrix<double, 6, 1> patterns;
+    linalg::NodeSums nodal_rigid, nodal_patterns;
     double total = 0;
   };
   static auto combination(const Weights& w, const model::BodyState& s, Eigen::Index first,
@@ -97,6 +100,8 @@ class LargeStep {
            w.algorithmic * s.d_alg.segment(first, size);
   }
   void clear_sums();
+  void add_rigid(Eigen::Index first, Eigen::Index size, const linalg::Vector& x, PartSums& sums);
+  void add_patterns(Eigen::Index first, Eigen::Index size, PartSums& sums);
   void estimate_solution(const model::BodyState& before, linalg::Vector& x);
   void form_end(const model::BodyState& before, Eigen::Index first, Eigen::Index size,
                 model::BodyState& after);

@@ -124,7 +124,8 @@ void Stepper::group_factors() {
 template <class F>
 void Stepper::for_bodies(F&& f) {
   const std::size_t count = bodies_.size();
-  const bool is_shared = pool_ && num_dofs_ >= kSharedDofs;
+  // Bodies that meet those of other simulations must not wait inside of tasks.
+  const bool is_shared = pool_ && num_dofs_ >= kSharedDofs && settings_.exchange == nullptr;
   const std::size_t parts =
       is_shared ? std::min(count, static_cast<std::size_t>(kPartsPerThread * pool_->threads())) : 1;
   run_tasks(pool_.get(), static_cast<int>(parts), [&](int part) {

@@ -2,6 +2,7 @@
 #include "buckens/linalg/solve_exchange.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +117,83 @@ TEST(SolveExchange, NotPositiveDefiniteIsReportedToWhoAsked) {
   SparseMatrix A = grid_matrix(3, 0.5);
   A.coeffRef(5, 5) = -1.0;
   EXPECT_ANY_THROW(exchange.run({[&] { exchange.factor(A); }}));
+}
+
+TEST(SolveExchange, PassesOverACommonTableGoTogetherPieceByPiece) {
+  const RowParts rows(7000, 7);
+  const int table = 0;
+  SolveExchange exchange;
+  std::vector<std::pair<int, Eigen::Index>> order;
+  std::vector<std::function<void()>> work;
+  for (const int participant : {0, 1, 2}) {
+    work.emplace_back([&, participant] {
+      auto note = [&, participant](int /*part*/, Eigen::Index first, Eigen::Index size) {
+        EXPECT_EQ(first % 7, 0);
+        EXPECT_GT(size, 0);
+        order.emplace_back(participant, first);
+      };
+      exchange.for_pieces(&table, rows, nullptr, PieceFunction(note));
+    });
+  }
+  exchange.run(work);
+  ASSERT_EQ(order.size() % 3, 0U);
+  ASSERT_GE(order.size(), 9U);
+  Eigen::Index last = -1;
+  for (std::size_t k = 0; k < order.size(); k += 3) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      EXPECT_EQ(order[k + p].first, static_cast<int>(p));
+      EXPECT_EQ(order[k + p].second, order[k].second);
+    }
+    EXPECT_GT(order[k].second, last);
+    last = order[k].second;
+  }
+}
+
+TEST(SolveExchange, SolvesWaitUntilAllPassesAreDone) {
+  // Participant 1 makes two passes more than the other, and still solves together with it.
+  const SparseMatrix A = grid_matrix(kExchangeSize, 0.5);
+  const RowParts rows(7000);
+  const int table = 0;
+  SolveExchange exchange;
+  std::vector<std::function<void()>> work;
+  for (const int passes : {1, 3}) {
+    work.emplace_back([&, passes] {
+      const auto factor = exchange.factor(A);
+      Vector x = Vector::Ones(A.rows());
+      const std::vector<double*> vectors = {x.data()};
+      auto nothing = [](int, Eigen::Index, Eigen::Index) {};
+      for (int round = 0; round < 4; ++round) {
+        for (int k = 0; k < passes; ++k) {
+          exchange.for_pieces(&table, rows, nullptr, PieceFunction(nothing));
+        }
+        exchange.solve(*factor, vectors);
+      }
+    });
+  }
+  exchange.run(work);
+  EXPECT_EQ(exchange.num_columns(), 8);
+  EXPECT_EQ(exchange.num_passes(), 4);
+}
+
+TEST(SharedStore, KeepsWhatIsHeldAndOnlyThat) {
+  SharedStore store;
+  int made = 0;
+  const auto find = [&](int wanted) {
+    return store.find_or_make<int>([wanted](int known) { return known == wanted; },
+                                   [&] {
+                                     ++made;
+                                     return std::make_shared<const int>(wanted);
+                                   });
+  };
+  const auto seven = find(7);
+  EXPECT_EQ(find(7), seven);
+  EXPECT_NE(find(8), seven);
+  EXPECT_EQ(made, 2);
+  find(8);  // nobody held it
+  EXPECT_EQ(made, 3);
+  EXPECT_EQ(store.find_or_make<double>([](double) { return true; },
+                                       [] { return std::shared_ptr<const double>(); }),
+            nullptr);
 }
 
 }  // namespace
