@@ -2,7 +2,10 @@
 #include "buckens/base/time_law.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -31,14 +34,45 @@ namespace {
 // Share of its length by which t may lie outside of a table: sums of steps round.
 constexpr double kRangeRounding = 1e-9;
 
+/// The last two values of a costly function of time. The iterations of a step ask for the same one
+/// or two instants again and again; a derivative by differences takes a hundred evaluations.
+class LastValues {
+ public:
+  template <class F>
+  double at(double t, F&& f) const {
+    {
+      const std::scoped_lock lock(mutex_);
+      for (const Known& one : known_) {
+        if (one.t == t) return one.value;
+      }
+    }
+    const double value = f();
+    const std::scoped_lock lock(mutex_);
+    known_[1] = std::exchange(known_[0], Known{t, value});
+    return value;
+  }
+
+ private:
+  struct Known {
+    double t = std::numeric_limits<double>::quiet_NaN();
+    double value = 0;
+  };
+  mutable std::mutex mutex_;
+  mutable std::array<Known, 2> known_;
+};
+
 class Formula final : public TimeLaw::Body {
  public:
   Formula(Expression expression, double scale)
       : expression_(std::move(expression)), scale_(scale) {}
 
   double value(double t) const override { return scale_ * expression_({t}); }
-  double rate(double t) const override { return scale_ * differentiate(t, 1); }
-  double acceleration(double t) const override { return scale_ * differentiate(t, 2); }
+  double rate(double t) const override {
+    return scale_ * rates_.at(t, [&] { return differentiate(t, 1); });
+  }
+  double acceleration(double t) const override {
+    return scale_ * accelerations_.at(t, [&] { return differentiate(t, 2); });
+  }
   bool is_constant() const override { return false; }
   std::string text() const override { return '"' + expression_.text() + '"'; }
 
@@ -60,6 +94,7 @@ class Formula final : public TimeLaw::Body {
 
   Expression expression_;
   double scale_;
+  LastValues rates_, accelerations_;
 };
 
 /// Piecewise cubic through points; piecewise linear is a special case.
