@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of machines: friction and stops in a four-bar, gears, a belt, and spheres that fall into a
-// box and lie there in a heap.
+// Steps of machines: friction and stops in a four-bar, friction in a flexible slider-crank, gears,
+// a belt, and spheres that fall into a box and lie there in a heap.
 
 #include <benchmark/benchmark.h>
 
@@ -36,6 +36,12 @@ void step(benchmark::State& state, const std::string& text, double length) {
 void four_bar_step(benchmark::State& state) { step(state, buckens::bench::four_bar(""), 1e-4); }
 void four_bar_with_friction_and_stops_step(benchmark::State& state) {
   step(state, buckens::bench::four_bar(buckens::bench::friction_and_stops()), 1e-4);
+}
+void slider_crank_step(benchmark::State& state) {
+  step(state, buckens::bench::slider_crank(""), 1e-4);
+}
+void slider_crank_with_friction_step(benchmark::State& state) {
+  step(state, buckens::bench::slider_crank(buckens::bench::friction_in_all_joints()), 1e-4);
 }
 void gear_train_step(benchmark::State& state) { step(state, buckens::bench::gear_train(), 1e-4); }
 void belt_drive_step(benchmark::State& state) { step(state, buckens::bench::belt_drive(), 5e-4); }
@@ -80,6 +86,8 @@ void heaped_spheres_step(benchmark::State& state) { spheres_step(state, kAtRest)
 
 BENCHMARK(four_bar_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(four_bar_with_friction_and_stops_step)->Unit(benchmark::kMicrosecond);
+BENCHMARK(slider_crank_step)->Unit(benchmark::kMicrosecond);
+BENCHMARK(slider_crank_with_friction_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(gear_train_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(belt_drive_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(falling_spheres_step)

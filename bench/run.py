@@ -106,7 +106,8 @@ def setup(programs, size):
 
 def variants(programs, size):
     block = BLOCKS[size][0]
-    return [programs.bench("variant_bench", block, "--steps", 10 if size == "slender" else 30)]
+    steps = 10 if size == "slender" else 30
+    return [programs.bench("variant_bench", block, "--steps", steps, "--together", "6,32")]
 
 
 def modes(programs, size):

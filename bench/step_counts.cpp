@@ -167,6 +167,9 @@ json time_ratios() {
   out["64 over 16 frames of a beam in the plane"] =
       ratio_of_times(buckens::bench::start(planar_beam_pendulum(64), kStep),
                      buckens::bench::start(planar_beam_pendulum(16), kStep));
+  out["friction in all joints over none, flexible slider-crank"] =
+      ratio_of_times(buckens::bench::start(slider_crank(friction_in_all_joints()), kStep),
+                     buckens::bench::start(slider_crank(""), kStep));
   const auto beam = [](bool side_by_side) {
     buckens::stepping::StepSettings settings;
     settings.step = kStep;
