@@ -61,6 +61,17 @@ def test_variants_are_what_they_are_alone(buckens, large_block, tmp_path):
         assert int(row["steps"]) == 20
 
 
+def test_variants_do_not_depend_on_how_many_go_together(buckens, tmp_path):
+    # Large enough for passes over common tables to be made together.
+    (tmp_path / "block.yaml").write_text(LARGE_BLOCK.replace("[16, 4, 4]", "[30, 8, 8]"))
+    (tmp_path / "table.csv").write_text(
+        "name,parameters.push\na,0 N\nb,5 N\nc,1 N\nd,-20 N\n")
+    for count in ("2", "4"):
+        buckens("sweep", "block.yaml", "table.csv", "-o", "by" + count, "--together", count, "-q").must(0)
+    for name in "abcd":
+        assert numpy.array_equal(sensors_of(tmp_path / "by2" / name), sensors_of(tmp_path / "by4" / name))
+
+
 def test_combinations_of_ranges(buckens, models, tmp_path):
     buckens("sweep", models / "pendulum.yaml", "-o", "out", "--vary", "simulation.duration=[0.01, 0.02]",
             "--vary", "gravity.1=[-9.81 m/s^2, -1.62 m/s^2, 0]").must(0)
