@@ -94,7 +94,7 @@ spatial::PairRow CurveGap::derivatives(const MarkerMotion& F, const MarkerMotion
 }
 
 double CurveGap::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                       const MarkerBias& bias_M) const {
+                      const MarkerBias& bias_M) const {
   return touch(F, M).bias(F, M, bias_F, bias_M, across_);
 }
 

@@ -86,7 +86,8 @@ struct ContactForceSpec {
               .like("10 mm/s")
               .otherwise("none"));
     visit(base::field("tangential-stiffness", tangential,
-                      "of the elastic displacement while friction sticks, of each point of an elastic contact")
+                      "of the elastic displacement while friction sticks, of each point of an "
+                      "elastic contact")
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")
