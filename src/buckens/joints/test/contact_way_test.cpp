@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using spatial::RigidTouch;
 using test::MarkerPath;
-using Direction = ContactWay::Direction;
+using Way = ContactWay::Direction;
 
 std::vector<RigidTouch::Data> surfaces() {
   RigidTouch::Data plane;
@@ -40,7 +40,7 @@ TEST(ContactWay, RateAndAccelerationAcrossAreThoseOfTheGap) {
   V << F.w, F.v, M.w, M.v;
   A << F.alpha, F.a, M.alpha, M.a;
   for (const RigidTouch::Data& data : surfaces()) {
-    const ContactWay way{RigidTouch(data), Direction::across};
+    const ContactWay way{RigidTouch(data), Way::across};
     const auto gap = [&](double t) { return way.gap(F.at(t), M.at(t)); };
     const spatial::PairRow J = way.derivatives(F.at(0), M.at(0));
     // Fourth-order differences over 1e-3 of quantities of one.
@@ -88,7 +88,7 @@ TEST(ContactWay, PlacesMoveAsTheirRatesSay) {
 TEST(ContactWay, ABallThatRollsDoesNotSlip) {
   RigidTouch::Data data;
   data.radius = 0.1;
-  const ContactWay way{RigidTouch(data), Direction::along};
+  const ContactWay way{RigidTouch(data), Way::along};
   spatial::MarkerMotion F, M;
   M.p = {0.3, 0.2, 0.1};
   M.v = {2, 1, 0};
