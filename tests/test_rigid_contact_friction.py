@@ -302,3 +302,23 @@ def test_wrong_friction_is_refused(buckens, tmp_path, spec, words):
 def test_rigid_friction_needs_inertia(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(INCLINE.replace("[12e-3, 12e-3, 12e-3]", "[0, 0, 0]"))
     buckens("check", "model.yaml").must(3, 'friction turns body "slides"', "no rotary inertia")
+
+
+@pytest.mark.parametrize("guide", ["prismatic: {between: [ground, ram], axis: [0, 0, 1]}", "cylindrical: {between: [ground, ram], axis: [0, 0, 1]}",
+                                   "planar: {between: [ground, ram], axis: [1, 0, 0]}"])
+@pytest.mark.parametrize("height", [0.1, 0.35])
+def test_a_guided_body_strikes_and_rests_with_friction(sensors, guide, height):
+    """A ram that cannot slip: friction has nothing to do, whether it lies there or falls."""
+    out = sensors(f"""
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies: {{ram: {{rigid: {{mass: 2 kg, inertia: [4e-3, 4e-3, 4e-3]}}, at: {{position: [0, 0, {height}]}}}}}}
+joints: {{guide: {{{guide}}}}}
+loads: {{c: {{contact: {{between: [ground, ram], shapes: [{{plane: {{}}}}, {{sphere: 0.1}}], static: 0.3, restitution: 0.5}}}}}}
+simulation: {{duration: 1.5 s, step: 1 ms}}
+output: {{every: 50 ms, sensors: {{p: {{position: ram}}, c: {{contact: c}}, lost: {{energy: dissipated}}, balance: {{energy: balance}}}}}}
+""")
+    assert out["p.z"][-1] == pytest.approx(0.1, abs=1e-12)
+    assert out["c.normal"][-1] == pytest.approx(2 * 9.81, rel=1e-9)
+    assert out["lost"][-1] == pytest.approx(2 * 9.81 * (height - 0.1), abs=1e-9)
+    assert abs(out["balance"]).max() < 1e-9

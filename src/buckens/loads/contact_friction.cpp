@@ -23,6 +23,10 @@ double ContactFrictionData::coefficient(double speed) const {
          (static_coefficient - dynamic_coefficient) * std::exp(-slowness * slowness);
 }
 
+bool ContactFriction::began_sliding(const Sight& sight) {
+  return sight.states != nullptr && sight.states[0] == 2.0;
+}
+
 ContactFriction::Slip ContactFriction::slip(const Sight& sight) const {
   const spatial::TouchPlace place = touch_.look(sight.first, sight.second);
   const Eigen::Vector3d v = place.velocity(sight.first, sight.second);
@@ -62,8 +66,9 @@ RigidRow ContactFriction::row(const Sight& sight) const {
     return out;
   }
   out.given = given;
-  // What has turned round since the step began, or since it broke away, has stood still between.
-  if (now.velocity.dot(now.force) > data_.at_rest * now.force.norm()) out.next = {1, given};
+  // What has turned round since the step began has stood still between.
+  const bool has_turned = now.velocity.dot(now.force) > data_.at_rest * now.force.norm();
+  if (has_turned && began_sliding(sight)) out.next = {1, given};
   return out;
 }
 

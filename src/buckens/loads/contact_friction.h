@@ -47,6 +47,8 @@ class ContactFriction final : public RigidLaw {
     Eigen::Vector2d towards = Eigen::Vector2d::Zero();  ///< unit vector of sliding, or zero
   };
   Slip slip(const Sight& sight) const;
+  /// Whether it slid at the start of the step.
+  static bool began_sliding(const Sight& sight);
   RigidRow row(const Sight& sight) const override;
 
   spatial::RigidTouch touch_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 #include "buckens/stepping/impacts.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -22,24 +24,33 @@ constexpr double kSame = 1e-12;
 // to less, which no rate feels.
 constexpr double kSameRates = 1e-10;
 constexpr int kHalvings = 200;
+// Answers of a slip by this share of the largest answer of all.
+constexpr double kNoAnswerOfSlip = 1e-12;
 
 /// Impulse of one slip that stops it, or the one on the cone that is against what remains of it.
 /// @param B answers of the slip to it, @param v slip without it, @param most μ P_n
-Vector rub(const Matrix& B, const Vector& v, double most) {
+/// @param none answers up to this are rounding: guides hold the bodies in such a direction
+Vector rub(const Matrix& B, const Vector& v, double most, double none) {
   if (!(most > 0.0)) return Vector::Zero(v.size());
   const Eigen::SelfAdjointEigenSolver<Matrix> modes(B);
-  const Vector answers = modes.eigenvalues();
-  const Vector parts = modes.eigenvectors().transpose() * v;
+  const Vector& answers = modes.eigenvalues();
+  Vector parts = modes.eigenvectors().transpose() * v;
+  for (Eigen::Index k = 0; k < parts.size(); ++k) {
+    if (answers[k] <= none) parts[k] = 0.0;
+  }
+  if (parts.norm() == 0.0) return Vector::Zero(v.size());
   // P = −(B + s)⁻¹ v: its size falls with s, the ratio of the slip that remains to the impulse.
   const auto at = [&](double s) -> Vector {
-    return -(parts.array() / (answers.array() + s)).matrix();
+    Vector out(parts.size());
+    for (Eigen::Index k = 0; k < parts.size(); ++k) {
+      out[k] = parts[k] == 0.0 ? 0.0 : -parts[k] / (answers[k] + s);
+    }
+    return out;
   };
-  if (answers.minCoeff() > 0.0) {
-    const Vector stops = at(0.0);
-    if (stops.norm() <= most) return modes.eigenvectors() * stops;
-  }
+  const Vector stops = at(0.0);
+  if (stops.norm() <= most) return modes.eigenvectors() * stops;
   double low = 0.0;
-  double high = v.norm() / most;  // there the size is at most `most`
+  double high = parts.norm() / most;  // there the size is at most `most`
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (low + high);
     if (middle == low || middle == high) break;
@@ -49,9 +60,10 @@ Vector rub(const Matrix& B, const Vector& v, double most) {
   return modes.eigenvectors() * (slides * (most / slides.norm()));
 }
 
-/// Impulses along the surfaces for given ones across them.
-void solve_slips(const Matrix& D, const Vector& b, const std::vector<ImpactSlip>& slips,
+/// Impulses along the surfaces for given ones across them. @return whether they have settled
+bool solve_slips(const Matrix& D, const Vector& b, const std::vector<ImpactSlip>& slips,
                  Vector& P) {
+  const double none = kNoAnswerOfSlip * D.diagonal().maxCoeff();
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double change = 0.0;
     for (const ImpactSlip& slip : slips) {
@@ -59,12 +71,13 @@ void solve_slips(const Matrix& D, const Vector& b, const std::vector<ImpactSlip>
       const Matrix B = D(own, own);
       const Vector before = P(own);
       const Vector v = D(own, Eigen::all) * P - b(own) - B * before;
-      const Vector now = rub(B, v, slip.coefficient * P[slip.across]);
+      const Vector now = rub(B, v, slip.coefficient * P[slip.across], none);
       P(own) = now;
       change = std::max(change, (now - before).cwiseAbs().maxCoeff());
     }
-    if (change <= kSame * P.cwiseAbs().maxCoeff()) return;
+    if (change <= kSame * P.cwiseAbs().maxCoeff()) return true;
   }
+  return false;
 }
 
 }  // namespace
@@ -78,18 +91,17 @@ Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
   P(across) = solve_complementarity(pressing, b(across));
   if (slips.empty()) return P;
   for (int round = 0; round < kMostAgreements; ++round) {
-    solve_slips(D, b, slips, P);
+    const bool has_settled = solve_slips(D, b, slips, P);
     const Vector before = P(across);
     const Vector asked = b(across) - D(across, along) * P(along);
     P(across) = solve_complementarity(pressing, asked);
     const Vector change = D(Eigen::all, across) * (P(across) - before);
     const double size = (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
-    if (change.cwiseAbs().maxCoeff() <= kSameRates * size) return P;
+    if (has_settled && change.cwiseAbs().maxCoeff() <= kSameRates * size) return P;
   }
   throw StepFailure(
       "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
-      "jams; "
-      "give the contact a `stiffness`, or less `static`");
+      "jams; give the contact a `stiffness`, or less `static`");
 }
 
 }  // namespace buckens::stepping

@@ -191,7 +191,12 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
     answer(touch);
   }
   for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then);
-  sum_up(solve());
+  try {
+    sum_up(solve());
+  } catch (const StepFailure& failure) {
+    const std::string& name = model_.loads[laws_[touches_.front().law].load].name;
+    throw StepFailure(fmt::format("load \"{}\" at t = {:.6g} s: {}", name, t, failure.what()));
+  }
   return true;
 }
 

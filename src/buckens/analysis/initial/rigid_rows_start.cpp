@@ -45,8 +45,9 @@ std::string move_rows(const model::Model& model, std::vector<char>& released, mo
   return names;
 }
 
-bool has_contact_friction(const model::Model& model) {
-  return std::any_of(model.loads.begin(), model.loads.end(), [](const model::Load& load) {
+/// The end of the list if there is none.
+auto find_rough_contact(const model::Model& model) {
+  return std::find_if(model.loads.begin(), model.loads.end(), [](const model::Load& load) {
     return dynamic_cast<const loads::ContactFriction*>(load.element.get()) != nullptr;
   });
 }
@@ -92,7 +93,8 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
   std::string moved;
   std::vector<char> released(static_cast<std::size_t>(model.num_rigid_rows()));
   // Friction in contacts is that of the forces of the round before.
-  const bool is_rough = has_contact_friction(model);
+  const auto rough = find_rough_contact(model);
+  const bool is_rough = rough != model.loads.end();
   SettledMotion motion(model);
   for (int round = 0; round < kMostRowRounds; ++round) {
     settle_accelerations(model, metric, rows_in_use, state);
@@ -102,9 +104,9 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
   }
   if (moved.empty()) {
     throw NumericalError(fmt::format(
-        "at t = {:.6g} s friction in rigid contacts has no equilibrium with the forces "
-        "that press the bodies: it jams; give the contact a stiffness, or less `static`",
-        state.t));
+        "load \"{}\" at t = {:.6g} s: its friction has no equilibrium with the forces that press "
+        "the bodies, it jams; give the contact a `stiffness`, or less `static`",
+        rough->name, state.t));
   }
   throw NumericalError(
       fmt::format("at t = {:.6g} s no combination of holding and releasing satisfies all of the "

@@ -27,6 +27,17 @@ TEST(FrictionImpulses, OfASphereOnAPlaneAreTheClosedForm) {
   }
 }
 
+TEST(FrictionImpulses, LeaveOutDirectionsThatGuidesHold) {
+  // Without slip and without an answer, alone and beside a direction that slips.
+  const Matrix guided = Eigen::Vector2d(0.5, 0.0).asDiagonal();
+  const Vector none = solve_impact(guided, Eigen::Vector2d(4.0, 0.0), 1, {{0, 1, 1, 0.3}});
+  EXPECT_NEAR((none - Eigen::Vector2d(8.0, 0.0)).norm(), 0, 1e-13);
+  const Matrix along_rail = Eigen::Vector3d(0.5, 1.75, 1e-17).asDiagonal();
+  const Vector P =
+      solve_impact(along_rail, Eigen::Vector3d(4.0, -10.0, 1e-18), 1, {{0, 1, 2, 0.1}});
+  EXPECT_NEAR((P - Eigen::Vector3d(8.0, -0.8, 0.0)).norm(), 0, 1e-13);
+}
+
 TEST(FrictionImpulses, SatisfyCoulombAndOneSidedRows) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> between(-1, 1);
